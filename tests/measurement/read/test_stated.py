@@ -27,6 +27,8 @@ TEXTS = {
     "Drücke absolut, Luftdruck 968 mbar": {"pressure": "absolute", "ambient_pressure": "968 mbar"},
     "Pressure is gauge, supply 7 bar absolute": {"pressure": "gauge", "supply_pressure": "7 bar"},
     "ambient pressure, absolute": {},
+    "Давление абсолютное, барометр 745 мм рт.ст.": {"pressure": "absolute", "ambient_pressure": "745 torr"},
+    "L0 = 2.500E+02 mm": {"nominal_length": "2.500E+02 mm"},
     "Longitud inicial L0 (sin carga): 18.5 cm": {"nominal_length": "18.5 cm"},
     "Extension positive = muscle gets longer, zero at rest": {"stroke_sign": "extension positive"},
     "x: + = shortening": {"stroke_sign": "shortening positive"},

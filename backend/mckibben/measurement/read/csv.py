@@ -35,6 +35,8 @@ _HEADER_WITHIN = 10_000  # lines
 _FOOTER_LINES = 100
 _LONGEST_COMMENT = 2000  # characters
 _LONGEST_LINE = 10_000  # characters
+#: Double precision as Fortran writes it: "0.300D+03".
+_FORTRAN = re.compile(r"(?<![\w.])([+-]?\d*\.\d+)D([+-]\d{2,3})(?!\w)")
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:\.\d{3})+,\d|(?<![\d.,])\d{1,3}(?:,\d{3})+\.\d")
 _QUOTED_THOUSANDS = re.compile(r'"\s*[+-]?\d{1,3}(?:,\d{3})+\.\d*\s*"')
 _BLANK_THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:['’\u00a0\u202f]\d{3})+(?![\d])")
@@ -237,6 +239,8 @@ def _decoded(data: bytes, name: str, messages: list[str]) -> str:
         raise InputError(
             f"{name}, row 1: the file is empty", field="row 1", hint="a header and one line per reading"
         )
+    if "D+" in text or "D-" in text:
+        text = _FORTRAN.sub(r"\1E\2", text)
     return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
 
 

@@ -28,7 +28,11 @@ NAME = "the file's name"
 #: Conditions that only these texts say, besides those with a unit.
 REFERENCE_OF = "reference_of_"  # and the number of a channel: "absolute" or "gauge"
 KIND_SAID = "kind_said"  # text: "isotonic"
-_NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
+_NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?(?:[eE][+-]?[0-9]{1,3}(?![^\W_]))?"
+#: "mm of mercury" is no length.
+_MERCURY = re.compile(
+    r"(?i)мм\s*рт\.?\s*ст\.?|mm\s+hg\b|mm\s*(?:of\s+|de\s+|di\s+)?(?:mercur\w*|quecksilber\w*|qs\b)"
+)
 _UNIT = r"(?:[^\W\d_]|[°%\"'])+(?:/[^\W\d_]+[2²]?)?"
 _QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*({_UNIT}(?:\s*\([a-zü]+\))?)?(?![\w.,]*\d)")
 _UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?![\d.,]*\d|\s*[A-Za-z])")
@@ -154,7 +158,9 @@ def _references_of_text(text: str) -> dict[str, bool]:
     the muscle; what clauses contradict is left out.
     """
     said: dict[str, set[bool]] = {}
-    for clause in _CLAUSE.split(_OTHER_GAUGES.sub(" ", _VALUED.sub(_without_air, text))):
+    for clause in _CLAUSE.split(
+        _OTHER_GAUGES.sub(" ", _VALUED.sub(_without_air, _MERCURY.sub("mmHg", text)))
+    ):
         words = words_of(clause)
         if has_word(words, _AMBIENT | _SUPPLIES) or any(
             other_quantity(word, "pressure") in _OF_OTHER_AIR for word in words
@@ -173,7 +179,7 @@ def _without_air(found: re.Match[str]) -> str:
 
 def _quantities(text: str) -> Iterator[_Quantity]:
     """The quantities of a text; each with the words since the one before it, and those up to the next one."""
-    text = _UNIT_IN_NAME.sub(_unit_behind, text)
+    text = _UNIT_IN_NAME.sub(_unit_behind, _MERCURY.sub("mmHg", text))
     text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", _UNIT_FIRST.sub(_unit_after, text)))
     begin = 0
     for found in _QUANTITY.finditer(text):
