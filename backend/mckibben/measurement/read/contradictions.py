@@ -21,8 +21,8 @@ _ASKED = {
     "nominal_length": ("rest length", "--rest-length"), "load_mass": ("load", "--load"),
     "load_force": ("load", "--load"), "supply_pressure": ("supply pressure", "--supply"),
 }  # fmt: skip
-# No braid lets a muscle become longer than 1.25 of its length at rest, nor shorter than 0.4: at 54.7 degrees
-# it is locked, from 20 degrees on that is cos(54.7 deg)/cos(20 deg) = 0.61.
+# L/L0 is cos(angle)/cos(angle at rest): with up to 37 degrees at rest at most 1.25, and at 54.7 degrees, where
+# the braid locks, not below 0.58; the lower bound leaves room for lengths with fittings.
 _LONGEST, _SHORTEST = 1.25, 0.4
 _NUMBERS = " ".join(NUMBER_WORDS.values()).split()
 _IN_WORDS = re.compile(
