@@ -215,7 +215,7 @@ def test_a_load_for_each_run_of_a_container() -> None:
         ("Vorzeichen: Zug negativ, Verlängerung positiv", {"force_sign", "stroke_sign"}),
         ("tension positive; crosshead extension positive (shortening reads negative)", {"stroke_sign"}),
         ("compression counts positive", {"force_sign"}),
-        ("tension positive, shortening positive", set()),
+        ("tension positive, shortening positive", {"stroke_sign"}),
         ("tension (pull) is negative", {"force_sign"}),
         ("effort de traction négatif", {"force_sign"}),
         ("縮みは正, 引張は負", {"force_sign"}),

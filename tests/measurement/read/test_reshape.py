@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 
+import numpy as np
 import openpyxl
 import pytest
 
@@ -201,3 +202,21 @@ def test_statistics_above_and_below_are_no_readings() -> None:
 def test_more_blocks_than_any_test_has_are_refused() -> None:
     with pytest.raises(InputError, match="more than 1000 blocks"):
         read("Pressure (bar)  x\n" + "Pressure (bar) Force (N)\n1 2\n4 5\n" * 1500)
+
+
+@pytest.mark.parametrize("head", [",sweep,time_s", "sweep,sample,time_s", "run,sample"])
+def test_one_value_per_line_in_blocks_of_a_signal(head: str) -> None:
+    signals = {"pressure_gauge": ("bar", PRESSURE), "force": ("N", FORCE), "contraction": ("%", STROKE / 3.0)}
+    lines = [f"{head},quantity,unit,value"]
+    for name, (unit, values) in signals.items():
+        for row, value in enumerate(values):
+            key = {"": len(lines) - 1, "sweep": row // 20, "run": row // 20, "sample": row}
+            key |= {"time_s": f"{0.5 * row:.1f}"}
+            lines.append(
+                ",".join(str(key[part]) for part in head.split(",")) + f",{name},{unit},{value:.10g}"
+            )
+    found = read("\n".join(lines))
+    np.testing.assert_allclose(found.columns["pressure"], PRESSURE * 1e5, rtol=1e-6)
+    np.testing.assert_allclose(found.columns["force"], FORCE, rtol=1e-6)
+    np.testing.assert_allclose(found.columns["contraction"], STROKE / 300.0, rtol=1e-6)
+    assert found.columns["group"].tolist() == [0] * 20 + [1] * 20

@@ -142,8 +142,15 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
         state["load"] = np.zeros(count)
     if not np.any(keep):
         reasons = ", ".join(f"{number} {reason}" for reason, number in excluded.items() if number)
+        hint = None
+        if length is not None and excluded["beyond the braid lock"]:
+            shown = f"{float(np.min(length)) * 1e3:.4g} to {float(np.max(length)) * 1e3:.4g} mm"
+            reasons += f"; lengths of {shown} at a rest length of {muscle.nominal_length * 1e3:.4g} mm"
+            hint = 'is the rest length another? --rest-length "300 mm"'
         raise InputError(
-            f"{measurement.name}: no row can be compared ({count} rows, {reasons})", field="measurement"
+            f"{measurement.name}: no row can be compared ({count} rows, {reasons})",
+            field="measurement",
+            hint=hint,
         )
     ordered = "time" in columns
     turning = _turning(state["direction"], records) | unsure

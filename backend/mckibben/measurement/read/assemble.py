@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
-from pathlib import PurePath
 from typing import NamedTuple
 
 import numpy as np
@@ -16,19 +15,20 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.cells import CellTable, Skip
 from mckibben.measurement.read.channels import ChannelReading, read_channels
 from mckibben.measurement.read.checks import questions_of
-from mckibben.measurement.read.conditions import ATMOSPHERE, key_of, read_conditions
+from mckibben.measurement.read.conditions import key_of, read_conditions
 from mckibben.measurement.read.constants import notes_with_constants, with_constants
+from mckibben.measurement.read.contradictions import condition_questions, numbers_in_words
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
+from mckibben.measurement.read.head_text import channel_number
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
-from mckibben.measurement.read.held import held_pressure
+from mckibben.measurement.read.held_by_text import hold_pressure
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.signs import FORCE_SIGN, STROKE_SIGN
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.stated import KIND_SAID, NAME
+from mckibben.measurement.read.stated import KIND_SAID, REFERENCE_OF
 from mckibben.physics.errors import InputError
-from mckibben.physics.units import convert
 
 _FEWEST_TO_TURN = 3  # rows
 _LOOKED_AT = 20_000  # readings from which questions are asked
@@ -63,6 +63,10 @@ def conditions_of(
 ) -> dict[str, float | str]:
     """Conditions of the file, the user's over them."""
     conditions = read_conditions(notes_with_constants(source, meaning, messages), messages)
+    numbers = {channel_number(header) for header in source.headers}
+    for key in [key for key in conditions if key.startswith(REFERENCE_OF)]:
+        if key.removeprefix(REFERENCE_OF) not in numbers:  # the columns have no such numbers
+            conditions.setdefault("pressure", conditions.pop(key))
     for key, value in correction.conditions.items():
         if value is None:
             conditions.pop(key, None)
@@ -135,7 +139,7 @@ def assemble(
         InputError: whatever is wrong with it, naming file, row, column or key, and the remedy; questions
             without an answer.
     """
-    messages = list(source.messages)
+    messages = [*source.messages, *numbers_in_words(source.rest)]
     meaning = meaning or meaning_of(source, correction)
     conditions = conditions_of(source, meaning, correction, messages)
     messages += meaning.messages
@@ -148,11 +152,14 @@ def assemble(
     )
     columns, by_use, slack = read_channels(used, reading)
     slack = _oldest_first(columns, by_use, slack, source, messages)
-    _hold_pressure_of_name(columns, by_use, name, messages)
+    hold_pressure(columns, by_use, name, source, conditions, messages)
     skipped = dict(reading.table.skipped)
     for reason, left_out in skipped.items():
         messages.append(f"{left_out.rows} rows left out: {reason} (first: {left_out.first})")
     questions = questions_of(_evidence(source, meaning, reading, by_use, columns, correction))
+    weighed = {*correction.conditions, *(column.key for column in meaning.constants)}
+    questions += condition_questions(source.rest, source.notes, conditions, columns, weighed)
+    questions.sort(key=lambda question: not question.stops)
     if asked is not None:
         asked += questions
     elif (open_questions := refusal(name, questions, strict=correction.strict)) is not None:
@@ -165,8 +172,8 @@ def assemble(
         kind = kind_said
         messages.append(f"kind {kind_said}: a text of the file says so")
     order = {header: index for index, header in reversed(list(enumerate(source.headers)))}
-    for sign in (FORCE_SIGN, STROKE_SIGN):
-        conditions.pop(sign, None)
+    for key in [key for key in conditions if key.startswith((FORCE_SIGN, STROKE_SIGN, REFERENCE_OF))]:
+        del conditions[key]
     measurement = build(
         columns,
         name=name,
@@ -209,19 +216,6 @@ def _suits(kind: str, columns: Mapping[str, NDArray]) -> bool:
     """Whether the channels that a kind needs are there."""
     needed = {"pressure", "force"} if kind in FORCE_KINDS else {"pressure"}
     return needed <= set(columns) and bool(set(columns) & set(STROKES))
-
-
-def _hold_pressure_of_name(
-    columns: dict[str, NDArray], by_use: dict[str, HeaderColumn], name: str, messages: list[str]
-) -> None:
-    """Forces over a stroke without any pressure are at that of the file's name, where it says one."""
-    said = held_pressure(PurePath(name).stem)
-    if said is None or "pressure" in columns or "force" not in columns or not set(columns) & set(STROKES):
-        return
-    value = float(convert([said.value], said.unit, "Pa")[0]) - (ATMOSPHERE if said.absolute else 0.0)
-    columns["pressure"] = np.full(len(columns["force"]), value)
-    by_use["pressure"] = HeaderColumn(-1, NAME, "pressure", said.unit, said.absolute)
-    messages.append(f"pressure is taken from the file's name: '{said.text}'")
 
 
 def _starts(columns: Mapping[str, NDArray]) -> tuple[int, ...]:

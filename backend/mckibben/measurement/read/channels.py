@@ -15,6 +15,7 @@ from mckibben.measurement.read.cells import CellTable, Labels, no_rows
 from mckibben.measurement.read.conditions import ATMOSPHERE
 from mckibben.measurement.read.correction import SAMPLE, SLACK
 from mckibben.measurement.read.directions import direction_of
+from mckibben.measurement.read.head_text import channel_number
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, proposal
 from mckibben.measurement.read.signs import (
@@ -23,6 +24,7 @@ from mckibben.measurement.read.signs import (
     FORCE_SIGN,
     STROKE_SIGN,
 )
+from mckibben.measurement.read.stated import REFERENCE_OF
 from mckibben.measurement.read.unit_words import CLOCK
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
@@ -198,7 +200,8 @@ def _signed(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn:
 def _absolute(column: HeaderColumn, conditions: Mapping[str, float | str]) -> bool | None:
     if column.absolute is not None:
         return column.absolute
-    said = str(conditions.get("pressure", "")).lower()
+    own = conditions.get(f"{REFERENCE_OF}{channel_number(column.header)}")
+    said = str(own or conditions.get("pressure", "")).lower()
     return True if said.startswith("abs") else False if said.startswith(("gauge", "rel")) else None
 
 

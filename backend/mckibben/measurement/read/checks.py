@@ -20,6 +20,7 @@ from mckibben.measurement.read.physical_checks import context_questions, physica
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.read.propose import KNOWN_REASONS, PROPOSED
 from mckibben.measurement.read.questions import column_option, ignore_option
+from mckibben.measurement.read.raw_signals import raw_questions
 from mckibben.measurement.read.recognise import BY_WORDS
 from mckibben.measurement.read.unit_words import dimension_of
 from mckibben.physics.units import convert
@@ -46,6 +47,7 @@ def _questions(evidence: Evidence) -> list[Question]:
             *_units(evidence),
             *_proposed(evidence),
             *_unread(evidence),
+            *raw_questions(evidence),
             *_rivals(evidence),
             *_specimens(evidence),
         ]

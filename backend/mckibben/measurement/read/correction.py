@@ -22,6 +22,7 @@ from mckibben.measurement.kind import KINDS
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
 from mckibben.measurement.read.marks import split_mark
+from mckibben.measurement.read.scales import said_scale
 from mckibben.measurement.read.unit_words import CLOCK, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import factor
@@ -34,7 +35,7 @@ _PARTS = (
     "columns", "kind", "conditions", "bad_rows", "sheet", "head", "column", "ignore", "rest_length", "load",
     "supply", "strict", "accuracy", "experiment",
 )  # fmt: skip
-_CHOICE_KEYS = ("channel", "unit", "absolute", "sign")
+_CHOICE_KEYS = ("channel", "unit", "absolute", "sign", "scale")
 _COLUMN = re.compile(r"\s*([a-z_]+)\s*=\s*([+-]?)\s*(.*?)\s*")
 _WITH_UNIT = re.compile(r"(.+?)\s*\[([^\[\]]*)\]")
 _EXAMPLE = 'e.g. {"columns": {"p1": {"channel": "pressure", "unit": "bar"}}, "kind": "isobaric"}'
@@ -45,12 +46,14 @@ class Choice:
     """What one column is; ``unit`` None = the header's; ``absolute`` counts for a pressure only.
 
     ``sign`` -1: the file counts it the other way, as a force that is negative when the muscle pulls.
+    ``scale``: of a signal in V, mA or counts, ``0-10 V = 0-10 bar``; ``unit`` is the one that it leads to.
     """
 
     channel: str
     unit: str | None = None
     absolute: bool | None = None
     sign: int = 1
+    scale: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -226,7 +229,8 @@ def column_choice(text: str, *, where: str) -> tuple[str, Choice]:
     split = _WITH_UNIT.fullmatch(name)
     if split is None:
         return name, Choice(channel, None, None, minus)
-    unit = unit_of(split[2])
+    scale = said_scale(split[2])
+    unit = unit_of(split[2] if scale is None else scale.unit)
     if unit is None:
         raise InputError(
             f"{where} {text[:80]!r}: '{split[2][:40]}' is not a known unit", field=where,
@@ -241,7 +245,7 @@ def column_choice(text: str, *, where: str) -> tuple[str, Choice]:
             f"{where} {text[:80]!r}: '{split[2][:40]}' cannot be used: {error}", field=where,
             hint=f"a unit such as {CHANNEL_UNITS.get(channel, '1')}",
         ) from error  # fmt: skip
-    return split[1], Choice(channel, spelling, unit.absolute, minus)
+    return split[1], Choice(channel, spelling, unit.absolute, minus, None if scale is None else split[2])
 
 
 _WEIGHT_UNITS = {"kg": "kgf", "g": "gf"}
@@ -311,6 +315,8 @@ def _choice(value: Any, key: str) -> Choice | None:
     channel = _one_of(given.get("channel"), USES, f"{key}.channel")
     if channel is None:
         raise _refused(f"{key}.channel", "is missing", f"one of {', '.join(USES)}")
+    if (scale := given.get("scale")) is not None:
+        return _scaled(scale, channel, given, key)
     unit, absolute, sign = given.get("unit"), given.get("absolute"), given.get("sign", 1)
     if isinstance(sign, bool) or sign not in (1, -1):
         raise _refused(f"{key}.sign", "is neither 1 nor -1", "-1: the file counts it the other way")
@@ -328,6 +334,15 @@ def _choice(value: Any, key: str) -> Choice | None:
         problem = f"'{unit[:40]}' cannot be used: {text}"
         raise _refused(f"{key}.unit", problem, f"a unit such as {CHANNEL_UNITS.get(channel, '1')}") from error
     return Choice(channel, unit, marked if absolute is None else absolute, int(sign))
+
+
+def _scaled(scale: Any, channel: str, given: Mapping[str, Any], key: str) -> Choice:
+    """A column with the scale of its signal, as ``column_choice`` reads it."""
+    text = _typed(scale, str, f"{key}.scale")
+    if said_scale(text) is None:
+        raise _refused(f"{key}.scale", f"{text[:80]!r} is no scale", "e.g. '0-10 V = 0-10 bar'")
+    minus = "-" if given.get("sign") == -1 else ""
+    return column_choice(f"{channel}={minus}x [{text}]", where=f"mapping{key}.scale")[1]
 
 
 def _condition(key: str, value: Any) -> float | str | None:

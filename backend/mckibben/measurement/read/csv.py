@@ -35,6 +35,8 @@ _HEADER_WITHIN = 10_000  # lines
 _FOOTER_LINES = 100
 _LONGEST_COMMENT = 2000  # characters
 _LONGEST_LINE = 10_000  # characters
+#: Double precision as Fortran writes it: "0.300D+03".
+_FORTRAN = re.compile(r"(?<![\w.])([+-]?\d*\.\d+)D([+-]\d{2,3})(?!\w)")
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:\.\d{3})+,\d|(?<![\d.,])\d{1,3}(?:,\d{3})+\.\d")
 _QUOTED_THOUSANDS = re.compile(r'"\s*[+-]?\d{1,3}(?:,\d{3})+\.\d*\s*"')
 _BLANK_THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:['’\u00a0\u202f]\d{3})+(?![\d])")
@@ -113,6 +115,7 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         and len(first) in (0, len(headers))
         and not words
         and not gaps
+        and not _may_be_tall(headers, first, known)
         and len(pressures) < 2
         and "\n#" not in body  # titles of blocks
         and not _has_thousands(body, separator)
@@ -136,6 +139,12 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         raw=RawRows(shown_rows(_lines_of(text, separator), row), tuple(range(len(headers)))),
     )
     return source, sure
+
+
+def _may_be_tall(headers: Sequence[str], first: Sequence[str], known: Sequence[int]) -> bool:
+    """Whether no head names a reading and words stand beside the numbers: perhaps one value per line."""
+    named = {recognise(headers[index]).channel for index in known}
+    return named <= {"time", "group", "direction"} and any(kind_of(cell) == TEXT for cell in first)
 
 
 def _lines_of(text: str, separator: str) -> Iterator[tuple[int, list[str]]]:
@@ -230,6 +239,8 @@ def _decoded(data: bytes, name: str, messages: list[str]) -> str:
         raise InputError(
             f"{name}, row 1: the file is empty", field="row 1", hint="a header and one line per reading"
         )
+    if "D+" in text or "D-" in text:
+        text = _FORTRAN.sub(r"\1E\2", text)
     return text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text
 
 

@@ -3,24 +3,27 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.read.cells import CellTable
-from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.head_text import CHANNEL_NUMBER, taken_apart
 from mckibben.measurement.read.recognise import recognise
-from mckibben.measurement.read.scales import Scale, scale_of, valve_scale_of
+from mckibben.measurement.read.scales import Scale, said_scale, scale_in, scale_of, valve_scale_of
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.unit_words import COUNT, dimension_of, unit_of
 from mckibben.measurement.read.vocabulary import channel_of_word, words_of
 from mckibben.physics.units import convert
 
 _PARTS = {"ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}  # of a second, and how many it has
 _FRACTION = re.compile(r":[0-9]{2}:[0-9]{2}[.,:][0-9]+\s*$")  # of a second
 _MOST_SCALED = 40  # columns
+#: What a signal is measured in before it has a scale.
+RAW_DIMENSIONS = ("a voltage", "a current", "a count")
 
 
 @dataclass(frozen=True)
@@ -41,8 +44,13 @@ class _Derived:
         return values if self.factor == 1.0 and not self.offset else values * self.factor + self.offset
 
 
-def with_derived(source: RawTable) -> RawTable:
-    """The table with computed columns in the place of those that they are computed from."""
+def with_derived(source: RawTable, scales: Mapping[str, str] = MappingProxyType({})) -> RawTable:
+    """The table with computed columns in the place of those that they are computed from.
+
+    Args:
+        source: the table.
+        scales: name of a column -> its scale, as the user says it.
+    """
     columns = [_Derived(index) for index in range(len(source.headers))]
     headers, units = (
         list(source.headers),
@@ -60,17 +68,34 @@ def with_derived(source: RawTable) -> RawTable:
         headers[whole], units[whole] = f"time from {names} [s]", None
         del columns[part], headers[part], units[part]
     for index, column in enumerate(columns[:_MOST_SCALED]):
-        scale = None if column.fraction is not None else _scale(source, headers[index], units[index])
+        own = _own_scale(headers[index], index, scales)
+        if own is not None:
+            columns[index] = replace(column, factor=own.factor, offset=own.offset)
+            said.append(f"{source.noun} '{headers[index]}' is read by the scale that you say, {own.text}")
+            headers[index], units[index] = _bare(headers[index]), own.unit
+            continue
+        scale = (
+            None
+            if column.fraction is not None
+            else _scale(source, columns[index].place, headers[index], units[index])
+        )
         if scale is not None:
             columns[index] = replace(column, factor=scale.factor, offset=scale.offset)
             said.append(
                 f"{source.noun} '{headers[index]}' is read by its scale, {scale.text} ({scale.where})"
             )
-            headers[index], units[index] = f"{_bare(headers[index])}: {scale.name}", scale.unit
+            name = _bare(headers[index])
+            headers[index] = name if name == scale.name else f"{name}: {scale.name}"
+            units[index] = scale.unit
     if not said:
         return source
     messages = [*source.messages, *said]
     return replace(_mapped(source, columns), headers=headers, units=tuple(units), messages=messages)
+
+
+def _own_scale(header: str, index: int, scales: Mapping[str, str]) -> Scale | None:
+    text = next((scales[n] for n in (header, _bare(header), f"column {index + 1}") if n in scales), None)
+    return None if text is None else said_scale(text)
 
 
 def _bare(header: str) -> str:
@@ -149,18 +174,21 @@ def _numbers(source: RawTable, index: int) -> list[float]:
         return []
 
 
-def _scale(source: RawTable, header: str, unit: str | None) -> Scale | None:
-    """The scale that the texts of the file state for a column of volts or milliamperes."""
+def _scale(source: RawTable, index: int, header: str, unit: str | None) -> Scale | None:
+    """The scale that the texts of the file state for a column of volts, milliamperes or counts."""
     head = taken_apart(header, unit)
-    if dimension_of(head.unit) not in ("a voltage", "a current") or head.unit is None:
+    if head.unit is None or dimension_of(head.unit) not in RAW_DIMENSIONS:
         return None
     for text, where in source.rest:
         found = scale_of(text, head.name, where)
-        if found is None or dimension_of(found.raw) != dimension_of(head.unit):
+        named = found is not None
+        if found is None and _names_only(text, index, source.headers):
+            found = scale_in(text, where)
+        if found is None or not found.zeroed or dimension_of(found.raw) != dimension_of(head.unit):
             continue
-        per = float(convert([1.0], head.unit, found.raw)[0])
-        known = recognise(found.name, found.unit)
-        name = found.name if known.channel is not None else head.name
+        per = 1.0 if head.unit == COUNT else float(convert([1.0], head.unit, found.raw)[0])
+        known = recognise(found.name, found.unit) if named else recognise(head.name)
+        name = found.name if named and known.channel is not None else head.name
         return found._replace(factor=found.factor * per, name=name)
     if not any(channel_of_word(word) == "command" for word in words_of(head.name)):
         return None
@@ -169,3 +197,18 @@ def _scale(source: RawTable, header: str, unit: str | None) -> Scale | None:
         if found is not None and dimension_of(found.raw) == dimension_of(head.unit):
             return found._replace(factor=found.factor * float(convert([1.0], head.unit, found.raw)[0]))
     return None
+
+
+def _names_only(text: str, index: int, headers: Sequence[str]) -> bool:
+    """Whether a text names this column and no other one, by its name or by the number of its channel."""
+    named = [place for place, header in enumerate(headers) if _is_named(text, header)]
+    return named == [index]
+
+
+def _is_named(text: str, header: str) -> bool:
+    name = _bare(header)
+    number = CHANNEL_NUMBER.match(name)
+    names = [name] if number is None else [number[0].strip(), name[number.end() :].strip()]
+    return any(
+        len(one) > 1 and re.search(rf"(?i)(?<!\w){re.escape(one)}(?!\w)", text) is not None for one in names
+    )

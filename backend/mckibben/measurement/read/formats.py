@@ -38,7 +38,9 @@ def open_source(data: bytes, name: str, correction: Correction | None = None) ->
     Raises:
         InputError: a format that is not read, or a damaged file.
     """
-    return with_derived(_opened(data, name, correction))
+    chosen = {} if correction is None else correction.columns
+    scales = {name: choice.scale for name, choice in chosen.items() if choice is not None and choice.scale}
+    return with_derived(_opened(data, name, correction), scales)
 
 
 def _opened(data: bytes, name: str, correction: Correction | None = None) -> RawTable:

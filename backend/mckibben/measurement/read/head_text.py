@@ -54,6 +54,12 @@ _NEWTONS = {"n": UnitText("N")}  # behind a name of a force only; alone it count
 _PATH = re.compile(r"/?(?P<first>[A-Za-z_]\w*)[./](?:[A-Za-z_]\w*[./])*(?P<name>[A-Za-z_]\w*)")
 
 
+#: The number of a channel before or instead of its name: "CH1", "AI 0", "Kanal 3".
+CHANNEL_NUMBER = re.compile(
+    r"(?i)(?:ch|chan|channel|kanal|canal|voie|ai|input|in|c)[ _-]?[0-9]{1,2}(?![^\W_])"
+)
+
+
 class Head(NamedTuple):
     """A head taken apart: its name, unit and reference, the pressure it names."""
 
@@ -97,6 +103,16 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
     if absolute is None:
         absolute = reference_among(words_of(text))
     return Head(text.strip(" _"), None if unit is None else unit.unit, absolute, held)
+
+
+def channel_number(text: str) -> str:
+    """The one number of a channel that a text names: "ch1" of "CH 1: pressure"; "" = none, or several.
+
+    >>> channel_number("Note: Kanal 3 absolut"), channel_number("pressure")
+    ('ch3', '')
+    """
+    found = {int(re.sub(r"[^0-9]", "", match[0])) for match in CHANNEL_NUMBER.finditer(text)}
+    return f"ch{found.pop()}" if len(found) == 1 else ""
 
 
 def without_paths(names: Sequence[str]) -> list[str]:

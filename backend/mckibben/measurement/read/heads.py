@@ -7,11 +7,13 @@ from collections.abc import Mapping, Sequence
 
 from mckibben.measurement.read.column_lists import listed_columns
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
+from mckibben.measurement.read.head_text import CHANNEL_NUMBER
 from mckibben.measurement.read.held import held_quantities
 from mckibben.measurement.read.locate import Run, TableHead, names_channel, texts_of
-from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.recognise import BY_UNIT, recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
+from mckibben.measurement.read.vocabulary import UNIT_WORDS, reference_among, words_of
 
 _HEAD_ROWS = 8  # most rows of a head
 _LISTED_WITHIN = 200  # rows above a head in which its channels may be listed
@@ -55,6 +57,8 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
         units_at = below[0] if below else None
     if units_at is None and not any(recognise(name).unit for name in names if name):
         units_at = _units_in_preamble(grid, named, names)
+    if units_at is None and not any(recognise(name).unit for name in names if name):
+        units_at = _labelled_units(grid, named, names)
     if units_at is not None and units_at > named and _divides(names, _padded(texts[units_at], width)):
         units_at = None  # units, and words that divide the names above
     units: list[str | None] = [None] * width
@@ -77,8 +81,41 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
                 for name, f, o in zip(names, filled, other, strict=False)
             ]
             continue
-        names = [name or (o if names_channel(o) else "") for name, o in zip(names, other, strict=False)]
+        names = _completed(names, other)
     return TableHead(names, units, named, units_at, tuple(rows))
+
+
+def _completed(names: Sequence[str], other: Sequence[str]) -> list[str]:
+    """Names with what another row of the head says: "Label,Pressure" and "TIME,CH1" are TIME, CH1 Pressure.
+
+    The first name may be that of the row; numbers of channels go before names that stand once.
+    """
+    channels = {recognise(name).channel for name in names if name}
+    full = sum(map(bool, other)) >= sum(map(bool, names)) > 1
+    numbered = all(CHANNEL_NUMBER.fullmatch(cell) or names_channel(cell) for cell in other[1:] if cell)
+    result = []
+    for column, (name, cell) in enumerate(zip(names, other, strict=False)):
+        label = full and column == 0 and not names_channel(name) and recognise(name).unit is None
+        label = label and recognise(cell).channel == "time" and "time" not in channels and numbered
+        if (not name or label) and names_channel(cell):
+            name = cell
+        elif full and names_channel(name) and CHANNEL_NUMBER.fullmatch(cell) and list(names).count(name) == 1:
+            name = f"{cell} {name}"
+        result.append(name)
+    return result
+
+
+def _labelled_units(grid: Grid, named: int, names: Sequence[str]) -> int | None:
+    """A row above the names that a word labels as units: "Vertical Units,V,V"; that of the times is none."""
+    for index in range(named - 1, max(-1, named - 1 - _UNITS_WITHIN), -1):
+        label, *cells = [*texts_of(grid.cells(index)), ""]
+        units = [unit_of(cell) for cell in cells[: len(names) - 1]]
+        if len(units) < len(names) - 1 or len(names) < 3 or not set(words_of(label)) & UNIT_WORDS:
+            continue
+        found = [dimension_of(unit.unit) for unit in units if unit is not None]
+        if len(found) == len(names) - 1 and all(found) and set(found) != {"a time"}:
+            return index
+    return None
 
 
 def _listed(grid: Grid, run: Run, rows: Sequence[int]) -> TableHead | None:
@@ -117,15 +154,33 @@ def _without_row_names(grid: Grid, run: Run, names: Sequence[str]) -> bool:
 def _listed_above(grid: Grid, index: int) -> dict[str, str]:
     """The names of a row behind which the file says above what they are: ``CH1`` and ``CH1,Pressure,DC,10V``.
 
-    Two such rows make a list of channels; a word beside the name that is no channel's says nothing.
+    A list of channels has such a row for two of the names, and names two channels, one of them perhaps by its
+    unit only (``CH1,P muscle,...,kPa``); a word beside the name that is no channel's says nothing. What a row
+    says of absolute or gauge goes with it.
     """
     unknown = {name for name in texts_of(grid.cells(index)) if name and not names_channel(name)}
     said: dict[str, str] = {}
+    sure: set[str] = set()
     for above in range(max(0, index - _LISTED_WITHIN), index):
         cells = [cell for cell in texts_of(grid.cells(above)) if cell]
-        if len(cells) > 1 and cells[0] in unknown and names_channel(cells[1]):
-            said[cells[0]] = cells[1]
-    return said if len(said) > 1 else {}
+        if len(cells) < 2 or cells[0] not in unknown or cells[0] in sure:
+            continue
+        units = [cell for cell in cells[2:] if (unit := unit_of(cell)) and dimension_of(unit.unit)]
+        plain = names_channel(cells[1])
+        if not plain and not any(recognise(cells[1], u).channel and _lettered(cells[1], u) for u in units):
+            continue
+        mark = next((c for c in cells[2:] if reference_among(words_of(c)) is not None), "")
+        said[cells[0]] = cells[1] if reference_among(words_of(cells[1])) is not None or not mark else (
+            f"{cells[1]} {mark}"
+        )  # fmt: skip
+        if plain:
+            sure.add(cells[0])
+    return said if len(said) > 1 and sure else {}
+
+
+def _lettered(name: str, unit: str) -> bool:
+    """Whether a name says a channel by itself or by a letter that fits the unit, not by the unit alone."""
+    return recognise(name, unit).penalty < BY_UNIT
 
 
 def _placed_units(names: str, units: str) -> list[str] | None:

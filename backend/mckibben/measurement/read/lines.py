@@ -14,6 +14,7 @@ from mckibben.measurement.read.conditions import note_of_line
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.grid import TextGrid, separator_of
 from mckibben.measurement.read.head_text import taken_apart, without_paths
+from mckibben.measurement.read.legend import explain_heads
 from mckibben.measurement.read.limits import check_columns, check_rows
 from mckibben.measurement.read.reshape import Regular, regular
 from mckibben.measurement.read.source import RawTable
@@ -78,6 +79,7 @@ def located_text(text: str, name: str, correction: Correction, messages: Sequenc
     check_columns(len(table.names), f"{name}, row {table.head_row}", f"row {table.head_row}")
     _name_abscissa(table)
     _units_of_comments(table, original)
+    explain_heads(table)
     table.rest += remarks
     table.unread = [*table.unread, *chosen.unread, *reshaped.unread]
     found = in_known_words(notes)

@@ -10,6 +10,7 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.evidence import Array, Evidence, bare_name
 from mckibben.measurement.read.plausible import ENOUGH
 from mckibben.measurement.read.questions import column_option
+from mckibben.measurement.read.signs import SHORTENING_POSITIVE, STROKE_SIGN
 
 
 def physical_questions(evidence: Evidence) -> list[Question]:
@@ -45,7 +46,8 @@ def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Arra
     column = evidence.used[channel]
     against = runs_against(stroke, evidence.channels.get("pressure"), force)
     falls = mostly_negative(stroke)
-    if against is False or not (falls or against or column.extends):
+    stated = evidence.conditions.get(STROKE_SIGN) == SHORTENING_POSITIVE
+    if against is False or not (falls or against or (column.extends and not stated)):
         return []
     turned = column_option(channel, bare_name(column), sign=-1)
     could_be_length = channel == "displacement" and float(np.min(stroke)) > 0.0

@@ -6,10 +6,11 @@ import re
 from typing import NamedTuple
 
 from mckibben.measurement.read.unit_words import CLOCK, COUNT, dimension_of, unit_of
-from mckibben.measurement.read.vocabulary import MOVES, VALVE_WORDS, has_word, words_of
+from mckibben.measurement.read.vocabulary import MOVES, VALVE_WORDS, has_word, reference_among, words_of
 
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
-_RAW = r"(?P<raw>mV|V|mA|A)"
+_COUNTED = r"counts?|cts|digits?|pulses?|incs?|increments?|inkremente|impulse?|ticks?|steps?|LSB"
+_RAW = rf"(?P<raw>mV|V|mA|A|{_COUNTED})"
 _UNIT = r"(?P<unit>[^\W\d_]+[0-9²]?(?:/[^\W\d_]+[2²]?)?(?:\s?\((?:a|g|abs|gauge)\))?|%)"
 _TO = r"\s*(?:=|≙|≈|:|->|→|for|per|to|is|corresponds to|entspricht|entsprechen|pour|per|für)\s*"
 _SPAN = rf"({_NUMBER})\s*(?:-|–|\.\.+|to|bis|\.{{2,3}}|…)\s*({_NUMBER})\s*"
@@ -22,9 +23,17 @@ _CLOSED = re.compile(
 )
 _OPEN = re.compile(rf"({_NUMBER})\s*{_RAW}\s*(?:=|:|is)?\s*(?:fully\s+)?(?:opens?|offen|auf)\b")
 
+#: At which reading the value is 0: "0 V at L0", "zero at rest length".
+_ZERO = re.compile(
+    rf"(?i)(?:\b0(?:[.,]0+)?\s*(?:{_COUNTED}|m?V|m?A)?|\bzero|\bnull)\s*(?:=|at|bei|à|a|en|when|for)\s"
+)
+
 
 class Scale(NamedTuple):
-    """Value = factor times reading in ``raw`` plus offset, in ``unit``; ``name``: what it is of."""
+    """Value = factor times reading in ``raw`` plus offset, in ``unit``; ``name``: what it is of.
+
+    ``zeroed``: it says at which reading the value is 0, or gives two points.
+    """
 
     factor: float
     offset: float
@@ -33,6 +42,7 @@ class Scale(NamedTuple):
     name: str
     text: str
     where: str
+    zeroed: bool = True
 
 
 def scale_of(text: str, column: str, where: str) -> Scale | None:
@@ -49,6 +59,26 @@ def scale_of(text: str, column: str, where: str) -> Scale | None:
             if said is not None:
                 return said
     return None
+
+
+def scale_in(text: str, where: str) -> Scale | None:
+    """The one scale that a text states, whatever it is of; None = none, or several.
+
+    >>> scale_in("CH1 gauge: 0...10 V = 0...8 bar", "line 2")[:4]
+    (0.8, 0.0, 'V', 'bar(g)')
+    """
+    found = _of_description(text, where)
+    if found is None or len(re.findall(rf"\d\s*{_RAW}(?![^\W\d_])", _ZERO.sub(" ", text))) > 1:
+        return None
+    reference = reference_among(words_of(text))
+    if reference is not None and dimension_of(found.unit) == "a pressure":
+        found = found._replace(unit=f"{found.unit}({'a' if reference else 'g'})")
+    return found
+
+
+def said_scale(text: str) -> Scale | None:
+    """The scale that a user says: ``0-10 V = 0-10 bar``, ``4100 to 9300 counts = 0 to 80 mm``."""
+    return scale_in(text, "you")
 
 
 def valve_scale_of(text: str, where: str) -> Scale | None:
@@ -109,15 +139,22 @@ def _of_description(text: str, where: str) -> Scale | None:
         low, high, least, most = (_float(found[n]) for n in (1, 2, 4, 5))
         if high != low:
             slope = (most - least) / (high - low)
-            return Scale(slope, least - slope * low, found["raw"], unit, name, f"'{found[0]}'", where)
+            return Scale(
+                slope, least - slope * low, _raw_unit(found["raw"]), unit, name, f"'{found[0]}'", where
+            )
     for pattern, inverse in ((_EQUAL, False), (_PER, False), (_SENSITIVITY, True)):
         found = pattern.search(text)
         if found is None or (unit := _unit(found["unit"])) is None or not _float(found[1]):
             continue
         slope = _float(found[3]) / _float(found[1]) if pattern is _EQUAL else _float(found[1])
         slope = 1.0 / slope if inverse else slope
-        return Scale(slope, 0.0, found["raw"], unit, name, f"'{found[0]}'", where)
+        zeroed = _raw_unit(found["raw"]) != COUNT or _ZERO.search(text) is not None
+        return Scale(slope, 0.0, _raw_unit(found["raw"]), unit, name, f"'{found[0]}'", where, zeroed)
     return None
+
+
+def _raw_unit(text: str) -> str:
+    return COUNT if re.fullmatch(_COUNTED, text) else text
 
 
 def _float(text: str) -> float:

@@ -9,7 +9,7 @@ from pathlib import PurePath
 from typing import NamedTuple
 
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
-from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.head_text import channel_number, taken_apart
 from mckibben.measurement.read.signs import signs_of
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.vocabulary import (
@@ -26,11 +26,16 @@ from mckibben.resources import presets_folder
 
 NAME = "the file's name"
 #: Conditions that only these texts say, besides those with a unit.
+REFERENCE_OF = "reference_of_"  # and the number of a channel: "absolute" or "gauge"
 KIND_SAID = "kind_said"  # text: "isotonic"
-_NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
+_NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?(?:[eE][+-]?[0-9]{1,3}(?![^\W_]))?"
+#: "mm of mercury" is no length.
+_MERCURY = re.compile(
+    r"(?i)мм\s*рт\.?\s*ст\.?|mm\s+hg\b|mm\s*(?:of\s+|de\s+|di\s+)?(?:mercur\w*|quecksilber\w*|qs\b)"
+)
 _UNIT = r"(?:[^\W\d_]|[°%\"'])+(?:/[^\W\d_]+[2²]?)?"
 _QUANTITY = re.compile(rf"(?<![\w.,-])({_NUMBER})\s*({_UNIT}(?:\s*\([a-zü]+\))?)?(?![\w.,]*\d)")
-_UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?!\s*[A-Za-z])")
+_UNIT_FIRST = re.compile(rf"[\[(]\s*([^\])]+?)\s*[\])]\s*[:=;]?\s*({_NUMBER})(?![\d.,]*\d|\s*[A-Za-z])")
 #: A symbol, a number and a unit in one word, as in names of files: ``L200mm``, ``m5kg``, ``ps6bar``.
 _GLUED = re.compile(
     rf"(?<![^\W_])([^\W\d_]{{0,12}}0?)[=]?((?<![0-9])[0-9]+(?:[.,][0-9]+)?)({_UNIT})(?![^\W_])"
@@ -50,6 +55,10 @@ _OTHER_GAUGES = re.compile(
 _OWN_BEHIND = re.compile(
     r"[\s(]*([^,;:=()\d.]{0,60}?)(?=[,;().]|$|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s)"
 )
+_CLAUSE = re.compile(r"[;|]|[.,:](?!\d)\s")
+_BEFORE = frozenset(("mm", "cm", "kg", "bar", "mbar", "kPa", "MPa", "hPa", "psi", "kN", "lbf", "inch"))
+_VALUED = re.compile(rf"(?P<name>[^\W\d_]+)\s*(?:[=:]|is|was|ist|war)?\s*{_NUMBER}\s*(?:{_UNIT})")
+_OF_OTHER_AIR = ("the supply", "the surrounding air")
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
@@ -111,13 +120,20 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
     return list(found.values())
 
 
+def values_stated(rest: Iterable[tuple[str, str]]) -> Iterator[tuple[str, str, str]]:
+    """(condition, value, place) of everything that texts state, not only the first of each condition."""
+    for text, where in rest:
+        for key, value in _of_text(text):
+            note = Note(where, key, value)
+            yield key, str((_in_millimetres(note) if key == "nominal_length" else note).value), where
+
+
 def _of_text(text: str) -> Iterator[tuple[str, str]]:
     yield from signs_of(text)
     words = words_of(text)
-    reference = reference_among(words_of(_OTHER_GAUGES.sub(" ", text)))
-    about_muscle = not has_word(words, _AMBIENT | _SUPPLIES)
-    if reference is not None and about_muscle and any(channel_of_word(word) == "pressure" for word in words):
-        yield "pressure", "absolute" if reference else "gauge"
+    for channel, absolute in _references_of_text(text).items():
+        key = f"{REFERENCE_OF}{channel}" if channel else "pressure"
+        yield key, "absolute" if absolute else "gauge"
     kinds = {kind for word in words for kind, stem in _KINDS.items() if word.startswith(stem)}
     if len(kinds) == 1:
         yield KIND_SAID, kinds.pop()
@@ -127,16 +143,44 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
             yield key, f"{quantity.value} {quantity.unit}" if quantity.unit else quantity.value
     if words and words[0] in _SAMPLES:
         value = re.sub(r"^\s*[^\s:;=,]+\s*(?:label|name|nr\.?|no\.?|id)?\s*[:;=,]?\s*", "", text).strip()
-        if value and not re.match(r"(?i)rate|freq|interval|s\b|time|period|=|\d+\s*(Hz|ms|s)\b", value):
+        if value and not re.match(
+            r"(?i)rate|freq|interval|attenuation|s\b|time|period|=|\d+\s*(Hz|ms|s)\b", value
+        ):
             yield "sample", value
     if words and words[0] in _DATES and (day := re.search(r"[0-9]{1,4}[./-][0-9]{1,2}[./-][0-9]{1,4}", text)):
         yield "date", day[0]
 
 
+def _references_of_text(text: str) -> dict[str, bool]:
+    """What a text says the pressure of the muscle counts from: True = vacuum, by the number of the channel.
+
+    "" is what it says of no channel in particular. Clauses about the supply or the air outside say nothing of
+    the muscle; what clauses contradict is left out.
+    """
+    said: dict[str, set[bool]] = {}
+    for clause in _CLAUSE.split(
+        _OTHER_GAUGES.sub(" ", _VALUED.sub(_without_air, _MERCURY.sub("mmHg", text)))
+    ):
+        words = words_of(clause)
+        if has_word(words, _AMBIENT | _SUPPLIES) or any(
+            other_quantity(word, "pressure") in _OF_OTHER_AIR for word in words
+        ):
+            continue
+        reference = reference_among(words)
+        if reference is not None and any(channel_of_word(word) == "pressure" for word in words):
+            said.setdefault(channel_number(clause), set()).add(reference)
+    return {channel: marks.pop() for channel, marks in said.items() if len(marks) == 1}
+
+
+def _without_air(found: re.Match[str]) -> str:
+    """Nothing in the place of the pressure of the air outside with its value; other values stay."""
+    return ";" if has_word(words_of(found["name"]), _AMBIENT) else found[0]
+
+
 def _quantities(text: str) -> Iterator[_Quantity]:
     """The quantities of a text; each with the words since the one before it, and those up to the next one."""
-    text = _UNIT_IN_NAME.sub(_unit_behind, text)
-    text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", _UNIT_FIRST.sub(r" \2 \1", text)))
+    text = _UNIT_IN_NAME.sub(_unit_behind, _MERCURY.sub("mmHg", text))
+    text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", _UNIT_FIRST.sub(_unit_after, text)))
     begin = 0
     for found in _QUANTITY.finditer(text):
         unit = (unit_of(found[2]) or unit_of(found[2].partition("(")[0])) if found[2] else None
@@ -145,10 +189,17 @@ def _quantities(text: str) -> Iterator[_Quantity]:
         behind = re.split(r"[,;.:(]", text[begin : begin + 40])[0]
         own = _OWN_BEHIND.match(text, begin)
         value = found[1].replace(",", ".")
+        if unit is None and (last := re.search(r"([^\s:=]{2,5})[\s:=]*$", before)) is not None:
+            unit = unit_of(last[1]) if last[1] in _BEFORE else None  # a cell of its own: "L0 | cm | 18.5"
         yield _Quantity(
             words_of(before), value, None if unit is None else unit.unit, words_of(behind),
             words_of(own[1]) if own else (),
         )  # fmt: skip
+
+
+def _unit_after(found: re.Match[str]) -> str:
+    """``[mm] 250`` as ``250 mm``; brackets around other words stay."""
+    return f" {found[2]} {found[1]}" if unit_of(found[1]) is not None else found[0]
 
 
 def _unit_behind(found: re.Match[str]) -> str:
@@ -273,7 +324,9 @@ def _in_millimetres(note: Note) -> Note:
         number = float(str(note.value).replace(",", "."))
     except ValueError:
         return note
-    return note._replace(value=f"{number:.10g} mm") if number >= _LONGEST_METRES else note
+    if number < _LONGEST_METRES:
+        return note
+    return note._replace(value=f"{number:.10g} mm", where=f"{note.where}, no unit: read as mm".lstrip(", "))
 
 
 _LONGEST_METRES = 10.0  # no muscle is longer; a larger number without unit counts millimetres

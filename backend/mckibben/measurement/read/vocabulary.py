@@ -93,6 +93,10 @@ REMARK_WORDS = {what: frozenset(all_words(texts)) for what, texts in words.REMAR
 UNIT_WORDS = REMARK_WORDS["unit"]
 #: Words before a force or mass that is not the load of the muscle.
 LOADLESS = REMARK_WORDS["loadless"]
+#: Words of columns that count the steps of an encoder.
+COUNTER_WORDS = frozenset(all_words(words.COUNTERS))
+#: Words of a column that holds the values of all signals.
+VALUE_WORDS = frozenset(all_words(words.VALUES))
 #: Words with which the statistics below a table begin.
 STATISTICS = frozenset(all_words(words.STATISTIC))
 #: Words for the way there and the way back.
@@ -159,6 +163,11 @@ def channel_of_word(word: str) -> str | None:
                 # The last part of a compound says what it is: a "Kraftweg" is a distance.
                 best, length = channel, len(stem)
     return best
+
+
+def proper_channel(channel: str | None) -> str | None:
+    """The channel itself: an extension is a displacement counted the other way."""
+    return "displacement" if channel == "extension" else channel
 
 
 @lru_cache(maxsize=4096)

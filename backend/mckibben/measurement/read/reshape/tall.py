@@ -16,16 +16,21 @@ from mckibben.measurement.read.recognise import BY_UNIT, Recognised, recognise
 from mckibben.measurement.read.reshape.rows import MAX_CELLS, SAMPLED, Rewritten, RowsGrid
 from mckibben.measurement.read.unit_words import unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
-from mckibben.measurement.read.vocabulary import NO_CHANNEL, words_of
+from mckibben.measurement.read.vocabulary import NO_CHANNEL, VALUE_WORDS, has_word, words_of
 
 _MOST_TAGS = 60
 _FEWEST_ROWS = 6
+_FURTHER = 200  # rows beyond the first ones that are looked at
 _SPARSE = 0.5  # of the readings of the other signals; fewer are of a slow one
 _NOT_GOOD = ("bad", "invalid", "fail", "error", "uncertain", "stale", "false")
 
 
 class _Columns(NamedTuple):
-    """Columns of a tall table: that of the names, the values, the instants, units and judgements."""
+    """Columns of a tall table: that of the names, the values, the instants, units and judgements.
+
+    ``kept``: columns that say which run or way a row of readings belongs to; ``number``: one that numbers the
+    readings of each signal, where there are no instants.
+    """
 
     tag: int
     value: int
@@ -33,6 +38,8 @@ class _Columns(NamedTuple):
     unit: int | None
     quality: int | None
     first: int  # row of the grid
+    kept: tuple[int, ...] = ()
+    number: int | None = None
 
 
 def pivoted(grid: Grid) -> Rewritten | None:
@@ -60,12 +67,13 @@ def pivoted(grid: Grid) -> Rewritten | None:
     clock_head = texts_of(grid.cells(columns.first - 1)) if columns.first else []
     column = columns.instant
     first = [] if column is None else [_instant_head(clock_head, column)]
+    first += [clock_head[place] for place in columns.kept]
     rows: list[list[Cell]] = [list(grid.cells(index)) for index in range(max(0, columns.first - 1))]
     places = list(range(max(0, columns.first - 1)))
     rows.append([*first, *(heads[tag] for tag in tags)])
     places.append(max(0, columns.first - 1))
-    for index, instant, values in instants:
-        rows.append([*([] if column is None else [instant]), *(values.get(tag) for tag in tags)])
+    for index, beside, values in instants:
+        rows.append([*beside, *(values.get(tag) for tag in tags)])
         places.append(index)
     said = [
         f"one value per line, told apart by '{_name(clock_head, columns.tag)}': "
@@ -103,22 +111,31 @@ def _columns_of(grid: Grid) -> _Columns | None:
     heads = texts_of(grid.cells(first - 1)) if first else []
     times = [c for c in numbers if c < len(heads) and recognise(heads[c]).channel == "time"]
     running = [c for c in numbers if c not in times and _counts_on([row[c] for row in rows if c < len(row)])]
-    values = [c for c in numbers if c not in times and (c not in running or len(numbers) == 1)]
+    kept = tuple(
+        c
+        for c in range(min(width, len(heads)))
+        if c not in (tag, unit) and recognise(heads[c]).channel in ("group", "direction")
+    )
+    values = [c for c in numbers if c not in (*times, *kept) and (c not in running or len(numbers) == 1)]
     if len(values) > 1:  # beside the values stand marks of their quality, which hardly change
         values = [
             c
             for c in values
             if not (_is_no_value(heads, c) or len({str(r[c]) for r in rows if c < len(r)}) < 2)
         ]
+    if len(values) > 1:
+        values = [c for c in values if c < len(heads) and has_word(words_of(heads[c]), VALUE_WORDS)] or values
     if len(values) != 1:
         return None
     instant = next(iter([*clocks, *times]), None)
-    instant = next(iter(running), None) if instant is None and len(running) == 1 else instant
-    others = [c for c in words if c != tag]
+    steady = [c for c in running if c not in kept]
+    instant = next(iter(steady), None) if instant is None and len(steady) == 1 else instant
+    others = [c for c in words if c not in (tag, *kept)]
     quality = next(
         (c for c in others if c != unit and _judges([str(row[c]) for row in rows if c < len(row)])), None
     )
-    return _Columns(tag, values[0], instant, unit, quality, first)
+    number = next((c for c in numbers if c not in (values[0], *kept, *times, *running)), None)
+    return _Columns(tag, values[0], instant, unit, quality, first, kept, number)
 
 
 def _is_no_value(heads: Sequence[str], column: int) -> bool:
@@ -137,6 +154,13 @@ def _body(grid: Grid) -> tuple[int, list[Sequence[Cell]]]:
             rows.append(cells)
         elif rows and TEXT in kinds and len(rows) < _FEWEST_ROWS:
             first, rows = 0, []
+    step = max(1, (len(grid) - SAMPLED) // _FURTHER)  # the signals may stand in blocks, one after the other
+    for index in range(SAMPLED, len(grid), step) if len(rows) >= _FEWEST_ROWS else ():
+        cells = grid.cells(index)
+        if len(cells) == len(rows[0]) and TEXT in (kinds := [kind_of(cell) for cell in cells]) and (
+            NUMBER in kinds
+        ):  # fmt: skip
+            rows.append(cells)
     return first, rows
 
 
@@ -208,22 +232,49 @@ def _head(grid: Grid, tag: str, columns: _Columns, readings: Sequence[tuple[int,
 
 def _instants(
     readings: Sequence[tuple[int, Sequence[Cell]]], columns: _Columns, tags: Sequence[str]
-) -> list[tuple[int, Cell, dict[str, Cell]]]:
-    """(row, instant, values by name): readings of one instant, else those until a name comes again."""
+) -> list[tuple[int, list[Cell], dict[str, Cell]]]:
+    """(row, what stands beside, values by name): readings of one instant, else until a name comes again.
+
+    Signals that stand in blocks, one after the other, belong together by their number in the block.
+    """
     wanted = set(tags)
     chosen = [(i, cells) for i, cells in readings if str(cells[columns.tag]).strip() in wanted]
-    keys = [None if columns.instant is None else str(cells[columns.instant]) for _, cells in chosen]
-    by_instant = columns.instant is not None and 2 * len(set(keys)) <= len(keys)
-    found: list[tuple[int, Cell, dict[str, Cell]]] = []
-    places: dict[str | None, int] = {}
+    instant, kept = columns.instant, columns.kept
+    ordinals = _ordinals([str(cells[columns.tag]).strip() for _, cells in chosen])
+    at = instant if instant is not None else columns.number if ordinals else None
+    if at is None and ordinals:
+        keys: list[object] = list(ordinals)
+    else:
+        runs = [c for c in kept if c != at]
+        keys = [
+            None if at is None else tuple(str(cells[c]) for c in (at, *runs) if c < len(cells))
+            for _, cells in chosen
+        ]
+    by_key = keys[:1] != [None] and 2 * len(set(keys)) <= len(keys)
+    beside = [*([] if instant is None else [instant]), *kept]
+    found: list[tuple[int, list[Cell], dict[str, Cell]]] = []
+    places: dict[object, int] = {}
     for key, (index, cells) in zip(keys, chosen, strict=True):
         tag = str(cells[columns.tag]).strip()
-        place = places.get(key) if by_instant else len(found) - 1 if found else None
+        place = places.get(key) if by_key else len(found) - 1 if found else None
         if place is None or tag in found[place][2]:
             place = places[key] = len(found)
-            found.append((index, None if columns.instant is None else cells[columns.instant], {}))
+            found.append((index, [cells[c] if c < len(cells) else None for c in beside], {}))
         found[place][2][tag] = _value(cells, columns)
     return found
+
+
+def _ordinals(tags: Sequence[str]) -> list[int]:
+    """Number of each reading among those of its name, where the names stand in blocks; else nothing."""
+    changes = sum(one != other for one, other in pairwise(tags))
+    if changes != len(set(tags)) - 1 or len(set(Counter(tags).values())) > 1:
+        return []
+    counts: Counter[str] = Counter()
+    result = []
+    for tag in tags:
+        result.append(counts[tag])
+        counts[tag] += 1
+    return result
 
 
 def _value(cells: Sequence[Cell], columns: _Columns) -> Cell:

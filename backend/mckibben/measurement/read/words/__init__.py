@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from mckibben.measurement.read.words.cells import MARKERS, UNITS
 from mckibben.measurement.read.words.channels import CHANNELS
-from mckibben.measurement.read.words.columns import NO_CHANNELS, OTHERS, STATISTIC
+from mckibben.measurement.read.words.columns import COUNTERS, NO_CHANNELS, OTHERS, STATISTIC, VALUES
 from mckibben.measurement.read.words.conditions import REFERENCES, REMARKS
 from mckibben.measurement.read.words.signs import SIGNS
 from mckibben.measurement.read.words.valves import VALVES
@@ -17,6 +17,7 @@ from mckibben.measurement.read.words.ways import DIRECTIONS, HOLDS, MOVES, PHASE
 
 __all__ = [
     "CHANNELS",
+    "COUNTERS",
     "DIRECTIONS",
     "HOLDS",
     "MARKERS",
@@ -29,6 +30,7 @@ __all__ = [
     "SIGNS",
     "STATISTIC",
     "UNITS",
+    "VALUES",
     "VALVES",
     "WAYS",
 ]

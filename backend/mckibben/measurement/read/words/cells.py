@@ -39,3 +39,14 @@ MARKERS = {
         "saturated", "burnout", "b.o.", "open", "hi", "lo", "hihi", "lolo",
     ),
 }  # fmt: skip
+#: Numbers in words, as remarks have them beside a unit, by language.
+NUMBER_WORDS = {
+    "en": "one two three four five six seven eight nine ten twelve twenty",
+    "de": "ein eins zwei drei vier fünf sechs sieben acht neun zehn zwölf zwanzig",
+    "fr": "un deux trois quatre cinq sept huit neuf dix douze vingt",
+    "it": "uno due tre quattro cinque sei sette otto nove dieci venti",
+    "es": "dos tres cuatro cinco seis siete ocho nueve diez veinte", "pt": "dois três quatro sete oito dez",
+    "nl": "een twee drie vijf zes zeven acht negen tien", "sv": "två tre fyra fem sex sju åtta nio tio",
+    "pl": "dwa trzy cztery pięć sześć", "cs": "dva tři čtyři pět šest",
+    "ru": "два три четыре пять шесть семь восемь девять десять", "tr": "iki üç dört beş altı",
+}  # fmt: skip

@@ -106,3 +106,20 @@ NO_CHANNELS = {
         "ko": "비고 상태 알람",
     },
 }  # fmt: skip
+
+#: Words for the counts of an encoder, by language.
+COUNTERS = {
+    "en": "encoder enc counts count pulses ticks quadrature resolver",
+    "de": "drehgeber inkremente impulse geber",
+    "fr": "codeur impulsions", "it": "impulsi", "es": "codificador pulsos", "pt": "codificador pulsos",
+    "pl": "enkoder impulsy", "cs": "enkodér", "ru": "энкодер импульсы", "tr": "enkoder", "nl": "pulsen",
+    "sv": "pulser pulsgivare", "ja": "エンコーダ パルス", "zh": "编码器 脉冲", "ko": "엔코더 펄스",
+}  # fmt: skip
+#: Words for the column of values in a table with one value per line, by language.
+VALUES = {
+    "en": "value values val reading readings measurement", "de": "wert werte messwert", "fr": "valeur",
+    "it": "valore", "es": "valor", "pt": "valor", "pl": "wartość", "cs": "hodnota", "ru": "значение",
+    "tr": "değer", "nl": "waarde", "sv": "värde", "da": "værdi", "fi": "arvo", "hu": "érték",
+    "ro": "valoare", "el": "τιμή", "uk": "значення", "hr": "vrijednost", "ja": "値 測定値", "zh": "值 数值",
+    "ko": "값",
+}  # fmt: skip

@@ -68,10 +68,11 @@ REMARKS = {
     },
     "ambient": {
         "en": "ambient baro barometer barometric atmospheric atmosphere",
-        "de": "luftdruck umgebungsdruck umgebung", "fr": "atmosphérique ambiante",
-        "it": "atmosferica ambiente", "es": "atmosférica", "pt": "atmosférica",
-        "pl": "atmosferyczne otoczenia", "cs": "barometrický okolí atmosférický",
-        "ru": "атмосферное барометрическое", "tr": "atmosfer ortam", "nl": "omgevingsdruk luchtdruk",
+        "de": "luftdruck umgebungsdruck umgebung", "fr": "atmosphérique ambiante baromètre",
+        "it": "atmosferica ambiente barometro", "es": "atmosférica barómetro", "pt": "atmosférica barômetro",
+        "pl": "atmosferyczne otoczenia barometr", "cs": "barometrický okolí atmosférický",
+        "ru": "атмосферное барометрическое барометр барометра",
+        "tr": "atmosfer ortam", "nl": "omgevingsdruk luchtdruk",
         "sv": "lufttryck omgivningstryck atmosfärstryck", "ja": "大気圧 気圧",
         "zh": "大气压 环境压力 气压计", "ko": "대기압", "da": "lufttryk atmosfæretryk omgivelse",
         "fi": "ilmanpaine ympäristö", "hu": "légköri légnyomás környezeti", "ro": "atmosferică",
@@ -133,12 +134,12 @@ REMARKS = {
 REFERENCES = {
     "absolute": {
         "en": "abs absolute", "de": "absolut absolutdruck", "fr": "absolue absolu",
-        "it": "assoluta assoluto", "es": "absoluta absoluto", "pl": "bezwzględne",
+        "it": "assoluta assoluto", "es": "absoluta absoluto", "pl": "bezwzględne absolutne",
         "cs": "absolutní absolutně", "ru": "абс абсолютное абсолютных", "tr": "mutlak", "ja": "絶対圧 絶対",
         "zh": "绝压 绝对压力 绝对", "nl": "absoluut", "sv": "absoluttryck", "da": "absolut",
         "fi": "absoluuttinen", "hu": "abszolút", "ro": "absolută absolut", "el": "απόλυτη",
         "uk": "абсолютний абсолютна", "hr": "apsolutni apsolutno", "sl": "absolutni", "sk": "absolútny",
-        "ko": "절대압 절대", "pt": "absoluta",
+        "ko": "절대압 절대", "pt": "absoluta absoluto absolutas",
     },
     "gauge": {
         "en": "gauge gage rel relative", "de": "überdruck ueberdruck relativ",

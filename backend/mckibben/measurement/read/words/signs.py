@@ -54,4 +54,18 @@ SIGNS = {
         "tr": "kısalma kasılma", "el": "βράχυνση συστολή", "hr": "skraćenje kontrakcija", "ja": "収縮 短縮",
         "zh": "收缩 缩短", "ko": "수축 단축",
     },
+    "longer": {
+        "en": "longer lengthens extends elongates stretches stretched",
+        "de": "länger verlängert gedehnt", "fr": "allonge allongé",
+        "it": "allunga", "es": "alarga", "pt": "alonga", "pl": "wydłuża dłuższy", "cs": "prodlužuje delší",
+        "ru": "удлиняется длиннее", "nl": "langer verlengt", "sv": "längre förlängs", "da": "længere",
+        "fi": "pitenee", "tr": "uzar uzadığında", "ja": "伸びる", "zh": "变长",
+    },
+    "shorter": {
+        "en": "shorter shortens contracts", "de": "kürzer verkürzt kontrahiert",
+        "fr": "raccourcit", "it": "accorcia contrae", "es": "acorta contrae", "pt": "encurta contrai",
+        "pl": "skraca krótszy", "cs": "zkracuje kratší", "ru": "укорачивается короче",
+        "nl": "korter verkort", "sv": "kortare förkortas", "da": "kortere", "fi": "lyhenee",
+        "tr": "kısalır kısaldığında", "ja": "縮む", "zh": "变短",
+    },
 }  # fmt: skip

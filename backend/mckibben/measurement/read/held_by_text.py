@@ -1,0 +1,82 @@
+"""The pressure of a test that no column holds: a line of the file says it, else the name of the file."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import PurePath
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.measurement import STROKES
+from mckibben.measurement.read.conditions import ATMOSPHERE
+from mckibben.measurement.read.header import HeaderColumn
+from mckibben.measurement.read.held import HeldQuantity, held_pressure
+from mckibben.measurement.read.source import RawTable
+from mckibben.measurement.read.stated import NAME
+from mckibben.measurement.read.vocabulary import REMARK_WORDS, has_word, words_of
+from mckibben.physics.errors import InputError
+from mckibben.physics.units import convert
+
+
+def hold_pressure(
+    columns: dict[str, NDArray], by_use: dict[str, HeaderColumn], name: str, source: RawTable,
+    conditions: Mapping[str, float | str], messages: list[str],
+) -> None:  # fmt: skip
+    """Forces over a stroke without any pressure are at the one that a line states, else the file's name.
+
+    A line beats the name, and a message says where they differ. Of several lines the one counts that the name
+    agrees with.
+
+    Raises:
+        InputError: lines state several pressures, and the name none of them.
+    """
+    if "pressure" in columns or "force" not in columns or not set(columns) & set(STROKES):
+        return
+    stated = {_pascal(said, conditions): (said, where) for said, where in _stated(source)}
+    named = held_pressure(PurePath(name).stem)
+    if len(stated) > 1:
+        agreed = None if named is None else stated.get(_pascal(named, conditions))
+        if agreed is None:
+            shown = ", ".join(f"'{said.text}' ({where})" for said, where in stated.values())
+            raise InputError(
+                f"{name}: no column holds the pressure, and the texts state several: {shown}; at which one "
+                "was it measured",
+                field="pressure",
+                hint="leave one of them in the file, or write the pressure as a column, 'pressure_bar'",
+            )
+        stated = {0.0: agreed}
+    said, where = next(iter(stated.values()), (named, NAME))
+    if said is None:
+        return
+    value = _pascal(said, conditions)
+    columns["pressure"] = np.full(len(columns["force"]), value)
+    by_use["pressure"] = HeaderColumn(-1, where, "pressure", said.unit, said.absolute)
+    if where == NAME:
+        messages.append(f"pressure is taken from the file's name: '{said.text}'")
+        return
+    messages.append(f"pressure is taken from {where}: '{said.text}'")
+    if named is not None and abs(_pascal(named, conditions) - value) > 1e-3 * abs(value):
+        messages.append(f"the file's name says another pressure, '{named.text}': that of {where} counts")
+
+
+def _stated(source: RawTable) -> list[tuple[HeldQuantity, str]]:
+    """The pressures that texts name as such, with their places."""
+    texts = [*source.rest]
+    texts += [(f"pressure: {note.value}", note.where) for note in source.notes if note.key == "pressure"]
+    limits = REMARK_WORDS["loadless"] | REMARK_WORDS["ambient"] | REMARK_WORDS["supply"]
+    return [
+        (said, where)
+        for text, where in texts
+        if not has_word(words_of(text), limits) and (said := held_pressure(text)) is not None and said.named
+    ]
+
+
+def _pascal(said: HeldQuantity, conditions: Mapping[str, float | str]) -> float:
+    """The gauge pressure [Pa]; what it counts from may stand elsewhere in the file."""
+    absolute = said.absolute
+    if absolute is None:
+        absolute = str(conditions.get("pressure", "")).lower().startswith("abs")
+    ambient = conditions.get("ambient_pressure")
+    air = ambient if isinstance(ambient, float) else ATMOSPHERE
+    return float(convert([said.value], said.unit, "Pa")[0]) - (air if absolute else 0.0)

@@ -1,0 +1,124 @@
+"""Questions about signals without a scale: volts, milliamperes and counts where a channel is missing."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from mckibben.measurement.measurement import STROKES
+from mckibben.measurement.question import Question
+from mckibben.measurement.read.evidence import Evidence
+from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.questions import column_option
+from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.unit_words import COUNT, dimension_of
+from mckibben.measurement.read.vocabulary import COUNTER_WORDS, has_word, proper_channel, words_of
+
+_SCALES = {
+    "pressure": ("bar", "0 to 10 bar"), "force": ("N", "0 to 2000 N"), "length": ("mm", "0 to 300 mm"),
+    "displacement": ("mm", "0 to 100 mm"), "contraction": ("mm", "0 to 100 mm"),
+}  # fmt: skip
+_RAW_SPANS = {"V": "0 to 10 V", "mV": "0 to 20 mV", "mA": "4 to 20 mA", "A": "0.004 to 0.02 A"}
+_UNKNOWN = "its name is not known"
+
+
+def raw_questions(evidence: Evidence) -> list[Question]:
+    """How a signal is to be read that must be a missing channel: its scale, or what a count means."""
+    return [*_volts(evidence), *_strokes(evidence)]
+
+
+def _is_filled(evidence: Evidence, channel: str) -> bool:
+    if channel in (*STROKES, "extension"):
+        return bool(set(evidence.channels) & {*STROKES, "diameter"})
+    return channel in evidence.channels
+
+
+def _free(evidence: Evidence) -> list[int]:
+    """Columns of numbers that nothing is read from."""
+    used = {column.place for column in evidence.used.values()}
+    used |= {column.place for column in evidence.meaning.constants}
+    return [
+        index
+        for index in range(len(evidence.headers))
+        if index not in used and index not in evidence.meaning.dismissed and evidence.numeric(index)
+    ]
+
+
+def _head(evidence: Evidence, index: int) -> tuple[str, str | None]:
+    """Name and unit of a column."""
+    apart = evidence.apart[index] if index < len(evidence.apart) else None
+    head = taken_apart(evidence.headers[index], apart)
+    return head.name or evidence.headers[index], head.unit
+
+
+def _volts(evidence: Evidence) -> list[Question]:
+    asked: dict[str, Question] = {}
+    for index in _free(evidence):
+        name, unit = _head(evidence, index)
+        if unit is None or dimension_of(unit) not in ("a voltage", "a current"):
+            continue
+        channel = proper_channel(recognise(name).channel)
+        if channel not in _SCALES or _is_filled(evidence, channel) or channel in asked:
+            continue
+        span = f"{_RAW_SPANS.get(unit, f'0 to 10 {unit}')} = {_SCALES[channel][1]}"
+        header = evidence.headers[index]
+        asked[channel] = Question(
+            f"scale of {channel}",
+            f"{evidence.noun} '{header}' ({channel}) is a signal in {unit}, and no text of the file says its "
+            f"scale; which is it",
+            column_option(channel, name, span),
+            header,
+        )
+    return list(asked.values())
+
+
+def _strokes(evidence: Evidence) -> list[Question]:
+    """Where a pressure has no stroke beside it: counts, or with a force a column of an unknown name."""
+    channels = set(evidence.channels)
+    if "pressure" not in channels or channels & {*STROKES, "diameter"}:
+        return []
+    if any(
+        proper_channel(recognise(_head(evidence, index)[0]).channel) in STROKES
+        and dimension_of(_head(evidence, index)[1]) in ("a voltage", "a current")
+        for index in _free(evidence)
+    ):
+        return []  # its scale is asked for
+    for index in _free(evidence):
+        name, unit = _head(evidence, index)
+        counted = unit == COUNT or (unit is None and has_word(words_of(name), COUNTER_WORDS))
+        if counted and (span := _span(evidence, index)) is not None:
+            low, high = span
+            header = evidence.headers[index]
+            return [
+                Question(
+                    "stroke",
+                    f"{evidence.noun} '{header}' holds counts of an encoder, {low:.6g} to {high:.6g}, and "
+                    "the file has no other stroke; no text says how many counts are a mm, where the stroke "
+                    "is 0, nor whether it grows as the muscle shortens; which counts are which stroke",
+                    column_option("displacement", name, f"{high:.6g} to {low:.6g} counts = 0 to 80 mm"),
+                    header,
+                )
+            ]
+    if "force" not in channels:
+        return []
+    for index in _free(evidence):
+        name, unit = _head(evidence, index)
+        reason = evidence.meaning.reasons.get(index, _UNKNOWN)
+        if unit is None and reason == _UNKNOWN and _span(evidence, index) is not None:
+            return [
+                Question(
+                    "stroke",
+                    f"the file holds a pressure and a force, but no stroke; is it {evidence.noun} "
+                    f"'{evidence.headers[index]}', whose name is not known, and in which unit",
+                    column_option("displacement", name, "mm"),
+                    evidence.headers[index],
+                )
+            ]
+    return []
+
+
+def _span(evidence: Evidence, index: int) -> tuple[float, float] | None:
+    """Least and greatest value of a column; None where it does not change."""
+    both = evidence.pair(index, index)
+    if both is None or not len(both[0]) or float(np.ptp(both[0])) == 0.0:
+        return None
+    return float(np.min(both[0])), float(np.max(both[0]))
