@@ -83,6 +83,12 @@ def serve(
         None, min=0, max=65535, help="Port; 0 = any free port. Default: 8000, or the next free one."
     ),
     no_open: bool = typer.Option(False, "--no-open", help="Do not open the browser."),
+    workers: int | None = typer.Option(
+        None,
+        min=0,
+        max=64,
+        help="Processes for diagnoses, sizings and reports; 0 = none of their own. Default: one per core.",
+    ),
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
     data: DataFolder = None,
@@ -90,7 +96,15 @@ def serve(
     """Start the studio and open it in the browser."""
     from mckibben.cli.serve import run
 
-    run(host=host, port=port, open_browser=not no_open, presets=presets, effects=effects or [], data=data)
+    run(
+        host=host,
+        port=port,
+        open_browser=not no_open,
+        workers=workers,
+        presets=presets,
+        effects=effects or [],
+        data=data,
+    )
 
 
 @app.command()

@@ -25,6 +25,7 @@ def run(
     host: str,
     port: int | None,
     open_browser: bool,
+    workers: int | None,
     presets: Path | None,
     effects: Sequence[Path],
     data: Path | None,
@@ -53,6 +54,7 @@ def run(
         user_presets=chosen.user_presets,
         effects=chosen.effects,
         data=chosen.data,
+        workers=(os.cpu_count() or 1) if workers is None else workers,
     )
     link = _link(_own_address() if is_every_interface(host) else host, actual_port, token)
 

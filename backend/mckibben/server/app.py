@@ -34,6 +34,7 @@ from mckibben.server.routes import (
 from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
 from mckibben.server.server_timing import TimingMiddleware
 from mckibben.server.settings import Settings
+from mckibben.server.workers import Workers
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.version import __version__
 
@@ -75,6 +76,8 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         warming = asyncio.get_running_loop().call_later(_WARM_AFTER, lane_kernels.warm)
         yield
         warming.cancel()
+        if app.state.workers is not None:
+            await asyncio.to_thread(app.state.workers.close)
 
     app = FastAPI(
         title="mckibben",
@@ -94,6 +97,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         presets=settings.presets, user_presets=settings.user_presets, effects=settings.effects
     )
     app.state.store = MeasurementStore(settings.data)
+    app.state.workers = Workers(settings) if settings.workers else None
     app.state.effects = effects.EffectsDocument(app.state.studio.catalogue)
     app.state.plotly = static.PlotlyBundle()
     # Routes are matched in this order: first the one requested at every movement of a slider.

@@ -18,6 +18,7 @@ from starlette.exceptions import HTTPException
 from mckibben.documents.problems import first_problem
 from mckibben.physics.errors import InputError
 from mckibben.server.answer import BodyError, JsonAnswer
+from mckibben.server.workers import BusyError
 
 log = logging.getLogger("mckibben.server")
 
@@ -31,6 +32,7 @@ _CODE_OF_STATUS = {
     413: "too_large",
     415: "unsupported_media_type",
     422: "bad_input",
+    429: "busy",
 }
 _HINTS = {
     400: 'Send one JSON object, e.g. {"muscle": {"preset": "DMSP-20"}}.',
@@ -92,6 +94,17 @@ def install(app: FastAPI) -> None:
     @app.exception_handler(InputError)
     async def _input_error(request: Request, error: InputError) -> JsonAnswer:
         return input_error_answer(error)
+
+    @app.exception_handler(BusyError)
+    async def _busy(request: Request, error: BusyError) -> JsonAnswer:
+        seconds = max(1, round(error.seconds))
+        answer = error_answer(
+            429,
+            f"The server is busy: {error.waiting} jobs wait already, for about {seconds} s.",
+            hint=f"Try again in {seconds} s.",
+        )
+        answer.headers["Retry-After"] = str(seconds)
+        return answer
 
     @app.exception_handler(RequestValidationError)
     async def _invalid_request(request: Request, error: RequestValidationError) -> JsonAnswer:

@@ -1,24 +1,31 @@
-"""Long work: runs in a thread, reports progress, and ends when the caller has disconnected.
+"""Long work: runs beside the event loop, reports progress, and ends when the caller has disconnected.
 
 The event loop only receives and sends. Reading files, preparing, computing and writing large answers happen
-in worker threads, so that other requests are answered in the meantime.
+in worker threads, so that other requests are answered in the meantime; jobs in processes of their own, where
+the server has some (`mckibben.server.workers`).
 """
 
 from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import AsyncIterator, Callable
+from collections.abc import AsyncGenerator, AsyncIterator, Callable
+from contextlib import aclosing
 from typing import Any, ParamSpec, TypeVar
 
+import orjson
 from fastapi import Request
 from fastapi.concurrency import run_in_threadpool
 from fastapi.sse import EventSourceResponse, format_sse_event
 from starlette.requests import ClientDisconnect
 
 from mckibben.application.json_text import to_json
+from mckibben.documents.studio import Studio
+from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.server.errors import input_error_answer, unexpected_answer
+from mckibben.server.jobs import JOBS
+from mckibben.server.workers import Workers
 from mckibben.simulation.outcome import TIME_LIMIT, Watch
 
 P = ParamSpec("P")
@@ -81,7 +88,7 @@ async def _events(work: Work, time_limit: float) -> AsyncIterator[bytes]:
         found=lambda found: send_progress(found=found),
         time_limit=time_limit,
     )
-    running = loop.run_in_executor(None, lambda: _event("done", to_json(work(watch))))
+    running = loop.run_in_executor(None, lambda: _event("done", _bytes(work(watch))))
     running.add_done_callback(lambda _: news.put_nowait(None))
     # Retrieve the exception of cancelled work, which nobody else may do.
     running.add_done_callback(lambda ended: None if ended.cancelled() else ended.exception())
@@ -99,6 +106,96 @@ async def _events(work: Work, time_limit: float) -> AsyncIterator[bytes]:
             yield _event("error", bytes(unexpected_answer(error).body))
     finally:
         gone.set()
+
+
+async def answered(
+    request: Request,
+    kind: str,
+    body: object,
+    studio: Studio,
+    store: MeasurementStore,
+    *,
+    streamed: bool = True,
+) -> bytes | EventSourceResponse:
+    """The answer of a job: its bytes, or a stream of events if the caller requests one.
+
+    Args:
+        request: of the caller; the job ends when it has disconnected.
+        kind: of `JOBS`.
+        body: the validated body.
+        studio, store: for a job that runs in the server.
+        streamed: whether the route has events.
+
+    Raises:
+        InputError: what the job refuses; once a stream has begun, it is its last event.
+        BusyError: too many jobs wait.
+    """
+    workers: Workers | None = request.app.state.workers
+    if workers is None:
+        job = JOBS[kind]
+        work = await prepared(request, job.prepare, body, studio, store)
+        if streamed and wants_events(request):
+            return events(work, time_limit=job.time_limit)
+        return await finished(request, work, lambda found: found, time_limit=job.time_limit)
+    stream = _worked(workers, kind, body)
+    if streamed and wants_events(request):
+        first = await anext(stream)  # what is refused at once has the status of an error
+        return EventSourceResponse(_whole(first, stream))
+    ending = asyncio.ensure_future(_last(stream))
+    while True:
+        done, _ = await asyncio.wait({ending}, timeout=_LOOK_EVERY)
+        if done:
+            return ending.result()
+        if await request.is_disconnected():
+            ending.cancel()
+            raise ClientDisconnect
+
+
+async def _worked(workers: Workers, kind: str, body: object) -> AsyncGenerator[tuple[str, bytes]]:
+    """``progress`` while the job waits and runs, then ``done`` with the answer."""
+    ticket = workers.enter()
+    running = None
+    try:
+        while (place := await ticket.place()) is not None:
+            waiting = {"before": place.before, "seconds": place.seconds}
+            yield "progress", to_json({"share": 0.0, "waiting": waiting})
+        running = await workers.submit(ticket, kind, body)
+        share: object = 0.0
+        while (message := await running.news.get()) is not None:
+            fresh = orjson.loads(message.data) if message.data else {}
+            share = fresh.get("share", share)
+            yield "progress", to_json({"share": share, **fresh})
+        yield "done", await workers.result(running)
+    finally:
+        if running is None:
+            ticket.leave()
+        else:
+            workers.stop(running)
+
+
+async def _whole(first: tuple[str, bytes], stream: AsyncGenerator[tuple[str, bytes]]) -> AsyncIterator[bytes]:
+    async with aclosing(stream):
+        yield _event(*first)
+        try:
+            async for name, data in stream:
+                yield _event(name, data)
+        except InputError as error:
+            yield _event("error", bytes(input_error_answer(error).body))
+        except Exception as error:  # the stream has begun: the error handlers can no longer answer
+            yield _event("error", bytes(unexpected_answer(error).body))
+
+
+async def _last(stream: AsyncGenerator[tuple[str, bytes]]) -> bytes:
+    answer = b""
+    async with aclosing(stream):
+        async for name, data in stream:
+            if name == "done":
+                answer = data
+    return answer
+
+
+def _bytes(answer: object) -> bytes:
+    return answer if isinstance(answer, bytes) else to_json(answer)
 
 
 def _event(name: str, data: bytes) -> bytes:

@@ -40,6 +40,9 @@ class Settings:
         effects: folders with further effect files.
         data: folder for uploaded measurements.
         frontend: the folder served at ``/``.
+        workers: processes for long work; 0 = threads of the server, which share one interpreter.
+        queue: jobs that may wait for a worker; more are refused.
+        worker_memory: bytes that one of them may take.
     """
 
     host: str = "127.0.0.1"
@@ -50,6 +53,9 @@ class Settings:
     effects: tuple[Path, ...] = ()
     data: Path = field(default_factory=user_folder)
     frontend: Path = field(default_factory=frontend_folder)
+    workers: int = 0
+    queue: int = 16
+    worker_memory: int = 3_000_000_000
 
     def __post_init__(self) -> None:
         if not is_loopback(self.host) and not self.token:

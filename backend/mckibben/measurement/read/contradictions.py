@@ -21,8 +21,8 @@ _ASKED = {
     "nominal_length": ("rest length", "--rest-length"), "load_mass": ("load", "--load"),
     "load_force": ("load", "--load"), "supply_pressure": ("supply pressure", "--supply"),
 }  # fmt: skip
-# L/L0 is cos(angle)/cos(angle at rest): with up to 37 degrees at rest at most 1.25, and at 54.7 degrees, where
-# the braid locks, not below 0.58; the lower bound leaves room for lengths with fittings.
+# L/L0 is cos(angle)/cos(angle at rest): with up to 37 degrees at rest at most 1.25, and at 54.7 degrees,
+# where the braid locks, not below 0.58; the lower bound leaves room for lengths with fittings.
 _LONGEST, _SHORTEST = 1.25, 0.4
 _NUMBERS = " ".join(NUMBER_WORDS.values()).split()
 _IN_WORDS = re.compile(

@@ -64,6 +64,7 @@ ERRORS: dict[int | str, dict[str, Any]] = {
         413: "The body is too large.",
         415: "The body is of another content type.",
         422: "The input cannot be used.",
+        429: "Too many jobs wait; Retry-After says how long, about.",
         500: "The server failed; the log says more.",
     }.items()
 }

@@ -1,0 +1,87 @@
+"""Long work of the server, by name: from the body of a request to the bytes of the answer.
+
+A job is prepared, which reads files and refuses what cannot be used, and then run with a watch. It knows
+nothing of HTTP, so that it runs in a thread of the server or in another process alike.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from mckibben.application import diagnose, size
+from mckibben.application.json_text import to_json
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask
+from mckibben.measurement.store import MeasurementStore
+from mckibben.physics.errors import InputError
+from mckibben.report.diagnosis import gather as diagnosis_report
+from mckibben.report.sizing.gather import prepare_report
+from mckibben.server.questions.models import model_question
+from mckibben.server.schemas.diagnoses import DiagnosisRequest
+from mckibben.server.schemas.reports import ReportRequest
+from mckibben.server.schemas.sizing_reports import SizingReportRequest
+from mckibben.simulation.outcome import TIME_LIMIT, Watch
+
+#: What is left to do when a job is prepared: the bytes of the answer.
+Prepared = Callable[[Watch], bytes]
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One kind of long work.
+
+    Attributes:
+        prepare: reads and checks; raises `InputError` for what cannot be used.
+        time_limit: after which it ends by itself [s].
+    """
+
+    prepare: Callable[[Any, Studio, MeasurementStore], Prepared]
+    time_limit: float = TIME_LIMIT
+
+
+def _diagnosis(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) -> Prepared:
+    work = diagnose.prepare(model_question(body, studio, store), studio)
+    return lambda watch: to_json(work(watch))
+
+
+def _sizing(body: SizingTask, studio: Studio, _store: MeasurementStore) -> Prepared:
+    work = size.prepare(size.sizing_question(body, studio))
+    return lambda watch: to_json(work(watch))
+
+
+def _sizing_report(body: SizingReportRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
+    work = prepare_report(body.task, studio, proposal=body.proposal, title=body.title)
+    return lambda watch: work(watch).encode()
+
+
+def _report(body: ReportRequest, studio: Studio, store: MeasurementStore) -> Prepared:
+    question = model_question(body, studio, store)
+    options = _report_options(body, studio, store)
+    work = diagnosis_report.prepare(question, studio, options, diagnose=body.diagnose)
+    return lambda watch: work(watch).encode()
+
+
+def _report_options(
+    body: ReportRequest, studio: Studio, store: MeasurementStore
+) -> diagnosis_report.ReportOptions:
+    history = []
+    for place, step in enumerate(body.history):
+        changed = {"effects": step.effects, "freed": step.freed, "muscle": step.muscle or body.muscle}
+        try:
+            history.append((step.label, model_question(body.model_copy(update=changed), studio, store)))
+        except InputError as error:
+            raise error.at(error.field or "effects").inside(f"history.{place}") from error
+    unverified = {} if body.drive is None else drive_of(body.drive, studio, measured=True).unverified
+    return diagnosis_report.ReportOptions(body.title, history, unverified, body.fit)
+
+
+#: The kinds of long work.
+JOBS: Mapping[str, Job] = {
+    "diagnosis": Job(_diagnosis, diagnose.TIME_LIMIT),
+    "report": Job(_report, diagnose.TIME_LIMIT),
+    "sizing": Job(_sizing),
+    "sizing report": Job(_sizing_report),
+}

@@ -1,0 +1,139 @@
+"""A worker process: it runs one job at a time, tells how far it is, and ends it when asked to.
+
+What it says goes through a connection of its own for each job, so that a process that is ended in the middle
+of a word leaves nothing locked behind.
+"""
+
+from __future__ import annotations
+
+import os
+import signal
+import sys
+import threading
+import time
+from contextlib import suppress
+from dataclasses import dataclass
+from multiprocessing.connection import Client, Connection
+from typing import Any, Literal
+
+from mckibben.application.json_text import to_json
+from mckibben.documents.studio import Studio
+from mckibben.measurement.store import MeasurementStore
+from mckibben.physics.errors import InputError
+from mckibben.server.jobs import JOBS
+from mckibben.server.settings import Settings
+from mckibben.simulation.outcome import Watch
+
+_NICE = 5  # requests of the page come first
+_LOOK_EVERY = 1.0  # s; whether the server is still there
+
+
+@dataclass(frozen=True, slots=True)
+class Message:
+    """What a worker says on the way: that the job is prepared, or a piece of JSON for a progress event."""
+
+    kind: Literal["prepared", "progress"]
+    data: bytes = b""
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """An `InputError` of a job; the error itself does not cross processes."""
+
+    message: str
+    field: str | None
+    hint: str | None
+    code: str
+
+    def error(self) -> InputError:
+        """The error again."""
+        return InputError(self.message, field=self.field, hint=self.hint, code=self.code)
+
+
+@dataclass(slots=True)
+class _Own:
+    """What a worker opens once."""
+
+    studio: Studio
+    store: MeasurementStore
+    memory: int
+
+
+_own: _Own | None = None
+
+
+def begin(settings: Settings) -> None:
+    """Open presets and store, and take the limits of a worker; called once in each process."""
+    global _own
+    signal.signal(
+        signal.SIGINT, signal.SIG_IGN
+    )  # Ctrl+C reaches the whole group; the server ends its workers
+    if hasattr(os, "nice"):
+        os.nice(_NICE)
+    _limit_memory(settings.worker_memory)
+    threading.Thread(target=_end_with_the_server, args=(os.getppid(),), daemon=True).start()
+    studio = Studio(presets=settings.presets, user_presets=settings.user_presets, effects=settings.effects)
+    _own = _Own(studio, MeasurementStore(settings.data), settings.worker_memory)
+
+
+def perform(kind: str, body: Any, address: str, key: bytes, number: int) -> bytes | Refused:
+    """Run a job.
+
+    Args:
+        kind: of `JOBS`.
+        body: the validated body of the request.
+        address, key: where the server listens for what the worker says.
+        number: of the job.
+
+    Returns:
+        The bytes of the answer, or why there is none.
+    """
+    assert _own is not None, "begin() comes first"  # noqa: S101 - the pool's initializer
+    job = JOBS[kind]
+    with Client(address, authkey=key) as line:
+        line.send(number)
+        stop = threading.Event()
+        threading.Thread(target=_listen, args=(line, stop), daemon=True).start()
+        try:
+            work = job.prepare(body, _own.studio, _own.store)
+            line.send(Message("prepared"))
+            watch = Watch(
+                cancelled=stop.is_set,
+                progress=lambda share: line.send(Message("progress", to_json({"share": share}))),
+                found=lambda found: line.send(Message("progress", to_json({"found": found}))),
+                time_limit=job.time_limit,
+            )
+            return work(watch)
+        except InputError as error:
+            return Refused(error.message, error.field, error.hint, error.code)
+        except MemoryError:
+            return Refused(
+                f"this needs more than the {_own.memory / 1e9:.1f} GB of memory that one request may use",
+                None,
+                "use fewer rows, specimens or points",
+                "stopped",
+            )
+
+
+def _listen(line: Connection, stop: threading.Event) -> None:
+    """Wait for the word to stop; the end of the connection is one too."""
+    with suppress(EOFError, OSError):
+        line.recv()
+    stop.set()
+
+
+def _limit_memory(most: int) -> None:
+    if sys.platform == "win32":
+        return  # the job has its deadline there, but no limit of memory
+    import resource
+
+    _, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    least = most if hard == resource.RLIM_INFINITY else min(most, hard)
+    resource.setrlimit(resource.RLIMIT_DATA, (least, hard))
+
+
+def _end_with_the_server(parent: int) -> None:
+    """A server that is killed leaves no workers behind."""
+    while os.getppid() == parent:
+        time.sleep(_LOOK_EVERY)
+    os._exit(1)

@@ -1,0 +1,321 @@
+"""Long work in supervised processes: a few at a time, the others in a queue of bounded length.
+
+Pebble keeps the processes, because it can end one that is busy and start another in its place; the pools of
+the standard library cannot. A job has a deadline that holds without its help, and so has its memory.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import logging
+import multiprocessing
+import os
+import sys
+import threading
+import time
+from asyncio import CancelledError
+from collections import deque
+from concurrent.futures.process import BrokenProcessPool
+from contextlib import suppress
+from dataclasses import dataclass, field
+from multiprocessing.connection import Connection, Listener
+from typing import Any
+
+from pebble import ProcessExpired, ProcessFuture, ProcessPool
+
+from mckibben.physics.errors import InputError
+from mckibben.server.jobs import JOBS
+from mckibben.server.settings import Settings
+from mckibben.server.worker import Message, Refused, begin, perform
+
+log = logging.getLogger("mckibben.server")
+
+_GRACE = 2.0  # s that a job may take to end by itself when it is asked to
+_OVERTIME = 10.0  # s beyond its own time limit after which a job is ended
+_RENEWED_AFTER = 200  # jobs, then a process is replaced: what was compiled stays in memory
+_LOOK_EVERY = 0.2  # s; at the place in the queue
+_FIRST_GUESS = 5.0  # s that a job takes, as long as none has ended
+_WEIGHT_OF_LAST = 0.3  # weight of the last job in the mean
+
+
+class BusyError(Exception):
+    """The queue is full.
+
+    Attributes:
+        waiting: jobs in it.
+        seconds: after which there will be room, about.
+    """
+
+    def __init__(self, waiting: int, seconds: float) -> None:
+        super().__init__(waiting, seconds)
+        self.waiting, self.seconds = waiting, seconds
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """A place in the queue: number of jobs before this one, and the time until it begins, about [s]."""
+
+    before: int
+    seconds: float
+
+
+@dataclass(eq=False)
+class Running:
+    """A job in a worker.
+
+    Attributes:
+        news: what the worker says; None when the job has ended.
+    """
+
+    kind: str
+    number: int
+    future: ProcessFuture[bytes | Refused]
+    news: asyncio.Queue[Message | None] = field(default_factory=asyncio.Queue)
+    line: Connection | None = None
+    stopped: bool = False
+
+
+class Ticket:
+    """The right to a worker, in the order of arrival; `leave` gives it back."""
+
+    def __init__(self, workers: Workers) -> None:
+        self._workers = workers
+        self._turn: asyncio.Future[None] = asyncio.get_running_loop().create_future()
+        self._told = -1
+        self._began = 0.0
+
+    async def place(self) -> Place | None:
+        """The next place in the queue, at first and whenever it changes; None when it is its turn."""
+        while not self._turn.done():
+            place = self._workers.place_of(self)
+            if place.before != self._told:
+                self._told = place.before
+                return place
+            await asyncio.wait({self._turn}, timeout=_LOOK_EVERY)
+        return None
+
+    def begin(self) -> None:
+        """It is its turn."""
+        self._began = time.monotonic()
+        if not self._turn.done():
+            self._turn.set_result(None)
+
+    def leave(self) -> None:
+        """Give the place or the worker to the next one. Later calls do nothing."""
+        self._workers.left(self, time.monotonic() - self._began if self._turn.done() else None)
+
+
+class Workers:
+    """The worker processes of a server; made on its event loop, used there alone.
+
+    Args:
+        settings: number of processes, length of the queue, memory, and the folders of the server.
+    """
+
+    def __init__(self, settings: Settings) -> None:
+        self._settings = settings
+        self._pool: ProcessPool | None = None
+        self._listener: Listener | None = None
+        self._key = os.urandom(16)
+        self._running: dict[int, Running] = {}
+        self._waiting: deque[Ticket] = deque()
+        self._inside: set[Ticket] = set()
+        self._number = 0
+        self._mean = _FIRST_GUESS
+        self._loop: asyncio.AbstractEventLoop | None = None
+        self._lock = threading.Lock()
+
+    @property
+    def waiting(self) -> int:
+        """Jobs in the queue."""
+        return len(self._waiting)
+
+    @property
+    def running(self) -> int:
+        """Jobs in the workers."""
+        return len(self._inside)
+
+    def start(self) -> None:
+        """Start the processes, so that the first job need not wait for them. Later calls do nothing."""
+        self._loop = self._loop or asyncio.get_running_loop()
+        threading.Thread(target=self._ready_pool, daemon=True).start()
+
+    def close(self) -> None:
+        """End all processes, whatever they do."""
+        with self._lock:
+            pool, self._pool = self._pool, None
+            listener, self._listener = self._listener, None
+        if pool is not None:
+            _end(pool, listener)
+
+    def enter(self) -> Ticket:
+        """A place in the queue, or a worker at once if one is free.
+
+        Raises:
+            BusyError: the queue is full.
+        """
+        if len(self._inside) < self._settings.workers and not self._waiting:
+            ticket = Ticket(self)
+            self._inside.add(ticket)
+            ticket.begin()
+            return ticket
+        if len(self._waiting) >= self._settings.queue:
+            raise BusyError(len(self._waiting), self._seconds(len(self._waiting)))
+        ticket = Ticket(self)
+        self._waiting.append(ticket)
+        return ticket
+
+    def place_of(self, ticket: Ticket) -> Place:
+        """The place of a ticket that waits."""
+        before = self._waiting.index(ticket)
+        return Place(before, self._seconds(before))
+
+    def left(self, ticket: Ticket, took: float | None) -> None:
+        """A ticket is given back, after the time that its job took [s]; None: it never began."""
+        if ticket in self._waiting:
+            self._waiting.remove(ticket)
+        if ticket not in self._inside:
+            return
+        self._inside.remove(ticket)
+        if took is not None:
+            self._mean += _WEIGHT_OF_LAST * (took - self._mean)
+        if self._waiting:
+            following = self._waiting.popleft()
+            self._inside.add(following)
+            following.begin()
+
+    def _seconds(self, before: int) -> float:
+        return self._mean * (before + 1) / self._settings.workers
+
+    async def submit(self, ticket: Ticket, kind: str, body: Any) -> Running:
+        """Give a job to a worker; its ticket, whose turn it is, is given back when the job has ended.
+
+        Args:
+            ticket: of the job.
+            kind: of `mckibben.server.jobs.JOBS`.
+            body: the validated body of the request.
+        """
+        loop = self._loop = self._loop or asyncio.get_running_loop()
+        self._number += 1
+        running = Running(kind, self._number, ProcessFuture())
+        self._running[running.number] = running  # known before it is scheduled: the worker may speak at once
+
+        def schedule() -> None:
+            pool, listener = self._ready_pool()
+            arguments = [kind, body, listener.address, self._key, running.number]
+            running.future = pool.schedule(perform, args=arguments, timeout=JOBS[kind].time_limit + _OVERTIME)
+
+        def ended() -> None:
+            self._running.pop(running.number, None)
+            running.news.put_nowait(None)
+            ticket.leave()
+
+        try:
+            await asyncio.to_thread(schedule)
+        except BaseException:
+            self._running.pop(running.number, None)
+            running.future.cancel()
+            raise
+        running.future.add_done_callback(lambda _: loop.is_closed() or loop.call_soon_threadsafe(ended))
+        return running
+
+    async def result(self, running: Running) -> bytes:
+        """The bytes of the answer of a job.
+
+        Raises:
+            InputError: it was refused, was stopped, took too long, or its process ended.
+        """
+        kind = running.kind
+        try:
+            found = await asyncio.wrap_future(running.future)
+        except CancelledError:
+            if not running.stopped:
+                raise
+            raise InputError(f"the {kind} was stopped", code="stopped") from None
+        except TimeoutError:
+            raise InputError(
+                f"the {kind} took longer than {JOBS[kind].time_limit:g} s and was ended",
+                hint="use fewer rows, effects or specimens",
+                code="stopped",
+            ) from None
+        except (ProcessExpired, BrokenProcessPool) as error:
+            log.error("a worker ended while it did a %s: %s", kind, error)
+            raise InputError(
+                f"the {kind} ended its process; nothing else was affected",
+                hint="try again; if it happens again, look into the log of the server",
+                code="stopped",
+            ) from error
+        if isinstance(found, Refused):
+            raise found.error()
+        return found
+
+    def stop(self, running: Running) -> None:
+        """Ask a job to end, and end it if it does not."""
+        if running.future.done() or running.stopped:
+            return
+        running.stopped = True
+        if running.line is not None:
+            with suppress(OSError):
+                running.line.send("stop")
+        assert self._loop is not None  # noqa: S101 - a job runs
+        self._loop.call_later(_GRACE, running.future.cancel)
+
+    def _ready_pool(self) -> tuple[ProcessPool, Listener]:
+        with self._lock:
+            if self._pool is not None and not self._pool.active:
+                # A process that is killed while it waits for work breaks the pool; its jobs have ended then.
+                log.error("the workers are started again")
+                threading.Thread(target=_end, args=(self._pool, self._listener), daemon=True).start()
+                self._pool, self._listener = None, None
+            if self._pool is None:
+                context = multiprocessing.get_context("forkserver" if sys.platform != "win32" else "spawn")
+                if sys.platform != "win32":
+                    context.set_forkserver_preload(["mckibben.server.worker"])
+                self._listener = Listener(authkey=self._key)
+                threading.Thread(target=self._accept, args=(self._listener,), daemon=True).start()
+                self._pool = ProcessPool(
+                    max_workers=self._settings.workers,
+                    max_tasks=_RENEWED_AFTER,
+                    initializer=begin,
+                    initargs=[self._settings],
+                    context=context,
+                )
+            assert self._listener is not None  # noqa: S101 - made with the pool
+            return self._pool, self._listener
+
+    def _accept(self, listener: Listener) -> None:
+        """Take the connections of the workers, one for each job."""
+        while True:
+            try:
+                line = listener.accept()
+                running = self._running.get(line.recv())
+            except multiprocessing.AuthenticationError:
+                continue
+            except (EOFError, OSError):
+                if self._listener is not listener:
+                    return
+                continue
+            if running is None:
+                line.close()
+                continue
+            running.line = line
+            threading.Thread(target=self._hear, args=(line, running), daemon=True).start()
+
+    def _hear(self, line: Connection, running: Running) -> None:
+        loop = self._loop
+        assert loop is not None  # noqa: S101 - a job runs
+        with line, suppress(EOFError, OSError):
+            while True:
+                message = line.recv()
+                if loop.is_closed():
+                    return
+                loop.call_soon_threadsafe(running.news.put_nowait, message)
+
+
+def _end(pool: ProcessPool, listener: Listener | None) -> None:
+    if listener is not None:
+        with suppress(OSError):
+            listener.close()
+    pool.stop()
+    with suppress(RuntimeError, TimeoutError, OSError):
+        pool.join(_GRACE)
