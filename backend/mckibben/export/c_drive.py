@@ -68,8 +68,9 @@ class DriveC:
         yield " * The drive: y' = rates(y, k, u, w), with y states, p parameters, k = prepare(p), u inputs,"
         yield " * w switches."
         yield " * Pressures of states and inputs are absolute. Strokes are positive towards shorter."
-        yield " * A switch is 0 or 1 during a step. Where its guard falls below -DRIVE_LEAST, end the step there"
-        yield " * and call change(): an end stop catches the load or lets it go, a muscle goes slack or taut."
+        yield " * A switch is 0 or 1 during a step. Where its guard falls below -DRIVE_LEAST, end the step"
+        yield " * there and call change(): a stop catches the load or lets it go, a muscle goes slack or"
+        yield " * taut."
         yield " */"
         yield "enum {"
         yield from (f"    {name.upper()}_{count} = {value}," for count, value in self._counts().items())

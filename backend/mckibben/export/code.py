@@ -20,6 +20,7 @@ from mckibben.export.nodes import Node, Nodes
 from mckibben.physics.errors import InputError
 
 _COMPARISONS = {"StrictLessThan": "<", "LessThan": "<=", "Equality": "==", "Unequality": "!="}
+_WIDTH = 96  # characters of a line; functions and blocks indent it
 _MOST_FACTORS = 8  # largest integer exponent that is written as a product
 # Binding of the operators of a text, weakest first.
 _CONDITION, _SUM, _PRODUCT, _ATOM = range(4)
@@ -54,7 +55,13 @@ class Code:
         return self._lines
 
     def _emit(self, statement: str) -> None:
-        self._lines += wrapped(statement, self._language.continued)
+        language = self._language
+        if language.brackets and len(statement) > _WIDTH:
+            head, equals, text = statement.partition(" = ")
+            if not equals:
+                head, equals, text = statement.partition(" ")
+            statement = f"{head}{equals}({text})"
+        self._lines += wrapped(statement, language.continued)
 
     def _count(self, results: list[Node]) -> None:
         """How often each node is a result or an operand of another one."""
@@ -194,20 +201,19 @@ def _is_negated(node: Node) -> bool:
     )
 
 
-def wrapped(statement: str, continued: str, width: int = 100) -> list[str]:
-    """A statement on lines of at most ``width`` characters, broken at spaces outside of texts.
+def wrapped(statement: str, continued: str) -> list[str]:
+    """A statement on lines of at most `_WIDTH` characters, broken at spaces.
 
     Args:
-        statement: on one line; its indentation is kept.
+        statement: on one line, without spaces in quotes; its indentation is kept.
         continued: what ends a line that continues.
-        width: where lines end.
     """
-    if len(statement) <= width or '"' in statement or "'" in statement:
+    if len(statement) <= _WIDTH:
         return [statement]
     indent = statement[: len(statement) - len(statement.lstrip())]
     lines = textwrap.wrap(
         statement.strip(),
-        width - len(indent) - 4 - len(continued),
+        _WIDTH - len(indent) - 4 - len(continued),
         break_long_words=False,
         break_on_hyphens=False,
     )

@@ -28,6 +28,7 @@ class Language:
         comment: what begins a line of comment.
         continued: what ends a line whose statement goes on.
         end: what ends a statement.
+        brackets: whether a text that goes on in the next line has to stand in brackets.
     """
 
     name: str
@@ -36,6 +37,7 @@ class Language:
     comment: str
     continued: str = ""
     end: str = ";"
+    brackets: bool = False
     _declaration: str = "{name} = {text}"
     _choice: str = "({condition} ? {yes} : {no})"
     _power: str = "pow({base}, {exponent})"
@@ -254,6 +256,7 @@ PYTHON = Language(
     frozenset({*(word.lower() for word in (*keyword.kwlist, *keyword.softkwlist)), "np", "numpy", "lambda"}),
     "#",
     end="",
+    brackets=True,
     _choice="np.where({condition}, {yes}, {no})",
     _power="np.power({base}, {exponent})",
     _words={"And": "&", "Or": "|", "Not": "np.logical_not"},

@@ -23,7 +23,7 @@ def stated_source(name: str, studio: Studio) -> Stated:
     """The model or drive that a file or the id of a preset names.
 
     A file may be a drive document or preset, a saved model, a muscle with or without effects, a muscle
-    preset, or what the format ``json`` wrote. Ids are those of muscles ("DMSP-20", "DMSP-20:300mm") and drives.
+    preset, or what the format ``json`` wrote. Ids are those of muscles ("DMSP-20:300mm") and drives.
 
     Raises:
         InputError: names the file, the field, what is wrong and what would be right.
