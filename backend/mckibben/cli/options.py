@@ -67,6 +67,18 @@ Keep = Annotated[
     list[str] | None,
     typer.Option("--keep", metavar="HYPOTHESIS", help="An entry that is right as stated: do not ask."),
 ]
+Exported = Annotated[
+    str,
+    typer.Argument(
+        metavar="MODEL", help="A drive document, a saved model or a muscle (JSON file), or a preset."
+    ),
+]
+ExportFormat = Annotated[
+    str, typer.Option("--as", metavar="FORMAT", help="c, json, latex, matlab, modelica, python or table.")
+]
+ExportFile = Annotated[
+    Path, typer.Option("--out", "-o", metavar="FILE", help="Several files stand beside it, or in it if .zip.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 PresetsFolder = Annotated[
     Path | None, typer.Option("--presets", metavar="DIR", help="Folder of your own presets.")

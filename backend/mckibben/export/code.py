@@ -33,6 +33,10 @@ class Code:
     Args:
         language: words of the language.
         operands: symbol -> its text in the language.
+
+    Attributes:
+        variables: names of the variables in the lines so far -> "Real" or "Boolean", for languages that
+            declare them elsewhere.
     """
 
     def __init__(self, language: Language, operands: Mapping[Any, str]) -> None:
@@ -41,6 +45,7 @@ class Code:
         self._uses: Counter[Node] = Counter()
         self._locals: dict[Node, str] = {}
         self._lines: list[str] = []
+        self.variables: dict[str, str] = {}
 
     def lines(self, results: Sequence[tuple[str, Any]]) -> list[str]:
         """Statements for results, pairs (what is assigned, expression).
@@ -89,6 +94,7 @@ class Code:
 
     def _local(self, node: Node, text: str) -> Text:
         name = self._locals[node] = f"t{len(self._locals)}"
+        self.variables[name] = "Boolean" if node.boolean else "Real"
         self._emit(self._language.declared(name, text, boolean=node.boolean))
         return name, _ATOM
 
