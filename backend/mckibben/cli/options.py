@@ -67,15 +67,21 @@ Keep = Annotated[
     list[str] | None,
     typer.Option("--keep", metavar="HYPOTHESIS", help="An entry that is right as stated: do not ask."),
 ]
+
+
+def _formats() -> str:
+    """The formats of `mckibben.export`, one file each, without importing them."""
+    folder = Path(__file__).parents[1] / "export" / "formats"
+    return ", ".join(sorted(file.stem for file in folder.glob("*.py") if not file.stem.startswith("_")))
+
+
 Exported = Annotated[
     str,
     typer.Argument(
         metavar="MODEL", help="A drive document, a saved model or a muscle (JSON file), or a preset."
     ),
 ]
-ExportFormat = Annotated[
-    str, typer.Option("--as", metavar="FORMAT", help="c, json, latex, matlab, modelica, python or table.")
-]
+ExportFormat = Annotated[str, typer.Option("--as", metavar="FORMAT", help=f"One of: {_formats()}.")]
 ExportFile = Annotated[
     Path, typer.Option("--out", "-o", metavar="FILE", help="Several files stand beside it, or in it if .zip.")
 ]

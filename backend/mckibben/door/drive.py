@@ -23,6 +23,8 @@ from mckibben.door.result import Frozen
 from mckibben.door.run import Run
 from mckibben.door.values import Quantity, number_of
 from mckibben.door.workspace import studio
+from mckibben.export.source import of_drive
+from mckibben.export.use_case import ExportQuestion, write_export
 from mckibben.physics.errors import InputError
 from mckibben.presets import FittingPreset, TubePreset, ValvePreset
 from mckibben.report.summary import Summary
@@ -197,6 +199,17 @@ class Drive(Frozen):
             Problem: the file cannot be written.
         """
         write_text(Path(path), document_text(self._document))
+
+    @reported
+    def export(self, path: str | PathLike[str], *, as_: str) -> list[Path]:
+        """Write the drive for other programs: right-hand side, Jacobian, events, or its equations.
+
+        Arguments, result and errors are those of `Model.export`. Dead times and a controller are not part of
+        the equations; the files say so, with their numbers.
+        """
+        title = self._document.title or self._name
+        stated = of_drive(self._document, self._studio, "", title=title)
+        return write_export(ExportQuestion(stated, as_), Path(path), self._studio)
 
     def _summary(self) -> Summary:
         return summary_of(self._document, self._name)

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, cast
 
@@ -78,10 +80,8 @@ def of_drive(
     Raises:
         InputError: names source and field.
     """
-    try:
+    with _of(source):
         start = studio.start_model(stated_muscle(document.muscle), document.effects)
-    except InputError as error:
-        raise at_file(source, error.field, error.message, error.hint) from error
     return Stated(start, document.title or title, None, document, grounds)
 
 
@@ -91,14 +91,24 @@ def of_saved(saved: SavedModel, studio: Studio, source: str) -> Stated:
     Raises:
         InputError: it is a model of muscles of several lengths, without one of its own.
     """
-    document = saved.to_document()
-    muscle = cast("dict[str, object]", document["muscle"])
     if saved.muscle.nominal_length is None and saved.muscle.preset is None:
-        raise at_file(
-            source,
-            "muscle.nominal_length",
+        error = InputError(
             "the model is one of muscles of several lengths and has none itself",
-            "state the length of yours in the file",
+            field="muscle.nominal_length",
+            hint="state the length of yours in it",
         )
-    start = start_of_input(studio, muscle, cast("Effects", document["effects"]), source)
-    return Stated(start, "", saved, saved.drive)
+        raise error if not source else at_file(source, error.field, error.message, error.hint)
+    with _of(source):
+        start = studio.start_model(stated_muscle(saved.muscle), saved.effects)
+        return Stated(start, "", saved, saved.drive)
+
+
+@contextmanager
+def _of(source: str) -> Iterator[None]:
+    """Errors of a file name it; those of a request ("") keep their field."""
+    try:
+        yield
+    except InputError as error:
+        if not source:
+            raise
+        raise at_file(source, error.field, error.message, error.hint) from error

@@ -77,7 +77,9 @@ def checked_stem(stem: str, form: Format) -> str:
             else "letters, digits, '-', '_' and '.' are usable everywhere"
         )
         raise InputError(
-            f"'{stem[:60]}' cannot be the name of the file: {why}", hint=f"e.g. {words_of(stem)}"
+            f"'{stem[:60]}' cannot be the name of the file: {why}",
+            field="name",
+            hint=f"e.g. {words_of(stem)}",
         )
     return stem
 
