@@ -18,6 +18,6 @@ def write(subject: Subject, stem: str) -> tuple[ExportedFile, ...]:
 
 FORMAT = Format(
     title="JSON",
-    note="the model with the source of every number; opens here again",
+    note="the model with the source of every number; can be read again",
     write=write,
 )

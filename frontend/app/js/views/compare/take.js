@@ -3,7 +3,7 @@
 import { h, icon } from "../../dom.js";
 import { signal } from "../../reactive.js";
 import { answer, stale } from "./answers.js";
-import { saveCsv, saveModel, savePlots, saveReport, useInDesign } from "./exports.js";
+import { saveCsv, saveModel, savePlots, saveReport, takeAlong, useInDesign } from "./exports.js";
 import { openSteps, state } from "./list/state.js";
 import { hasAssumed } from "./strip/facts.js";
 
@@ -62,6 +62,7 @@ export const takeCard = () =>
       { class: "ways" },
       way("page", "Report", "data, each step, values ± σ, verdict: one HTML file", saveReport),
       way("braces", "Model", "JSON: muscle and effects with their values", saveModel),
+      way("code", "Code and tables", "C, MATLAB, Modelica, Python, LaTeX, lookup tables", takeAlong),
       way("table", "Data", "CSV: every point with its residual", saveCsv),
       way("wave", "Plots", "PNG: one sheet", () => savePlots("png")),
       way("export", "Use in Design", "predict other conditions", useInDesign),
