@@ -6,6 +6,7 @@ import shutil
 import subprocess
 from collections.abc import Sequence
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
@@ -13,6 +14,7 @@ import pytest
 from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.export.c_static import RESULT_MEMBERS
+from mckibben.export.formats import python
 from mckibben.export.formats.c import sources
 from mckibben.export.subject import RunnableDrive, Stated, Subject, subject_of
 from mckibben.simulation.drive.transient import parameters_of
@@ -190,6 +192,11 @@ static void run_NAME(void)
         write_row(guards, NAMEU_DRIVE_SWITCHES);
         write_row(jacobian, NAMEU_DRIVE_STATES * NAMEU_DRIVE_STATES);
         write_row(by_inputs, NAMEU_DRIVE_STATES * NAMEU_DRIVE_INPUTS);
+        NAME_change(row % NAMEU_DRIVE_SWITCHES, NAME_parameters, k, u, y, w);
+        NAME_inputs(0.02 * row, u);
+        write_row(y, NAMEU_DRIVE_STATES);
+        write_row(w, NAMEU_DRIVE_SWITCHES);
+        write_row(u, NAMEU_DRIVE_INPUTS);
     }
 }
 """
@@ -259,6 +266,7 @@ def drive_answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[S
         equations = model.runnable.equations
         size, inputs = len(equations.states), len(equations.inputs)
         width = size + len(equations.outputs) + len(equations.guards) + size * size + size * inputs
+        width += size + len(equations.switches) + inputs
         found[name] = (
             model,
             given[name],
@@ -293,7 +301,8 @@ def test_the_c_of_a_drive_gives_the_numbers_of_the_engine(name, drive_answers):
     for column in range(expected.shape[1]):
         assert_equal(rows[:, column], expected[:, column], f"{name}: column {column}")
     # By differences of the engine's own rates: the engine has no derivatives by inputs.
-    by_inputs = rows[:, expected.shape[1] :].reshape(DRIVE_ROWS, size, len(equations.inputs))
+    count = size * len(equations.inputs)
+    by_inputs = rows[:, expected.shape[1] :][:, :count].reshape(DRIVE_ROWS, size, len(equations.inputs))
     for column, step in enumerate({"supply_pressure": 10.0}.get(each, 1e-6) for each in equations.inputs):
         ahead, behind = inputs.copy(), inputs.copy()
         ahead[:, column] += step
@@ -306,3 +315,11 @@ def test_the_c_of_a_drive_gives_the_numbers_of_the_engine(name, drive_answers):
             slope = (after - before) / (2.0 * step)
             scale = np.abs(slope) + np.abs(after) * 1e-9 / step + 1e-30
             assert np.all(np.abs(by_inputs[row, :, column] - slope) <= 1e-4 * scale), (name, row, column)
+    # Changes of switches and inputs over time as in Python, which test_python.py checks against the engine.
+    module = ModuleType("written")
+    exec(python.write(model, "written")[0].content, module.__dict__)
+    after = rows[:, expected.shape[1] + count :]
+    numbers, constants = list(module.PARAMETERS.values()), module.CONSTANTS
+    for row, (y, u, w) in enumerate(zip(states, inputs, switches, strict=True)):
+        changed = module.change(row % len(w), numbers, constants, u, y, w)
+        assert_equal(after[row], np.concatenate([*changed, module.inputs(0.02 * row)]), f"{name}: row {row}")

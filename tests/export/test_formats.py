@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 import symengine as se
 
-from mckibben.documents.drive_files import preset_document
+from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.saved_model import read_saved_model
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.export.formats.latex import escaped
@@ -75,6 +75,13 @@ def test_the_same_model_gives_the_same_bytes(form, name):
     drive_equations.cache_clear()
     static_equations.cache_clear()
     assert written(stated_source(name, studio()), form) == first
+
+
+@pytest.mark.parametrize("form", ALL)
+def test_every_preset_can_be_taken_along(form):
+    for kind in ("muscles", "drives"):
+        for preset in studio().library.list(kind):
+            assert all(file.content for file in written(stated_source(preset.id, studio()), form))
 
 
 @pytest.mark.parametrize("form", ALL)
@@ -256,7 +263,22 @@ def test_what_a_format_cannot_carry_is_refused_by_name():
     assert "NOT COMPILED" in texts(stated_source("DMSP-20", studio()), "modelica")
 
 
+def test_a_command_of_too_many_pieces_is_left_out_and_said():
+    document = preset_document("propneu-20", studio()).to_document()
+    document["command"] = {"shape": "square", "period": "1 ms"}
+    document["duration"] = 20.0
+    stated = of_drive(read_document(document, "the drive"), studio(), "x")
+    for form in ("c", "python", "matlab", "modelica"):
+        text = texts(stated, form)
+        assert len(text) < 100_000
+        assert "set the input yourself" in " ".join(re.sub(r"\n\W*", " ", text).split())
+
+
 def test_a_model_of_several_lengths_needs_one():
     several = {**SAVED, "muscle": {"braid_angle": 0.46, "braid_diameter": 0.0218}}
     with pytest.raises(InputError, match=r"m\.json: muscle\.nominal_length.*several lengths"):
         of_saved(read_saved_model(several, "the model"), studio(), "m.json")
+    of_preset = of_saved(
+        read_saved_model({**SAVED, "muscle": {"preset": "DMSP-20"}}, "m"), studio(), "m.json"
+    )
+    assert any("several lengths" in each for each in subject_of(of_preset, studio()).about.assumed)

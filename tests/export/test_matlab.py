@@ -5,10 +5,12 @@ from __future__ import annotations
 import shutil
 import subprocess
 from pathlib import Path
+from types import ModuleType
 
 import numpy as np
 import pytest
 
+from mckibben.export.formats import python
 from mckibben.export.formats.matlab import write
 from mckibben.simulation.integrate.system import compiled_drive
 from tests.export.models import assert_equal, cases, our_rates, ours, random_inputs, subject
@@ -49,6 +51,8 @@ for row = 1:rows(x)
   y = x(row, 1:n)'; u = x(row, n+1:n+i)'; w = x(row, n+i+1:end)';
   j = m.jacobian(y, k, u, w)';
   fwrite(f, [m.rates(y, k, u, w); m.outputs(y, k, u, w); m.guards(y, k, u, w); j(:)], 'double');
+  [y, w] = m.change(mod(row - 1, numel(w)) + 1, m.parameters, k, u, y, w);
+  fwrite(f, [y; w; m.inputs(0.02 * (row - 1))], 'double');
 end
 fclose(f);
 """
@@ -104,11 +108,15 @@ def test_the_drive_in_octave_gives_the_numbers_of_the_engine(name, folder):
     names = [state.name for state in compiled.model.states]
     kept = [names.index(state.name) for state in runnable.equations.states]
     rows = np.fromfile(folder / f"{name}.out").reshape(40, -1)
-    expected = []
-    for y, u, w in zip(states, inputs, switches, strict=True):
+    module = ModuleType("written")
+    exec(python.write(drive(name), "written")[0].content, module.__dict__)
+    numbers, expected = list(module.PARAMETERS.values()), []
+    for row, (y, u, w) in enumerate(zip(states, inputs, switches, strict=True)):
         point = packed(compiled, runnable, y, u)
         matrix = compiled.jacobian(point, w)[len(names) :].reshape(len(names), -1)
         parts = (compiled.rates(point, w)[kept], compiled.outputs(point, w), compiled.guards(point, w))
-        expected.append(np.concatenate([*parts, matrix[np.ix_(kept, kept)].ravel()]))
+        after = module.change(row % len(w), numbers, module.CONSTANTS, u, y, w)
+        given = module.inputs(0.02 * row)
+        expected.append(np.concatenate([*parts, matrix[np.ix_(kept, kept)].ravel(), *after, given]))
     for column, values in enumerate(np.array(expected).T):
         assert_equal(rows[:, column], values, f"{name}: column {column}")

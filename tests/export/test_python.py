@@ -14,9 +14,13 @@ from scipy.integrate import solve_ivp
 
 from mckibben.export.formats.python import write
 from mckibben.export.subject import Subject
-from mckibben.simulation.drive.transient import simulate
+from mckibben.simulation.drive.transient import parameters_of, simulate
+from mckibben.simulation.integrate.lsoda import _Run
+from mckibben.simulation.integrate.problem import Problem
+from mckibben.simulation.integrate.system import compiled_drive
+from mckibben.simulation.outcome import Watch
 from tests.export.models import assert_equal, cases, our_rates, ours, random_inputs, subject
-from tests.export.test_c import DRIVES, drive
+from tests.export.test_c import DRIVES, drive, packed, random_rows
 
 ROWS = 1000
 
@@ -99,6 +103,51 @@ def test_the_written_drive_makes_the_run_of_the_engine():
     theirs = np.concatenate(strokes[1:])[kept]
     assert np.max(run.states["stroke"]) > 0.19
     assert np.max(np.abs(theirs - run.states["stroke"])) < 1e-4
+
+
+@pytest.mark.parametrize("name", list(DRIVES))
+def test_a_switch_changes_as_in_the_engine(name):
+    """Each switch at states where its guard need not be zero; `by_lsoda` changes them with its own lines."""
+    model = drive(name)
+    module, runnable = module_of(model), model.runnable
+    compiled = compiled_drive(runnable.drive.structure)
+    names = [state.name for state in compiled.model.states]
+    kept = [names.index(state.name) for state in runnable.equations.states]
+    parameters = parameters_of(runnable.drive, compiled)
+    for y, u, w in zip(*(each[:20] for each in random_rows(runnable, 8)), strict=True):
+        point = packed(compiled, runnable, y, u)
+        given = parameters.copy()
+        given[list(compiled.model.parameters).index("supply_pressure")] = u[-1]
+        for number in range(len(w)):
+            problem = Problem(
+                drive=compiled, constants=compiled.codes.constants(given), stops=compiled.stops(parameters),
+                restitution=runnable.drive.restitution, state=point[: len(names)].copy(), switches=w.copy(),
+                times=np.array([0.0, 1.0]), inputs=np.zeros((1, 7)), grid=np.zeros(1), tolerance=1e-6,
+            )  # fmt: skip
+            run = _Run(problem, Watch())
+            run.packed[run.first_input : run.first_switch] = point[len(names) + len(parameters) :]
+            run.change(number, 0.0)
+            state, switches = module.change(
+                number, list(module.PARAMETERS.values()), module.CONSTANTS, u, y, w
+            )
+            np.testing.assert_allclose(state, problem.state[kept], rtol=1e-9, atol=1e-12)
+            assert switches.tolist() == problem.switches.tolist()
+
+
+@pytest.mark.parametrize("name", ["lift", "pair", "regulated"])
+def test_the_inputs_are_those_of_the_run(name):
+    runnable = drive(name).runnable
+    module = module_of(drive(name))
+    for time in np.linspace(0.0, 0.999 * runnable.drive.duration, 40):
+        given = dict(zip(module.INPUTS, module.inputs(time), strict=True))
+        assert given["opening"] == pytest.approx(float(runnable.signals["opening"].value(time)), abs=1e-12)
+        assert given["external_force"] == pytest.approx(
+            float(runnable.signals["external_force"].value(time)), abs=1e-12
+        )
+        assert given["supply_pressure"] == runnable.supply
+    assert "opening" in module.INPUTS
+    closed = module_of(drive("controlled"))
+    assert dict(zip(closed.INPUTS, closed.inputs(0.3), strict=True))["opening"] == 0.0
 
 
 def test_no_import_but_numpy_and_nothing_for_ruff(tmp_path: Path):

@@ -15,16 +15,16 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import named_document, preset_document, read_document
 from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.studio import Studio
+from mckibben.door.exported import Exportable
 from mckibben.door.model import Model
 from mckibben.door.model_files import model_of_document
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
-from mckibben.door.result import Frozen
 from mckibben.door.run import Run
 from mckibben.door.values import Quantity, number_of
 from mckibben.door.workspace import studio
 from mckibben.export.source import of_drive
-from mckibben.export.use_case import ExportQuestion, write_export
+from mckibben.export.subject import Stated
 from mckibben.physics.errors import InputError
 from mckibben.presets import FittingPreset, TubePreset, ValvePreset
 from mckibben.report.summary import Summary
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 Part: TypeAlias = Mapping[str, Any]
 
 
-class Drive(Frozen):
+class Drive(Exportable):
     """A drive; each argument is a part of the drive document. Drives do not change; `changed` makes another.
 
     Args:
@@ -200,16 +200,9 @@ class Drive(Frozen):
         """
         write_text(Path(path), document_text(self._document))
 
-    @reported
-    def export(self, path: str | PathLike[str], *, as_: str) -> list[Path]:
-        """Write the drive for other programs: right-hand side, Jacobian, events, or its equations.
-
-        Arguments, result and errors are those of `Model.export`. Dead times and a controller are not part of
-        the equations; the files say so, with their numbers.
-        """
+    def _to_export(self) -> tuple[Stated, Studio]:
         title = self._document.title or self._name
-        stated = of_drive(self._document, self._studio, "", title=title)
-        return write_export(ExportQuestion(stated, as_), Path(path), self._studio)
+        return of_drive(self._document, self._studio, "", title=title), self._studio
 
     def _summary(self) -> Summary:
         return summary_of(self._document, self._name)

@@ -21,16 +21,14 @@ from mckibben.documents.studio import Studio
 from mckibben.door.comparison import Comparison
 from mckibben.door.curves import Curves
 from mckibben.door.diagnosis import Diagnosis
+from mckibben.door.exported import Exportable, model_to_export
 from mckibben.door.problem import reported
 from mckibben.door.questions import Data, DocumentedDrive, StatedModel, question_of, watch_of
 from mckibben.door.rendering import notebook_cell, plain_text
-from mckibben.door.result import Frozen
 from mckibben.door.statics import at_least_two, force_of, optional_number, pressures_in
 from mckibben.door.values import FloatArray, Quantities, Quantity
 from mckibben.door.workspace import studio
-from mckibben.export.source import of_saved
 from mckibben.export.subject import Stated
-from mckibben.export.use_case import ExportQuestion, write_export
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.report.summary import Summary
 from mckibben.report.summary.model import summary_of
@@ -42,7 +40,7 @@ if TYPE_CHECKING:
 _SHORTEST = 0.05  # shortest length accepted, share of the nominal length; no muscle contracts so far
 
 
-class Model(Frozen):
+class Model(Exportable):
     """A muscle with its effects; SI inside, arguments are SI numbers or texts with a unit.
 
     Tension of the ideal muscle: F = (π D0² p / 4) (a (1 - κ)² - b), a = 3 / tan² α, b = 1 / sin² α, with the
@@ -367,37 +365,8 @@ class Model(Frozen):
         """
         write_text(Path(path), model_text(self._saved()))
 
-    @reported
-    def export(self, path: str | PathLike[str], *, as_: str) -> list[Path]:
-        """Write the model for other programs: source code, lookup tables, equations.
-
-        Each file says where every constant comes from, where the model holds and what the file leaves out.
-
-        Args:
-            path: of the main file; several files stand beside it under its name, or in it if it ends with
-                ``.zip``. A folder takes them under the name of the model.
-            as_: "c", "json", "latex", "matlab", "modelica", "python" or "table". Of a model that was fitted
-                to transient data, the whole drive is written where the format can hold one.
-
-        Returns:
-            the files written.
-
-        Raises:
-            Problem: an unknown format, a name that cannot be one of a file, a model without a length, or what
-                the format cannot carry.
-
-        >>> import tempfile
-        >>> muscle = Model.preset("DMSP-20", length="300 mm")
-        >>> with tempfile.TemporaryDirectory() as folder:
-        ...     [file.name for file in muscle.export(f"{folder}/muscle.c", as_="c")]
-        ['muscle.c', 'muscle.h']
-        """
-        saved = self._stated.saved
-        if saved is not None:
-            stated = of_saved(saved, self._studio, "")
-        else:
-            stated = Stated(self._stated.start(self._studio), self.name)
-        return write_export(ExportQuestion(stated, as_), Path(path), self._studio)
+    def _to_export(self) -> tuple[Stated, Studio]:
+        return model_to_export(self._stated, self._studio, self.name)
 
     def _saved(self) -> SavedModel:
         return self._stated.to_saved(self._studio)

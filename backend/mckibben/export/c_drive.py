@@ -219,18 +219,19 @@ class DriveC:
 
     def _inputs(self) -> Iterator[str]:
         name, drive = self.prefix, self._drive
-        signals = {"opening": drive.command, "counter_opening": drive.counter, "external_force": drive.force}
-        tables = {own: signals.get(full) for full, own in self.inputs.items()}
+        tables = {own: drive.written(full) for full, own in self.inputs.items()}
         yield ""
         for own, signal in tables.items():
             if signal is not None:
                 yield f"/* {own}: rows of time, value, slope. */"
                 yield from _rows(f"static const double {name}_{own}_rows[{len(signal.slopes)}][3]", signal)
-        yield ""
-        yield from _SIGNAL.replace("NAME", name).splitlines()
+        if any(signal is not None for signal in tables.values()):
+            yield ""
+            yield from _SIGNAL.replace("NAME", name).splitlines()
         yield ""
         yield f"void {name}_inputs(double time, double *u)"
         yield "{"
+        yield "    (void)time;"
         for place, (full, own) in enumerate(self.inputs.items()):
             signal = tables[own]
             if signal is not None:
@@ -238,7 +239,7 @@ class DriveC:
             elif full == "supply_pressure":
                 yield f"    u[{place}] = {drive.supply!r};"
             else:
-                yield f"    u[{place}] = 0.0; /* closed: the document has no command of its own */"
+                yield f"    u[{place}] = 0.0; /* not in this file */"
         yield "}"
 
 

@@ -46,11 +46,6 @@ class DriveMatlab:
             **{symbol: f"u({place})" for place, symbol in enumerate(equations.inputs.values(), 1)},
             **{symbol: f"w({place})" for place, symbol in enumerate(equations.switch_symbols, 1)},
         }
-        self._signals = {
-            "opening": runnable.command,
-            "counter_opening": runnable.counter,
-            "external_force": runnable.force,
-        }
 
     def fields(self) -> Iterator[str]:
         """Lines that complete the structure of the main function."""
@@ -102,7 +97,7 @@ class DriveMatlab:
         yield from ("", "function u = inputs_at(time)")
         yield f"  u = zeros({len(equations.inputs)}, 1);"
         for place, name in enumerate(equations.inputs, 1):
-            signal = self._signals.get(name)
+            signal = self._drive.written(name)
             if signal is not None:
                 yield from _rows(f"{name}_rows", signal)
                 yield f"  u({place}) = signal_at({name}_rows, time);"

@@ -59,10 +59,9 @@ class DrivePython:
         yield from wrapped(f"START = np.array([{_numbers(drive.start)}])", "")
         yield f"START_SWITCHES = np.array([{_numbers(drive.switches)}])"
         yield f"LEAST = {equations.switches[0].least!r}"
-        signals = {"opening": drive.command, "counter_opening": drive.counter, "external_force": drive.force}
         yield "# Rows of time, value, slope; the command is that after all dead times."
-        for name, signal in signals.items():
-            if name in equations.inputs and signal is not None:
+        for name in equations.inputs:
+            if (signal := drive.written(name)) is not None:
                 yield from _rows(f"{name.upper()}_ROWS", signal)
         symbols = {symbol: f"p[{place}]" for place, symbol in enumerate(equations.parameters.values())}
         yield from self._function(
@@ -88,17 +87,17 @@ class DrivePython:
         yield "    return np.array("
         yield "        ["
         for name in equations.inputs:
-            yield f"            {self._input(name, signals)},"
+            yield f"            {self._input(name)},"
         yield "        ]"
         yield "    )"
         yield from ("", "", "CONSTANTS = prepare(list(PARAMETERS.values()))", "", "", *_ODE.splitlines())
 
-    def _input(self, name: str, signals: dict[str, Segments | None]) -> str:
-        if signals.get(name) is not None:
+    def _input(self, name: str) -> str:
+        if self._drive.written(name) is not None:
             return f"_signal({name.upper()}_ROWS, time)"
         if name == "supply_pressure":
             return repr(self._drive.supply)
-        return "0.0"  # closed: the document has no command of its own
+        return "0.0"  # not in this file
 
     def _function(
         self, head: str, text: str, expressions: Sequence[Any], operands: dict[Any, str]

@@ -17,7 +17,13 @@ from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.export.about import About, ValidRange
-from mckibben.export.drive_equations import DriveEquations, drive_equations
+from mckibben.export.drive_equations import (
+    COUNTER_OPENING,
+    FORCE,
+    OPENING,
+    DriveEquations,
+    drive_equations,
+)
 from mckibben.export.language import words_of
 from mckibben.export.sources import Sources
 from mckibben.export.static_equations import StaticEquations, static_equations
@@ -38,6 +44,9 @@ from mckibben.simulation.drive.transient import (
 from mckibben.simulation.integrate.system import compiled_drive
 from mckibben.simulation.statics.model import StaticModel
 from mckibben.version import __version__
+
+# Signals of more pieces are not written: a hundred bytes each.
+MOST_PIECES = 5000
 
 
 @dataclass(frozen=True)
@@ -69,9 +78,8 @@ class RunnableDrive:
         parameters: values of ``equations.parameters``.
         start: states in the order of ``equations.states``, and switches, at t = 0.
         why: why it starts there.
-        command: opening over time after all dead times; None with a controller.
-        counter: the same of the second muscle of a pair.
-        force: external force over time.
+        signals: input -> its course in the document, None where that has none or too many pieces to be
+            written; openings are those after all dead times.
         dead_times: of opening and closing [s].
     """
 
@@ -81,10 +89,13 @@ class RunnableDrive:
     start: np.ndarray
     switches: np.ndarray
     why: str
-    command: Segments | None
-    counter: Segments | None
-    force: Segments
+    signals: dict[str, Segments | None]
     dead_times: tuple[float, float]
+
+    def written(self, name: str) -> Segments | None:
+        """The course of an input, if it is written."""
+        signal = self.signals.get(name)
+        return None if signal is None or len(signal.slopes) > MOST_PIECES else signal
 
     @property
     def supply(self) -> float:
@@ -189,9 +200,11 @@ def runnable_of(annotated: AnnotatedDrive, *, commanded: bool) -> RunnableDrive:
         start=np.array([of_start[state.name] for state in equations.states]),
         switches=start.switches,
         why=start.why.value,
-        command=command if commanded else None,
-        counter=counter if commanded else None,
-        force=external_force(drive),
+        signals={
+            OPENING: command if commanded else None,
+            **({COUNTER_OPENING: counter if commanded else None} if drive.pair else {}),
+            FORCE: external_force(drive),
+        },
         dead_times=dead_times(drive),
     )
 
@@ -228,10 +241,12 @@ def _digest(
         "term": start.term,
     }
     if runnable is not None:
-        signals = [runnable.command, runnable.counter, runnable.force]
         content["drive"] = dict(drive or {})
         content["start"] = [*runnable.start.tolist(), *runnable.switches.tolist()]
-        content["signals"] = [None if s is None else [part.tolist() for part in s] for s in signals]
+        content["signals"] = {
+            name: None if signal is None else [part.tolist() for part in signal]
+            for name, signal in runnable.signals.items()
+        }
         content["restitution"] = runnable.drive.restitution
     text = json.dumps(content, sort_keys=True, separators=(",", ":"))
     return sha256(text.encode()).hexdigest()
@@ -278,6 +293,12 @@ def _left_out(equations: StaticEquations, start: StartModel, runnable: RunnableD
             "opening is that after the dead time. The command of the document is written with its dead times "
             "applied; delay your own ones."
         )
+    for name, signal in runnable.signals.items():
+        what = f"The {name.replace('_', ' ')} over time"
+        if signal is None and drive.controller is None:
+            yield f"{what}: the document has none, so the input is 0 until it is set."
+        elif signal is not None and len(signal.slopes) > MOST_PIECES:
+            yield f"{what}, of {len(signal.slopes)} pieces: set the input yourself."
     skew = float(Model(drive.model.effects).sum("skew", drive.model.values, {}))
     if skew:
         yield f"The delay of the force reading by {skew:g} s."
@@ -286,6 +307,11 @@ def _left_out(equations: StaticEquations, start: StartModel, runnable: RunnableD
 def _assumed(stated: Stated, start: StartModel, annotated: AnnotatedDrive | None) -> Iterator[str]:
     if stated.saved is not None:
         yield from stated.saved.assumed
+        if stated.saved.muscle.nominal_length is None:
+            yield (
+                f"the length, {start.muscle.nominal_length:g} m, is that of the preset: the model is one of "
+                "muscles of several lengths"
+            )
     yield from (assumption(start.muscle, name) for name in start.assumed)
     if annotated is not None and (text := annotated.drive.tube_assumption) is not None:
         yield text

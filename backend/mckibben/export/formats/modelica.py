@@ -40,7 +40,7 @@ def _left_out(subject: Subject) -> Iterator[str]:
     drive = subject.runnable
     if drive is None and subject.equations.compliant:
         yield "The parts in series with the muscle: the length is that of the muscle alone."
-    if drive is not None and drive.command is not None:
+    if drive is not None and any(drive.written(name) for name in drive.signals):
         yield "The command and force of the document: connect sources to the inputs."
 
 
