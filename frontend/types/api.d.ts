@@ -3353,7 +3353,7 @@ export interface operations {
   write_export: {
     requestBody: { content: { "application/json": components["schemas"]["ExportRequest"] } };
     responses: {
-      200: { content: { "application/octet-stream": Blob | ArrayBuffer | string } };
+      200: { content: { "*/*": Blob | ArrayBuffer | string } };
       400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };

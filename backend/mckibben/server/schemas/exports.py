@@ -59,7 +59,7 @@ ExportAnswer: dict[int | str, dict[str, Any]] = {
     200: {
         "description": "The file; several files as a zip file. Its name is in Content-Disposition.",
         "content": {
-            "application/octet-stream": {"schema": {"type": "string", "format": "binary"}},
+            "*/*": {"schema": {"type": "string", "format": "binary"}},
         },
     }
 }
