@@ -19,13 +19,17 @@ import symengine as se
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.saved_model import read_saved_model
 from mckibben.documents.start_model import StatedMuscle
+from mckibben.export.drive_words import words_for
 from mckibben.export.formats.latex import escaped
 from mckibben.export.language import MATLAB, MODELICA, PYTHON, C, names_for, plain, words_of
 from mckibben.export.registry import ExportedFile, formats
 from mckibben.export.source import of_drive, of_saved, stated_source
+from mckibben.export.sources import DRIVE_CONSTANTS
 from mckibben.export.subject import Stated, subject_of
 from mckibben.export.use_case import ExportQuestion, export, write_export
+from mckibben.physics.drive_terms import CONSTANTS, COUNTER_OUTPUTS, OUTPUTS
 from mckibben.physics.errors import InputError
+from mckibben.physics.units import is_unit
 from tests.export.models import studio, subject
 
 ALL = ("c", "json", "latex", "matlab", "modelica", "python", "table")
@@ -283,3 +287,15 @@ def test_a_model_of_several_lengths_needs_one():
         read_saved_model({**SAVED, "muscle": {"preset": "DMSP-20"}}, "m"), studio(), "m.json"
     )
     assert any("several lengths" in each for each in subject_of(of_preset, studio()).about.assumed)
+
+
+def test_every_quantity_of_a_drive_has_unit_and_meaning():
+    assert set(DRIVE_CONSTANTS) == set(CONSTANTS)
+    assert set(words_for("output", (*OUTPUTS, *COUNTER_OUTPUTS), ())) == {*OUTPUTS, *COUNTER_OUTPUTS}
+    for name in ("propneu-20", "paper-step-mpye"):
+        runnable = subject_of(stated_source(name, studio()), studio()).runnable
+        assert runnable is not None
+        for kind in ("state", "parameter", "input", "output", "switch"):
+            for words in runnable.words(kind).values():
+                assert len(words.meaning) > 5
+                assert words.unit == "1" or is_unit(words.unit)

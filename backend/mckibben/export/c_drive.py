@@ -74,14 +74,17 @@ class DriveC:
         yield " */"
         yield "enum {"
         yield from (f"    {name.upper()}_{count} = {value}," for count, value in self._counts().items())
-        indexed = zip(
-            ("Y", "P", "U", "OUT", "W"),
-            (self.states, self.parameters, self.inputs, self.outputs, self.switches),
-            strict=True,
-        )
-        for kind, names in indexed:
-            for place, own in enumerate(names.values()):
-                yield f"    {name.upper()}_{kind}_{own.upper()} = {place},"
+        for mark, kind, names in (
+            ("Y", "state", self.states),
+            ("P", "parameter", self.parameters),
+            ("U", "input", self.inputs),
+            ("OUT", "output", self.outputs),
+            ("W", "switch", self.switches),
+        ):
+            words = self._drive.words(kind)
+            for place, (full, own) in enumerate(names.items()):
+                line = f"    {name.upper()}_{mark}_{own.upper()} = {place},"
+                yield C.inline(line, words[full].shown)
         yield f"    {name.upper()}_DRIVE_END = 0"
         yield "};"
         yield f"#define {name.upper()}_DRIVE_LEAST {self._equations.switches[0].least!r}"

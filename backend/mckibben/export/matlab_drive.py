@@ -51,14 +51,17 @@ class DriveMatlab:
         """Lines that complete the structure of the main function."""
         equations, drive = self._equations, self._drive
         yield from _HEAD.splitlines()
-        for field, names in (
-            ("drive_states", [state.name for state in equations.states]),
-            ("parameter_names", list(equations.parameters)),
-            ("input_names", list(equations.inputs)),
-            ("output_names", list(equations.output_names)),
-            ("switch_names", [switch.name for switch in equations.switches]),
+        for field, kind in (
+            ("drive_states", "state"),
+            ("parameter_names", "parameter"),
+            ("input_names", "input"),
+            ("output_names", "output"),
+            ("switch_names", "switch"),
         ):
-            yield from wrapped(f"  m.{field} = {{{', '.join(map(quoted, names))}}};", " ...")
+            yield f"  m.{field} = {{ ..."
+            for name, words in drive.words(kind).items():
+                yield MATLAB.inline(f"    {quoted(name)}, ...", words.shown)
+            yield "  };"
         yield from _vector("m.parameters", drive.parameters.values())
         yield from _vector("m.start", drive.start)
         yield from _vector("m.start_switches", drive.switches)

@@ -49,12 +49,18 @@ class DrivePython:
         """Data and functions."""
         equations, drive = self._equations, self._drive
         yield from _HEAD.splitlines()
-        yield from _names("DRIVE_STATES", [state.name for state in equations.states])
-        yield from _names("INPUTS", equations.inputs)
-        yield from _names("OUTPUTS", equations.output_names)
-        yield from _names("SWITCHES", [switch.name for switch in equations.switches])
+        for name, kind in (
+            ("DRIVE_STATES", "state"), ("INPUTS", "input"), ("OUTPUTS", "output"), ("SWITCHES", "switch")
+        ):  # fmt: skip
+            yield f"{name} = ["
+            for each, words in drive.words(kind).items():
+                yield from indented(list(PYTHON.remarks([words.shown])), 4)
+                yield f'    "{each}",'
+            yield "]"
         yield "PARAMETERS = {"
-        yield from (f'    "{name}": {value!r},' for name, value in drive.parameters.items())
+        for each, words in drive.words("parameter").items():
+            yield from indented(list(PYTHON.remarks([words.shown])), 4)
+            yield f'    "{each}": {drive.parameters[each]!r},'
         yield "}"
         yield from wrapped(f"START = np.array([{_numbers(drive.start)}])", "")
         yield f"START_SWITCHES = np.array([{_numbers(drive.switches)}])"
@@ -138,12 +144,6 @@ class DrivePython:
                 yield f"        y[{follows}] -= guards(y, k, u, w)[{number}] / {GUARD_STIFFNESS!r}"
         yield "    w[number] = to"
         yield "    return y, w"
-
-
-def _names(name: str, values: Iterable[str]) -> Iterator[str]:
-    yield f"{name} = ["
-    yield from (f'    "{value}",' for value in values)
-    yield "]"
 
 
 def _numbers(values: Iterable[float]) -> str:

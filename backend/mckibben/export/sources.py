@@ -51,6 +51,8 @@ DRIVE_CONSTANTS: Mapping[str, tuple[str, str, str]] = {
     "stop_high": ("m", "Stroke of the muscle at its upper end stop.", "stops.max_contraction"),
     "slack_damping": ("N*s/m", "Damping of a slack muscle, of the method.", ""),
 }
+#: Unit and description (and more) of every number of a drive besides those of its effects.
+CONSTANT_WORDS: Mapping[str, tuple[str, ...]] = {**DRIVE_CONSTANTS, **_GEOMETRY}
 # Figure of a part's preset for a path of the document.
 _FIGURES = {
     "valve.sonic_conductance": "sonic_conductance",

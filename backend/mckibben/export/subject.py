@@ -24,8 +24,9 @@ from mckibben.export.drive_equations import (
     DriveEquations,
     drive_equations,
 )
+from mckibben.export.drive_words import Words, words_for
 from mckibben.export.language import words_of
-from mckibben.export.sources import Sources
+from mckibben.export.sources import CONSTANT_WORDS, Sources
 from mckibben.export.static_equations import StaticEquations, static_equations
 from mckibben.physics.custom import CUSTOM
 from mckibben.physics.model import Model
@@ -91,6 +92,25 @@ class RunnableDrive:
     why: str
     signals: dict[str, Segments | None]
     dead_times: tuple[float, float]
+
+    def words(self, kind: str) -> dict[str, Words]:
+        """Unit and meaning of the states, inputs, outputs, switches or parameters, in their order."""
+        equations = self.equations
+        if kind == "parameter":
+            effects = {
+                f"{effect.id}.{p.name}": Words(p.unit, p.description)
+                for effect in self.drive.model.effects
+                for p in effect.parameters
+            }
+            known = {**{name: Words(*each[:2]) for name, each in CONSTANT_WORDS.items()}, **effects}
+            return {name: known[name] for name in equations.parameters}
+        names = {
+            "state": [state.name for state in equations.states],
+            "input": list(equations.inputs),
+            "output": list(equations.output_names),
+            "switch": [switch.name for switch in equations.switches],
+        }
+        return words_for(kind, names[kind], self.drive.model.effects)
 
     def written(self, name: str) -> Segments | None:
         """The course of an input, if it is written."""

@@ -101,15 +101,20 @@ def _drive(runnable: RunnableDrive) -> Iterator[str]:
     switches = names_for([f"switch {switch.name}" for switch in equations.switches], MODELICA, taken)
     guards = {name: f"guard_{own}" for name, own in switches.items()}
     for full, own in parameters.items():
-        yield f"parameter Real {own} = {drive.parameters[full]!r};"
-    for full, own in inputs.items():
+        words = drive.words("parameter")[full]
+        yield f'parameter Real {own} = {drive.parameters[full]!r} "{_text(words.shown)}";'
+    for (full, own), words in zip(inputs.items(), drive.words("input").values(), strict=True):
         start = drive.supply if full == "supply_pressure" else 0.0
-        yield f'input Real {own}(start = {start!r}) "{_input_words(full)}";'
-    for (full, own), start in zip(states.items(), drive.start.tolist(), strict=True):
-        yield f'Real {own}(start = {start!r}, fixed = true) "{_text(full)}";'
-    for own, start in zip(switches.values(), drive.switches.tolist(), strict=True):
-        yield f"discrete Real {own}(start = {start!r}, fixed = true);"
-    yield from (f"Real {own};" for own in (*outputs.values(), *guards.values()))
+        yield f'input Real {own}(start = {start!r}) "{_text(words.shown)}";'
+    of_states = zip(states.values(), drive.words("state").values(), drive.start.tolist(), strict=True)
+    for own, words, start in of_states:
+        yield f'Real {own}(start = {start!r}, fixed = true) "{_text(words.shown)}";'
+    of_switches = zip(switches.values(), drive.words("switch").values(), drive.switches.tolist(), strict=True)
+    for own, words, start in of_switches:
+        yield f'discrete Real {own}(start = {start!r}, fixed = true) "{_text(words.shown)}";'
+    for own, words in zip(outputs.values(), drive.words("output").values(), strict=True):
+        yield f'Real {own} "{_text(words.shown)}";'
+    yield from (f"Real {own};" for own in guards.values())
     constants = [f"k_{place}" for place in range(len(equations.constants))]
     yield from (f"Real {own};" for own in constants)
     operands = {
@@ -144,15 +149,6 @@ def _drive(runnable: RunnableDrive) -> Iterator[str]:
         elif switch.follows is not None:
             yield f"  // {switch.name}: the length follows the fittings; while the switch is 1 its guard is"
             yield f"  // their distance times {GUARD_STIFFNESS!r} N/m: zero where the muscle becomes taut."
-
-
-def _input_words(name: str) -> str:
-    return {
-        "opening": "valve: 1 fill, 0 closed, -1 exhaust, after all dead times",
-        "counter_opening": "valve of the second muscle",
-        "external_force": "N, against the pull",
-        "supply_pressure": "Pa, absolute",
-    }[name]
 
 
 FORMAT = Format(title="Modelica", note="the equations as text, not compiled here", write=write)
