@@ -43,6 +43,7 @@ def cases() -> dict[str, dict[str, dict[str, float | str]]]:
     for number, names in enumerate(COMBINATIONS):
         found[f"together_{number}"] = {name: {} for name in names}
     found["typed"] = dict(TERM)
+    found["typed_over_time"] = {"custom": {"term": "c*P*t - d*(1 - exp(-t))", "c": 1e-6, "d": 4.0}}
     return found
 
 

@@ -109,6 +109,9 @@ def row_function(name: str, model: Subject) -> str:
         f"        {name}_state_rates(&in, given[{len(INPUTS) + states}], rates);\n"
         f"        write_row(rates, {states});"
     )
+    if any(variable.sliding for variable in model.equations.state_variables.values()):
+        rates += f"\n        {name}_sliding(&in);"
+    rates += f"\n        write_row(in.states, {states});"
     return text.replace("RATES", rates if states else "")
 
 
@@ -127,7 +130,7 @@ def answers(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[dict[st
     output = ran(program, [np.column_stack(list(inputs.values())) for inputs in given.values()])
     found, place = {}, 0
     for name, model in models.items():
-        width = len(RESULT_MEMBERS) + len(model.equations.states)
+        width = len(RESULT_MEMBERS) + 2 * len(model.equations.states)
         found[name] = given[name], output[place : place + ROWS * width].reshape(ROWS, width)
         place += ROWS * width
     assert place == len(output)
@@ -146,6 +149,11 @@ def test_the_c_of_an_effect_gives_the_numbers_of_the_engine(name, answers):
         rates = our_rates(model, inputs, inputs["rate"])
         for column, state in enumerate(model.equations.states, len(RESULT_MEMBERS)):
             assert_equal(rows[:, column], rates[column - len(RESULT_MEMBERS)], f"{name}: rate of {state}")
+    for column, (state, variable) in enumerate(
+        model.equations.state_variables.items(), len(RESULT_MEMBERS) + len(model.equations.states)
+    ):
+        reached = variable.sliding * inputs["direction"] if variable.sliding else inputs[state]
+        assert_equal(rows[:, column], reached, f"{name}: {state} of a sliding muscle")
 
 
 DRIVES = {

@@ -19,7 +19,7 @@ from mckibben.simulation.integrate.lsoda import _Run
 from mckibben.simulation.integrate.problem import Problem
 from mckibben.simulation.integrate.system import compiled_drive
 from mckibben.simulation.outcome import Watch
-from tests.export.models import assert_equal, cases, our_rates, ours, random_inputs, subject
+from tests.export.models import assert_equal, cases, our_rates, ours, random_inputs, studio, subject
 from tests.export.test_c import DRIVES, drive, packed, random_rows
 
 ROWS = 1000
@@ -54,6 +54,18 @@ def test_force_of_a_contraction_is_that_of_the_curves():
     module = module_of(model)
     expected = model.statics.force(length=0.27, pressure=4e5)
     assert module.force(4e5, 0.1) == pytest.approx(float(expected[0]), rel=1e-12)
+
+
+def test_a_slow_loop_is_that_of_the_curves():
+    """Friction with memory, fully built up in the direction of the motion, as the page draws it."""
+    model = subject("dahl")
+    module, page = module_of(model), studio().slow_model(model.start)
+    for direction in (-1.0, 0.0, 1.0):
+        states = [module.SLIDING[name] * direction for name in module.STATES]
+        theirs = module.evaluate(4e5, np.array([0.0, 0.1]), direction=direction, states=states)["force"]
+        expected = page.force(length=np.array([0.3, 0.27]), pressure=4e5, direction=direction)
+        np.testing.assert_allclose(theirs, expected, rtol=1e-12)
+    assert abs(expected[0] - model.statics.force(length=0.3, pressure=4e5)[0]) > 1.0
 
 
 def test_the_written_drive_makes_the_run_of_the_engine():
