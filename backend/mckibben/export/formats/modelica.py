@@ -121,7 +121,11 @@ def _drive(runnable: RunnableDrive) -> Iterator[str]:
         **{symbol: parameters[full] for full, symbol in equations.parameters.items()},
         **{symbol: inputs[full] for full, symbol in equations.inputs.items()},
         **{symbol: states[full] for full, symbol in equations.state_symbols.items()},
-        **dict(zip(equations.switch_symbols, switches.values(), strict=True)),
+        # Their values before an event: a guard must not depend on what its own event sets.
+        **{
+            symbol: f"pre({own})"
+            for symbol, own in zip(equations.switch_symbols, switches.values(), strict=True)
+        },
         **dict(zip(equations.constants, constants, strict=True)),
     }
     code = Code(MODELICA, operands)
@@ -141,14 +145,18 @@ def _drive(runnable: RunnableDrive) -> Iterator[str]:
         yield f"  when {guard} < -{least!r} then"
         yield f"    {own} = 1.0 - pre({own});"
         yield "  end when;"
-        if switch.stop is not None:
-            yield f"  when {own} > 0.5 then"
-            yield f"    reinit({states['speed']}, 0.0);"
-            yield f"    reinit({states['stroke']}, {parameters[switch.stop]});"
-            yield "  end when;"
-        elif switch.follows is not None:
+        if switch.follows is not None:
             yield f"  // {switch.name}: the length follows the fittings; while the switch is 1 its guard is"
             yield f"  // their distance times {GUARD_STIFFNESS!r} N/m: zero where the muscle becomes taut."
+    # One clause: a state may be set in one only.
+    word = "when"
+    for switch, own in zip(equations.switches, switches.values(), strict=True):
+        if switch.stop is not None:
+            yield f"  {word} {own} > 0.5 then"
+            yield f"    reinit({states['speed']}, 0.0);"
+            yield f"    reinit({states['stroke']}, {parameters[switch.stop]});"
+            word = "elsewhen"
+    yield "  end when;"
 
 
 FORMAT = Format(title="Modelica", note="the equations as text, not compiled here", write=write)
