@@ -16,6 +16,10 @@ export interface paths {
   "/api/experiments": {
     post: operations["describe_experiments"];
   };
+  "/api/exports": {
+    get: operations["list_formats"];
+    post: operations["write_export"];
+  };
   "/api/health": {
     get: operations["read_health"];
   };
@@ -1211,12 +1215,51 @@ export interface components {
       /** On the Pareto front of the explored designs. */
       front: boolean;
     };
+    /** A format. */
+    ExportFormat: {
+      /** What ``as`` takes. */
+      id: string;
+      /** Its name for display. */
+      title: string;
+      /** What is in it, in a few words. */
+      note: string;
+      /** Whether it holds a whole drive; otherwise the muscle of one. */
+      drives: boolean;
+    };
+    /** What is taken along, and how: exactly one of muscle, model and drive. */
+    ExportRequest: {
+      /** Id of a format; GET /api/exports lists them. */
+      as: string;
+      /** A muscle, with its effects. */
+      muscle?: components["schemas"]["MuscleInput"] | null;
+      /** The effects of the muscle; null: those of the preset. */
+      effects?: { [key: string]: { [key: string]: number | string } } | null;
+      /** A model that was fitted to measurements, with its drive if it has one. */
+      model?: components["schemas"]["SavedModel"] | null;
+      /** A drive document, or the id of a drive preset. */
+      drive?: components["schemas"]["DriveDocument"] | string | null;
+      /** Title in the files. Default: that of the document, or preset and length. */
+      title?: string;
+      /** Name of the files without its ending. Default: made from the title. */
+      name?: string | null;
+    };
     /** A file that was not loaded, and why. */
     FileProblem: {
       /** Name of the file. */
       file: string;
       /** Why it was not loaded. */
       message: string;
+    };
+    /** How well the model describes its data. */
+    FitError: {
+      /** Root mean square of the residual. */
+      rmse: number;
+      /** The same of groups that were left out of the fit. */
+      holdout_rmse: number | null;
+      /** Noise of the data; null where it cannot be estimated. */
+      noise: number | null;
+      /** SI unit; "1" = relative to the noise of each channel. */
+      unit: string;
     };
     /** How the values of a muscle were fitted to measurements. */
     FitRecord: {
@@ -1237,6 +1280,17 @@ export interface components {
       names: string[];
       /** Products of their SI units, one row per name. */
       matrix: number[][];
+    };
+    /** A measurement that the model was fitted to. */
+    FittedFile: {
+      /** Name of the file or preset. */
+      name: string;
+      /** Of the file; null for a preset of the program. */
+      sha256: string | null;
+      /** Number of its rows. */
+      rows: number;
+      /** What it was made with, and who says it, in words. */
+      experiment?: { [key: string]: string };
     };
     /** A fitted model with its measurements, and the id of the preset that it becomes. */
     FittedMuscleRequest: {
@@ -1340,6 +1394,11 @@ export interface components {
       strokes: (number | string)[];
       /** Force against the pull at these strokes. */
       forces: (number | string)[];
+    };
+    /** The formats. */
+    FormatsAnswer: {
+      /** By id. */
+      formats: components["schemas"]["ExportFormat"][];
     };
     /** The air and its surroundings. */
     GasInput: {
@@ -2314,6 +2373,15 @@ export interface components {
       /** Remark on the value. */
       note?: string | null;
     };
+    /** The range of a quantity in the data of the model. */
+    RangeInput: {
+      /** Smallest value. */
+      least: number;
+      /** Largest value. */
+      most: number;
+      /** SI unit. */
+      unit: string;
+    };
     /** A row of a file. */
     RawRow: {
       /** Its number in the file, from 1. */
@@ -2472,6 +2540,52 @@ export interface components {
       along: number | string;
       /** Rhombi around the muscle. [1] */
       around: number | string;
+    };
+    /** A model with its values: a muscle with its fitted geometry, effects, and of a transient the drive. */
+    SavedModel: {
+      /** Version of the document. */
+      schema: 1;
+      /** The word 'model'. */
+      kind: "model";
+      /** Without a length where the model is one of muscles of several lengths. */
+      muscle: components["schemas"]["MuscleInput"];
+      /** Its effects with their numbers. */
+      effects: { [key: string]: { [key: string]: number | string } };
+      /** Constants that the fit changed as well, as effect.parameter. */
+      freed?: string[];
+      /** Geometry that the fit changed as well. */
+      free?: string[];
+      /** Load of isotonic data that do not state it, as the fit found it [N]. */
+      load_force?: number | null;
+      /** Of a transient: valve, tube, supply, load, stops, with muscle and effects. */
+      drive?: components["schemas"]["DriveDocument"] | null;
+      /** Quantity -> range in which the model was measured. */
+      envelope?: { [key: string]: components["schemas"]["RangeInput"] };
+      /** Predicted channel -> error left (rms), SI. */
+      errors?: { [key: string]: number };
+      /** Of the fitted values; null where the data cannot separate them. */
+      covariance?: components["schemas"]["Covariance"] | null;
+      /** What nobody said and was assumed. */
+      assumed?: string[];
+      /** Where it comes from; null where nothing is known. */
+      origin?: components["schemas"]["SavedOrigin"] | null;
+    };
+    /** Where the model comes from. */
+    SavedOrigin: {
+      /** Name and version. */
+      program: string;
+      /** Date and time, ISO 8601, UTC. */
+      made: string;
+      /** Kind of the measurements. */
+      kind: string;
+      /** Channel that the model predicts. */
+      predicted: string;
+      /** Title of the verdict. */
+      verdict: string;
+      /** How well it describes them. */
+      error: components["schemas"]["FitError"];
+      /** What it was fitted to. */
+      files: components["schemas"]["FittedFile"][];
     };
     /** Division of the rows into sweeps. */
     Segmentation: {
@@ -3177,6 +3291,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -3201,6 +3316,12 @@ export interface operations {
       200: { content: { "application/json": components["schemas"]["EffectsAnswer"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** The formats in which a model or drive can be taken along. */
+  list_formats: {
+    responses: {
+      200: { content: { "application/json": components["schemas"]["FormatsAnswer"] } };
     };
   };
   /** Every mystery with its story and start model; comparisons accept its measurement by id. */
@@ -3328,6 +3449,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -3348,6 +3470,20 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
+  /** A muscle, a fitted model or a drive in a format; the file names model, sources, range and gaps. */
+  write_export: {
+    requestBody: { content: { "application/json": components["schemas"]["ExportRequest"] } };
+    responses: {
+      200: { content: { "*/*": Blob | ArrayBuffer | string } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** The comparison and the diagnosis of a model as one file for archive and print. */
   write_report: {
     requestBody: { content: { "application/json": components["schemas"]["ReportRequest"] } };
@@ -3359,6 +3495,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -3372,6 +3509,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };

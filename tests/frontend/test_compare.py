@@ -259,6 +259,13 @@ def test_data_and_residuals_as_csv(page: Page, sweeps: FilePayload, tmp_path: Pa
     row = rows[POINTS // 2]
     difference = float(row["measured [N]"]) - float(row["predicted [N]"])
     assert difference == pytest.approx(float(row["residual [N]"]), abs=1e-3)
+    # The model as code, from the card of the case.
+    page.locator("#take-along").get_by_role("button", name="Code and tables").click()
+    with page.expect_download() as saved:
+        page.get_by_role("dialog", name="Take it along").get_by_role("button", name="MATLAB").click()
+    code = Path(saved.value.path()).read_text("utf-8")
+    assert code.startswith("function m = ")
+    assert re.search(r"force|length|pressure from .* \(measured\)", code)
 
 
 def test_a_diagnosis_can_be_cancelled_and_asked_for_again(page: Page, sweeps: FilePayload) -> None:

@@ -7,6 +7,7 @@ import json
 import math
 import re
 import statistics
+import zipfile
 from collections.abc import Callable, Iterator
 from pathlib import Path
 
@@ -412,3 +413,19 @@ def test_moved_lines_are_where_plotly_draws_them(page: Page) -> None:
     settled = run(page, shapes)
     assert len(quick) == len(settled) > 30
     assert max(abs(a - b) for a, b in zip(quick, settled, strict=True)) < 0.5
+
+
+def test_the_muscle_is_taken_along(page: Page) -> None:
+    open_design(page)
+    page.get_by_role("button", name="Export").click()
+    page.get_by_role("menuitem").filter(has_text="Take it along").click()
+    dialog = page.get_by_role("dialog", name="Take it along")
+    expect(dialog.get_by_role("button", name="C99")).to_be_focused()
+    with page.expect_download() as saved:
+        page.keyboard.press("Enter")
+    assert saved.value.suggested_filename == "dmsp_20_300_mm.zip"
+    with zipfile.ZipFile(saved.value.path()) as archive:
+        assert archive.namelist() == ["dmsp_20_300_mm.c", "dmsp_20_300_mm.h"]
+        assert "static const double nominal_length = 0.3;" in archive.read("dmsp_20_300_mm.c").decode()
+    expect(dialog).not_to_be_visible()
+    expect(page.locator(".status")).to_contain_text("Saved dmsp_20_300_mm.zip")

@@ -420,7 +420,24 @@ def test_exports(page: Page, tmp_path: Path) -> None:
     assert float(table[-1]["time [s]"]) == pytest.approx(2.0)
     assert max(float(row["displacement [mm]"]) for row in table) == pytest.approx(36, abs=0.5)
     assert "Speed (m/s)" in download(page, "Plots as SVG").read_text()
+    page.get_by_role("button", name="Export").click()
+    page.get_by_role("menuitem").filter(has_text="Take it along").click()
+    dialog = page.get_by_role("dialog", name="Take it along")
+    with page.expect_download() as saved:
+        dialog.get_by_role("button", name="Python").click()
+    assert "def jacobian(y, k, u, w):" in Path(saved.value.path()).read_text("utf-8")
+    page.get_by_role("button", name="Export").click()
+    page.get_by_role("menuitem").filter(has_text="Take it along").click()
+    with page.expect_download() as saved:
+        dialog.get_by_role("button", name="JSON").click()
+    taken = tmp_path / "taken.json"
+    taken.write_bytes(Path(saved.value.path()).read_bytes())
     document = json.loads(download(page, "Drive as JSON").read_text())
+    page.get_by_role("button", name="Export").click()
+    with page.expect_file_chooser() as chooser:
+        page.get_by_role("menuitem").filter(has_text="Open JSON").click()
+    chooser.value.set_files(taken)
+    expect(page.locator(".status")).to_contain_text("Opened taken.json")
     assert document["muscle"]["preset"] == "DMSP-20"
     assert document["load"]["mass"] == 50
     assert "controller" not in document

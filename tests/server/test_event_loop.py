@@ -71,6 +71,8 @@ REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
         "/api/reports",
         {"json": MODEL | {"history": [{"label": "before", "effects": {}}], "diagnose": True}},
     ),
+    ("GET", "/api/exports"): ("/api/exports", {}),
+    ("POST", "/api/exports"): ("/api/exports", {"json": {"as": "c", "muscle": MINE}}),
     ("GET", "/api/mysteries"): ("/api/mysteries", {}),
     ("POST", "/api/mysteries/{mystery_id}/reveal"): ("/api/mysteries/the-dip/reveal", {"json": {}}),
 }  # fmt: skip

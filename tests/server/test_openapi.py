@@ -27,6 +27,7 @@ PATHS = {
     "/api/diagnoses": {"post"},
     "/api/experiments": {"post"},
     "/api/reports": {"post"},
+    "/api/exports": {"get", "post"},
     "/api/mysteries": {"get"},
     "/api/mysteries/{mystery_id}/reveal": {"post"},
     "/api/simulations": {"post"},

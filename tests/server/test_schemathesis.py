@@ -37,7 +37,7 @@ CHECKS = [
 ]
 OPERATIONS = [(method, path) for path, methods in PATHS.items() for method in sorted(methods)]
 # Without parameters and body nothing can be sent wrong.
-INFALLIBLE = [("get", path) for path in ("/api/health", "/api/effects", "/api/mysteries")]
+INFALLIBLE = [("get", path) for path in ("/api/health", "/api/effects", "/api/exports", "/api/mysteries")]
 FALLIBLE = [operation for operation in OPERATIONS if operation not in INFALLIBLE]
 MODELS = ["/api/curves", "/api/inverse", "/api/comparisons"]
 EXAMPLES = 50

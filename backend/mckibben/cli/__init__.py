@@ -19,6 +19,9 @@ from mckibben.cli.options import (
     DataFolder,
     EffectIds,
     EffectsFolders,
+    Exported,
+    ExportFile,
+    ExportFormat,
     Free,
     Ideal,
     Keep,
@@ -357,6 +360,22 @@ def size(
         raise InputError(f"{option} belongs to a report, and none is requested", hint="--report FILE")
     wanted = None if report is None else Wanted(report, proposal or 1, title)
     run(open_studio(presets, effects, data), task=task, as_json=as_json, report=wanted)
+
+
+@app.command()
+def export(
+    source: Exported,
+    format_id: ExportFormat,
+    out: ExportFile,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """Take a model or drive along: source code, lookup tables, equations, JSON."""
+    from mckibben.cli.export import run
+    from mckibben.cli.options import open_studio
+
+    run(open_studio(presets, effects, data), source=source, format_id=format_id, out=out)
 
 
 def _fail(message: str, code: int = _BAD_INPUT) -> int:

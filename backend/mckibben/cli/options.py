@@ -67,6 +67,24 @@ Keep = Annotated[
     list[str] | None,
     typer.Option("--keep", metavar="HYPOTHESIS", help="An entry that is right as stated: do not ask."),
 ]
+
+
+def _formats() -> str:
+    """The formats of `mckibben.export`, one file each, without importing them."""
+    folder = Path(__file__).parents[1] / "export" / "formats"
+    return ", ".join(sorted(file.stem for file in folder.glob("*.py") if not file.stem.startswith("_")))
+
+
+Exported = Annotated[
+    str,
+    typer.Argument(
+        metavar="MODEL", help="A drive document, a saved model or a muscle (JSON file), or a preset."
+    ),
+]
+ExportFormat = Annotated[str, typer.Option("--as", metavar="FORMAT", help=f"One of: {_formats()}.")]
+ExportFile = Annotated[
+    Path, typer.Option("--out", "-o", metavar="FILE", help="Several files stand beside it, or in it if .zip.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 PresetsFolder = Annotated[
     Path | None, typer.Option("--presets", metavar="DIR", help="Folder of your own presets.")

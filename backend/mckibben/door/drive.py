@@ -16,14 +16,16 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import named_document, preset_document, read_document
 from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.studio import Studio
+from mckibben.door.exported import Exportable
 from mckibben.door.model import Model
 from mckibben.door.model_files import model_of_document
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
-from mckibben.door.result import Frozen
 from mckibben.door.run import Run
 from mckibben.door.values import Quantity, number_of
 from mckibben.door.workspace import studio
+from mckibben.export.source import of_drive
+from mckibben.export.subject import Stated
 from mckibben.physics.errors import InputError
 from mckibben.presets import FittingPreset, TubePreset, ValvePreset
 from mckibben.report.summary import Summary
@@ -37,7 +39,7 @@ if TYPE_CHECKING:
 Part: TypeAlias = Mapping[str, Any]
 
 
-class Drive(Frozen):
+class Drive(Exportable):
     """A drive; each argument is a part of the drive document. Drives do not change; `changed` makes another.
 
     Args:
@@ -198,6 +200,10 @@ class Drive(Frozen):
             Problem: the file cannot be written.
         """
         write_text(Path(path), document_text(self._document))
+
+    def _to_export(self) -> tuple[Stated, Studio]:
+        title = self._document.title or self._name
+        return of_drive(self._document, self._studio, "", title=title), self._studio
 
     def _summary(self) -> Summary:
         return summary_of(self._document, self._name)

@@ -18,6 +18,7 @@ from mckibben.documents.studio import Studio
 from mckibben.door.comparison import Comparison
 from mckibben.door.curves import Curves
 from mckibben.door.diagnosis import Diagnosis
+from mckibben.door.exported import Exportable, model_to_export
 from mckibben.door.problem import reported
 from mckibben.door.questions import Data, DocumentedDrive, StatedModel, question_of, watch_of
 from mckibben.door.rendering import notebook_cell, plain_text
@@ -25,6 +26,7 @@ from mckibben.door.savable import Savable
 from mckibben.door.statics import at_least_two, force_of, optional_number, pressures_in
 from mckibben.door.values import FloatArray, Quantities, Quantity
 from mckibben.door.workspace import studio
+from mckibben.export.subject import Stated
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.report.summary import Summary
 from mckibben.report.summary.model import summary_of
@@ -36,7 +38,7 @@ if TYPE_CHECKING:
 _SHORTEST = 0.05  # shortest length accepted, share of the nominal length; no muscle contracts so far
 
 
-class Model(Savable):
+class Model(Savable, Exportable):
     """A muscle with its effects; SI inside, arguments are SI numbers or texts with a unit.
 
     Tension of the ideal muscle: F = (π D0² p / 4) (a (1 - κ)² - b), a = 3 / tan² α, b = 1 / sin² α, with the
@@ -351,6 +353,9 @@ class Model(Savable):
         saved = saved_model(question, result, self._studio)
         model = Model.of(StatedModel.of_saved(saved, "the diagnosed model"), self._studio)
         return Diagnosis(result, model, names, question, self._studio)
+
+    def _to_export(self) -> tuple[Stated, Studio]:
+        return model_to_export(self._stated, self._studio, self.name)
 
     def _saved(self) -> SavedModel:
         return self._stated.to_saved(self._studio)

@@ -138,6 +138,39 @@ class Model:
             compliance=self.sum("compliance", values, {}),
         )
 
+    def rates(
+        self,
+        *,
+        muscle: Muscle,
+        values: Values,
+        length: Value,
+        pressure: Value,
+        velocity: Value,
+        direction: Value,
+        temperature: Value = ROOM_TEMPERATURE,
+        pressure_rate: Value = 0.0,
+    ) -> dict[str, Value]:
+        """Rates of the states in the muscle ("effect.state"), as `evaluate`; the pressure changes by Pa/s.
+
+        ``values`` holds the states of effects in addition to their parameters.
+        """
+        pressure_sensor = self.reading("pressure_sensor", muscle=muscle, values=values)
+        context: dict[str, Any] = {
+            "muscle": muscle,
+            "length": _inverse(self.reading("length_sensor", muscle=muscle, values=values), length),
+            "pressure": _inverse(pressure_sensor, pressure),
+            "velocity": velocity,
+            "direction": direction,
+            "temperature": temperature,
+        }
+        context["area"] = self.at(**context, values=values).area
+        context["pressure_rate"] = pressure_rate / pressure_sensor.scale
+        rates: dict[str, Value] = {}
+        for effect in self._with("rates"):
+            given = effect.call("rates", context, values[effect.id])
+            rates |= {f"{effect.id}.{own.name}": rate for own, rate in zip(effect.states, given, strict=True)}
+        return rates
+
     def has(self, slot: str) -> bool:
         """Whether any effect acts in a slot."""
         return bool(self._with(slot))

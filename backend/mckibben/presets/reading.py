@@ -62,7 +62,10 @@ def slug(preset_id: str) -> str:
 
 
 def read_file(path: Path, *, follow_links: bool) -> object:
-    """The JSON value of a file of at most `MAX_BYTES`; raises BadDocumentError for everything else."""
+    """The JSON value of a file of at most `MAX_BYTES`; raises BadDocumentError for everything else.
+
+    Of a file that ``mckibben export --as json`` wrote, it is the document inside.
+    """
     try:
         mode = (path.stat() if follow_links else path.lstat()).st_mode
         if not stat.S_ISREG(mode):
@@ -76,7 +79,7 @@ def read_file(path: Path, *, follow_links: bool) -> object:
     if len(content) > MAX_BYTES:
         raise BadDocumentError([Finding(None, f"is larger than {MAX_BYTES // 1_000_000} MB")])
     try:
-        return json.loads(content.decode("utf-8-sig"), object_pairs_hook=_unique)
+        return _inside_export(json.loads(content.decode("utf-8-sig"), object_pairs_hook=_unique))
     except UnicodeDecodeError as error:
         raise BadDocumentError([Finding(None, f"is not UTF-8 text (byte {error.start})")]) from error
     except json.JSONDecodeError as error:
@@ -87,6 +90,13 @@ def read_file(path: Path, *, follow_links: bool) -> object:
     except ValueError as error:  # what Python says of it is about Python
         what = "holds a number of thousands of digits"
         raise BadDocumentError([Finding(None, what, "a number below 9e18")]) from error
+
+
+def _inside_export(document: object) -> object:
+    """The document of an exported model, without what the file says of it; another value as it is."""
+    if isinstance(document, dict) and document.get("kind") == "export":
+        return document.get("document")
+    return document
 
 
 def parse(model: type[Preset], document: object, effects: EffectTable | None) -> Preset:

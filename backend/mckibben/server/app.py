@@ -21,6 +21,7 @@ from mckibben.server.routes import (
     diagnoses,
     effects,
     experiments,
+    exports,
     health,
     help,
     inverse,
@@ -55,6 +56,7 @@ _TAGS = [
     {"name": "comparisons", "description": "A model compared with measurements."},
     {"name": "diagnoses", "description": "Which physical effect a model is missing."},
     {"name": "reports", "description": "Comparison and diagnosis as an HTML report."},
+    {"name": "exports", "description": "A model or drive as files for other programs."},
     {"name": "mysteries", "description": "Measurements with hidden effects, to practise on."},
 ]
 
@@ -114,6 +116,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         measurements,
         experiments,
         reports,
+        exports,
         mysteries,
         description,
         help,

@@ -17,6 +17,7 @@
 /** @typedef {S["FileProblem"] & Partial<S["PresetProblem"]>} Problem */
 /** @typedef {S["EffectParameter"]} Parameter */
 /** @typedef {S["EffectAnswer"]} Effect */
+/** @typedef {S["ExportFormat"]} ExportFormat */
 /** @typedef {S["CurvesAnswer"]} Curves */
 /** @typedef {S["InverseAnswer"]} Answer */
 /** @typedef {S["ComparisonAnswer"]} Comparison */

@@ -15,11 +15,10 @@ import symengine as se
 
 from mckibben.physics.custom import blamed_on_the_term
 from mckibben.physics.effect import Effect
-from mckibben.physics.model import Model, State
+from mckibben.physics.model import State
 from mckibben.physics.muscle import GEOMETRY, Muscle
+from mckibben.simulation.statics.symbolic import INPUTS, symbolic_state
 
-# Inputs that vary from row to row, in this order; geometry and parameters follow.
-INPUTS = ("length", "pressure", "velocity", "direction", "temperature")
 # Exact derivatives after the fields of State, as (field, input).
 DERIVATIVES = (
     ("force", "length"),
@@ -58,35 +57,21 @@ class CompiledState:
         memory: bool = False,
         quick: bool = False,
     ) -> None:
-        model = Model(effects)
-        inputs = {name: se.Symbol(name) for name in INPUTS}
-        states = {
-            effect.id: {state.name: se.Symbol(f"{effect.id}.{state.name}") for state in effect.states}
-            for effect in model.effects
-            if memory and "rates" in effect.slots
-        }
-        geometry = {name: se.Symbol(name) for name in GEOMETRY}
-        values = {
-            effect.id: {p.name: se.Symbol(f"{effect.id}.{p.name}") for p in effect.parameters}
-            for effect in model.effects
-        }
-        parameters = {symbol.name: symbol for own in values.values() for symbol in own.values()}
-        self.constants = (*geometry, *parameters)
-        known = {effect: {**own, **states.get(effect, {})} for effect, own in values.items()}
-        state = model.evaluate(muscle=Muscle(**geometry), values=known, **inputs)
-        outputs = [se.sympify(output) for output in state]
-        fields = State(*outputs)
-        outputs += [getattr(fields, field).diff(inputs[by]) for field, by in DERIVATIVES]
-        remembered = {symbol.name: symbol for own in states.values() for symbol in own.values()}
-        named = {**geometry, **parameters, **remembered}
+        symbolic = symbolic_state(effects, memory=memory)
+        fields = symbolic.fields
+        self.constants = tuple(symbolic.constants)
+        outputs = [*fields, *(symbolic.by(field, name) for field, name in DERIVATIVES)]
+        named = {**symbolic.constants, **symbolic.states}
         for name in gradient:
             chosen = (fields.force, fields.tension, fields.length, fields.compliance)
             outputs += [output.diff(named[name]) for output in chosen]
-        self.inputs = (*INPUTS, *remembered)
-        symbols = [*inputs.values(), *remembered.values(), *geometry.values(), *parameters.values()]
+        self.inputs = (*INPUTS, *symbolic.states)
+        symbols = [
+            *symbolic.inputs.values(), *symbolic.states.values(), *symbolic.constants.values()
+        ]  # fmt: skip
         self._function = se.Lambdify(symbols, outputs, backend="llvm", cse=True, opt_level=0 if quick else 3)
         self._width = len(symbols)
-        self.compliant = model.has("compliance")
+        self.compliant = symbolic.model.has("compliance")
 
     def pack(self, muscle: Muscle, values: Mapping[str, Mapping[str, float]]) -> np.ndarray:
         """Geometry and parameters in the order of `constants`."""

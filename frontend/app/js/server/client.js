@@ -75,6 +75,20 @@ export async function postForText(path, body) {
   return response.ok ? response.text() : answerOf(response);
 }
 
+/** An answer that is a file, with the name that the server gives it. @param {string} path @param {unknown} body
+ * @returns {Promise<{name: string, blob: Blob}>} */
+export async function postForFile(path, body) {
+  const response = await reach(path, {
+    method: "POST",
+    headers: { "content-type": "application/json" },
+    body: JSON.stringify(body),
+  });
+  if (!response.ok) return answerOf(response);
+  const [, name = "file"] = /filename="([\w.-]+)"/.exec(response.headers.get("content-disposition") ?? "") ??
+    [];
+  return { name, blob: await response.blob() };
+}
+
 /** One event of a stream: its name and its data. @param {string} text
  * @returns {{event: string, data: any} | null} */
 function readEvent(text) {

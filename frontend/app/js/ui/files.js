@@ -23,7 +23,9 @@ async function open(file, openers) {
   if (!file) return;
   try {
     if (file.size > MOST_BYTES) throw new Error("it is larger than any document of this program");
-    const raw = JSON.parse(await file.text()), label = `open ${file.name}`;
+    const read = JSON.parse(await file.text()), label = `open ${file.name}`;
+    // What “Take it along” wrote as JSON holds the document beside what it says of it.
+    const raw = read?.kind === "export" ? read.document : read;
     const opener = openers.find((one) => one.reads(raw));
     if (opener) await opener.open(raw, label);
     else {

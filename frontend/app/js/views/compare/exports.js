@@ -7,6 +7,7 @@ import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
 import { downloadText, fileName, toCsv } from "../../ui/table.js";
+import { openTakeAlong } from "../../ui/take-along.js";
 import { answer, compare, diagnosis, files, preset } from "./answers.js";
 import { effectValues } from "../../muscle/preset.js";
 import { presetDialog } from "../../muscle/preset-dialog.js";
@@ -66,12 +67,12 @@ export const savePlots = (format) =>
     },
   );
 
-/** Saves the model as a file that the command line takes with --model. */
-export function saveModel() {
+/** The model as the document that the command line takes with --model; null before there is one. */
+function modelDocument() {
   const c = compare.peek(), a = answer.peek();
-  if (!a) return void (status.value = "There is no model to save.");
+  if (!a) return null;
   const { muscle, effects, freed = [], free = [], drive } = /** @type {Record<string, any>} */ (modelBody(c));
-  const document = {
+  return {
     schema: 1,
     kind: "model",
     muscle: muscle ?? drive?.muscle ?? {},
@@ -82,8 +83,20 @@ export function saveModel() {
     envelope: diagnosis.peek()?.envelope ?? {},
     assumed: a.assumptions,
   };
+}
+
+export function saveModel() {
+  const document = modelDocument();
+  if (!document) return void (status.value = "There is no model to save.");
   downloadText(fileName("model", "json"), `${JSON.stringify(document, null, 2)}\n`, "application/json");
   status.value = "The model is saved.";
+}
+
+/** The model for other programs, as it is now. */
+export function takeAlong() {
+  const model = modelDocument();
+  if (!model) return void (status.value = "There is no model to take along.");
+  return openTakeAlong({ what: "The model of this case", drive: "drive" in model, body: () => ({ model }) });
 }
 
 /** Saves data, model, plots and verdict as one file. */

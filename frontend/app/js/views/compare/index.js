@@ -29,6 +29,11 @@ export const COMPARE_KEYS = [
 /** @returns {import("../../ui/menu.js").Item[]} */
 export const compareExports = () => [
   {
+    label: "Take it along…",
+    note: "code, tables, equations of this model",
+    run: async () => (await import("./exports.js")).takeAlong(),
+  },
+  {
     label: "Data and residuals as CSV",
     note: "every point, shown units",
     run: async () => (await import("./exports.js")).saveCsv(),

@@ -3,7 +3,15 @@
 import { h, icon } from "../../dom.js";
 import { signal } from "../../reactive.js";
 import { answer, stale } from "./answers.js";
-import { keepAsPreset, saveCsv, saveModel, savePlots, saveReport, useInDesign } from "./exports.js";
+import {
+  keepAsPreset,
+  saveCsv,
+  saveModel,
+  savePlots,
+  saveReport,
+  takeAlong,
+  useInDesign,
+} from "./exports.js";
 import { openSteps, state } from "./list/state.js";
 import { hasAssumed } from "./strip/facts.js";
 
@@ -62,6 +70,7 @@ export const takeCard = () =>
       { class: "ways" },
       way("page", "Report", "data, each step, values ± σ, verdict: one HTML file", saveReport),
       way("braces", "Model", "JSON: muscle and effects with their values", saveModel),
+      way("code", "Code and tables", "C, MATLAB, Modelica, Python, LaTeX, lookup tables", takeAlong),
       way("table", "Data", "CSV: every point with its residual", saveCsv),
       way("wave", "Plots", "PNG: one sheet", () => savePlots("png")),
       way("pin", "My preset", "your own muscle: its curves and runs show how sure they are", keepAsPreset),

@@ -33,6 +33,11 @@ export function designView() {
 /** @returns {import("../../ui/menu.js").Item[]} */
 export const designExports = () => [
   {
+    label: "Take it along…",
+    note: "code, tables, equations of this muscle",
+    run: async () => (await import("./exports.js")).takeAlong(),
+  },
+  {
     label: "Curves as CSV",
     note: "all values, shown units",
     run: async () => (await import("./exports.js")).saveCsv(),

@@ -6,6 +6,7 @@ import { scaleOf, toShown } from "../../format.js";
 import { status } from "../../store.js";
 import { saveSheet } from "../../plots/export.js";
 import { downloadText, fileName, toCsv } from "../../ui/table.js";
+import { openTakeAlong } from "../../ui/take-along.js";
 import { shownCharts } from "./plots/charts.js";
 import { STATES } from "./plots/specs.js";
 import { documentNow, simulate } from "./model.js";
@@ -90,6 +91,10 @@ export const savePlots = (format) =>
   saveSheet(shownCharts(), format, fileName("run")).catch((error) => {
     status.value = `The plots could not be saved: ${error.message}`;
   });
+
+/** The drive for other programs. */
+export const takeAlong = () =>
+  openTakeAlong({ what: "This drive", drive: true, body: () => ({ drive: documentNow() }) });
 
 export const saveDrive = () =>
   downloadText(

@@ -29,6 +29,11 @@ export const TRANSIENT_KEYS = [
 /** @returns {import("../../ui/menu.js").Item[]} */
 export const transientExports = () => [
   {
+    label: "Take it along…",
+    note: "code and equations of this drive",
+    run: async () => (await import("./exports.js")).takeAlong(),
+  },
+  {
     label: "Run as CSV",
     note: "every column, 2001 rows",
     run: async () => (await import("./exports.js")).saveCsv(),

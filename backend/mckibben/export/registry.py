@@ -1,0 +1,72 @@
+"""The formats: every file of ``formats/`` that declares ``FORMAT``; its name is the id."""
+
+from __future__ import annotations
+
+import importlib
+import pkgutil
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from functools import cache
+
+from mckibben.export.subject import Subject
+from mckibben.physics.errors import InputError, did_you_mean
+
+
+@dataclass(frozen=True, slots=True)
+class ExportedFile:
+    """A file: name without a folder, content, media type."""
+
+    name: str
+    content: bytes
+    media_type: str
+
+    @classmethod
+    def of_text(cls, name: str, text: str, media_type: str = "text/plain; charset=utf-8") -> ExportedFile:
+        """A text in UTF-8 that ends with a line end."""
+        return cls(name, f"{text.rstrip()}\n".encode(), media_type)
+
+
+@dataclass(frozen=True, slots=True)
+class Format:
+    """A way to write a model down.
+
+    Attributes:
+        title: what it is called on screen.
+        note: what is in it, a few words.
+        write: files of a subject under a stem, the main one first. Names begin with the stem, which is made
+            of letters, digits, ``-``, ``_`` and ``.``. Raises InputError for what the format cannot carry.
+        drives: whether it can carry a whole drive; otherwise it takes the muscle of one.
+        identifier: whether the stem must be an identifier, because the program reads the file by its name.
+        id: name of the file that declares it, set by `formats`.
+    """
+
+    title: str
+    note: str
+    write: Callable[[Subject, str], tuple[ExportedFile, ...]]
+    drives: bool = True
+    identifier: bool = False
+    id: str = ""
+
+
+@cache
+def formats() -> dict[str, Format]:
+    """All formats by id."""
+    from mckibben.export import formats as folder
+
+    found = {}
+    for module in pkgutil.iter_modules(folder.__path__):
+        declared = importlib.import_module(f"{folder.__name__}.{module.name}").FORMAT
+        found[module.name] = replace(declared, id=module.name)
+    return found
+
+
+def format_named(name: str) -> Format:
+    """The format of an id.
+
+    Raises:
+        InputError: there is none.
+    """
+    known = formats()
+    if name not in known:
+        raise InputError(f"there is no format '{name[:40]}'", field="as", hint=did_you_mean(name, known))
+    return known[name]

@@ -1,0 +1,140 @@
+"""The use case: a model and a format in, files out; the doors convert."""
+
+from __future__ import annotations
+
+import io
+import re
+import zipfile
+from dataclasses import dataclass
+from pathlib import Path
+
+from mckibben.documents.studio import Studio
+from mckibben.export.language import words_of
+from mckibben.export.registry import ExportedFile, Format, format_named
+from mckibben.export.subject import Stated, subject_of
+from mckibben.physics.errors import InputError
+
+# The earliest date of a zip file: a file must not tell when it was made, or two would differ.
+_ANY_DATE = (1980, 1, 1, 0, 0, 0)
+_STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}")
+_IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,59}")
+
+
+@dataclass(frozen=True, slots=True)
+class ExportQuestion:
+    """What is to be written.
+
+    Attributes:
+        stated: the model.
+        format: id of the format.
+        stem: beginning of the names of the files; None = the name of the model.
+    """
+
+    stated: Stated
+    format: str
+    stem: str | None = None
+
+
+@dataclass(frozen=True)
+class Export:
+    """The files of a format, the main one first, and the id of the model in them."""
+
+    files: tuple[ExportedFile, ...]
+    model_id: str
+    name: str
+
+    @property
+    def file(self) -> ExportedFile:
+        """The one file; several as a zip file."""
+        return self.files[0] if len(self.files) == 1 else zipped(self.files, f"{self.name}.zip")
+
+
+def export(question: ExportQuestion, studio: Studio) -> Export:
+    """The files of a question.
+
+    Raises:
+        InputError: a model that cannot be used, an unknown format, a name that cannot be one of a file, or
+            what the format cannot carry.
+    """
+    form = format_named(question.format)
+    stem = None if question.stem is None else checked_stem(question.stem, form)
+    subject = subject_of(question.stated, studio)
+    name = subject.name if stem is None else stem
+    return Export(form.write(subject, name), subject.about.id, name)
+
+
+def checked_stem(stem: str, form: Format) -> str:
+    """The beginning of file names, after checking that programs can read files of that name.
+
+    Raises:
+        InputError: names what would be right.
+    """
+    pattern = _IDENTIFIER if form.identifier else _STEM
+    if pattern.fullmatch(stem) is None:
+        why = (
+            f"{form.title} reads a file by its name, which must be letters, digits and underscores"
+            if form.identifier
+            else "letters, digits, '-', '_' and '.' are usable everywhere"
+        )
+        raise InputError(
+            f"'{stem[:60]}' cannot be the name of the file: {why}",
+            field="name",
+            hint=f"e.g. {words_of(stem)}",
+        )
+    return stem
+
+
+def zipped(files: tuple[ExportedFile, ...], name: str) -> ExportedFile:
+    """Files as one zip file; the same files give the same bytes."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        for file in files:
+            entry = zipfile.ZipInfo(file.name, _ANY_DATE)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, file.content)
+    return ExportedFile(name, content.getvalue(), "application/zip")
+
+
+def write_export(question: ExportQuestion, path: Path, studio: Studio, *, named: str = "") -> list[Path]:
+    """Write the files of a question.
+
+    Args:
+        question: what; its stem is that of the path.
+        path: of the main file, whose ending is kept; the others stand beside it under the same stem. An
+            ending ``.zip`` packs several files into one. A folder takes them under the name of the model.
+        studio: presets.
+        named: how the user named the path, "-o muscle.c"; by default the path.
+
+    Returns:
+        the files written.
+
+    Raises:
+        InputError: as `export`, or a file cannot be written.
+    """
+    named = named or str(path)
+    if path.is_dir():
+        done = export(question, studio)
+        return [_written(path / file.name, file.content, named) for file in done.files]
+    if not path.parent.is_dir():
+        raise InputError(f"{named}: there is no folder {path.parent}", hint="name an existing folder")
+    form, stem = format_named(question.format), path.stem
+    try:
+        checked_stem(stem, form)
+    except InputError as error:
+        raise InputError(f"{named}: {error.message}", hint=error.hint) from error
+    done = export(ExportQuestion(question.stated, question.format, stem), studio)
+    if len(done.files) == 1:
+        return [_written(path, done.files[0].content, named)]
+    if path.suffix.lower() == ".zip":
+        return [_written(path, done.file.content, named)]
+    return [_written(path.parent / file.name, file.content, named) for file in done.files]
+
+
+def _written(path: Path, content: bytes, named: str) -> Path:
+    try:
+        path.write_bytes(content)
+    except OSError as error:
+        raise InputError(
+            f"{named}: cannot be written: {error.strerror or error}", hint="name a file in an existing folder"
+        ) from error
+    return path

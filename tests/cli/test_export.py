@@ -1,0 +1,92 @@
+"""``mckibben export``: files for other programs, one line for whatever is wrong, the story of the README."""
+
+from __future__ import annotations
+
+import csv
+import re
+import shlex
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import mckibben as mk
+from mckibben.physics.muscle import Muscle
+from mckibben.simulation.statics.model import StaticModel
+from tests.cli.conftest import Run, write
+from tests.export.test_formats import SAVED
+
+README = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
+
+
+def test_a_preset_a_file_and_a_saved_model_are_written(run: Run) -> None:
+    model = write("model.json", SAVED)
+    muscle = write("muscle.json", {"preset": "DMSP-10", "nominal_length": "200 mm"})
+    for source, form, out, files in (
+        ("DMSP-20:250mm", "c", "a.c", ["a.c", "a.h"]),
+        ("propneu-20", "python", "b.py", ["b.py"]),
+        (model, "matlab", "bench.m", ["bench.m"]),
+        (muscle, "json", "d.json", ["d.json"]),
+        (model, "c", "e.zip", ["e.zip"]),
+    ):
+        code, printed, err = run("export", source, "--as", form, "-o", out)
+        assert (code, printed) == (0, "")
+        assert [line.rpartition(": ")[2] for line in err.splitlines()] == files
+        assert all(Path(file).stat().st_size > 500 for file in files)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("DMSP-20", "--as", "fortran", "-o", "x.f"), ("--as fortran", "Known: c, json")),
+        (("DMSP-21", "--as", "c", "-o", "x.c"), ("DMSP-21", "DMSP-20")),
+        (("none.json", "--as", "c", "-o", "x.c"), ("none.json", "cannot be read")),
+        (("DMSP-20", "--as", "c", "-o", "none/x.c"), ("-o none/x.c", "there is no folder")),
+        (("DMSP-20", "--as", "matlab", "-o", "my-model.m"), ("-o my-model.m", "my_model")),
+        (("DMSP-20", "--as", "c"), ("-o",)),
+    ],
+)
+def test_one_line_says_what_is_wrong(run: Run, arguments: tuple[str, ...], words: tuple[str, ...]) -> None:
+    code, out, err = run("export", *arguments)
+    assert (code, out) == (2, "")
+    assert err.count("\n") == 1
+    for word in words:
+        assert word in err
+    assert not list(Path().glob("x.*"))
+
+
+def test_errors_of_a_document_name_the_file(run: Run) -> None:
+    broken = write("broken.json", {**SAVED, "effects": {"dahl": {"force": "1 m"}}})
+    code, _, err = run("export", broken, "--as", "c", "-o", "x.c")
+    assert code == 2
+    assert "broken.json: '1 m' is a length, a force is needed" in err
+
+
+def test_from_a_measurement_to_a_file_in_three_commands(run: Run) -> None:
+    """The story of the README: a hidden loss of 90 N is found, and is in the exported file."""
+    block = re.search(r"```sh\n(mckibben convert .*?)```", README, re.DOTALL)
+    assert block is not None
+    commands = [shlex.split(line)[1:] for line in block[1].strip().splitlines()]
+    assert len(commands) == 3
+    muscle = Muscle(0.3, 0.0218, np.radians(26.53), 1.8e-3, 0.02)
+    lost = StaticModel(muscle, {"prestress": {"force": 90.0}})
+    grid = [(p, x) for p in (2e5, 3e5, 4e5, 5e5) for x in np.linspace(0.0, 0.12, 25)]
+    noise = np.random.default_rng(5).normal(0.0, 1.0, len(grid))
+    with Path(commands[0][1]).open("w", newline="") as file:
+        writer = csv.writer(file)
+        writer.writerow(["pressure [bar]", "length [mm]", "force [N]"])
+        for (pressure, contraction), error in zip(grid, noise, strict=True):
+            length = 0.3 * (1.0 - contraction)
+            force = float(lost.force(pressure=pressure, length=length)[0]) + error
+            writer.writerow([pressure / 1e5, 1e3 * length, force])
+    for command in commands:
+        code, _, err = run(*command)
+        assert code == 0, err
+    written = Path(commands[-1][-1])
+    assert written.with_suffix(".h").exists()
+    text = " ".join(written.read_text("utf-8").split())
+    saved = mk.load(commands[2][1])
+    assert saved.effects["prestress"]["force"] == pytest.approx(90.0, abs=2.0)
+    assert repr(saved.effects["prestress"]["force"]) in text
+    assert "fitted to clean.csv" in text
+    assert "pressure from 200000 to 500000 Pa (measured)" in text
