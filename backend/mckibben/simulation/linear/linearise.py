@@ -18,6 +18,7 @@ from mckibben.simulation.command.shapes import Signal
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import dead_times
 from mckibben.simulation.linear.bound import BoundDrive
+from mckibben.simulation.linear.equations import COMMAND, PRESSURE
 from mckibben.simulation.linear.model import INPUT_SCALES, LinearModel, matrices, mean_of, model_of, moving
 from mckibben.simulation.linear.point import Condition, OperatingPoint, operating_point
 
@@ -127,8 +128,61 @@ def _primary(models: list[LinearModel], sliding: list[LinearModel], switches: bo
     if len(both) == 2 and both[0].states == both[1].states:
         ways = "filling and venting" if switches else "both directions"
         text = f"mean of '{both[0].name}' and '{both[1].name}', between which a small oscillation switches"
-        return mean_of(both[0], both[1], name=f"mean of {ways}", text=text)
+        share = balanced_share(side_gains(both)) if switches else 0.5
+        return mean_of(both[0], both[1], share=share, name=f"mean of {ways}", text=text)
     return sliding[0] if sliding else models[0]
+
+
+def side_gains(models: list[LinearModel]) -> tuple[float, float] | None:
+    """Rates of the pressure per command while filling and while venting; None where there is one."""
+    gains = {}
+    for model in models:
+        names = [state.name for state in model.states]
+        for way in ("filling", "venting"):
+            if model.name.endswith(way) and not model.name.startswith(("mean", "held")):
+                a, b, _, _ = model.channel(COMMAND.name, PRESSURE.name)
+                response = np.linalg.solve(1j * _PROBE * np.eye(len(a)) - a, b)
+                gains[way] = float(abs(response[names.index("pressure")]))
+    return (gains["filling"], gains["venting"]) if len(gains) == 2 else None
+
+
+def balanced_bias(
+    gains: tuple[float, float], amplitude: float, band: tuple[float, float] = (0.0, 0.0)
+) -> float:
+    """Offset of a sine of the command with which as much air flows in as out.
+
+    Args:
+        gains: of filling and venting.
+        amplitude: of the sine.
+        band: commands between which nothing flows, from the middle of the sine.
+    """
+    from scipy.optimize import root_scalar
+
+    turn = np.sin(2.0 * np.pi * (np.arange(720) + 0.5) / 720.0)
+
+    def net(bias: float) -> float:
+        command = bias + amplitude * turn
+        into = np.maximum(command - band[1], 0.0) * gains[0]
+        return float(np.mean(into - np.maximum(band[0] - command, 0.0) * gains[1]))
+
+    if net(-amplitude) * net(amplitude) >= 0.0:
+        return 0.0
+    return float(root_scalar(net, bracket=(-amplitude, amplitude), xtol=1e-12).root)
+
+
+def balanced_share(gains: tuple[float, float] | None) -> float:
+    r"""Share of the filling side in the describing function of a valve that fills and vents in balance.
+
+    .. math:: N = K_+ s + K_- (1 - s), \quad s = \frac{1}{\pi} \int_{\beta + \sin\varphi > 0}
+       (\beta + \sin\varphi) \sin\varphi\, d\varphi
+
+    with the bias beta of `balanced_bias` over the amplitude.
+    """
+    if gains is None:
+        return 0.5
+    bias = balanced_bias(gains, 1.0)
+    turn = np.sin(2.0 * np.pi * (np.arange(7200) + 0.5) / 7200.0)
+    return float(2.0 * np.mean(np.maximum(bias + turn, 0.0) * turn))
 
 
 def _text(rest: OperatingPoint, way: str, sticks: bool) -> str:

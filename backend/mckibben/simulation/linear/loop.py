@@ -102,7 +102,7 @@ def margins(model: LinearModel, controller: PidController, axis: Array) -> Margi
         share = loop.imag[i] / (loop.imag[i] - loop.imag[i + 1])
         size = abs(loop.real[i] + share * (loop.real[i + 1] - loop.real[i]))
         if size > 0.0 and (gain_margin is None or abs(math.log(size)) < abs(math.log(gain_margin))):
-            gain_margin, gain_at = 1.0 / size, float(frequency[i])
+            gain_margin, gain_at = float(1.0 / size), float(frequency[i])
     phase_margin = crossover = delay = None
     for i in np.flatnonzero(_changes(log_gain)):
         share = log_gain[i] / (log_gain[i] - log_gain[i + 1])

@@ -156,8 +156,8 @@ def model_of(
     )
 
 
-def mean_of(first: LinearModel, second: LinearModel, *, name: str, text: str) -> LinearModel:
-    """The mean of the matrices of two models with the same states."""
+def mean_of(first: LinearModel, second: LinearModel, *, share: float, name: str, text: str) -> LinearModel:
+    """Weighted mean of the matrices of two models with the same states; ``share`` is that of the first."""
     if first.states != second.states:
         raise ValueError("the models have different states")
     return LinearModel(
@@ -166,10 +166,10 @@ def mean_of(first: LinearModel, second: LinearModel, *, name: str, text: str) ->
         states=first.states,
         inputs=first.inputs,
         outputs=first.outputs,
-        a=0.5 * (first.a + second.a),
-        b=0.5 * (first.b + second.b),
-        c=0.5 * (first.c + second.c),
-        d=0.5 * (first.d + second.d),
+        a=share * first.a + (1.0 - share) * second.a,
+        b=share * first.b + (1.0 - share) * second.b,
+        c=share * first.c + (1.0 - share) * second.c,
+        d=share * first.d + (1.0 - share) * second.d,
         dead_time=max(first.dead_time, second.dead_time),
         point=first.point,
         mirrored=first.mirrored,
