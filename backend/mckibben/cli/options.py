@@ -67,6 +67,9 @@ Keep = Annotated[
     list[str] | None,
     typer.Option("--keep", metavar="HYPOTHESIS", help="An entry that is right as stated: do not ask."),
 ]
+DriveFile = Annotated[
+    str, typer.Argument(metavar="DRIVE", help="A drive document (JSON file) or the id of a preset.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 PresetsFolder = Annotated[
     Path | None, typer.Option("--presets", metavar="DIR", help="Folder of your own presets.")

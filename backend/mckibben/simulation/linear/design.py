@@ -19,7 +19,7 @@ from mckibben.simulation.linear.equations import COMMAND, READING
 from mckibben.simulation.linear.linearise import Linearisation
 from mckibben.simulation.linear.loop import hold_response, loop_frequencies
 from mckibben.simulation.linear.response import frequencies_for, frequency_response
-from mckibben.simulation.linear.trials import Bench, Goals, StepFigures, Trial, Variation
+from mckibben.simulation.linear.trials import LEAST_MODULUS, Bench, Goals, StepFigures, Trial, Variation
 from mckibben.simulation.outcome import Watch
 
 Array = np.ndarray
@@ -88,10 +88,15 @@ def design(linear: Linearisation, goals: Goals, watch: Watch | None = None) -> D
     if drive.controller is not None:
         trials.append(bench.trial("own", drive.controller))
     trials.append(bench.trial("rule", start))
-    best = _refined(bench, [trial.controller for trial in trials])
+    best = _refined(bench, [trial.controller for trial in trials], ultimate)
     trials.append(bench.trial("refined", best))
     if not trials[-1].figures.meets:
         remarks.append(_missed(trials[-1].figures, goals))
+    if trials[-1].margins.modulus_margin < LEAST_MODULUS - 0.01 or not trials[-1].margins.stable:
+        remarks.append(
+            f"the linear loop of the refined controller comes within {trials[-1].margins.modulus_margin:.2g} "
+            f"of -1, less than {LEAST_MODULUS:g}: it relies on what the linear model loses"
+        )
     if bench.ended:
         remarks.append("the search was ended early; this is the best controller so far")
     return Design(
@@ -154,7 +159,9 @@ class _Enough(Exception):  # noqa: N818 - it ends the search, it is no error
     """The goals are met on all drives, or the search is to end."""
 
 
-def _refined(bench: Bench, starts: list[PidController]) -> PidController:
+def _refined(
+    bench: Bench, starts: list[PidController], ultimate: tuple[float, float] | None
+) -> PidController:
     """The best controller of a simplex search over the logarithms of the gains."""
     from scipy.optimize import minimize
 
@@ -183,6 +190,11 @@ def _refined(bench: Bench, starts: list[PidController]) -> PidController:
         for factor in (1.0, 0.5, 0.25):  # hardly any integral and derivative
             kp = factor * starts[-1].kp
             tried(replace(starts[-1], kp=kp, ki=0.1 * kp, kd=1e-3 * kp))
+        if ultimate is not None:
+            gain, period = ultimate
+            for share in (0.5, 1.0, 1.5):  # mostly integral: for a plant that settles by itself
+                kp, ki, kd = 0.15 * gain, share * gain / period, 0.06 * gain * period
+                tried(replace(starts[-1], kp=kp, ki=ki, kd=kd))
         for evaluations in _EVALUATIONS:
             first = best[1]
             gains = np.array([first.kp, max(first.ki, 1e-2 * first.kp), max(first.kd, 1e-3 * first.kp)])

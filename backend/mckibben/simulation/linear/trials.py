@@ -4,20 +4,29 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
+from functools import cached_property
 
 import numpy as np
 
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.command.shapes import Pulse
 from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.linear.equations import COMMAND, READING
 from mckibben.simulation.linear.linearise import Linearisation
-from mckibben.simulation.linear.loop import Margins, margins
+from mckibben.simulation.linear.loop import (
+    Margins,
+    controller_response,
+    hold_response,
+    loop_frequencies,
+    margins,
+)
 from mckibben.simulation.linear.nonlinear import controlled_from
-from mckibben.simulation.linear.response import frequencies_for
+from mckibben.simulation.linear.response import frequencies_for, frequency_response
 from mckibben.simulation.outcome import Outcome, Watch
 
 Array = np.ndarray
 
+LEAST_MODULUS = 0.5  # distance of the loop from -1: sensitivity at most 2 (Åström & Hägglund 1995)
 BAND = 0.02  # of the step; the position has settled when it stays within
 _TOLERANCE = 1e-5
 _SPREAD = 0.2  # of mass and supply
@@ -178,14 +187,28 @@ class Bench:
         found = margins(self.linear.primary, controller, axis)
         return Trial(name, controller, figures, found, time, reference, position, command)
 
+    @cached_property
+    def _plant(self) -> tuple[Array, Array]:
+        """Frequencies of the loop and the held plant at them."""
+        model, period = self.linear.primary, self.template.sample_time
+        frequency = loop_frequencies(self.template, frequencies_for(model))[::4]
+        plant = frequency_response(model, COMMAND.name, READING.name, frequency)
+        return frequency, plant * hold_response(period, frequency)
+
+    def modulus_margin(self, controller: PidController) -> float:
+        """Least distance of the linear loop from -1."""
+        frequency, plant = self._plant
+        return float(np.nanmin(np.abs(1.0 + controller_response(controller, frequency)[0] * plant)))
+
     def cost(self, controller: PidController) -> tuple[float, bool]:
         """How far the steps are from the goals, on the drive and on its slow and fast neighbours; all met?"""
         nominal = self.figures(controller, self.linear.point.bound.drive)
-        first = self._cost(nominal)
+        missing = max(LEAST_MODULUS - self.modulus_margin(controller), 0.0)
+        first = self._cost(nominal) + 60.0 * missing
         if first > _HOPELESS:
             return 1.5 * first, False
         others = [self.figures(controller, drive) for drive in self._neighbours()]
-        met = nominal.meets and all(other.meets for other in others)
+        met = missing == 0.0 and nominal.meets and all(other.meets for other in others)
         return first + 0.5 * max(self._cost(other) for other in others), met
 
     def _neighbours(self) -> list[Drive]:
