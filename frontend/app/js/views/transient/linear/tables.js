@@ -92,9 +92,9 @@ export function trialsTable(design) {
   const system = units.value;
   /** @type {[string, (t: Trial) => string][]} */
   const rows = [
-    ["kp", (t) => figure(t.controller.kp / 10, " %/mm")],
-    ["ki", (t) => figure(t.controller.ki / 10, " %/(mm s)")],
-    ["kd", (t) => figure(t.controller.kd / 10, " % s/mm")],
+    ["kp (%/mm)", (t) => figure(t.controller.kp / 10)],
+    ["ki (%/(mm s))", (t) => figure(t.controller.ki / 10)],
+    ["kd (% s/mm)", (t) => figure(t.controller.kd / 10)],
     ["overshoot", (t) => percent(t.figures.overshoot)],
     ["settling time", (t) => figure(t.figures.settling, " s")],
     ["rise time", (t) => figure(t.figures.rise, " s")],
