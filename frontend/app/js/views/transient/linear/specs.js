@@ -13,6 +13,8 @@ import { extent } from "../../../plots/axes.js";
 const DASHES = ["dash", "dot", "dashdot", "longdash"];
 const SYMBOLS = ["circle", "square", "diamond", "triangle-up", "cross", "x"];
 const DEGREES = 180 / Math.PI;
+/** Place of a frequency on its axis; above 0, where a plot draws a line. @param {number} frequency */
+const place = (frequency) => Math.log10(frequency) + 3;
 const decibels = (/** @type {number | null} */ gain) => gain && gain > 0 ? 20 * Math.log10(gain) : null;
 
 /** Lines and points of the answer with their looks. @param {Linear} answer @param {Palette} p */
@@ -55,12 +57,12 @@ export function legendOfBode(answer, p) {
 
 /** @param {Linear} answer @returns {Spec["x"]} the logarithm of the frequency with decades as marks */
 function frequencyAxis(answer) {
-  const low = Math.log10(answer.frequency[0]), high = Math.log10(answer.frequency.at(-1) ?? 1);
+  const low = place(answer.frequency[0]), high = place(answer.frequency.at(-1) ?? 1);
   const marks = [];
-  for (let decade = Math.floor(low); decade <= high; decade++) {
+  for (let decade = -3; decade <= 3; decade++) {
     for (const digit of [1, 2, 5]) {
-      const at = decade + Math.log10(digit);
-      if (at >= low && at <= high) marks.push({ at, text: String(Number((10 ** at).toPrecision(1))) });
+      const frequency = Number((digit * 10 ** decade).toPrecision(1)), at = place(frequency);
+      if (at >= low && at <= high) marks.push({ at, text: String(frequency) });
     }
   }
   return { title: "Frequency (Hz)", range: [low, high], marks };
@@ -77,7 +79,7 @@ function roundRange(rows, step) {
  *   dot: (d: Linear["describing"][number]) => number | null}} o @returns {Spec} */
 function bode(answer, p, o) {
   const { models, points } = looks(answer, p);
-  const x = answer.frequency.map((f) => Math.log10(f));
+  const x = answer.frequency.map(place);
   const lines = models.map(({ model, color, dash }) => ({
     id: `model ${model.name}`,
     column: model.name,
@@ -88,7 +90,7 @@ function bode(answer, p, o) {
   const dots = points.map(({ amplitude, color, symbol, rows }) => ({
     id: `sine ${amplitude}`,
     column: `nonlinear, ${amplitudeText(answer, amplitude)}`,
-    x: rows.map((d) => Math.log10(d.frequency)),
+    x: rows.map((d) => place(d.frequency)),
     y: rows.map(o.dot),
     marker: { size: 7, symbol, color, edge: p.card },
   }));
@@ -99,7 +101,22 @@ function bode(answer, p, o) {
     traces: [...lines, ...dots],
     zones: [],
     revision: `linear ${answer.input.name} ${answer.output.name}`,
+    table: {
+      columns: [{ title: "Frequency", unit: "Hz" }, ...[...lines, ...dots].map((t) => ({ title: t.column }))],
+      rows: tableRows(answer.frequency, lines, points, o.dot),
+    },
   };
+}
+
+/** Rows of the models, then those of the sines. @param {number[]} frequency @param {{y: (number | null)[]}[]} lines
+ * @param {ReturnType<typeof looks>["points"]} points
+ * @param {(d: Linear["describing"][number]) => number | null} dot @returns {(number | null)[][]} */
+function tableRows(frequency, lines, points, dot) {
+  const models = frequency.map((f, i) => [f, ...lines.map((t) => t.y[i]), ...points.map(() => null)]);
+  const sines = points.flatMap(({ rows }, k) =>
+    rows.map((d) => [d.frequency, ...lines.map(() => null), ...points.map((_, j) => j === k ? dot(d) : null)])
+  );
+  return [...models, ...sines];
 }
 
 /** @param {Linear} answer @param {Palette} p */
