@@ -3,7 +3,8 @@
 The rule is that of Tyreus and Luyben (Ind. Eng. Chem. Res. 31 (1992) 2625; with derivative in Luyben &
 Luyben, Essentials of Process Control, 1997; both grade M): from the ultimate gain K_u and period P_u of the
 loop, k_p = K_u/2.2, T_i = 2.2 P_u, T_d = P_u/6.3. It is made for plants that integrate. The refinement
-changes the three gains with a simplex (Nelder & Mead 1965) until steps of the nonlinear drive meet the goals.
+changes the three gains, and feeds a share of the command forward where the plant settles by itself, with a
+simplex (Nelder & Mead 1965) until steps of the nonlinear drive meet the goals.
 """
 
 from __future__ import annotations
@@ -18,14 +19,15 @@ from mckibben.simulation.command.pid import MAX_GAIN, PidController
 from mckibben.simulation.linear.equations import COMMAND, READING
 from mckibben.simulation.linear.linearise import Linearisation
 from mckibben.simulation.linear.loop import hold_response, loop_frequencies
-from mckibben.simulation.linear.response import frequencies_for, frequency_response
+from mckibben.simulation.linear.response import frequencies_for, frequency_response, static_gain
 from mckibben.simulation.linear.trials import LEAST_MODULUS, Bench, Goals, StepFigures, Trial, Variation
 from mckibben.simulation.outcome import Watch
 
 Array = np.ndarray
 
 RULE = "Tyreus and Luyben 1992, from the ultimate gain and period of the linear loop"
-_EVALUATIONS = (110, 70)  # of each simplex of the refinement
+_GAINS = ("kp", "ki", "kd", "feed_forward")
+_EVALUATIONS = (80, 80, 60)  # of each simplex
 
 
 @dataclass(frozen=True)
@@ -166,6 +168,7 @@ def _refined(
     from scipy.optimize import minimize
 
     best: tuple[float, PidController] = (math.inf, starts[0])
+    seen: list[tuple[float, PidController]] = []
 
     def tried(controller: PidController) -> float:
         nonlocal best
@@ -173,6 +176,7 @@ def _refined(
             bench.ended = True
             raise _Enough
         cost, met = bench.cost(controller)
+        seen.append((cost, controller))
         if cost < best[0]:
             best = cost, controller
         if met:
@@ -180,8 +184,8 @@ def _refined(
         return cost
 
     def controller_of(logs: Array) -> PidController:
-        kp, ki, kd = np.exp(np.clip(logs, -18.0, math.log(MAX_GAIN)))
-        return replace(bench.template, kp=float(kp), ki=float(ki), kd=float(kd))
+        gains = np.exp(np.clip(logs, -18.0, math.log(MAX_GAIN)))
+        return replace(bench.template, **dict(zip(_GAINS, map(float, gains), strict=False)))
 
     try:
         for start in starts:
@@ -190,15 +194,23 @@ def _refined(
         for factor in (1.0, 0.5, 0.25):  # hardly any integral and derivative
             kp = factor * starts[-1].kp
             tried(replace(starts[-1], kp=kp, ki=0.1 * kp, kd=1e-3 * kp))
+        # A plant that settles by itself: mostly integral, with a share of the command fed forward.
+        static = static_gain(bench.linear.primary, COMMAND.name, READING.name)
+        ahead = 0.0 if not static or static < 0.0 else min(1.0 / static, 0.1 * MAX_GAIN)
         if ultimate is not None:
             gain, period = ultimate
-            for share in (0.5, 1.0, 1.5):  # mostly integral: for a plant that settles by itself
+            for share, fed in ((0.5, 0.0), (1.0, 0.0), (1.5, 0.0), (0.5, 0.6), (0.15, 0.8)):
                 kp, ki, kd = 0.15 * gain, share * gain / period, 0.06 * gain * period
-                tried(replace(starts[-1], kp=kp, ki=ki, kd=kd))
-        for evaluations in _EVALUATIONS:
-            first = best[1]
-            gains = np.array([first.kp, max(first.ki, 1e-2 * first.kp), max(first.kd, 1e-3 * first.kp)])
-            simplex = np.log(np.maximum(gains, 1e-8)) + np.vstack([np.zeros(3), 0.7 * np.eye(3)])
+                tried(replace(starts[-1], kp=kp, ki=ki, kd=kd, feed_forward=fed * ahead))
+        ranked = sorted(seen, key=lambda pair: pair[0])
+        for number, evaluations in enumerate(_EVALUATIONS):
+            # From the best two beginnings, then from the best so far: the cost has several minima.
+            first = best[1] if number == len(_EVALUATIONS) - 1 else ranked[number][1]
+            gains = [first.kp, max(first.ki, 1e-2 * first.kp), max(first.kd, 1e-3 * first.kp)]
+            if ahead:
+                gains.append(max(first.feed_forward, 0.02 * ahead))
+            width = len(gains)
+            simplex = np.log(np.maximum(gains, 1e-8)) + np.vstack([np.zeros(width), 0.7 * np.eye(width)])
             minimize(
                 lambda logs: tried(controller_of(logs)),
                 simplex[0],
