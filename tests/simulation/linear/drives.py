@@ -45,6 +45,9 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
         **_LIFT, "effects": {**_LIFT["effects"], "valve_deadband": {"half_width": "4 %"}},
     },
     "friction": {**_REGULATED, "effects": {**_LIFT["effects"], "coulomb_friction": {"force": "10 N"}}},
+    "regulator with hysteresis": {
+        **_REGULATED, "effects": {**_LIFT["effects"], "valve_hysteresis": {"width": "1 %"}},
+    },
     "pair": {
         **_REGULATED,
         "load": {"mass": "2 kg", "arrangement": "antagonist", "pulley_radius": "20 mm"},

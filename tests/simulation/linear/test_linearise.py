@@ -161,6 +161,25 @@ def test_a_valve_with_a_dead_band_is_linearised_at_its_edges() -> None:
     assert any(text.startswith("dead band") for text in linear.lost)
 
 
+def test_a_regulator_with_play_has_a_dead_band() -> None:
+    linear = linearise(drive("regulator with hysteresis"))
+    plain = linearise(drive("regulator")).models[0]
+    assert linear.dead_band is not None
+    low, high = linear.dead_band
+    assert high - low == pytest.approx(0.01, abs=1e-6)
+    pole = eigenvalues(plain)[1]  # of the mechanics and the air nothing changes
+    for model in linear.models:
+        assert np.abs(eigenvalues(model) - pole).min() == pytest.approx(0.0, abs=1e-6 * abs(pole))
+
+
+def test_a_muscle_without_a_load_has_no_tension() -> None:
+    free = drive("regulator")
+    free = replace(free, load=replace(free.load, mass=0.0))
+    with pytest.raises(InputError, match="hangs slack") as caught:
+        linearise(free, Condition("position", 0.03))
+    assert "a load that pulls" in (caught.value.hint or "")
+
+
 def test_friction_holds_and_slides() -> None:
     linear = linearise(drive("friction"))
     held, shorter, longer, mean = linear.models

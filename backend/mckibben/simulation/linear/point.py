@@ -114,10 +114,10 @@ def operating_point(bound: BoundDrive, condition: Condition | None, *, direction
     if any(slack):
         which = "the muscle hangs" if len(slack) == 1 else "one muscle of the pair hangs"
         raise InputError(
-            f"at {point.position * 1e3:.4g} mm and {point.pressure / 1e5:.3g} bar {which} slack: there is no "
-            "tension to linearise",
+            f"at {point.position * 1e3:.4g} mm and {max(point.pressure, 0.0) / 1e5:.3g} bar {which} slack: "
+            "there is no tension to linearise",
             field=_FIELD,
-            hint="state a lower position or a higher pressure",
+            hint="state a lower position or a higher pressure, or a load that pulls on the muscle",
         )
     return point
 
@@ -242,6 +242,18 @@ class _Search:
             return self._refined(stroke, pressure, "pressure")
         return self._refined(stroke, pressure, "pressure", stop)
 
+    def _followed(self, state: Array, command: float, switches: Array) -> Array:
+        """The states with those of the valve where a constant command has moved them, as behind a play."""
+        bound = self.bound
+        moved = {effect.id for effect in bound.drive.model.effects if "opening" in effect.slots}
+        own = [i for i, name in enumerate(bound.names) if name.partition(".")[0] in moved]
+        for _ in range(8 if own else 0):
+            values = bound.values(state, command, switches)
+            step = np.linalg.lstsq(values.a[np.ix_(own, own)], -values.rates[own], rcond=1e-13)[0]
+            state = state.copy()
+            state[own] += step
+        return state
+
     def _refined(self, stroke: float, pressure: float, fixed: str, stop: str | None = None) -> OperatingPoint:
         """Newton's method on all rates: leaks, droop and lags take their part."""
         bound, direction = self.bound, self.direction
@@ -251,6 +263,7 @@ class _Search:
         switches = bound.free
         for index, switch in enumerate(bound.equations.model.switches):
             switches[index] = float(switch.name == stop)
+        state = self._followed(state, command, switches)
         keep, expansion, scales = bound.independent, bound.expansion, bound.scales
         names = [bound.names[index] for index in keep]
         moving = {"stroke", "speed"}
