@@ -26,6 +26,9 @@ export interface paths {
   "/api/inverse": {
     post: operations["answer_question"];
   };
+  "/api/linearisations": {
+    post: operations["linearise_drive"];
+  };
   "/api/measurements": {
     put: operations["upload_measurement"];
   };
@@ -342,6 +345,27 @@ export interface components {
       /** Gauge pressure in the muscle. [Pa] */
       pressure: number | string;
     };
+    /** A position controller in SI. */
+    ControllerAnswer: {
+      /** Proportional gain. [1/m] */
+      kp: number;
+      /** Integral gain. [1/(m*s)] */
+      ki: number;
+      /** Derivative gain. [s/m] */
+      kd: number;
+      /** Command per reference. [1/m] */
+      feed_forward: number;
+      /** Filter time of the derivative. [s] */
+      derivative_filter: number;
+      /** Sample time. [s] */
+      sample_time: number;
+      /** Lowest command. [1] */
+      output_min: number;
+      /** Highest command. [1] */
+      output_max: number;
+      /** The part `controller` of a drive document, without its reference. */
+      document: { [key: string]: string };
+    };
     /** A sampled PID controller of the load's position. Gains without a unit are in percent of full command per mm (and s). */
     ControllerInput: {
       /** Kind of the controller; there is one. */
@@ -615,28 +639,31 @@ export interface components {
       /** The effects of its model; null: those of the preset. */
       effects?: { [key: string]: { [key: string]: number | string } } | null;
     };
-    /** An example document of the Design view; its content is checked when it is used. */
-    DesignAnswer: {
-      /** Version of the document. */
-      schema: 1;
-      /** Says that it is a design. */
-      kind: "design";
-      /** Its id; for the user's own, also the name of its file. */
-      id: string;
-      /** Its name for display. */
-      title: string;
-      /** Who makes the part; empty where nobody does. */
-      maker?: string;
-      /** What it is, in a few sentences. */
-      description?: string;
-      /** Sources for further reading. */
-      references?: string[];
-      /** The document that the Design view opens. */
-      document: { [key: string]: unknown };
-      /** No figure is general knowledge (M) or an estimate (E). */
-      verified: boolean;
-      /** Part of the program, or saved by the user. */
-      origin: "built-in" | "user";
+    /** The nonlinear drive under a sine: the fundamental of the output over the sine. */
+    DescribingPointAnswer: {
+      /** Frequency. [Hz] */
+      frequency: number;
+      /** Amplitude of the input, in its unit. */
+      amplitude: number;
+      /** Gain, in the units of output per input; null without a run. */
+      gain: number | null;
+      /** Phase; null without a run. [rad] */
+      phase: number | null;
+      /** Share of everything but the fundamental in the output. [1] */
+      distortion: number | null;
+      /** What kept it from being a clean oscillation. */
+      remark: string | null;
+    };
+    /** Goals of a position controller, for steps of the nonlinear drive. */
+    DesignInput: {
+      /** Largest overshoot as a share of the step. [1] */
+      overshoot?: number | string;
+      /** Time until the position stays within 2 % of the step. [s] */
+      settling?: number | string;
+      /** Height of the step. Default: a tenth of the range between the stops. [m] */
+      step?: number | string | null;
+      /** Whether the command must never reach its limits. */
+      unsaturated?: boolean;
     };
     /** What the model is missing, and how certain that is. */
     DiagnosisAnswer: {
@@ -1426,6 +1453,17 @@ export interface components {
       /** Wall of the bladder. */
       wall_thickness?: components["schemas"]["Quantity"] | null;
     };
+    /** The goals of a design. */
+    GoalsAnswer: {
+      /** Largest overshoot. [1] */
+      overshoot: number;
+      /** Latest settling time. [s] */
+      settling: number;
+      /** Height of the step. [m] */
+      step: number;
+      /** Whether the command must never reach its limits. */
+      unsaturated: boolean;
+    };
     /** Source of a value of a drive document. */
     Ground: {
       /** Where the value comes from, in a few words. */
@@ -1534,6 +1572,121 @@ export interface components {
       min_nominal_length?: components["schemas"]["Quantity"] | null;
       /** Longest muscle that is made. */
       max_nominal_length?: components["schemas"]["Quantity"] | null;
+    };
+    /** dx/dt = A x + B u, y = C x + D u: deviations from the operating point, in SI. */
+    LinearModelAnswer: {
+      /** Name. */
+      name: string;
+      /** What it is a model of. */
+      text: string;
+      /** Whether loop and design use it. */
+      primary: boolean;
+      /** Gauge pressure at which it was linearised. [Pa] */
+      pressure: number;
+      /** Dead time of the command; in gain and phase, not in the matrices. [s] */
+      dead_time: number;
+      /** States, in the order of the matrices. */
+      states: components["schemas"]["NamedValue"][];
+      /** Inputs, in the order of the matrices. */
+      inputs: components["schemas"]["NamedValue"][];
+      /** Outputs, in the order of the matrices. */
+      outputs: components["schemas"]["NamedValue"][];
+      /** A, one list for each row. */
+      a: number[][];
+      /** B, one list for each row. */
+      b: number[][];
+      /** C, one list for each row. */
+      c: number[][];
+      /** D, one list for each row. */
+      d: number[][];
+      /** Poles, slowest first. */
+      poles: components["schemas"]["Pole"][];
+      /** Zeros of the channel that hide no pole. */
+      zeros: components["schemas"]["Zero"][];
+      /** Gain at 0 Hz in the units of output per input; null where the channel integrates. */
+      static_gain: number | null;
+      /** Frequency at which the gain has fallen by 3 dB. [Hz] */
+      bandwidth: number | null;
+      /** Why there is no bandwidth. */
+      bandwidth_note: string | null;
+      /** Gain over `frequency`, in the units of output per input. */
+      gain: (number | null)[];
+      /** Phase over `frequency`, with the dead time. [rad] */
+      phase: (number | null)[];
+    };
+    /** Where the drive was linearised. */
+    LinearPointAnswer: {
+      /** Position of the load. [m] */
+      position: number;
+      /** Contraction ratio of the (first) muscle. [1] */
+      contraction: number;
+      /** Gauge pressure in the (first) muscle. [Pa] */
+      pressure: number;
+      /** Gauge pressure in the second muscle of a pair. [Pa] */
+      counter_pressure: number | null;
+      /** Command that holds the load there. [1] */
+      command: number;
+      /** Tension of the (first) muscle. [N] */
+      force: number;
+      /** External force on the load. [N] */
+      load_force: number;
+      /** Gauge pressure of the supply. [Pa] */
+      supply_pressure: number;
+      /** Whether the load rests on an end stop. */
+      on_stop: boolean;
+    };
+    /** The operating point by one value; the others stay null. */
+    LinearPointInput: {
+      /** Position of the load, positive = muscle shorter. [m] */
+      position?: number | string | null;
+      /** Contraction ratio of the (first) muscle. [1] */
+      contraction?: number | string | null;
+      /** Gauge pressure in the (first) muscle. [Pa] */
+      pressure?: number | string | null;
+      /** Set point of a regulator as a share of its range. [1] */
+      command?: number | string | null;
+    };
+    /** The linear view of a drive at an operating point, in SI; angles in rad. */
+    LinearisationAnswer: {
+      /** Where it was linearised. */
+      point: components["schemas"]["LinearPointAnswer"];
+      /** Whether nothing sticks or switches there; then there is one model. */
+      smooth: boolean;
+      /** What the linear models do not contain. */
+      lost: string[];
+      /** Commands between which nothing reacts. [1] */
+      dead_band: number[] | null;
+      /** Input of the chosen channel. */
+      input: components["schemas"]["NamedValue"];
+      /** Output of the chosen channel. */
+      output: components["schemas"]["NamedValue"];
+      /** Frequencies of the models' gain and phase. [Hz] */
+      frequency: number[];
+      /** One model, or several where something sticks or switches: each names its case. */
+      models: components["schemas"]["LinearModelAnswer"][];
+      /** The nonlinear drive under sines. */
+      describing: components["schemas"]["DescribingPointAnswer"][];
+      /** Loop of the drive's controller; null without one. */
+      loop: components["schemas"]["LoopAnswer"] | null;
+      /** The designed controller; null unless asked for. */
+      design: components["schemas"]["mckibben__server__schemas__linearisations__DesignAnswer"] | null;
+      /** Remarks. */
+      notes: string[];
+    };
+    /** A drive, an operating point, and what to show of its linear view. */
+    LinearisationRequest: {
+      /** A drive document, or the id of a drive preset. */
+      drive: components["schemas"]["DriveDocument"] | string;
+      /** Operating point. Default: the middle of the positions that can be held. */
+      at?: components["schemas"]["LinearPointInput"] | null;
+      /** Input of responses, poles and zeros: command, supply_pressure or load_force; counter_command of an antagonist pair. */
+      input?: string;
+      /** Output: position, velocity, pressure, force, mass_flow or position_reading; of an antagonist pair also counter_pressure, counter_force or counter_mass_flow. */
+      output?: string;
+      /** Amplitudes of sines for the nonlinear drive, in the SI unit of the input. Default: 1, 5 and 20 % of full command or of the tension; an empty list: no sweep. */
+      amplitudes?: number[] | null;
+      /** Goals of a controller design; null: no design. */
+      design?: components["schemas"]["DesignInput"] | null;
     };
     /** The load of the muscle. */
     LoadInput: {
@@ -1671,6 +1824,40 @@ export interface components {
       area: number;
       /** Travel between the reversals. [m] */
       span: number;
+    };
+    /** The loop of the drive's controller with the primary model. */
+    LoopAnswer: {
+      /** The controller of the drive. */
+      controller: components["schemas"]["ControllerAnswer"];
+      /** Stability and margins. */
+      margins: components["schemas"]["MarginsAnswer"];
+      /** Frequencies up to half the sampling frequency. [Hz] */
+      frequency: number[];
+      /** Gain of the open loop. [1] */
+      gain: (number | null)[];
+      /** Phase of the open loop. [rad] */
+      phase: (number | null)[];
+      /** Gain from the reference to the position. [1] */
+      closed_gain: (number | null)[];
+    };
+    /** Stability of the closed loop of the linear model, and how far it is from its limit. */
+    MarginsAnswer: {
+      /** Whether the sampled closed loop is stable. */
+      stable: boolean;
+      /** Factor of the gain up to the limit of stability. [1] */
+      gain_margin: number | null;
+      /** Frequency at which the phase is -180 degrees. [Hz] */
+      gain_margin_at: number | null;
+      /** Phase left where the gain of the loop is 1. [rad] */
+      phase_margin: number | null;
+      /** Frequency at which the gain of the loop is 1. [Hz] */
+      crossover: number | null;
+      /** Further dead time up to the limit of stability. [s] */
+      delay_margin: number | null;
+      /** Least distance of the open loop from -1. [1] */
+      modulus_margin: number;
+      /** Frequency at which the closed loop has fallen by 3 dB. [Hz] */
+      bandwidth: number | null;
     };
     /** The range of a quantity in the data of a model. */
     MeasuredRange: {
@@ -1984,6 +2171,17 @@ export interface components {
       /** Id of the measurement for comparisons and diagnoses. */
       measurement: string;
     };
+    /** A state, an input or an output. */
+    NamedValue: {
+      /** Name. */
+      name: string;
+      /** SI unit. */
+      unit: string;
+      /** What it is. */
+      text: string;
+      /** Value at the operating point, in its unit; states of gas absolute. */
+      value: number;
+    };
     /** The experiment that splits a group of indistinguishable effects best, with its set points. */
     NextExperiment: {
       /** The effects, that of the model first. */
@@ -2134,6 +2332,23 @@ export interface components {
       /** Constants fitted as well, as effect.parameter. */
       freed: string[];
     };
+    /** A pole; of a complex pair the one with the positive imaginary part. */
+    Pole: {
+      /** Real part. [rad/s] */
+      real: number;
+      /** Imaginary part. [rad/s] */
+      imaginary: number;
+      /** Magnitude. [Hz] */
+      frequency: number;
+      /** Damping ratio; null for an integrator. [1] */
+      damping: number | null;
+      /** Time constant of the decay; null where nothing decays. [s] */
+      time_constant: number | null;
+      /** Kind of motion. */
+      kind: "integrator" | "real" | "oscillation" | "unstable";
+      /** Whether a zero hides it in the chosen channel. */
+      cancelled: boolean;
+    };
     /** Where new readings of the position are expected, where the model was measured; wider elsewhere. */
     PositionInterval: {
       /** Lower ends. [m] */
@@ -2159,7 +2374,7 @@ export interface components {
       /** The requested kind. */
       kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" | "tasks";
       /** The presets, by id. */
-      presets: (components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] | components["schemas"]["DriveAnswer"] | components["schemas"]["TaskAnswer"])[];
+      presets: (components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["mckibben__server__schemas__presets__DesignAnswer"] | components["schemas"]["DriveAnswer"] | components["schemas"]["TaskAnswer"])[];
       /** Preset files that could not be loaded. */
       problems: components["schemas"]["PresetProblem"][];
     };
@@ -2867,6 +3082,23 @@ export interface components {
       /** Its fields. */
       experiment: components["schemas"]["ExperimentField"][];
     };
+    /** Figures of a step and back again on the nonlinear drive: the worse of the two. */
+    StepFiguresAnswer: {
+      /** Overshoot as a share of the step; null if the run failed. [1] */
+      overshoot: number | null;
+      /** Time until within 2 %; null where it does not settle. [s] */
+      settling: number | null;
+      /** Time from 10 to 90 %. [s] */
+      rise: number | null;
+      /** Share of the time with the command at its limits. [1] */
+      saturated: number;
+      /** Root mean square of the error as a share of the step. [1] */
+      error: number | null;
+      /** The same over the second half of its time. [1] */
+      late_error: number | null;
+      /** Whether the goals are met. */
+      meets: boolean;
+    };
     /** End stops as contraction ratios; below 0 the muscle may be stretched. */
     StopsInput: {
       /** The load rests here without pressure. [1] */
@@ -3045,6 +3277,29 @@ export interface components {
       /** Figure -> why it is null, or a remark on it. */
       notes: { [key: string]: string };
     };
+    /** A controller, its steps on the nonlinear drive, and its margins on the primary model. */
+    TrialAnswer: {
+      /** Where the controller comes from. */
+      name: "own" | "rule" | "refined";
+      /** Its gains. */
+      controller: components["schemas"]["ControllerAnswer"];
+      /** Figures of its steps. */
+      figures: components["schemas"]["StepFiguresAnswer"];
+      /** Margins of its loop. */
+      margins: components["schemas"]["MarginsAnswer"];
+      /** When the step begins. [s] */
+      begins: number;
+      /** When the step back begins. [s] */
+      returns: number;
+      /** Instants of the run. [s] */
+      time: number[];
+      /** Reference. [m] */
+      reference: (number | null)[];
+      /** Position of the load. [m] */
+      position: (number | null)[];
+      /** Command. [1] */
+      command: (number | null)[];
+    };
     /** A tube; its conductance is given for ``reference_length``. */
     TubeAnswer: {
       /** Version of the document. */
@@ -3157,6 +3412,15 @@ export interface components {
       /** Standard nominal flow (6 to 5 bar gauge, normal litres) instead of a conductance. [m^3/s] */
       nominal_flow?: number | string | null;
     };
+    /** The refined controller on a drive with another mass and supply. */
+    VariationAnswer: {
+      /** Factor of the mass. [1] */
+      mass: number;
+      /** Factor of the supply pressure. [1] */
+      supply: number;
+      /** Figures of its steps. */
+      figures: components["schemas"]["StepFiguresAnswer"];
+    };
     /** The verdict of the diagnosis. */
     Verdict: {
       /** The verdict as a word for programs. */
@@ -3221,6 +3485,55 @@ export interface components {
       pressure: number | string;
       /** Load at the start of the stroke. [N] */
       preload?: number | string;
+    };
+    /** A zero of the channel; of a complex pair the one with the positive imaginary part. */
+    Zero: {
+      /** Real part. [rad/s] */
+      real: number;
+      /** Imaginary part. [rad/s] */
+      imaginary: number;
+    };
+    /** A position controller by a published rule, then refined on nonlinear runs. */
+    mckibben__server__schemas__linearisations__DesignAnswer: {
+      /** Goals, with the height of the step. */
+      goals: components["schemas"]["GoalsAnswer"];
+      /** Name and source of the rule. */
+      rule: string;
+      /** Gain at which a proportional loop oscillates. [1/m] */
+      ultimate_gain: number | null;
+      /** Period of that oscillation. [s] */
+      ultimate_period: number | null;
+      /** Own controller if there is one, rule, refined. */
+      trials: components["schemas"]["TrialAnswer"][];
+      /** Mass and supply 20 % lower and higher. */
+      robust: components["schemas"]["VariationAnswer"][];
+      /** Runs of the nonlinear drive. */
+      evaluations: number;
+      /** What to know about the design. */
+      remarks: string[];
+    };
+    /** An example document of the Design view; its content is checked when it is used. */
+    mckibben__server__schemas__presets__DesignAnswer: {
+      /** Version of the document. */
+      schema: 1;
+      /** Says that it is a design. */
+      kind: "design";
+      /** Its id; for the user's own, also the name of its file. */
+      id: string;
+      /** Its name for display. */
+      title: string;
+      /** Who makes the part; empty where nobody does. */
+      maker?: string;
+      /** What it is, in a few sentences. */
+      description?: string;
+      /** Sources for further reading. */
+      references?: string[];
+      /** The document that the Design view opens. */
+      document: { [key: string]: unknown };
+      /** No figure is general knowledge (M) or an estimate (E). */
+      verified: boolean;
+      /** Part of the program, or saved by the user. */
+      origin: "built-in" | "user";
     };
   };
 }
@@ -3310,6 +3623,19 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
+  /** Linear models of a drive at an operating point; closing the connection ends sweep and design. */
+  linearise_drive: {
+    requestBody: { content: { "application/json": components["schemas"]["LinearisationRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["LinearisationAnswer"]; "text/event-stream": string } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** Every effect with its equation, parameters, sources and what it is confused with. */
   list_effects: {
     responses: {
@@ -3388,7 +3714,7 @@ export interface operations {
       path: { kind: "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" | "tasks"; preset_id: string };
     };
     responses: {
-      200: { content: { "application/json": components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["DesignAnswer"] | components["schemas"]["DriveAnswer"] | components["schemas"]["TaskAnswer"] } };
+      200: { content: { "application/json": components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["mckibben__server__schemas__presets__DesignAnswer"] | components["schemas"]["DriveAnswer"] | components["schemas"]["TaskAnswer"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };

@@ -14,6 +14,7 @@ import mckibben as mk
 from mckibben.door.comparison import Comparison
 from mckibben.door.curves import Curves
 from mckibben.door.diagnosis import Diagnosis
+from mckibben.door.linear import LinearView
 from mckibben.door.run import Run
 from mckibben.door.sizing import Proposal, Sizing
 
@@ -32,7 +33,18 @@ NAMES = {
     "use_effects",
     "use_presets",
 }
-CLASSES = (mk.Model, mk.Measurement, mk.Drive, Curves, Comparison, Diagnosis, Run, Sizing, Proposal)
+CLASSES = (
+    mk.Model,
+    mk.Measurement,
+    mk.Drive,
+    Curves,
+    Comparison,
+    Diagnosis,
+    Run,
+    LinearView,
+    Sizing,
+    Proposal,
+)
 
 
 def test_the_names_are_these() -> None:
@@ -86,5 +98,6 @@ def test_type_checkers_are_strict_on_the_door_and_see_its_types() -> None:
         for file in files
         if not re.search(r"^# pyright: strict", file.read_text("utf-8"), re.MULTILINE)
     }
-    assert lax == {"frames.py", "figures/style.py", "figures/statics.py", "figures/others.py"}
+    figures = {f"figures/{name}.py" for name in ("style", "statics", "others", "linear")}
+    assert lax == {"frames.py", *figures}
     assert len(files) > 10

@@ -13,10 +13,12 @@ from typing import Annotated
 
 import typer
 
+from mckibben.cli.linear_options import Amplitudes, At, DesignGoals, Output, Source
 from mckibben.cli.options import (
     AsJson,
     DataFiles,
     DataFolder,
+    DriveFile,
     EffectIds,
     EffectsFolders,
     Exported,
@@ -198,9 +200,7 @@ def diagnose(
     muscle: MuscleText = "",
     ideal: Ideal = False,
     effect: EffectIds = None,
-    drive: str = typer.Option(
-        "", "--drive", help="A drive document (JSON file): its muscle, effects, valve."
-    ),
+    drive: str = typer.Option("", "--drive", help="A drive document (JSON): its muscle, effects, valve."),
     model: SavedModelFile = "",
     free: Free = None,
     noise: Annotated[
@@ -318,9 +318,7 @@ def convert(
 
 @app.command()
 def simulate(
-    drive: Annotated[
-        str, typer.Argument(metavar="DRIVE", help="A drive document (JSON file) or the id of a preset.")
-    ],
+    drive: DriveFile,
     out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the run as CSV.")] = None,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
@@ -332,6 +330,27 @@ def simulate(
     from mckibben.cli.simulate import run
 
     run(open_studio(presets, effects, data), drive=drive, out=out, as_json=as_json)
+
+
+@app.command()
+def linearise(
+    drive: DriveFile,
+    at: At = None,
+    source: Source = "command",
+    output: Output = "position",
+    amplitudes: Amplitudes = None,
+    design: DesignGoals = None,
+    as_json: AsJson = False,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """Linear models of a drive: poles, Bode, margins, sweep of the nonlinear drive, controller design."""
+    from mckibben.cli.linearise import Wanted, run
+    from mckibben.cli.options import open_studio
+
+    wanted = Wanted(at, source, output, amplitudes, design)
+    run(open_studio(presets, effects, data), drive=drive, wanted=wanted, as_json=as_json)
 
 
 @app.command()

@@ -85,6 +85,9 @@ ExportFormat = Annotated[str, typer.Option("--as", metavar="FORMAT", help=f"One 
 ExportFile = Annotated[
     Path, typer.Option("--out", "-o", metavar="FILE", help="Several files stand beside it, or in it if .zip.")
 ]
+DriveFile = Annotated[
+    str, typer.Argument(metavar="DRIVE", help="A drive document (JSON file) or the id of a preset.")
+]
 AsJson = Annotated[bool, typer.Option("--json", help="One JSON object on stdout.")]
 PresetsFolder = Annotated[
     Path | None, typer.Option("--presets", metavar="DIR", help="Folder of your own presets.")

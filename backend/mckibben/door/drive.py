@@ -4,12 +4,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from mckibben.application.drive_run import single_run_engine
+from mckibben.application.linear_text import condition_of, goals_of
+from mckibben.application.linearise import LinearQuestion, linear_view
 from mckibben.application.simulate import POINTS, SimulationQuestion, prepare
 from mckibben.application.text_file import write_text
 from mckibben.documents.drive import DriveDocument
@@ -17,6 +19,7 @@ from mckibben.documents.drive_files import named_document, preset_document, read
 from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.studio import Studio
 from mckibben.door.exported import Exportable
+from mckibben.door.linear import LinearView
 from mckibben.door.model import Model
 from mckibben.door.model_files import model_of_document
 from mckibben.door.problem import reported
@@ -184,6 +187,44 @@ class Drive(Exportable):
         )
         result = prepare(question)(Watch(progress=None if progress is None else _teller(progress)))
         return Run(result, self._document, self._name)
+
+    @reported
+    def linearise(
+        self,
+        at: str | None = None,
+        *,
+        input: str = "command",
+        output: str = "position",
+        amplitudes: Sequence[Quantity] | None = None,
+        design: str | None = None,
+    ) -> LinearView:
+        """Linear models of the drive at an operating point, and what they lose.
+
+        Args:
+            at: "position 40 mm", "contraction 10 %", "pressure 3 bar" or, of a regulator, "command 50 %";
+                None = the middle of the positions that can be held.
+            input: of the responses: "command", "supply_pressure" or "load_force".
+            output: "position", "velocity", "pressure", "force", "mass_flow" or "position_reading".
+            amplitudes: of sines for the nonlinear drive; None = 1, 5 and 20 % of the full command or of the
+                tension, () = no sweep.
+            design: goals of a position controller, "overshoot 5 %, settling 0.5 s, step 10 mm, no
+                saturation"; None = no design.
+
+        Raises:
+            Problem: there is no equilibrium there (with those there are), or no such input, output or goal.
+        """
+        unit = "N" if input == "load_force" else "1"
+        question = LinearQuestion(
+            drive_of(self._document, self._studio, measured=True),
+            at=None if at is None else condition_of(at),
+            input=input,
+            output=output,
+            amplitudes=None
+            if amplitudes is None
+            else tuple(number_of(each, unit, "amplitudes") for each in amplitudes),
+            goals=None if design is None else goals_of(design),
+        )
+        return LinearView(linear_view(question, Watch(time_limit=float("inf"))), self._name)
 
     def _annotated(self) -> AnnotatedDrive:
         return drive_of(self._document, self._studio)

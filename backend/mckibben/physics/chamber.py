@@ -57,9 +57,9 @@ def with_energy_balance(*, structure: DriveStructure, model: Model) -> bool:
     return not structure.polytropic or model.has("heat")
 
 
-def sign_of(*, velocity: Value) -> Value:
-    """A smooth sign of a velocity."""
-    return velocity / ops.sqrt(velocity**2 + SIGN_SPEED**2)
+def sign_of(*, velocity: Value, sign_speed: Value = SIGN_SPEED) -> Value:
+    """A smooth sign of a velocity; 0.7 at ``sign_speed`` [m/s]."""
+    return velocity / ops.sqrt(velocity**2 + sign_speed**2)
 
 
 def muscle_side(
@@ -73,6 +73,7 @@ def muscle_side(
     states: Mapping[str, Value],
     motion: Motion,
     command: Value,
+    sign_speed: Value = SIGN_SPEED,
 ) -> Side:
     """The equations of one muscle.
 
@@ -85,6 +86,7 @@ def muscle_side(
         states: states of this muscle, by name; absolute pressures.
         motion: its stroke from the drive's coordinate.
         command: opening of its valve, or set point of its regulator.
+        sign_speed: see `sign_of`.
     """
     pressure, ambient = states["pressure"], constants["ambient_temperature"]
     gauge = pressure - constants["ambient_pressure"]
@@ -100,7 +102,7 @@ def muscle_side(
     }
     resting = model.at(**still, values=values).tension
     velocity = -motion.sense * motion.rate - slack * resting / constants["slack_damping"]
-    moving = {**still, "velocity": velocity, "direction": sign_of(velocity=velocity)}
+    moving = {**still, "velocity": velocity, "direction": sign_of(velocity=velocity, sign_speed=sign_speed)}
     state = model.at(**moving, values=values)
     # Series compliance: one Newton step from the rigid rig.
     yielding = 1.0 + state.compliance * state.tension.diff(length)

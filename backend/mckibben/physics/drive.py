@@ -29,7 +29,7 @@ from collections.abc import Mapping
 
 import symengine as se
 
-from mckibben.physics.chamber import Motion, Side, muscle_side, sign_of, with_energy_balance
+from mckibben.physics.chamber import SIGN_SPEED, Motion, Side, muscle_side, sign_of, with_energy_balance
 from mckibben.physics.drive_terms import (
     CONSTANTS,
     COUNTER,
@@ -61,10 +61,16 @@ class DriveModel:
         rates: d/dt of the states.
         switches: what is 0 or 1 during a step.
         outputs: expressions of ``output_names``: `OUTPUTS`, of a pair `COUNTER_OUTPUTS` too.
+
+    Args:
+        structure: features that determine the equations.
+        sign_speed: of the smooth sign in the friction (`mckibben.physics.chamber.sign_of`): a number, or a
+            symbol for a caller that sets it, as the linearisation of a sliding muscle does.
     """
 
-    def __init__(self, structure: DriveStructure) -> None:
+    def __init__(self, structure: DriveStructure, sign_speed: Value = SIGN_SPEED) -> None:
         model = Model(structure.effects)
+        self._sign_speed = sign_speed
         suffixes = ("", COUNTER) if structure.pair else ("",)
         self.output_names = (*OUTPUTS, *COUNTER_OUTPUTS) if structure.pair else OUTPUTS
         self.states = [
@@ -117,6 +123,7 @@ class DriveModel:
                     states=own,
                     motion=Motion(y["stroke"], y["speed"], c["precontraction"], sense),
                     command=u[opening] + u[f"{opening}_slope"] * passed,
+                    sign_speed=self._sign_speed,
                 )
             )
             excess = GUARD_STIFFNESS * (own["length"] - sides[-1].distance)
@@ -175,9 +182,8 @@ class DriveModel:
         c, stroke, speed = self._constants, self.symbols["stroke"], self.symbols["speed"]
         factor = model.product("load_factor", values, {})
         inertia = factor * c["mass"] + c["own_mass"] + model.sum("inertia", values, {"muscle": muscle})
-        guide = model.sum(
-            "guide", values, {"stroke": stroke, "speed": speed, "direction": sign_of(velocity=speed)}
-        )
+        direction = sign_of(velocity=speed, sign_speed=self._sign_speed)
+        guide = model.sum("guide", values, {"stroke": stroke, "speed": speed, "direction": direction})
         lever = c["lever_ratio"]
         hung = model.sum("hung_mass", values, {}) * c["gravity"]
         resisting = factor * (c["mass"] * c["gravity"] + external) + hung + guide

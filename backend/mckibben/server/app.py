@@ -25,6 +25,7 @@ from mckibben.server.routes import (
     health,
     help,
     inverse,
+    linearisations,
     measurements,
     mysteries,
     presets,
@@ -50,6 +51,7 @@ _TAGS = [
     {"name": "curves", "description": "Static characteristics of a muscle."},
     {"name": "inverse", "description": "Which pressure, which contraction, which range?"},
     {"name": "simulations", "description": "Transient simulation of drives."},
+    {"name": "linearisations", "description": "Linear models of drives, loops, controller design."},
     {"name": "sizings", "description": "Sizing: from a task to ranked drives."},
     {"name": "measurements", "description": "Measurement files."},
     {"name": "experiments", "description": "What a measurement was made with, and what is to be asked."},
@@ -106,6 +108,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     for noun in (
         curves,
         simulations,
+        linearisations,
         inverse,
         sizings,
         comparisons,

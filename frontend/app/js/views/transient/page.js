@@ -2,6 +2,7 @@
 // The page of the Transient view: inputs, motion and plots, figures.
 import { append, h } from "../../dom.js";
 import { computed } from "../../reactive.js";
+import { linearCard } from "./linear/card.js";
 import { stageCard } from "./motion/animation.js";
 import { paired, plotCards } from "./plots/charts.js";
 import { figureCards } from "./figures/figures.js";
@@ -38,6 +39,7 @@ export function transientPage() {
       stageCard(),
       ...plotCards(),
       compareCard(),
+      linearCard(),
     ),
     results,
   );

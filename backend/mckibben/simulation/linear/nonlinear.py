@@ -1,0 +1,127 @@
+"""Runs of the nonlinear drive that begin exactly at an operating point."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.simulation.command.pid import PidController, PidState
+from mckibben.simulation.command.segments import Segments
+from mckibben.simulation.command.shapes import Signal
+from mckibben.simulation.drive.controlled import ControlLoop, loop_in_kernel
+from mckibben.simulation.drive.initial_state import Rest, Start
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.transient import (
+    TOLERANCE,
+    Run,
+    external_force,
+    parameters_of,
+    run_of,
+    segments_of,
+)
+from mckibben.simulation.integrate.engine import compiled_drive, integrate, kernel
+from mckibben.simulation.linear.point import OperatingPoint
+from mckibben.simulation.outcome import Watch
+
+Array = np.ndarray
+
+
+@dataclass(frozen=True, kw_only=True)
+class _Settled(PidController):
+    """A controller that has held the operating point for a long time.
+
+    Attributes:
+        held: its command there [-].
+        position: its reference there [m].
+    """
+
+    held: float = 0.0
+    position: float = 0.0
+
+    def start(
+        self, *, measurement: float, reference: float | None = None, command: float | None = None
+    ) -> PidState:
+        """The state in which the controller holds the operating point."""
+        return super().start(measurement=measurement, reference=self.position, command=self.held)
+
+
+def _start(point: OperatingPoint) -> Start:
+    return Start(point.state.copy(), point.switches.copy(), point.stroke, Rest.STATED)
+
+
+def run_from(
+    point: OperatingPoint, drive: Drive, *, grid: Array, tolerance: float = TOLERANCE, engine: str = "rodas"
+) -> Run:
+    """A run under the command of a drive, which may differ from that of the point in numbers only.
+
+    Args:
+        point: where it begins.
+        drive: with the command, the load and the duration of the run.
+        grid: times of the rows.
+        tolerance, engine: see `mckibben.simulation.drive.transient.simulate`.
+    """
+    compiled = compiled_drive(drive.structure)
+    times, inputs, command = segments_of(drive)
+    start, began = _start(point), time.perf_counter()
+    solution = integrate(
+        compiled,
+        parameters=parameters_of(drive, compiled),
+        start=start.state,
+        switches=start.switches,
+        restitution=drive.restitution,
+        times=times,
+        inputs=inputs,
+        grid=grid,
+        tolerance=tolerance,
+        engine=engine,
+    )
+    return run_of(drive, compiled, grid, start, solution, command, time.perf_counter() - began)
+
+
+def controlled_from(
+    point: OperatingPoint,
+    drive: Drive,
+    controller: PidController,
+    reference: Signal,
+    *,
+    grid: Array,
+    tolerance: float = TOLERANCE,
+) -> Run:
+    """A run under a controller that has held the point before.
+
+    Args:
+        point: where it begins.
+        drive: its numbers may differ from those of the point: another mass, another supply.
+        controller: of the position.
+        reference: of the position [m].
+        grid: times of the rows; the last is the end of the run.
+        tolerance: relative error per step.
+    """
+    kernel.awaited()
+    settled = _Settled(
+        **{name: getattr(controller, name) for name in PidController.__dataclass_fields__},
+        held=point.command,
+        position=point.position,
+    )
+    duration = float(grid[-1])
+    controlled = replace(drive, controller=settled, reference=reference, duration=duration)
+    compiled = compiled_drive(drive.structure)
+    samples = int(np.ceil(duration / controller.sample_time - 1e-9))
+    loop = ControlLoop(
+        drive=controlled,
+        compiled=compiled,
+        controller=settled,
+        external=external_force(controlled),
+        set_points=reference.value(np.arange(samples) * controller.sample_time),
+        parameters=parameters_of(controlled, compiled),
+        start=_start(point),
+        grid=grid,
+        tolerance=tolerance,
+        watch=Watch(),
+    )
+    began = time.perf_counter()
+    solution, commands = loop_in_kernel(loop)
+    command = Segments(np.append(commands[:, 0], duration), commands[:, 1], np.zeros(len(commands)))
+    return run_of(controlled, compiled, grid, loop.start, solution, command, time.perf_counter() - began)

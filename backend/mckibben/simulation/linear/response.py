@@ -1,0 +1,194 @@
+"""Poles, zeros, frequency response, bandwidth and time response of a linear model."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.simulation.linear.model import LinearModel
+
+Array = np.ndarray
+
+_STANDS = 1e-6  # a pole slower than this is an integrator [rad/s]
+_SAME = 1e-5  # relative distance of a pole and a zero that cancel
+_SLOWEST, _FASTEST = 0.01, 200.0  # Hz, of a frequency axis
+_POINTS = 240
+
+
+@dataclass(frozen=True, slots=True)
+class Pole:
+    """An eigenvalue of A; of a complex pair the one with the positive imaginary part.
+
+    Attributes:
+        real, imaginary: of the pole [rad/s].
+        frequency: its magnitude [Hz].
+        damping: ratio, 1 for a real stable pole; None for an integrator.
+        time_constant: of its decay [s]; None where it does not decay.
+        kind: "integrator", "real", "oscillation", "unstable".
+        cancelled: whether the chosen channel does not show it, because a zero cancels it.
+    """
+
+    real: float
+    imaginary: float
+    frequency: float
+    damping: float | None
+    time_constant: float | None
+    kind: str
+    cancelled: bool
+
+
+def eigenvalues(model: LinearModel) -> Array:
+    """Poles [rad/s], in ascending magnitude."""
+    scales = model.scales[0]
+    values = np.linalg.eigvals(model.a * scales / scales[:, None]).astype(complex)
+    return values[np.argsort(np.abs(values), kind="stable")]
+
+
+def zeros(model: LinearModel, input_name: str, output_name: str) -> Array:
+    """Zeros of a channel [rad/s]: finite generalised eigenvalues of its Rosenbrock matrix."""
+    from scipy.linalg import eigvals
+
+    a, b, c, d = _scaled_channel(model, input_name, output_name)
+    size = len(a)
+    if not (np.any(b) and np.any(c)):
+        return np.empty(0, complex)
+    matrix = np.block([[a, b[:, None]], [c[None, :], np.array([[d]])]])
+    weight = np.zeros((size + 1, size + 1))
+    weight[:size, :size] = np.eye(size)
+    pairs = np.asarray(eigvals(matrix, weight, homogeneous_eigvals=True))
+    alpha, beta = pairs[0], pairs[1]
+    largest = 1e8 * max(1.0, float(np.abs(np.linalg.eigvals(a)).max(initial=0.0)))
+    finite = np.abs(alpha) < largest * np.abs(beta)
+    values = (alpha[finite] / beta[finite]).astype(complex)
+    return values[np.argsort(np.abs(values), kind="stable")]
+
+
+def _scaled_channel(
+    model: LinearModel, input_name: str, output_name: str
+) -> tuple[Array, Array, Array, float]:
+    """A channel with states, input and output over their magnitudes."""
+    states, inputs, outputs = model.scales
+    into = inputs[[port.name for port in model.inputs].index(input_name)]
+    out = outputs[[port.name for port in model.outputs].index(output_name)]
+    a, b, c, d = model.channel(input_name, output_name)
+    return a * states / states[:, None], b * into / states, c * states / out, d * into / out
+
+
+def poles_of(model: LinearModel, input_name: str, output_name: str) -> tuple[list[Pole], list[complex]]:
+    """The poles, and the zeros of a channel that cancel none of them; one of each complex pair."""
+    values, left = eigenvalues(model), list(zeros(model, input_name, output_name))
+    poles = []
+    for value in values:
+        near = [i for i, zero in enumerate(left) if abs(zero - value) <= _SAME * max(abs(value), 0.1)]
+        if near:
+            left.pop(near[0])
+        if value.imag < 0.0:
+            continue
+        poles.append(_pole(complex(value), cancelled=bool(near)))
+    return poles, [complex(zero) for zero in left if zero.imag >= -1e-9 * max(1.0, abs(zero))]
+
+
+def _pole(value: complex, *, cancelled: bool) -> Pole:
+    size = abs(value)
+    if size < _STANDS:
+        return Pole(0.0, 0.0, 0.0, None, None, "integrator", cancelled)
+    real = 0.0 if abs(value.real) < 1e-9 * size else value.real
+    kind = "unstable" if real > 0.0 else "oscillation" if value.imag > 1e-9 * size else "real"
+    decay = -1.0 / real if real < 0.0 else None
+    return Pole(real, value.imag, size / (2.0 * math.pi), -real / size, decay, kind, cancelled)
+
+
+def frequencies_for(model: LinearModel) -> Array:
+    """A frequency axis [Hz] around the poles that matter."""
+    sizes = np.abs(eigenvalues(model)) / (2.0 * math.pi)
+    known = sizes[(sizes > _SLOWEST) & (sizes < _FASTEST)]
+    if not len(known):
+        known = np.array([1.0])
+    low, high = max(_SLOWEST, 0.1 * known.min()), min(_FASTEST, max(10.0 * known.max(), 20.0))
+    return np.geomspace(low, high, _POINTS)
+
+
+def frequency_response(
+    model: LinearModel, input_name: str, output_name: str, frequency: Array
+) -> NDArray[np.complex128]:
+    """Complex response of a channel, with the dead time of a command.
+
+    Args:
+        model: the model.
+        input_name, output_name: the channel.
+        frequency: [Hz], shape (n,); a pole on it gives infinity.
+    """
+    a, b, c, d = _scaled_channel(model, input_name, output_name)
+    s = 2j * math.pi * np.asarray(frequency, float)
+    systems = s[:, None, None] * np.eye(len(a)) - a
+    with np.errstate(all="ignore"):
+        try:
+            states = np.linalg.solve(systems, np.broadcast_to(b[:, None], (len(s), len(a), 1)))[:, :, 0]
+        except np.linalg.LinAlgError:
+            states = np.full((len(s), len(a)), np.inf)
+        response = states @ c + d
+    inputs, outputs = model.scales[1:]
+    into = inputs[[port.name for port in model.inputs].index(input_name)]
+    out = outputs[[port.name for port in model.outputs].index(output_name)]
+    delay = model.dead_time if input_name.endswith("command") else 0.0
+    return response * (out / into) * np.exp(-s * delay)
+
+
+def static_gain(model: LinearModel, input_name: str, output_name: str) -> float | None:
+    """Gain at 0 Hz; None where the channel integrates."""
+    left = poles_of(model, input_name, output_name)[0]
+    if any(pole.kind == "integrator" and not pole.cancelled for pole in left):
+        return None
+    lowest = np.array([1e-9])
+    value = frequency_response(model, input_name, output_name, lowest)[0]
+    return float(value.real) if np.isfinite(value) else None
+
+
+def bandwidth(model: LinearModel, input_name: str, output_name: str) -> tuple[float | None, str | None]:
+    """Frequency at which the gain has fallen by 3 dB below that at 0 Hz [Hz], or why there is none."""
+    gain = static_gain(model, input_name, output_name)
+    if gain is None:
+        return None, "the channel integrates: its gain has no value at 0 Hz"
+    if gain == 0.0:
+        return None, "the channel has no static gain"
+    axis = np.geomspace(1e-4, 1e4, 1601)
+    ratio = np.abs(frequency_response(model, input_name, output_name, axis)) / abs(gain)
+    below = np.flatnonzero(ratio < math.sqrt(0.5))
+    if not len(below) or below[0] == 0:
+        return None, "the gain does not fall by 3 dB between 0.0001 Hz and 10 kHz"
+    i = int(below[0])
+    share = (math.sqrt(0.5) - ratio[i - 1]) / (ratio[i] - ratio[i - 1])
+    return float(axis[i - 1] * (axis[i] / axis[i - 1]) ** share), None
+
+
+def step_response(model: LinearModel, input_name: str, output_name: str, time: Array, size: float) -> Array:
+    """Deviation of an output after a step of an input at t = 0.
+
+    Args:
+        model: the model; its dead time delays a command.
+        input_name, output_name: the channel.
+        time: [s], ascending and evenly spaced from 0.
+        size: of the step, in the unit of the input.
+    """
+    from scipy.linalg import expm
+
+    a, b, c, d = model.channel(input_name, output_name)
+    scales = model.scales[0]
+    a, b, c = a * scales / scales[:, None], b / scales, c * scales
+    delay = model.dead_time if input_name.endswith("command") else 0.0
+    late = np.asarray(time, float) - delay
+    block = np.zeros((len(a) + 1, len(a) + 1))
+    block[:-1, :-1], block[:-1, -1] = a, b * size
+    result = np.zeros(len(late))
+    first = int(np.searchsorted(late, 0.0))
+    if first == len(late):
+        return result
+    state = expm(block * late[first]) @ np.append(np.zeros(len(a)), 1.0)
+    advance = expm(block * (late[1] - late[0])) if len(late) > 1 else np.eye(len(block))
+    for index in range(first, len(late)):
+        result[index] = c @ state[:-1] + d * size
+        state = advance @ state
+    return result

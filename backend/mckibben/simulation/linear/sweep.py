@@ -1,0 +1,147 @@
+r"""A frequency sweep of the nonlinear drive: describing points beside the linear response.
+
+A sine :math:`u_0 + b + a \sin\omega t` of the command runs until the oscillation repeats itself; amplitude
+and phase of the output at the fundamental, over those of the sine, are one point (the describing function:
+Gelb & Vander Velde, Multiple-Input Describing Functions, 1968). A valve that fills and vents with different
+flows would drift away, so the bias b balances the two: equal areas of what flows in and out.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.simulation.command.waveforms import Sine
+from mckibben.simulation.linear.equations import COMMAND, LOAD_FORCE
+from mckibben.simulation.linear.linearise import Linearisation, balanced_bias, side_gains
+from mckibben.simulation.linear.nonlinear import run_from
+from mckibben.simulation.linear.response import eigenvalues
+from mckibben.simulation.outcome import Outcome, Watch
+
+Array = np.ndarray
+
+SWEPT = (COMMAND.name, LOAD_FORCE.name)
+_MEASURED = 2  # periods whose fundamental is taken
+_SETTLING = (3, 24)  # least and most periods before
+_ROWS = 48  # of a period
+_TOLERANCE = 1e-5
+
+
+@dataclass(frozen=True, slots=True)
+class DescribingPoint:
+    """One frequency and amplitude.
+
+    Attributes:
+        frequency: [Hz].
+        amplitude: of the input, in its unit.
+        gain: amplitude of the output over that of the input, in their units.
+        phase: of the output after the input [rad], between -2 pi and 0 or so; as the linear response.
+        distortion: rms of everything but the fundamental over the rms of the output, drift taken off [-].
+        remark: what kept it from being a clean oscillation; None if nothing did.
+    """
+
+    frequency: float
+    amplitude: float
+    gain: float
+    phase: float
+    distortion: float
+    remark: str | None
+
+
+def bias_of(linear: Linearisation, amplitude: float) -> float:
+    """Offset of a sine of the command with which a valve lets in as much air as it lets out."""
+    gains = side_gains(list(linear.models))
+    if gains is None:
+        return 0.0
+    command = linear.point.command
+    low, high = linear.dead_band or (command, command)
+    return balanced_bias(gains, amplitude, (low - command, high - command))
+
+
+def describing_points(
+    linear: Linearisation,
+    *,
+    source: str,
+    out: str,
+    frequencies: Sequence[float],
+    amplitudes: Sequence[float],
+    watch: Watch | None = None,
+) -> list[DescribingPoint]:
+    """The nonlinear drive under sines, for each amplitude and frequency.
+
+    Args:
+        linear: where, and how the drive switches there.
+        source: "command" or "load_force".
+        out: name of an output of the models.
+        frequencies: [Hz].
+        amplitudes: in the unit of the input.
+        watch: may end the sweep early; it then has fewer points.
+    """
+    found = []
+    watch, total = watch or Watch(), len(frequencies) * len(amplitudes)
+    for amplitude in amplitudes:
+        bias = bias_of(linear, amplitude) if source == COMMAND.name else 0.0
+        for frequency in frequencies:
+            if watch.ended(len(found) / total) is not None:
+                return found
+            found.append(_point(linear, source, out, float(frequency), float(amplitude), bias))
+    return found
+
+
+def _point(
+    linear: Linearisation, source: str, out: str, frequency: float, amplitude: float, bias: float
+) -> DescribingPoint:
+    point = linear.point
+    drive = point.bound.drive
+    slow = [-1.0 / value.real for value in eigenvalues(linear.primary) if value.real < -1e-3]
+    oscillating = max((time for time in slow if time < 5.0), default=0.0)
+    before = int(np.clip(math.ceil(4.0 * oscillating * frequency), *_SETTLING))
+    duration = (before + _MEASURED) / frequency
+    grid = np.linspace(before / frequency, duration, _MEASURED * _ROWS, endpoint=False)
+    offset = point.command + bias
+    if source == COMMAND.name:
+        signal = Sine(amplitude=amplitude, offset=offset, frequency=frequency)
+        lowest = 0.0 if drive.regulator is not None else -1.0
+        clipped = offset + amplitude > 1.0 or offset - amplitude < lowest
+        changed = replace(drive, command=signal, duration=duration)
+    else:
+        clipped = False
+        force = Sine(amplitude=amplitude, offset=point.bound.load_force, frequency=frequency)
+        held = Sine(amplitude=0.0, offset=point.command, frequency=1.0)
+        changed = replace(drive, command=held, duration=duration, load=replace(drive.load, force=force))
+    if clipped:
+        return _nothing(frequency, amplitude, "the sine would leave the range of the command")
+    run = run_from(point, changed, grid=grid, tolerance=_TOLERANCE)
+    if run.outcome is not Outcome.COMPLETED:
+        return _nothing(frequency, amplitude, f"the run ended early: {run.outcome.label}")
+    output = {
+        "position": run.states["stroke"] / drive.load.lever_ratio,
+        "velocity": run.states["speed"] / drive.load.lever_ratio,
+        "pressure": run.pressure,
+        "force": run.outputs["force"],
+        "mass_flow": run.outputs["mass_flow"],
+        "position_reading": run.outputs["stroke_reading"] / drive.load.lever_ratio,
+    }[out]
+    angle = 2.0 * math.pi * frequency * grid
+    columns = np.column_stack([np.ones_like(grid), grid - grid.mean(), np.sin(angle), np.cos(angle)])
+    fit = np.linalg.lstsq(columns, output, rcond=None)[0]
+    fundamental = complex(fit[2], fit[3])
+    rest = output - columns @ fit
+    total = math.sqrt(float(np.mean(rest**2)) + 0.5 * abs(fundamental) ** 2)
+    distortion = math.sqrt(float(np.mean(rest**2))) / total if total > 0.0 else 0.0
+    remark = None
+    drift = abs(fit[1]) / frequency
+    if np.any(run.outputs["contact"] != 0.0):
+        remark = "the load touches an end stop"
+    elif drift > 0.2 * abs(fundamental):
+        remark = "the mean still drifts"
+    return DescribingPoint(
+        frequency, amplitude, abs(fundamental) / amplitude, float(np.angle(fundamental)), distortion, remark
+    )
+
+
+def _nothing(frequency: float, amplitude: float, remark: str) -> DescribingPoint:
+    return DescribingPoint(frequency, amplitude, math.nan, math.nan, math.nan, remark)

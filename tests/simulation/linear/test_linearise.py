@@ -1,0 +1,260 @@
+"""Matrices of the linear view against differences, a closed form and nonlinear runs; where it refuses."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import cos, pi, sqrt, tan
+
+import numpy as np
+import pytest
+
+from mckibben.documents.drive_files import read_document
+from mckibben.documents.drive_reading import drive_of
+from mckibben.physics.errors import InputError
+from mckibben.simulation.command.shapes import Step
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.linear.linearise import Linearisation, linearise
+from mckibben.simulation.linear.model import LinearModel
+from mckibben.simulation.linear.nonlinear import run_from
+from mckibben.simulation.linear.point import Condition
+from mckibben.simulation.linear.response import eigenvalues, step_response
+from tests.simulation.linear.drives import DOCUMENTS, SMOOTH, STUDIO, drive
+
+
+def differences(model: LinearModel) -> tuple[np.ndarray, np.ndarray]:
+    """A and B of a smooth model by central differences of the engine's own rates, scaled as the model's."""
+    point = model.point
+    bound = point.bound
+    compiled, names = bound.compiled, bound.names
+    expansion = {name: bound.expansion[:, i] for i, name in enumerate(names[j] for j in bound.independent)}
+    rows = [names.index(state.name) for state in model.states]
+    scales, inputs, _ = model.scales
+    place = list(bound.equations.model.parameters).index("supply_pressure")
+    entry = {"command": 0, "counter_command": 2, "load_force": 4}  # in the engine's inputs
+
+    def rates(state: np.ndarray, given: np.ndarray, parameters: np.ndarray) -> np.ndarray:
+        return compiled.rates(np.concatenate([state, parameters, given]), point.switches)[rows] / scales
+
+    at = bound.inputs(point.command)
+
+    def slope(change, size: float) -> np.ndarray:
+        # Richardson's extrapolation of two central differences; each step stays where the flow is linear.
+        once, twice = ((rates(*change(h)) - rates(*change(-h))) / (2.0 * h) for h in (size, 2.0 * size))
+        return (4.0 * once - twice) / 3.0
+
+    a = [
+        slope(lambda h, s=s, z=z: (point.state + h * z * expansion[s.name], at, bound.parameters), 1e-5)
+        for s, z in zip(model.states, scales, strict=True)
+    ]
+    b = []
+    for port, scale in zip(model.inputs, inputs, strict=True):
+
+        def moved(h: float, name: str = port.name, scale: float = scale) -> tuple[np.ndarray, ...]:
+            given, parameters = at.copy(), bound.parameters.copy()
+            if name in entry:
+                given[entry[name]] += h * scale
+            else:
+                parameters[place] += h * scale
+            return point.state, given, parameters
+
+        b.append(slope(moved, 1e-5))
+    return np.column_stack(a), np.column_stack(b)
+
+
+@pytest.mark.parametrize("name", [*SMOOTH, "pair"])
+def test_the_matrices_are_those_of_central_differences(name: str) -> None:
+    (model,) = linearise(drive(name)).models
+    a, b = differences(model)
+    states, inputs, _ = model.scales
+    exact_a, exact_b = model.a * states / states[:, None], model.b * inputs / states[:, None]
+    assert np.abs(a - exact_a) == pytest.approx(0.0, abs=1e-6 * np.abs(exact_a).max())
+    assert np.abs(b - exact_b) == pytest.approx(0.0, abs=1e-6 * max(np.abs(exact_b).max(), 1.0))
+    held = np.abs(exact_a) > 1e-3
+    assert a[held] == pytest.approx(exact_a[held], rel=1e-6, abs=1e-6)
+
+
+def deviation(linear: Linearisation, given: Drive, source: str, size: float, seconds: float) -> float:
+    """Largest difference of the linear and the nonlinear position, over the largest deviation."""
+    point, model = linear.point, linear.models[0]
+    time = np.linspace(0.0, seconds, 301)
+    level = point.command + (size if source == "command" else 0.0)
+    changed = replace(given, duration=seconds, command=Step(at=0.0, level=level, initial=point.command))
+    if source == "load_force":
+        changed = replace(changed, load=replace(given.load, force=point.bound.load_force + size))
+    if source == "supply_pressure":
+        changed = replace(changed, supply_pressure=given.supply_pressure + size)
+    run = run_from(point, changed, grid=time, tolerance=1e-8)
+    moved = run.states["stroke"] / given.load.lever_ratio - point.position
+    expected = step_response(model, source, "position", time, size)
+    assert np.abs(moved).max() > 1e-6
+    return float(np.abs(moved - expected).max() / np.abs(moved).max())
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+def test_a_step_of_one_percent_is_that_of_the_nonlinear_run(name: str) -> None:
+    given = drive(name)
+    linear = linearise(given)
+    assert linear.smooth
+    assert [model.name for model in linear.models] == ["smooth"]
+    seconds = 0.3 if given.regulator is not None else 0.15  # a valve integrates: it leaves the point
+    assert deviation(linear, given, "command", 0.01, seconds) < 0.02
+    assert deviation(linear, given, "load_force", 0.01 * linear.point.force, seconds) < 0.02
+    if given.regulator is None:  # behind a regulator the supply changes nothing
+        assert deviation(linear, given, "supply_pressure", 0.01 * given.supply_pressure, seconds) < 0.02
+
+
+def test_a_lift_by_a_valve_is_its_closed_form() -> None:
+    r"""Ideal braid, polytropic air, closed valve: s (M s^2 + c s + k + n p A^2/V) x = n R T K A/V u."""
+    rest, angle, bore, mass, damping, exponent = 0.3, 0.4363323129985824, 0.02, 10.0, 150.0, 1.2
+    document = {
+        "muscle": {"inside_diameter": bore, "braid_angle": angle, "nominal_length": rest},
+        "effects": {"viscous_damping": {"coefficient": damping}},
+        "supply": {"pressure": 6e5},
+        "valve": {
+            "sonic_conductance": 4e-8, "exhaust_conductance": 5e-8, "critical_pressure_ratio": 0.25,
+        },
+        "load": {"mass": mass},
+        "gas": {"polytropic_exponent": exponent, "dead_volume": 5e-5},
+        "command": {"shape": "step"},
+    }  # fmt: skip
+    position = 0.04
+    linear = linearise(
+        drive_of(read_document(document, "lift"), STUDIO).drive, Condition("position", position)
+    )
+    # By hand: thread length and turns of the braid, then F = -p dV/dL, V = L (b^2 - L^2)/(4 pi n^2).
+    thread, turns = rest / cos(angle), rest * tan(angle) / (pi * bore)
+    length = rest - position
+    area = (3.0 * length**2 - thread**2) / (4.0 * pi * turns**2)
+    pressure = mass * 9.80665 / area
+    absolute = pressure + 101_325.0
+    stiffness = pressure * 6.0 * length / (4.0 * pi * turns**2)
+    volume = length * (thread**2 - length**2) / (4.0 * pi * turns**2) + 5e-5
+    assert linear.point.pressure == pytest.approx(pressure, rel=1e-9)
+
+    def flow(conductance: float, upstream: float, downstream: float) -> float:
+        bent = max(downstream / upstream - 0.25, 0.0) / 0.75
+        return conductance * 1.185 * upstream * sqrt(1.0 - bent**2)
+
+    gains = {"filling": flow(4e-8, 701_325.0, absolute), "venting": flow(5e-8, absolute, 101_325.0)}
+    back = exponent * absolute * area**2 / volume
+    poles = np.roots([mass, damping, stiffness + back, 0.0])
+    names = [model.name for model in linear.models]
+    assert names == ["filling", "venting", "mean of filling and venting"]
+    for model in linear.models[:2]:
+        found = eigenvalues(model)
+        assert np.sort_complex(found) == pytest.approx(np.sort_complex(poles), abs=1e-6 * abs(poles).max())
+        steady = exponent * 287.05 * 293.15 * gains[model.name] * area / volume / (stiffness + back)
+        time = np.linspace(0.0, 4.0, 401)
+        rate = np.diff(step_response(model, "command", "position", time, 1.0))[-1] / (time[1] - time[0])
+        assert rate == pytest.approx(steady, rel=1e-6)
+
+
+def test_a_valve_with_a_dead_band_is_linearised_at_its_edges() -> None:
+    linear = linearise(drive("valve with dead band"))
+    plain = linearise(drive("valve"))
+    assert linear.dead_band == pytest.approx((-0.04, 0.04), abs=1e-8)
+    for own, other in zip(linear.models, plain.models, strict=True):
+        assert own.name == other.name
+        # The spool moves the flow over the rest of the span, 1 - 4 %.
+        assert own.b[:, 0] == pytest.approx(other.b[:, 0] / 0.96, rel=1e-6)
+        assert own.a == pytest.approx(other.a, rel=1e-6, abs=1e-7)
+    assert any(text.startswith("dead band") for text in linear.lost)
+
+
+def test_a_regulator_with_play_has_a_dead_band() -> None:
+    linear = linearise(drive("regulator with hysteresis"))
+    plain = linearise(drive("regulator")).models[0]
+    assert linear.dead_band is not None
+    low, high = linear.dead_band
+    assert high - low == pytest.approx(0.01, abs=1e-6)
+    pole = eigenvalues(plain)[1]  # of the mechanics and the air nothing changes
+    for model in linear.models:
+        assert np.abs(eigenvalues(model) - pole).min() == pytest.approx(0.0, abs=1e-6 * abs(pole))
+
+
+def test_a_muscle_without_a_load_has_no_tension() -> None:
+    free = drive("regulator")
+    free = replace(free, load=replace(free.load, mass=0.0))
+    with pytest.raises(InputError, match="hangs slack") as caught:
+        linearise(free, Condition("position", 0.03))
+    assert "a load that pulls" in (caught.value.hint or "")
+
+
+def test_friction_holds_and_slides() -> None:
+    linear = linearise(drive("friction"))
+    held, shorter, longer, mean = linear.models
+    assert [held.name, shorter.name, longer.name] == ["held", "sliding shorter", "sliding longer"]
+    assert linear.primary is mean
+    assert not linear.smooth
+    # While it slides its friction is constant: like 10 N more, or less, on the load.
+    for model, force in ((shorter, 10.0), (longer, -10.0)):
+        plain = drive("regulator")
+        plain = replace(plain, load=replace(plain.load, force=force))
+        same = linearise(plain, Condition("position", linear.point.position)).models[0]
+        assert model.states == same.states
+        assert model.a == pytest.approx(same.a, rel=1e-6, abs=1e-9 * np.abs(same.a).max())
+        assert model.b == pytest.approx(same.b, rel=1e-6, abs=1e-9)
+    # 10 N more than the 98 N of the load, by F = p A at the same position.
+    balance = (10.0 * 9.80665 + 10.0) / (10.0 * 9.80665)
+    above, below = (model.point.pressure - linear.point.pressure for model in (shorter, longer))
+    assert above == pytest.approx(-below, rel=1e-6)
+    assert above / linear.point.pressure < balance - 1.0  # the bladder carries a share
+    gains = [
+        abs(step_response(m, "command", "position", np.linspace(0, 0.3, 31), 0.01)[-1])
+        for m in (held, shorter)
+    ]
+    assert gains[0] < 0.3 * gains[1]
+    assert any(text.startswith("friction") for text in linear.lost)
+
+
+def test_what_is_lost_is_said() -> None:
+    lost = " ".join(linearise(drive("propneu-20")).lost)
+    for words in (
+        "saturation",
+        "end stops: 96.13 mm below",
+        "another flow for filling",
+        "38.1 ms off",
+        "slack",
+    ):
+        assert words in lost
+
+
+@pytest.mark.parametrize(
+    ("name", "condition", "message"),
+    [
+        ("regulator", Condition("position", 0.2), "not between the ends"),
+        ("regulator", Condition("pressure", 7e5), "not between 0 and the 6 bar"),
+        ("regulator", Condition("command", 1.2), "not between 0 and 1"),
+        ("valve", Condition("command", 0.1), "fills or vents without end"),
+        ("paper-ramp", None, "does not move"),
+    ],
+)
+def test_no_equilibrium_is_a_sentence(name: str, condition: Condition | None, message: str) -> None:
+    with pytest.raises(InputError, match=message) as caught:
+        linearise(drive(name), condition)
+    assert caught.value.field == "at"
+
+
+def test_a_load_too_heavy_says_what_can_be_held() -> None:
+    heavy = drive("regulator")
+    heavy = replace(heavy, load=replace(heavy.load, mass=90.0))
+    with pytest.raises(InputError, match="the load pulls") as caught:
+        linearise(heavy, Condition("position", 0.07))
+    assert "can be held" in (caught.value.hint or "")
+
+
+def test_on_its_stop_only_the_air_moves() -> None:
+    linear = linearise(drive("regulator"), Condition("pressure", 0.2e5))
+    (model,) = linear.models
+    assert model.name == "on the stop"
+    assert "speed" not in [state.name for state in model.states]
+    assert "the load rests on one" in " ".join(linear.lost)
+
+
+def test_every_drive_preset_is_linearised_or_says_why_not() -> None:
+    for name in ("paper-hysteresis", "paper-step", "paper-step-mpye", "propneu-10", *DOCUMENTS):
+        linear = linearise(drive(name))
+        for model in linear.models:
+            assert np.isfinite(model.a).all()
+            assert np.isfinite(model.b).all()
+            assert np.isfinite(model.c).all()

@@ -1,0 +1,137 @@
+"""Frequency responses, poles, zeros, margins: against scipy, textbook figures and nonlinear runs."""
+
+from __future__ import annotations
+
+import warnings
+from dataclasses import replace
+from math import atan, degrees, sqrt
+
+import numpy as np
+import pytest
+from scipy import signal
+
+from mckibben.simulation.command.pid import PidController
+from mckibben.simulation.command.shapes import Step
+from mckibben.simulation.linear.linearise import linearise
+from mckibben.simulation.linear.loop import closed_loop_step, margins, sampled
+from mckibben.simulation.linear.model import LinearModel
+from mckibben.simulation.linear.nonlinear import controlled_from
+from mckibben.simulation.linear.response import (
+    bandwidth,
+    frequencies_for,
+    frequency_response,
+    poles_of,
+    static_gain,
+    step_response,
+    zeros,
+)
+from tests.simulation.linear.drives import drive
+
+
+def state_space(model: LinearModel, source: str, out: str) -> signal.StateSpace:
+    a, b, c, d = model.channel(source, out)
+    scale = model.scales[0]
+    return signal.StateSpace(a * scale / scale[:, None], (b / scale)[:, None], (c * scale)[None], [[d]])
+
+
+@pytest.mark.parametrize(("source", "out"), [("command", "position"), ("load_force", "pressure")])
+def test_response_and_step_are_those_of_scipy(source: str, out: str) -> None:
+    model = linearise(drive("regulator")).models[0]
+    frequency = frequencies_for(model)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", signal.BadCoefficients)  # of its way over polynomials
+        _, expected = signal.freqresp(state_space(model, source, out), 2.0 * np.pi * frequency)
+    found = frequency_response(model, source, out, frequency)
+    assert found == pytest.approx(expected, rel=1e-4, abs=1e-6 * abs(expected).max())
+    time = np.linspace(0.0, 1.0, 101)
+    _, shape = signal.step(state_space(model, source, out), T=time)
+    assert step_response(model, source, out, time, 1.0) == pytest.approx(shape, abs=1e-6 * abs(shape).max())
+
+
+def test_zeros_are_those_of_the_transfer_function() -> None:
+    model = linearise(drive("regulator")).models[0]
+    a, b, c, d = model.channel("load_force", "position")
+    scale = model.scales[0]
+    a, b, c = a * scale / scale[:, None], b / scale, c * scale
+    # At a zero the response vanishes, and so it is no eigenvalue of A alone.
+    size = max(abs(c @ np.linalg.solve(1j * w * np.eye(len(a)) - a, b) + d) for w in (1.0, 10.0))
+    found = zeros(model, "load_force", "position")
+    own = [zero for zero in found if abs(np.linalg.eigvals(a) - zero).min() > 1e-3]
+    assert own
+    for zero in own:
+        response = c @ np.linalg.solve(zero * np.eye(len(a)) - a, b) + d
+        assert abs(response) < 1e-6 * size
+
+
+def test_poles_are_named() -> None:
+    valve = linearise(drive("valve")).primary
+    kinds = [pole.kind for pole in poles_of(valve, "command", "position")[0]]
+    assert kinds == ["integrator", "real", "oscillation"]
+    assert bandwidth(valve, "command", "position")[0] is None
+    assert static_gain(valve, "command", "position") is None
+    regulated = linearise(drive("regulator")).primary
+    width, why = bandwidth(regulated, "command", "position")
+    assert why is None
+    gain = static_gain(regulated, "command", "position")
+    at = frequency_response(regulated, "command", "position", np.array([width]))
+    assert abs(at[0]) == pytest.approx(gain / sqrt(2.0), rel=1e-2)
+
+
+def textbook(model: LinearModel) -> LinearModel:
+    """1/(s (s + 1) (s + 2)) in the place of a drive's plant."""
+    states = model.states[:3]
+    scale = replace(model, states=states).scales[0]
+    a = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, -2.0, -3.0]])
+    b = np.zeros((3, len(model.inputs)))
+    b[2, 0] = 1.0
+    c = np.zeros((len(model.outputs), 3))
+    c[[port.name for port in model.outputs].index("position_reading"), 0] = 1.0
+    return replace(
+        model, states=states, a=a * scale[:, None] / scale, b=b * scale[:, None], c=c / scale,
+        d=np.zeros((len(c), b.shape[1])), dead_time=0.0,
+    )  # fmt: skip
+
+
+def test_margins_are_those_of_the_textbook() -> None:
+    model = textbook(linearise(drive("valve")).primary)
+    controller = PidController(kp=1.0, sample_time=1e-4)
+    found = margins(model, controller, np.geomspace(0.01, 10.0, 50))
+    assert found.stable
+    # Phase -180 degrees at sqrt(2) rad/s, where the gain is 1/6.
+    assert found.gain_margin == pytest.approx(6.0, rel=1e-3)
+    assert found.gain_margin_at == pytest.approx(sqrt(2.0) / (2.0 * np.pi), rel=5e-3)
+    crossover = 0.446_5  # root of w^2 (w^2 + 1) (w^2 + 4) = 1
+    assert crossover**2 * (crossover**2 + 1.0) * (crossover**2 + 4.0) == pytest.approx(1.0, rel=5e-3)
+    expected = 90.0 - degrees(atan(crossover)) - degrees(atan(0.5 * crossover))
+    assert degrees(found.phase_margin or 0.0) == pytest.approx(expected, abs=0.3)
+    assert not margins(model, replace(controller, kp=6.1), np.geomspace(0.01, 10.0, 50)).stable
+    assert margins(model, replace(controller, kp=5.9), np.geomspace(0.01, 10.0, 50)).stable
+
+
+@pytest.mark.parametrize("delay", [0.0, 0.004, 0.0043, 0.0007])
+def test_the_sampled_plant_is_the_plant_at_its_samples(delay: float) -> None:
+    model = replace(linearise(drive("regulator")).primary, dead_time=delay)
+    phi, gamma, c, d = sampled(model, 0.002, "command", "position")
+    state, rows = np.zeros(len(phi)), []
+    for _ in range(150):
+        rows.append(c @ state + d)
+        state = phi @ state + gamma
+    expected = step_response(model, "command", "position", 0.002 * np.arange(150), 1.0)
+    assert np.array(rows) == pytest.approx(expected, abs=1e-9 * expected.max())
+
+
+def test_the_closed_loop_is_that_of_the_nonlinear_run() -> None:
+    given = drive("regulator")
+    linear = linearise(given)
+    controller = PidController(kp=2.0, ki=25.0, kd=0.1, sample_time=0.002, output_min=0.0)
+    size, samples = 1e-4, 400
+    grid = 0.002 * np.arange(samples + 1)
+    start = linear.point.position
+    run = controlled_from(
+        linear.point, given, controller, Step(at=0.0, level=start + size, initial=start), grid=grid,
+        tolerance=1e-8,
+    )  # fmt: skip
+    expected = closed_loop_step(linear.primary, controller, size, samples + 1)
+    assert expected[-1] == pytest.approx(size, rel=0.1)
+    moved = run.states["stroke"] / given.load.lever_ratio - start
+    assert moved == pytest.approx(expected, abs=0.02 * size)
