@@ -1,0 +1,215 @@
+"""The commands that read measurements: ``compare``, ``diagnose``, ``convert``."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Annotated
+
+import typer
+
+from mckibben.cli.app import app
+from mckibben.cli.options import (
+    AsJson,
+    DataFiles,
+    DataFolder,
+    EffectIds,
+    EffectsFolders,
+    Free,
+    Ideal,
+    Keep,
+    ModelOptions,
+    MuscleText,
+    PresetsFolder,
+    SavedModelFile,
+    Use,
+)
+from mckibben.cli.reading import (
+    Accuracy,
+    Columns,
+    Experiment,
+    Head,
+    Ignored,
+    Load,
+    RestLength,
+    Sheet,
+    Strict,
+    Supply,
+)
+
+
+@app.command()
+def compare(
+    files: DataFiles,
+    muscle: MuscleText = "",
+    ideal: Ideal = False,
+    effect: EffectIds = None,
+    drive: str = typer.Option("", "--drive", help="A drive document (JSON file): its muscle and effects."),
+    model: SavedModelFile = "",
+    fit: bool = typer.Option(False, "--fit", help="Fit the parameters of the effects."),
+    free: Free = None,
+    use: Use = None,
+    keep: Keep = None,
+    sheet: Sheet = None,
+    head: Head = None,
+    column: Columns = None,
+    ignore: Ignored = None,
+    rest_length: RestLength = None,
+    load: Load = None,
+    supply: Supply = None,
+    accuracy: Accuracy = None,
+    experiment: Experiment = None,
+    strict: Strict = False,
+    as_json: AsJson = False,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """Compare a model with measurements: the error in numbers, with or without a fit."""
+    from mckibben.application.file_options import file_options
+    from mckibben.cli.compare import run
+    from mckibben.cli.options import open_studio
+
+    options = file_options(
+        sheet=sheet,
+        head=head,
+        columns=column,
+        ignored=ignore,
+        rest_length=rest_length,
+        load=load,
+        supply=supply,
+        accuracy=accuracy,
+        experiment=experiment,
+        strict=strict,
+    )
+    run(
+        open_studio(presets, effects, data),
+        files=files,
+        model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
+        fit=fit,
+        free=free or [],
+        correction=options.correction,
+        said=options.said,
+        as_json=as_json,
+    )
+
+
+@app.command()
+def diagnose(
+    files: DataFiles,
+    muscle: MuscleText = "",
+    ideal: Ideal = False,
+    effect: EffectIds = None,
+    drive: str = typer.Option("", "--drive", help="A drive document (JSON): its muscle, effects, valve."),
+    model: SavedModelFile = "",
+    free: Free = None,
+    noise: Annotated[
+        str | None,
+        typer.Option("--noise", help='Noise of the predicted channel, if known, e.g. "2 N"; a number is SI.'),
+    ] = None,
+    report: Annotated[
+        Path | None, typer.Option("--report", metavar="FILE", help="Also write an HTML report.")
+    ] = None,
+    save: Annotated[
+        Path | None, typer.Option("--save", metavar="FILE", help="Also write the model found, for --model.")
+    ] = None,
+    save_preset: Annotated[
+        str | None,
+        typer.Option(
+            "--save-preset", metavar="ID", help="Also keep the model found as a muscle of your own."
+        ),
+    ] = None,
+    schedule: Annotated[
+        Path | None,
+        typer.Option(
+            "--schedule", metavar="FILE", help="Also write the set points of the next experiment (CSV)."
+        ),
+    ] = None,
+    use: Use = None,
+    keep: Keep = None,
+    sheet: Sheet = None,
+    head: Head = None,
+    column: Columns = None,
+    ignore: Ignored = None,
+    rest_length: RestLength = None,
+    load: Load = None,
+    supply: Supply = None,
+    accuracy: Accuracy = None,
+    experiment: Experiment = None,
+    strict: Strict = False,
+    as_json: AsJson = False,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """Which physical effect a model of measurements is missing, and what the data cannot distinguish."""
+    from mckibben.application.file_options import file_options
+    from mckibben.cli.diagnose import run
+    from mckibben.cli.options import open_studio
+
+    options = file_options(
+        sheet=sheet,
+        head=head,
+        columns=column,
+        ignored=ignore,
+        rest_length=rest_length,
+        load=load,
+        supply=supply,
+        accuracy=accuracy,
+        experiment=experiment,
+        strict=strict,
+    )
+    run(
+        open_studio(presets, effects, data),
+        files=files,
+        model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
+        free=free or [],
+        noise=noise,
+        correction=options.correction,
+        said=options.said,
+        as_json=as_json,
+        report=report,
+        save=save,
+        save_preset=save_preset,
+        schedule=schedule,
+    )
+
+
+@app.command()
+def convert(
+    file: Annotated[str, typer.Argument(metavar="DATA", help="A measurement file of any laboratory.")],
+    out: Annotated[
+        Path | None,
+        typer.Option("--out", "-o", metavar="FILE", help="Write it there instead of printing it."),
+    ] = None,
+    sheet: Sheet = None,
+    head: Head = None,
+    column: Columns = None,
+    ignore: Ignored = None,
+    rest_length: RestLength = None,
+    load: Load = None,
+    supply: Supply = None,
+    accuracy: Accuracy = None,
+    experiment: Experiment = None,
+    strict: Strict = False,
+) -> None:
+    """A measurement file as the canonical CSV, with its conditions and where they stand."""
+    from mckibben.application.file_options import file_options
+    from mckibben.cli.convert import run
+
+    options = file_options(
+        sheet=sheet,
+        head=head,
+        columns=column,
+        ignored=ignore,
+        rest_length=rest_length,
+        load=load,
+        supply=supply,
+        accuracy=accuracy,
+        experiment=experiment,
+        strict=strict,
+    )
+    run(
+        file=file,
+        correction=options.correction,
+        out=out,
+    )
