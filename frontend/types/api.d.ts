@@ -1481,6 +1481,16 @@ export interface components {
       version: string;
       /** Version of the plotly bundle, for its link's ``?v=``. */
       plotly: string;
+      /** Processes for diagnoses, sizings and reports; 0 = threads of the server. */
+      workers: number;
+      /** Jobs in these processes. */
+      running: number;
+      /** Jobs in the queue. */
+      waiting: number;
+      /** Most memory that the server itself took so far [bytes]; null on Windows. */
+      memory: number | null;
+      /** Program -> version. */
+      versions: { [key: string]: string };
       /** Whether the server has a folder for the user's presets. */
       can_save_presets: boolean;
     };
@@ -3633,6 +3643,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -3687,7 +3698,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** Version of the server. */
+  /** Version of the server, what it does at the moment and how much memory it takes. */
   read_health: {
     responses: {
       200: { content: { "application/json": components["schemas"]["Health"] } };

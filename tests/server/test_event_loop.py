@@ -64,6 +64,9 @@ REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("GET", "/api/presets/{kind}"): ("/api/presets/muscles", {}),
     ("GET", "/api/presets/{kind}/{preset_id}"): ("/api/presets/muscles/mine-20", {}),
     ("POST", "/api/presets/muscles"): ("/api/presets/muscles", {"json": MUSCLE | {"id": "other-20"}}),
+    ("POST", "/api/presets/muscles/fitted"): (
+        "/api/presets/muscles/fitted", {"json": MODEL | {"id": "fitted"}},
+    ),
     ("PUT", "/api/measurements"): ("/api/measurements", FILE),
     ("POST", "/api/measurements/preview"): ("/api/measurements/preview", FILE),
     ("GET", "/api/measurements/{measurement_id}"): (f"/api/measurements/{ID}", {}),

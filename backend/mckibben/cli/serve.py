@@ -10,6 +10,7 @@ import threading
 import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
+from types import FrameType
 
 import typer
 
@@ -59,6 +60,12 @@ def run(
     link = _link(_own_address() if is_every_interface(host) else host, actual_port, token)
 
     class Server(uvicorn.Server):
+        def handle_exit(self, sig: int, frame: FrameType | None) -> None:
+            # Streams get their last event before uvicorn closes the connections.
+            if app.state.workers is not None:
+                threading.Thread(target=app.state.workers.end, daemon=True).start()
+            super().handle_exit(sig, frame)
+
         async def startup(self, sockets: list[socket.socket] | None = None) -> None:
             await super().startup(sockets)
             if port is None and actual_port != DEFAULT_PORT:

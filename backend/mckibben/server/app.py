@@ -13,6 +13,7 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
+from mckibben.report.versions import versions
 from mckibben.server import errors, static
 from mckibben.server.routes import (
     comparisons,
@@ -103,6 +104,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.store = MeasurementStore(settings.data)
     app.state.workers = Workers(settings) if settings.workers else None
     app.state.effects = effects.EffectsDocument(app.state.studio.catalogue)
+    app.state.versions = versions()
     app.state.plotly = static.PlotlyBundle()
     # Routes are matched in this order: first the one requested at every movement of a slider.
     for noun in (

@@ -10,7 +10,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mckibben.application import diagnose, size
+from mckibben.application import diagnose, linearise, size
 from mckibben.application.json_text import to_json
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
@@ -19,8 +19,10 @@ from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.report.diagnosis import gather as diagnosis_report
 from mckibben.report.sizing.gather import prepare_report
+from mckibben.server.questions.linearisations import linear_question
 from mckibben.server.questions.models import model_question
 from mckibben.server.schemas.diagnoses import DiagnosisRequest
+from mckibben.server.schemas.linearisations import LinearisationRequest
 from mckibben.server.schemas.reports import ReportRequest
 from mckibben.server.schemas.sizing_reports import SizingReportRequest
 from mckibben.simulation.outcome import TIME_LIMIT, Watch
@@ -78,9 +80,15 @@ def _report_options(
     return diagnosis_report.ReportOptions(body.title, history, unverified, body.fit)
 
 
+def _linear_view(body: LinearisationRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
+    work = linearise.prepare(linear_question(body, studio))
+    return lambda watch: to_json(work(watch))
+
+
 #: The kinds of long work.
 JOBS: Mapping[str, Job] = {
     "diagnosis": Job(_diagnosis, diagnose.TIME_LIMIT),
+    "linear view": Job(_linear_view),
     "report": Job(_report, diagnose.TIME_LIMIT),
     "sizing": Job(_sizing),
     "sizing report": Job(_sizing_report),

@@ -85,8 +85,14 @@ class Ticket:
         self._began = 0.0
 
     async def place(self) -> Place | None:
-        """The next place in the queue, at first and whenever it changes; None when it is its turn."""
+        """The next place in the queue, at first and whenever it changes; None when it is its turn.
+
+        Raises:
+            InputError: the server ends.
+        """
         while not self._turn.done():
+            if self._workers.ending:
+                raise _ending()
             place = self._workers.place_of(self)
             if place.before != self._told:
                 self._told = place.before
@@ -124,6 +130,7 @@ class Workers:
         self._mean = _FIRST_GUESS
         self._loop: asyncio.AbstractEventLoop | None = None
         self._lock = threading.Lock()
+        self.ending = False
 
     @property
     def waiting(self) -> int:
@@ -137,8 +144,15 @@ class Workers:
 
     def start(self) -> None:
         """Start the processes, so that the first job need not wait for them. Later calls do nothing."""
-        self._loop = self._loop or asyncio.get_running_loop()
-        threading.Thread(target=self._ready_pool, daemon=True).start()
+        if self._pool is None and not self.ending:
+            threading.Thread(target=lambda: self._ready_pool()[0].active, daemon=True).start()
+
+    def end(self) -> None:
+        """The server ends: every job ends now, and who waits for one is told so. From any thread."""
+        self.ending = True
+        for running in list(self._running.values()):
+            running.stopped = True
+            running.future.cancel()
 
     def close(self) -> None:
         """End all processes, whatever they do."""
@@ -195,6 +209,8 @@ class Workers:
             kind: of `mckibben.server.jobs.JOBS`.
             body: the validated body of the request.
         """
+        if self.ending:
+            raise _ending()
         loop = self._loop = self._loop or asyncio.get_running_loop()
         self._number += 1
         running = Running(kind, self._number, ProcessFuture())
@@ -231,7 +247,9 @@ class Workers:
         except CancelledError:
             if not running.stopped:
                 raise
-            raise InputError(f"the {kind} was stopped", code="stopped") from None
+            raise (
+                _ending() if self.ending else InputError(f"the {kind} was stopped", code="stopped")
+            ) from None
         except TimeoutError:
             raise InputError(
                 f"the {kind} took longer than {JOBS[kind].time_limit:g} s and was ended",
@@ -310,6 +328,10 @@ class Workers:
                 if loop.is_closed():
                     return
                 loop.call_soon_threadsafe(running.news.put_nowait, message)
+
+
+def _ending() -> InputError:
+    return InputError("the server is ending", hint="start it again and repeat the request", code="stopped")
 
 
 def _end(pool: ProcessPool, listener: Listener | None) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 from fastapi import APIRouter, Request
 
 from mckibben.server.answer import JsonAnswer, StrictRoute
@@ -14,13 +16,28 @@ router = APIRouter(prefix="/api/health", tags=["health"], route_class=StrictRout
 
 @router.get("", response_model=Health, responses=errors())
 async def read_health(request: Request) -> JsonAnswer:
-    """Version of the server."""
-    settings = request.app.state.settings
+    """Version of the server, what it does at the moment and how much memory it takes."""
+    settings, workers = request.app.state.settings, request.app.state.workers
     return JsonAnswer(
         {
             "status": "ok",
             "version": __version__,
             "plotly": request.app.state.plotly.version,
             "can_save_presets": settings.user_presets is not None,
+            "workers": settings.workers,
+            "running": 0 if workers is None else workers.running,
+            "waiting": 0 if workers is None else workers.waiting,
+            "memory": _memory(),
+            "versions": request.app.state.versions,
         }
     )
+
+
+def _memory() -> int | None:
+    """Most resident memory of the server's own process so far [bytes]; None on Windows."""
+    if sys.platform == "win32":
+        return None
+    import resource
+
+    unit = 1 if sys.platform == "darwin" else 1024
+    return unit * resource.getrusage(resource.RUSAGE_SELF).ru_maxrss

@@ -15,7 +15,7 @@ from mckibben.measurement.read.correction import MAX_LENGTH
 from mckibben.measurement.store import MAX_NAME, clean_name
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
-from mckibben.server.context import StoreDep, StudioDep
+from mckibben.server.context import BeforeWork, StoreDep, StudioDep
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.measurements import MeasurementAnswer, MeasurementDetail, PreviewAnswer
 
@@ -79,6 +79,7 @@ _Muscle = Annotated[
 
 @router.put(
     "",
+    dependencies=[BeforeWork],
     response_model=MeasurementAnswer,
     responses=errors(400, 409, 413, 415, 422),
     openapi_extra=_BODY,
@@ -96,6 +97,7 @@ async def upload_measurement(
 
 @router.post(
     "/preview",
+    dependencies=[BeforeWork],
     response_model=PreviewAnswer,
     responses=errors(400, 413, 415, 422),
     openapi_extra=_BODY,

@@ -9,7 +9,7 @@ from fastapi import APIRouter, Path
 from mckibben.application.mysteries import mysteries, reveal
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
-from mckibben.server.context import StudioDep
+from mckibben.server.context import BeforeWork, StudioDep
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.mysteries import Mystery, RevealAnswer, RevealRequest
 
@@ -17,7 +17,7 @@ router = APIRouter(prefix="/api/mysteries", tags=["mysteries"], route_class=Stri
 
 
 # In worker threads: the library reads the user's folder.
-@router.get("", response_model=list[Mystery], responses=errors())
+@router.get("", response_model=list[Mystery], responses=errors(), dependencies=[BeforeWork])
 def list_mysteries(studio: StudioDep) -> JsonAnswer:
     """Every mystery with its story and start model; comparisons accept its measurement by id."""
     return JsonAnswer(mysteries(studio.library))

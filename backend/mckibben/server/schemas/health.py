@@ -15,4 +15,13 @@ class Health(Strict):
     status: Literal["ok"] = Field(description="The word 'ok'.")
     version: str = Field(description="Version of mckibben.", examples=["0.1.0"])
     plotly: str = Field(description="Version of the plotly bundle, for its link's ``?v=``.")
+    workers: int = Field(
+        description="Processes for diagnoses, sizings and reports; 0 = threads of the server."
+    )
+    running: int = Field(description="Jobs in these processes.")
+    waiting: int = Field(description="Jobs in the queue.")
+    memory: int | None = Field(
+        description="Most memory that the server itself took so far [bytes]; null on Windows."
+    )
+    versions: dict[str, str] = Field(description="Program -> version.")
     can_save_presets: bool = Field(description="Whether the server has a folder for the user's presets.")

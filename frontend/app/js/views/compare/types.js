@@ -15,7 +15,8 @@
 /** @typedef {S["PathStep"]} PathStep */
 /** @typedef {S["ProposedTerm"]} ProposedTerm */
 /** @typedef {S["Verdict"]["status"]} Status */
-/** @typedef {{share: number, stage?: string, found?: Candidate | null}} Progress */
+/** @typedef {{share: number, stage?: string, found?: Candidate | null,
+ *   waiting?: import("../../server/waiting.js").Waiting}} Progress */
 
 /** @typedef {S["MeasurementAnswer"]} FileInfo */
 /** @typedef {import("../../server/measurements.js").Mapping} Mapping */

@@ -1,5 +1,6 @@
 // @ts-check
 // From the task to the server's search and its answer. The search goes on while another view is shown.
+import { waitingWords } from "../../server/waiting.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { doc, edit, look } from "../../state.js";
 import { fieldMessages, postForEvents } from "../../server/client.js";
@@ -50,11 +51,16 @@ const REMEMBERED = 8;
 const searchMemory = /** @type {Memory<Answer>} */ (new Memory(REMEMBERED));
 /** How much of the search is done, 0 to 1. */
 export const share = signal(0);
+/** The place in the server's queue, in words; empty once the search runs. */
+export const waiting = signal("");
 
 const search = new Question((text, signal) => {
   share.value = 0;
+  waiting.value = "";
   return /** @type {Promise<Answer>} */ (postForEvents("/api/sizings", JSON.parse(text), (name, data) => {
-    if (name === "progress") share.value = data.share ?? 0;
+    if (name !== "progress") return;
+    share.value = data.share ?? 0;
+    waiting.value = data.waiting ? waitingWords(data.waiting) : "";
   }, signal));
 }, { memory: searchMemory, patience: 0, arrived: showFound });
 /** The newest drives found; other ones stay until new ones arrive. */

@@ -16,6 +16,7 @@ import {
   stage,
   stale,
   startSizing,
+  waiting,
 } from "./model.js";
 import { faultNotice, goToField } from "../../ui/fault.js";
 import { proposalsCard } from "./proposals.js";
@@ -55,7 +56,9 @@ function progress() {
     h(
       "p",
       { role: "status" },
-      "Searching the catalogue: static calculation first, then every remaining drive is simulated…",
+      () =>
+        waiting.value ||
+        "Searching the catalogue: static calculation first, then every remaining drive is simulated…",
     ),
     h(
       "div",

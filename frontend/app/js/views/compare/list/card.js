@@ -1,9 +1,10 @@
 // @ts-check
 // "What is missing": the verdict is this list. Entries that may be wrong come first, then the effects in the order of
 // the joint proposal, then everything else that was tried.
+import { waitingWords } from "../../../server/waiting.js";
 import { h } from "../../../dom.js";
 import { units } from "../../../state.js";
-import { answer, brush, diagnosis, diagnosisError, lookCompare, stale } from "../answers.js";
+import { answer, brush, diagnosis, diagnosisError, lookCompare, progress, stale } from "../answers.js";
 import { fitting } from "../model/history.js";
 import { errorText, rangeText } from "../words.js";
 import { adequate, openChoices } from "./adequate.js";
@@ -171,6 +172,8 @@ function notes() {
 /** What stands at the right of the heading. */
 const aside = () => {
   const result = diagnosis.value;
+  const { waiting } = progress.value;
+  if (state.value === "running" && waiting) return waitingWords(waiting);
   if (state.value === "running") return `${triedText()} · order may still change`;
   if (state.value === "context") return "entries first";
   if (state.value === "verdict" && result) {
