@@ -50,6 +50,7 @@ FILE = {"params": {"name": "a.csv"}, "content": CSV}
 REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("POST", "/api/curves"): ("/api/curves", {"json": {"muscle": MINE}}),
     ("POST", "/api/simulations"): ("/api/simulations", {"json": {"drive": DRIVE, "points": 11}}),
+    ("POST", "/api/linearisations"): ("/api/linearisations", {"json": {"drive": DRIVE}}),
     ("POST", "/api/inverse"): (
         "/api/inverse", {"json": {"question": "working_range", "muscle": MINE, "load": "100 N",
                                   "pressure": "3 bar"}},
@@ -86,7 +87,7 @@ OTHERS = {
     "description": ("GET", "/openapi.json", {}),
     "nothing": ("GET", "/api/nothing", {}),
 }
-STREAMED = ("/api/simulations", "/api/sizings", "/api/diagnoses")
+STREAMED = ("/api/simulations", "/api/linearisations", "/api/sizings", "/api/diagnoses")
 CASES = {
     **{f"{method} {path}": (method, *request) for (method, path), request in REQUESTS.items()},
     **OTHERS,
@@ -223,7 +224,7 @@ def test_others_are_answered_while_a_file_is_read(
         finally:
             go_on.set()
         assert healthy.status_code == 200
-        assert answer.result().status_code == 200
+        assert answer.result().status_code < 300
 
 
 def test_what_was_read_for_somebody_who_has_gone_is_not_diagnosed(
@@ -238,7 +239,6 @@ def test_what_was_read_for_somebody_who_has_gone_is_not_diagnosed(
         return read(*args)
 
     monkeypatch.setattr(store, "read_measurement", read_until_gone)
-    monkeypatch.setattr(specimens, "predictor_of", lambda *_: started.append("prepared"))
     monkeypatch.setattr(diagnose, "search_effects", lambda *_, **__: started.append("diagnosed"))
     for accepted in (b"application/json", b"text/event-stream"):
         gone.clear()
