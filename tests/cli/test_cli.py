@@ -200,7 +200,7 @@ WRONG = [
     (["curves", "--muscle", ""], ["--muscle"]),
     (["curves", "--muscle", "none.json"], ["none.json", "No such file"]),
     (["curves", "--muscle", "."], ["file"]),
-    (["curves"], ["--muscle", "--help"]),
+    (["curves"], ["--muscle", "DMSP-20:300mm"]),
     (["curves", "--muscl", "DMSP-20"], ["--muscl", "--muscle"]),
     (["curve", "--muscle", "DMSP-20"], ["curve", "curves"]),
     (["size", "x.json"], ["x.json", "No such file"]),

@@ -12,9 +12,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from statistics import NormalDist
 
 import numpy as np
-from scipy.stats import norm
 
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.presets.fit import FitRecord
@@ -25,7 +25,7 @@ Array = np.ndarray
 
 #: Share of new readings that lie in an interval.
 SHARE = 0.9
-_DEVIATIONS = float(norm.ppf(0.5 + 0.5 * SHARE))
+_DEVIATIONS = NormalDist().inv_cdf(0.5 + 0.5 * SHARE)
 _STEP = 0.5  # of the differences, in standard deviations
 _POSITIONS = ("length", "displacement")  # predicted channels that are positions
 

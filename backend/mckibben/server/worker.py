@@ -22,9 +22,11 @@ from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.server.jobs import JOBS
 from mckibben.server.settings import Settings
+from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Watch
 
 _NICE = 5  # requests of the page come first
+_KERNELS_WITHIN = 5.0  # s
 _LOOK_EVERY = 1.0  # s; whether the server is still there
 
 
@@ -73,6 +75,9 @@ def begin(settings: Settings) -> None:
     _limit_memory(settings.worker_memory)
     threading.Thread(target=_end_with_the_server, args=(os.getppid(),), daemon=True).start()
     studio = Studio(presets=settings.presets, user_presets=settings.user_presets, effects=settings.effects)
+    # Loaded before the first job, so that each worker gives the same answer; compiling them the first time
+    # ever takes longer, and goes on beside the first job.
+    lane_kernels.warm().join(_KERNELS_WITHIN)
     _own = _Own(studio, MeasurementStore(settings.data), settings.worker_memory)
 
 
