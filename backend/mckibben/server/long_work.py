@@ -116,6 +116,7 @@ async def answered(
     store: MeasurementStore,
     *,
     streamed: bool = True,
+    quick: bool = False,
 ) -> bytes | EventSourceResponse:
     """The answer of a job: its bytes, or a stream of events if the caller requests one.
 
@@ -125,13 +126,14 @@ async def answered(
         body: the validated body.
         studio, store: for a job that runs in the server.
         streamed: whether the route has events.
+        quick: a job that ends so soon that it need not wait for a worker.
 
     Raises:
         InputError: what the job refuses; once a stream has begun, it is its last event.
         BusyError: too many jobs wait.
     """
     workers: Workers | None = request.app.state.workers
-    if workers is None:
+    if workers is None or quick:
         job = JOBS[kind]
         work = await prepared(request, job.prepare, body, studio, store)
         if streamed and wants_events(request):

@@ -25,5 +25,5 @@ async def linearise_drive(
     body: LinearisationRequest, request: Request, studio: StudioDep, store: StoreDep
 ) -> Response:
     """Linear models of a drive at an operating point; closing the connection ends sweep and design."""
-    answer = await answered(request, "linear view", body, studio, store)
+    answer = await answered(request, "linear view", body, studio, store, quick=body.design is None)
     return JsonAnswer(answer) if isinstance(answer, bytes) else answer
