@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import replace
 from functools import lru_cache
 from pathlib import Path
 
@@ -12,6 +13,7 @@ from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.sliding import acting_at_rest, sliding_effects
 from mckibben.presets import MusclePreset, PresetLibrary
+from mckibben.presets.order_code import order_code
 from mckibben.simulation.statics.model import StaticModel
 
 
@@ -58,17 +60,34 @@ class Studio:
     def facts(self, preset_id: str) -> PresetFacts:
         """A muscle preset in SI, cached until its file changes.
 
+        An order code (``DMSP-20-300N-RM-CM``) is its series and diameter with the length that it states.
+
         Raises:
-            InputError: there is no such preset; names the nearest.
+            InputError: there is no such preset; names the nearest, or the part of an order code that is not
+                understood.
         """
         try:
             preset = self.library.muscle(preset_id)
         except InputError as error:
+            ordered = self._ordered(preset_id)
+            if ordered is not None:
+                return ordered
             raise error.at("muscle.preset", code="unknown_preset") from error
         known = self._facts.get(preset.id)
         if known is None or known[0] is not preset:
             known = self._facts[preset.id] = preset, preset_facts(preset, self.catalogue)
         return known[1]
+
+    def _ordered(self, text: str) -> PresetFacts | None:
+        known = [preset.id for preset in self.library.list("muscles")]
+        try:
+            code = order_code(text, known)
+        except InputError as error:
+            raise error.at("muscle.preset", code="unknown_preset") from error
+        if code is None:
+            return None
+        facts = self.facts(code.preset)
+        return replace(facts, muscle=facts.muscle._replace(nominal_length=code.length))
 
     def slow_model(self, start: StartModel, *, directed: bool = True) -> StaticModel:
         """As `static_model`, for curves with a direction: friction with memory is fully built up in it.

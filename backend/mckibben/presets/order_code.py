@@ -1,0 +1,69 @@
+"""Order codes of fluidic muscles: ``DMSP-20-300N-RM-CM``, ``MAS-10-N-100-AA-MCFK``.
+
+They name series, inside diameter [mm], nominal length [mm] with an N before or behind it, and then membrane
+and connections, which change nothing of the model.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from mckibben.physics.errors import InputError, did_you_mean
+
+_LENGTH = re.compile(r"(?P<behind>\d+)N|N(?P<before>\d+)", re.IGNORECASE)
+_FURTHER = re.compile(r"[A-Z]{1,6}", re.IGNORECASE)
+_EXAMPLE = "e.g. DMSP-20-300N-RM-CM or MAS-10-N-100-AA-MCFK"
+
+
+@dataclass(frozen=True, slots=True)
+class OrderCode:
+    """What an order code says.
+
+    Attributes:
+        preset: id of the preset of its series and diameter.
+        length: nominal length [m].
+        further: codes of membrane and connections, as they stand there.
+    """
+
+    preset: str
+    length: float
+    further: tuple[str, ...]
+
+
+def order_code(text: str, known: Collection[str]) -> OrderCode | None:
+    """The parts of an order code; None for a text that does not begin like one of these muscles.
+
+    Args:
+        text: the code.
+        known: ids of muscle presets, "DMSP-20".
+
+    Raises:
+        InputError: a part is not understood; names it.
+    """
+    series, *parts = text.strip().split("-")
+    ids = {preset.upper(): preset for preset in known}
+    if len(parts) < 2 or not any(preset.startswith(f"{series.upper()}-") for preset in ids):
+        return None
+    preset = ids.get(f"{series}-{parts[0]}".upper())
+    if preset is None:
+        made = [each.partition("-")[2] for each in ids if each.startswith(f"{series.upper()}-")]
+        sizes = ", ".join(sorted((size for size in made if size.isdigit()), key=int))
+        raise InputError(
+            f"'{parts[0]}' in the order code {text} is no inside diameter of the {series.upper()} series",
+            hint=did_you_mean(f"{series}-{parts[0]}", known) or f"{sizes} mm",
+        )
+    rest = parts[1:]
+    if rest[0].upper() == "N" and len(rest) > 1:  # MAS-10-N-100
+        rest = [f"N{rest[1]}", *rest[2:]]
+    found = _LENGTH.fullmatch(rest[0])
+    length = int(found["behind"] or found["before"]) if found else 0
+    if not length:
+        raise InputError(
+            f"'{rest[0]}' in the order code {text} is no nominal length in mm", hint=f"300N; {_EXAMPLE}"
+        )
+    for part in rest[1:]:
+        if _FURTHER.fullmatch(part) is None:
+            raise InputError(f"'{part}' in the order code {text} is not understood", hint=_EXAMPLE)
+    return OrderCode(preset, length * 1e-3, tuple(part.upper() for part in rest[1:]))

@@ -1,0 +1,61 @@
+"""Order codes of fluidic muscles: those of the paper and the catalogue, and parts that are not understood."""
+
+from __future__ import annotations
+
+import pytest
+
+from mckibben.documents.start_model import StatedMuscle
+from mckibben.documents.studio import Studio
+from mckibben.physics.errors import InputError
+from mckibben.presets.order_code import OrderCode, order_code
+from mckibben.resources import presets_folder
+
+KNOWN = ["DMSP-5", "DMSP-10", "DMSP-20", "MAS-10", "MAS-20", "hand-made"]
+
+
+@pytest.mark.parametrize(
+    ("text", "code"),
+    [
+        ("DMSP-20-300N-RM-CM", OrderCode("DMSP-20", 0.3, ("RM", "CM"))),
+        ("MAS-10-N-100-AA-MCFK", OrderCode("MAS-10", 0.1, ("AA", "MCFK"))),
+        ("dmsp-10-250n", OrderCode("DMSP-10", 0.25, ())),
+        ("DMSP-20-N200", OrderCode("DMSP-20", 0.2, ())),
+    ],
+)
+def test_a_code_names_preset_length_and_the_rest(text: str, code: OrderCode) -> None:
+    assert order_code(text, KNOWN) == code
+
+
+@pytest.mark.parametrize("text", ["DMSP-20", "hand-made", "XYZ-20-300N", "", "DMSP"])
+def test_what_does_not_begin_like_one_is_none(text: str) -> None:
+    assert order_code(text, KNOWN) is None
+
+
+@pytest.mark.parametrize(
+    ("text", "part"),
+    [
+        ("DMSP-21-300N", "'21'"),
+        ("DMSP-20-300X-RM", "'300X'"),
+        ("DMSP-20-0N", "'0N'"),
+        ("DMSP-20-300N-R2", "'R2'"),
+        ("MAS-10-N-long", "'Nlong'"),
+    ],
+)
+def test_the_part_that_is_not_understood_is_named(text: str, part: str) -> None:
+    with pytest.raises(InputError, match=part) as refused:
+        order_code(text, KNOWN)
+    assert text in refused.value.message
+    assert refused.value.hint
+
+
+def test_a_muscle_is_found_by_its_code_with_the_length_of_the_code() -> None:
+    studio = Studio(presets=presets_folder())
+    start = studio.start_model(StatedMuscle(preset="DMSP-20-250N-RM-CM"), None)
+    assert start.muscle.nominal_length == 0.25
+    assert start.preset is not None
+    assert start.preset.id == "DMSP-20"
+    other = studio.start_model(StatedMuscle(preset="DMSP-20-250N", nominal_length=0.4), None)
+    assert other.muscle.nominal_length == 0.4
+    with pytest.raises(InputError, match="'25ON'") as refused:
+        studio.facts("DMSP-20-25ON")
+    assert (refused.value.code, refused.value.field) == ("unknown_preset", "muscle.preset")
