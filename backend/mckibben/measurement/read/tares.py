@@ -1,0 +1,127 @@
+"""The tare of a load cell that a text states: subtracted where it says so, asked about where it does not."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from mckibben.measurement.question import Question
+from mckibben.measurement.read.evidence import Array
+from mckibben.measurement.read.header import WEIGHTS, HeaderColumn
+from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.vocabulary import channel_of_word, folded, words_of
+from mckibben.measurement.read.words.tares import DONE, INCLUDED, NOT, NOT_YET, TARE, TO_DO
+from mckibben.physics.units import convert
+
+_NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
+_QUANTITY = re.compile(rf"(?<![\w.,])({_NUMBER})\s*([^\W\d_]+)(?![\w.,]*\d)")
+_SENTENCES = re.compile(r"[;|]|[.!](?=\s|$)")
+_OTHERS = ("pressure", "length", "displacement", "contraction", "time", "temperature")
+_LARGE = 0.5  # of the largest reading; a tare is no measurement
+
+
+class Tare(NamedTuple):
+    """What a text says: the reading without pull [N], and whether the readings contain it (None: not said)."""
+
+    value: float
+    contained: bool | None
+    text: str
+    where: str
+
+
+def tares_in(texts: Iterable[tuple[str, str]]) -> list[Tare]:
+    """The tares of forces that texts state, each with a value other than 0.
+
+    >>> tares_in([("Tara 2,1 N nicht abgezogen", "line 2")])
+    [Tare(value=2.1, contained=True, text='Tara 2,1 N nicht abgezogen', where='line 2')]
+    >>> tares_in([("tare 4 N, already subtracted", "line 2")])[0].contained
+    False
+    """
+    found = []
+    for text, where in texts:
+        for sentence in _SENTENCES.split(text):
+            tare = _of_sentence(sentence.strip(" #%*-"), where)
+            if tare is not None and tare.value != 0.0:
+                found.append(tare)
+    return found
+
+
+def _of_sentence(sentence: str, where: str) -> Tare | None:
+    words = words_of(sentence)
+    if not _has(words, TARE) or {channel_of_word(word) for word in words} & set(_OTHERS):
+        return None
+    values = {value for match in _QUANTITY.finditer(sentence) if (value := _force(match)) is not None}
+    if len(values) != 1:
+        return None
+    return Tare(values.pop(), _contained(words, folded(sentence)), sentence, where)
+
+
+def _force(found: re.Match[str]) -> float | None:
+    """A force [N], also as the weight of a mass; None = the quantity is neither."""
+    unit = unit_of(found[2]) or unit_of(found[2].lower())
+    if unit is None or dimension_of(unit.unit) not in ("a force", "a mass"):
+        return None
+    return float(convert([float(found[1].replace(",", "."))], WEIGHTS.get(unit.unit, unit.unit), "N")[0])
+
+
+def _contained(words: list[str], plain: str) -> bool | None:
+    """Whether the readings contain the tare; None where the words do not say it, or say both."""
+    negated = _has(words, NOT) or any(phrase in plain for phrase in NOT_YET)
+    done, to_do, included = _has(words, DONE), _has(words, TO_DO), _has(words, INCLUDED)
+    if negated:
+        said = {True} if (done or to_do) and not included else set[bool]()
+        # "not included", "do not subtract": it is not clear from which side
+        return True if said and done and not to_do else None
+    if done and (included or to_do):
+        return None
+    if done:
+        return False
+    return True if to_do or included else None
+
+
+def _has(words: list[str], known: frozenset[str]) -> bool:
+    return any(word in known for word in words)
+
+
+def subtract_tare(
+    columns: dict[str, Array], by_use: Mapping[str, HeaderColumn], texts: Iterable[tuple[str, str]],
+    conditions: Mapping[str, float | str], messages: list[str],
+) -> list[Question]:  # fmt: skip
+    """Subtract a tare that the readings contain from the force [N], with a message.
+
+    Returns the question where a text states a tare and not whether the readings contain it, where several
+    differ, or where it is as large as the readings.
+    """
+    force, column = columns.get("force"), by_use.get("force")
+    if force is None or column is None or not len(force):
+        return []
+    stated = list({(tare.value, tare.contained): tare for tare in tares_in(texts)}.values())
+    if not stated:
+        return []
+    first = stated[0]
+    place = f"'{first.text[:100]}' ({first.where})"
+    if "force_zero" in conditions:
+        messages.append(f"the tare of {place} is left to the zero of the force that is stated beside it")
+        return []
+    sure = len(stated) == 1 and first.value < _LARGE * float(np.max(np.abs(force)))
+    if sure and first.contained is False:
+        messages.append(f"{place}: the force is read as without the tare")
+        return []
+    if sure and first.contained:
+        # A column that counts a pull as negative was turned: its reading without pull is turned as well.
+        columns["force"] = force - column.sign * first.value
+        messages.append(f"{first.value:.4g} N is subtracted from the force: {place}")
+        return []
+    return [
+        Question(
+            "zero of force",
+            f"the file states a tare of the force, {place}, and not clearly whether the readings of column "
+            f"'{column.header}' contain it; what do they show without pull",
+            f'--experiment "force_zero={first.value:.4g} N", or --experiment "force_zero=0 N" where it is '
+            "subtracted already",
+            column.header,
+        )
+    ]
