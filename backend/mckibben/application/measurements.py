@@ -279,7 +279,9 @@ def unread_sentence(measurement: Measurement) -> str:
     said = [
         f"'{column}' ({why})"
         for column, why in measurement.unread
-        if not any(f"'{column}' is not {done}" in m for m in measurement.messages for done in ("used", "read"))
+        if not any(
+            f"'{column}' is not {done}" in m for m in measurement.messages for done in ("used", "read")
+        )
     ]
     if not said:
         return ""

@@ -9,17 +9,21 @@ from typing import NamedTuple
 import numpy as np
 
 from mckibben.measurement.question import Question
+from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.evidence import Array
+from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.header import WEIGHTS, HeaderColumn
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.vocabulary import channel_of_word, folded, words_of
-from mckibben.measurement.read.words.tares import DONE, INCLUDED, NOT, NOT_YET, TARE, TO_DO
+from mckibben.measurement.read.words.tares import DONE, INCLUDED, MUST, NOT, NOT_YET, TARE, TO_DO
 from mckibben.physics.units import convert
 
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _QUANTITY = re.compile(rf"(?<![\w.,])({_NUMBER})\s*([^\W\d_]+)(?![\w.,]*\d)")
+_UNIT_FIRST = re.compile(rf"\s*[\[(]\s*([^\W\d_]+)\s*[\])]\s*[:=]?\s*({_NUMBER})")
 _SENTENCES = re.compile(r"[;|]|[.!](?=\s|$)")
-_OTHERS = ("pressure", "length", "displacement", "contraction", "time", "temperature")
+_OTHERS = frozenset(("pressure", "length", "displacement", "contraction", "time", "temperature"))
+_NEAR = 40  # characters
 _LARGE = 0.5  # of the largest reading; a tare is no measurement
 
 
@@ -49,14 +53,44 @@ def tares_in(texts: Iterable[tuple[str, str]]) -> list[Tare]:
     return found
 
 
+def notes_of_tares(notes: Iterable[Note]) -> list[tuple[str, str]]:
+    """The conditions of a file whose name says a tare, as texts with their places."""
+    found = []
+    for note in notes:
+        if not _has(words_of(note.key), TARE):
+            continue
+        unit = taken_apart(note.key).unit or note.key.rpartition("_")[2]
+        bare = isinstance(note.value, float) or re.fullmatch(_NUMBER, str(note.value).strip()) is not None
+        found.append((f"{note.key}: {note.value}{f' {unit}' if bare else ''}", note.where))
+    return found
+
+
 def _of_sentence(sentence: str, where: str) -> Tare | None:
+    sentence = _UNIT_FIRST.sub(r": \2 \1", sentence)
     words = words_of(sentence)
-    if not _has(words, TARE) or {channel_of_word(word) for word in words} & set(_OTHERS):
+    if not _has(words, TARE):
         return None
-    values = {value for match in _QUANTITY.finditer(sentence) if (value := _force(match)) is not None}
+    values = {
+        value
+        for match in _QUANTITY.finditer(sentence)
+        if _is_beside(sentence, match) and (value := _force(match)) is not None
+    }
     if len(values) != 1:
         return None
     return Tare(values.pop(), _contained(words, folded(sentence)), sentence, where)
+
+
+def _is_beside(sentence: str, found: re.Match[str]) -> bool:
+    """Whether the word for a tare stands near a quantity, without a comma or another number between them.
+
+    Words for another quantity than a force beside it make it the tare of something else.
+    """
+    before = re.split(r",\s|[0-9]", sentence[: found.start()])[-1]
+    behind = re.split(r",\s|[0-9]", sentence[found.end() :])[0]
+    near = [words_of(before[-_NEAR:]), words_of(behind[:_NEAR])]
+    return any(
+        _has(words, TARE) and not {channel_of_word(word) for word in words} & _OTHERS for words in near
+    )
 
 
 def _force(found: re.Match[str]) -> float | None:
@@ -70,6 +104,8 @@ def _force(found: re.Match[str]) -> float | None:
 def _contained(words: list[str], plain: str) -> bool | None:
     """Whether the readings contain the tare; None where the words do not say it, or say both."""
     negated = _has(words, NOT) or any(phrase in plain for phrase in NOT_YET)
+    if _has(words, DONE) and any(phrase in plain for phrase in MUST):
+        return None if negated else True
     done, to_do, included = _has(words, DONE), _has(words, TO_DO), _has(words, INCLUDED)
     if negated:
         said = {True} if (done or to_do) and not included else set[bool]()
@@ -98,7 +134,10 @@ def subtract_tare(
     force, column = columns.get("force"), by_use.get("force")
     if force is None or column is None or not len(force):
         return []
-    stated = list({(tare.value, tare.contained): tare for tare in tares_in(texts)}.values())
+    stated: list[Tare] = []
+    for tare in tares_in(texts):  # the head of each page may say it again
+        if not any((tare.value, tare.contained) == (t.value, t.contained) for t in stated):
+            stated.append(tare)
     if not stated:
         return []
     first = stated[0]
@@ -106,13 +145,13 @@ def subtract_tare(
     if "force_zero" in conditions:
         messages.append(f"the tare of {place} is left to the zero of the force that is stated beside it")
         return []
-    sure = len(stated) == 1 and first.value < _LARGE * float(np.max(np.abs(force)))
+    # Of a column that counts a pull as negative it is open which sign the tare has.
+    sure = len(stated) == 1 and column.sign > 0 and first.value < _LARGE * float(np.max(np.abs(force)))
     if sure and first.contained is False:
         messages.append(f"{place}: the force is read as without the tare")
         return []
     if sure and first.contained:
-        # A column that counts a pull as negative was turned: its reading without pull is turned as well.
-        columns["force"] = force - column.sign * first.value
+        columns["force"] = force - first.value
         messages.append(f"{first.value:.4g} N is subtracted from the force: {place}")
         return []
     return [

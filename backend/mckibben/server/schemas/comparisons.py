@@ -271,6 +271,4 @@ class ComparisonAnswer(Strict):
     absorbed: list[Absorbed] = Field(
         description="Errors of readings within the accuracy, which a fit allows for."
     )
-    unread: list[UnreadColumn] = Field(
-        description="Columns of the files that nothing is read from, and why."
-    )
+    unread: list[UnreadColumn] = Field(description="Columns of the files that nothing is read from, and why.")

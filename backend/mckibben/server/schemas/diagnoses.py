@@ -290,9 +290,7 @@ class DiagnosisAnswer(Strict):
     covariance: FittedCovariance | None = Field(
         description="Of the fitted values of the best model; null where the data cannot separate them."
     )
-    unread: list[UnreadColumn] = Field(
-        description="Columns of the files that nothing is read from, and why."
-    )
+    unread: list[UnreadColumn] = Field(description="Columns of the files that nothing is read from, and why.")
 
 
 DiagnosisEvents: dict[int | str, dict[str, Any]] = {
