@@ -1,4 +1,4 @@
-"""Columns of counts whose meaning a text states: the time of a tick, the period of samples, states of a valve."""
+"""Columns of counts whose meaning a text states: the time of a tick, of a sample, the states of a valve."""
 
 from __future__ import annotations
 
@@ -93,7 +93,6 @@ def test_a_column_with_stated_states_is_the_command() -> None:
     np.testing.assert_allclose(found.columns["command"], COMMAND / 100.0)
     assert found.kind == "transient"
     assert any("'cmd [%]' is read as the command of the valve" in message for message in found.messages)
-    silent = read(
-        f"# load_mass: 5 kg\nt_s,cmd [%],pressure_bar,stroke_mm\n{table(TIME, COMMAND, PRESSURE, STROKE)}"
-    )
+    rows = table(TIME, COMMAND, PRESSURE, STROKE)
+    silent = read(f"# load_mass: 5 kg\nt_s,cmd [%],pressure_bar,stroke_mm\n{rows}")
     assert "command" not in silent.columns

@@ -1,4 +1,4 @@
-"""What a text says of a column of counts: the time of one count, the period of the samples, a valve's states."""
+"""What a text says of a column of counts: the time of a count, the period of samples, a valve's states."""
 
 from __future__ import annotations
 

@@ -115,7 +115,7 @@ _STATE = re.compile(
 
 
 def state_of(text: str) -> str | None:
-    """The state of a valve that words say: "closed", "open" (it fills), "exhaust"; None = none, or several."""
+    """The state of a valve in words: "closed", "open" (it fills), "exhaust"; None = none, or several."""
     words = words_of(text)
     known = {
         "closed": VALVE_WORDS["closed"],

@@ -14,8 +14,8 @@ from mckibben.measurement.read.evidence import Array
 from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.header import WEIGHTS, HeaderColumn
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
-from mckibben.measurement.read.vocabulary import channel_of_word, folded, words_of
-from mckibben.measurement.read.words.tares import DONE, INCLUDED, MUST, NOT, NOT_YET, TARE, TO_DO
+from mckibben.measurement.read.vocabulary import channel_of_word, folded, word_set, words_of
+from mckibben.measurement.read.words import tares as words_of_tares
 from mckibben.physics.units import convert
 
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
@@ -27,8 +27,12 @@ _NEAR = 40  # characters
 _LARGE = 0.5  # of the largest reading; a tare is no measurement
 
 
+_TARE, _NOT, _DONE = map(word_set, (words_of_tares.TARE, words_of_tares.NOT, words_of_tares.DONE))
+_TO_DO, _INCLUDED = word_set(words_of_tares.TO_DO), word_set(words_of_tares.INCLUDED)
+
+
 class Tare(NamedTuple):
-    """What a text says: the reading without pull [N], and whether the readings contain it (None: not said)."""
+    """The reading without pull [N] in a text, and whether the readings contain it (None: not said)."""
 
     value: float
     contained: bool | None
@@ -57,7 +61,7 @@ def notes_of_tares(notes: Iterable[Note]) -> list[tuple[str, str]]:
     """The conditions of a file whose name says a tare, as texts with their places."""
     found = []
     for note in notes:
-        if not _has(words_of(note.key), TARE):
+        if not _has(words_of(note.key), _TARE):
             continue
         unit = taken_apart(note.key).unit or note.key.rpartition("_")[2]
         bare = isinstance(note.value, float) or re.fullmatch(_NUMBER, str(note.value).strip()) is not None
@@ -68,7 +72,7 @@ def notes_of_tares(notes: Iterable[Note]) -> list[tuple[str, str]]:
 def _of_sentence(sentence: str, where: str) -> Tare | None:
     sentence = _UNIT_FIRST.sub(r": \2 \1", sentence)
     words = words_of(sentence)
-    if not _has(words, TARE):
+    if not _has(words, _TARE):
         return None
     values = {
         value
@@ -89,7 +93,7 @@ def _is_beside(sentence: str, found: re.Match[str]) -> bool:
     behind = re.split(r",\s|[0-9]", sentence[found.end() :])[0]
     near = [words_of(before[-_NEAR:]), words_of(behind[:_NEAR])]
     return any(
-        _has(words, TARE) and not {channel_of_word(word) for word in words} & _OTHERS for words in near
+        _has(words, _TARE) and not {channel_of_word(word) for word in words} & _OTHERS for words in near
     )
 
 
@@ -103,14 +107,12 @@ def _force(found: re.Match[str]) -> float | None:
 
 def _contained(words: list[str], plain: str) -> bool | None:
     """Whether the readings contain the tare; None where the words do not say it, or say both."""
-    negated = _has(words, NOT) or any(phrase in plain for phrase in NOT_YET)
-    if _has(words, DONE) and any(phrase in plain for phrase in MUST):
+    negated = _has(words, _NOT) or any(phrase in plain for phrase in words_of_tares.NOT_YET)
+    if _has(words, _DONE) and any(phrase in plain for phrase in words_of_tares.MUST):
         return None if negated else True
-    done, to_do, included = _has(words, DONE), _has(words, TO_DO), _has(words, INCLUDED)
-    if negated:
-        said = {True} if (done or to_do) and not included else set[bool]()
-        # "not included", "do not subtract": it is not clear from which side
-        return True if said and done and not to_do else None
+    done, to_do, included = _has(words, _DONE), _has(words, _TO_DO), _has(words, _INCLUDED)
+    if negated:  # of "not included" and "do not subtract" it is not clear which side is meant
+        return True if done and not (to_do or included) else None
     if done and (included or to_do):
         return None
     if done:
