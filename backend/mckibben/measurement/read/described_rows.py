@@ -1,4 +1,4 @@
-"""Rows of a JSON document joined with the list of their channels: `channels: [{name, unit}], data: [[..]]`."""
+"""Rows of a JSON document joined with the list of their channels: `channels: [{name, unit}], data: [[]]`."""
 
 from __future__ import annotations
 
