@@ -265,6 +265,8 @@ export interface components {
       specimens: components["schemas"]["Specimen"][];
       /** Errors of readings within the accuracy, which a fit allows for. */
       absorbed: components["schemas"]["Absorbed"][];
+      /** Columns of the files that nothing is read from, and why. */
+      unread: components["schemas"]["UnreadColumn"][];
     };
     /** A model, the measurements to compare it with, and whether to fit it. */
     ComparisonRequest: {
@@ -721,6 +723,8 @@ export interface components {
       envelope: { [key: string]: components["schemas"]["MeasuredRange"] };
       /** Of the fitted values of the best model; null where the data cannot separate them. */
       covariance: components["schemas"]["FittedCovariance"] | null;
+      /** Columns of the files that nothing is read from, and why. */
+      unread: components["schemas"]["UnreadColumn"][];
     };
     /** The start model and the measurements to explain. */
     DiagnosisRequest: {

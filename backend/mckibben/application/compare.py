@@ -21,6 +21,7 @@ from mckibben.application.experiment_result import (
     common_experiment,
     specimen_results,
 )
+from mckibben.application.measurements import UnreadColumn
 from mckibben.application.model_question import EffectDocument, ModelQuestion
 from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
 from mckibben.application.specimens import Specimens
@@ -99,6 +100,7 @@ class ComparisonResult:
         assumptions: what nobody said and was assumed; they also begin the messages.
         specimens: each measurement.
         absorbed: errors of readings within the accuracy.
+        unread: columns of the files that nothing is read from, and why.
     """
 
     kind: str
@@ -134,6 +136,7 @@ class ComparisonResult:
     assumptions: list[str]
     specimens: list[SpecimenResult]
     absorbed: list[AbsorbedError]
+    unread: list[UnreadColumn]
 
 
 @dataclass(frozen=True, slots=True)
@@ -181,6 +184,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
     data = envelope_of(question.specimens, predictor, comparison.fit_model)
     messages = [
         *question.opening,
+        *question.unread_messages,
         *beyond(question.envelope, data),
         *comparison.messages,
         *absorbed_message(comparison.absorbed, predictor.unit),
@@ -228,6 +232,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         flags=start_notices(start),
         rmse_beyond_accuracy=comparison.rmse_beyond_accuracy,
         experiment=with_accepted(common_experiment(question), accepted, comparison.fit_model),
+        unread=question.unread,
         assumptions=[assumption.message for assumption in question.assumptions],
         specimens=specimen_results(question, predictor, residual),
         absorbed=list(comparison.absorbed),

@@ -220,6 +220,7 @@ def _result(
         not_tried=list(diagnosis.not_tried),
         messages=[
             *question.opening,
+            *question.unread_messages,
             *beyond(question.envelope, envelope),
             *question.points.measurement.messages,
             *data.notes,
@@ -228,6 +229,7 @@ def _result(
             *absorbed_message(diagnosis.absorbed, predictor.unit),
         ],
         experiment=with_accepted(common_experiment(question), question.accepted, best.fit_model),
+        unread=question.unread,
         assumptions=[assumption.message for assumption in question.assumptions],
         specimens=specimen_results(question, predictor, best.residual, best),
         absorbed=list(diagnosis.absorbed),

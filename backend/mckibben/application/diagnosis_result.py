@@ -13,6 +13,7 @@ from mckibben.application.compare import ModelDocument
 from mckibben.application.doubts import DoubtfulEntry
 from mckibben.application.envelope import MeasuredRange
 from mckibben.application.experiment_result import SpecimenResult
+from mckibben.application.measurements import UnreadColumn
 from mckibben.application.model_question import EffectDocument
 from mckibben.application.muscle_summary import GeometrySummary
 from mckibben.application.next_experiment import ExperimentProposal, NextExperiment
@@ -215,6 +216,7 @@ class DiagnosisResult:
         absorbed: errors of readings within the accuracy.
         envelope: quantity -> range in which the model was measured.
         covariance: of the fitted values; None where the data cannot separate them.
+        unread: columns of the files that nothing is read from, and why.
     """
 
     rows: int
@@ -244,3 +246,4 @@ class DiagnosisResult:
     context: list[DoubtfulEntry]
     envelope: dict[str, MeasuredRange]
     covariance: FittedCovariance | None
+    unread: list[UnreadColumn]

@@ -13,6 +13,7 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
 
 #: Units offered by a form for each channel.
+_SHOWN_UNREAD = 8  # columns in one sentence
 _USUAL_UNITS = {
     "time": ("s", "ms", "min"), "pressure": ("bar", "kPa", "MPa", "mbar", "psi", "Pa"),
     "force": ("N", "kN", "lbf"), "length": ("mm", "m", "cm", "in"), "contraction": ("%", "1"),
@@ -271,6 +272,21 @@ def summary_of(measurement: Measurement) -> MeasurementSummary:
         stated=_stated(measurement.stated),
         questions=_questions(measurement.questions),
     )
+
+
+def unread_sentence(measurement: Measurement) -> str:
+    """Which columns nothing is read from, and why; "" = none that the messages do not name already."""
+    said = [
+        f"'{column}' ({why})"
+        for column, why in measurement.unread
+        if not any(
+            f"'{column}' is not {done}" in m for m in measurement.messages for done in ("used", "read")
+        )
+    ]
+    if not said:
+        return ""
+    more = f" and {len(said) - _SHOWN_UNREAD} more" if len(said) > _SHOWN_UNREAD else ""
+    return f"columns that are not read: {', '.join(said[:_SHOWN_UNREAD])}{more}"
 
 
 def _unread(columns: Iterable[tuple[str, str]]) -> list[UnreadColumn]:

@@ -8,6 +8,7 @@ from functools import cached_property
 
 from mckibben.application.envelope import Envelope
 from mckibben.application.experiment import Assumption, SaidMeasurement, SaidModel, resolved
+from mckibben.application.measurements import UnreadColumn, unread_sentence
 from mckibben.application.specimens import Specimens
 from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.documents.studio import Studio
@@ -15,6 +16,7 @@ from mckibben.identification.diagnose.entries import StatedEntry
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import LOAD, FitModel, free_geometry
 from mckibben.identification.predict.free import Free
+from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.points import Points
 from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.errors import InputError, did_you_mean
@@ -92,6 +94,24 @@ class ModelQuestion:
     def opening(self) -> list[str]:
         """How every answer begins: what was assumed, and remarks on the experiment."""
         return [*(assumption.message for assumption in self.assumptions), *self.remarks]
+
+    @property
+    def unread(self) -> list[UnreadColumn]:
+        """Columns of the files that nothing is read from, and why; those of validation data come last."""
+        return [UnreadColumn(column, why) for m in self._measurements for column, why in m.unread]
+
+    @property
+    def unread_messages(self) -> list[str]:
+        """A sentence on the unread columns of each file, without those that its messages name already."""
+        measurements = self._measurements
+        several = len(measurements) > 1
+        sentences = [(m.name, unread_sentence(m)) for m in measurements]
+        return [f"{name}: {text}" if several else text for name, text in sentences if text]
+
+    @property
+    def _measurements(self) -> list[Measurement]:
+        parts = [self.specimens] if self.validation is None else [self.specimens, self.validation]
+        return [specimen.points.measurement for part in parts for specimen in part.each]
 
     @property
     def tolerance(self) -> Mapping[str, float]:

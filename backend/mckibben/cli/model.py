@@ -20,6 +20,7 @@ from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
+from mckibben.presets.order_code import order_code
 
 
 def model_question(
@@ -90,7 +91,7 @@ def said_model(studio: Studio, options: ModelOptions) -> SaidModel:
 def _said_length(studio: Studio, options: ModelOptions) -> ExperimentValue | None:
     """The rest length that the options state; the default length of a preset is not stated."""
     if options.muscle and not is_file(options.muscle, studio):
-        length = options.muscle.partition(":")[2]
+        length = options.muscle.partition(":")[2] or _ordered(studio, options.muscle)
         where = f"--muscle {options.muscle}"
     elif options.muscle:
         document = _json(options.muscle)
@@ -108,6 +109,16 @@ def _said_length(studio: Studio, options: ModelOptions) -> ExperimentValue | Non
         return ExperimentValue(si(length, "m"), "m", "you", where)
     except InputError:
         return None  # told with its field when the muscle is read
+
+
+def _ordered(studio: Studio, muscle: str) -> float | None:
+    """The length that an order code states [m]."""
+    known = [preset.id for preset in studio.library.list("muscles")]
+    try:
+        code = None if muscle in known else order_code(muscle, known)
+    except InputError:
+        return None  # told when the muscle is read
+    return None if code is None else code.length
 
 
 def _json(path: str) -> dict[str, object]:

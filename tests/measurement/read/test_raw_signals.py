@@ -82,3 +82,22 @@ def test_counts_that_start_nowhere_are_not_scaled() -> None:
     head = "# rest length 300 mm\n# Encoder: 80 counts = 1 mm\npressure_bar,force_N,Encoder [counts]\n"
     with pytest.raises(InputError, match="where the stroke is 0"):
         read(head + table(PRESSURE, FORCE, COUNTS))
+
+
+def test_the_symbol_of_a_voltage_says_the_channel_whose_scale_is_asked_for() -> None:
+    rows = table(TIME, PRESSURE * 0.5 + 0.5, FORCE, 300.0 - STROKE)
+    text = f"t_s,U_p_V,F_N,L_mm\n{rows}"
+    with pytest.raises(InputError) as refused:
+        read(text)
+    assert "'U_p_V' (pressure) is a signal in V" in refused.value.message
+    assert "load" not in refused.value.message
+    said = spoken_correction(columns=["pressure=U_p [1-3 V = 1-5 bar]"])
+    found = read_measurement(text.encode(), "a.csv", said)
+    np.testing.assert_allclose(found.columns["pressure"], (2.0 * (PRESSURE * 0.5 + 0.5) - 1.0) * 1e5)
+
+
+@pytest.mark.parametrize("name", ["U_p_V", "U_F1_mV", "V_press_V"])
+def test_a_measured_channel_is_not_asked_for_again_by_a_voltage(name: str) -> None:
+    rows = table(PRESSURE, FORCE, STROKE, PRESSURE)
+    found = read(f"pressure_bar,force_N,stroke_mm,{name}\n{rows}")
+    assert [column for column, _ in found.unread] == [name]

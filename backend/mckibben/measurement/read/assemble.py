@@ -28,6 +28,7 @@ from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.signs import FORCE_SIGN, STROKE_SIGN
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import KIND_SAID, REFERENCE_OF
+from mckibben.measurement.read.tares import notes_of_tares, subtract_tare
 from mckibben.physics.errors import InputError
 
 _FEWEST_TO_TURN = 3  # rows
@@ -153,11 +154,13 @@ def assemble(
     columns, by_use, slack = read_channels(used, reading)
     slack = _oldest_first(columns, by_use, slack, source, messages)
     hold_pressure(columns, by_use, name, source, conditions, messages)
+    tare = subtract_tare(columns, by_use, [*source.rest, *notes_of_tares(source.notes)], conditions, messages)
     skipped = dict(reading.table.skipped)
     for reason, left_out in skipped.items():
         messages.append(f"{left_out.rows} rows left out: {reason} (first: {left_out.first})")
     questions = questions_of(_evidence(source, meaning, reading, by_use, columns, correction))
     weighed = {*correction.conditions, *(column.key for column in meaning.constants)}
+    questions += tare
     questions += condition_questions(source.rest, source.notes, conditions, columns, weighed)
     questions.sort(key=lambda question: not question.stops)
     if asked is not None:

@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from itertools import pairwise
 from types import MappingProxyType
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.read.cells import CellTable
+from mckibben.measurement.read.counters import time_of_count, valve_states_of
 from mckibben.measurement.read.head_text import CHANNEL_NUMBER, taken_apart
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.scales import Scale, said_scale, scale_in, scale_of, valve_scale_of
@@ -28,19 +30,25 @@ RAW_DIMENSIONS = ("a voltage", "a current", "a count")
 
 @dataclass(frozen=True)
 class _Derived:
-    """A column: the one of the file, times ``factor`` plus ``offset``, plus the other one times its share."""
+    """A column: the one of the file, times ``factor`` plus ``offset``, plus the other one times its share.
+
+    ``from_first``: its first value counts as 0.
+    """
 
     place: int
     factor: float = 1.0
     offset: float = 0.0
     fraction: int | None = None
     share: float = 0.0
+    from_first: bool = False
 
     def of(self, numbers: dict[int, NDArray[np.float64]]) -> NDArray[np.float64]:
         """The values; seconds count from the first one, as sums of large and small numbers lose digits."""
         values = numbers[self.place]
         if self.fraction is not None:
             return (values - values[0]) + numbers[self.fraction] * self.share
+        if self.from_first:
+            return (values - values[0]) * self.factor
         return values if self.factor == 1.0 and not self.offset else values * self.factor + self.offset
 
 
@@ -87,10 +95,49 @@ def with_derived(source: RawTable, scales: Mapping[str, str] = MappingProxyType(
             name = _bare(headers[index])
             headers[index] = name if name == scale.name else f"{name}: {scale.name}"
             units[index] = scale.unit
+    said += _counted(source, columns, headers, units)
     if not said:
         return source
     messages = [*source.messages, *said]
     return replace(_mapped(source, columns), headers=headers, units=tuple(units), messages=messages)
+
+
+def _counted(
+    source: RawTable, columns: list[_Derived], headers: list[str], units: list[str | None]
+) -> list[str]:
+    """Give columns of counts the meaning that a text states: a time, the share of opening of a valve."""
+    known = [recognise(header, unit) for header, unit in zip(headers, units, strict=True)]
+    channels = {one.channel for one in known} | {"time" for index in source.clocks if index < len(headers)}
+    said: list[str] = []
+    texts = [*source.rest, *((f"{note.key}: {note.value}", note.where) for note in source.notes)]
+    for index, header in enumerate(headers[:_MOST_SCALED]):
+        column, head = columns[index], taken_apart(header, units[index])
+        if known[index].channel is not None or column != _Derived(column.place):
+            continue
+        counted = None
+        if "time" not in channels and head.unit is None:
+            shown = _numbers(source, column.place)
+            rising = len(shown) > 1 and all(b > a for a, b in pairwise(shown))
+            by_one = rising and all(b - a == 1.0 for a, b in pairwise(shown))
+            counted = time_of_count(head.name, texts, by_one=by_one) if rising else None
+        if counted is not None:
+            columns[index] = _Derived(column.place, counted.factor, from_first=True)
+            headers[index], units[index] = f"time: {header}", "s"
+            said.append(
+                f"{source.noun} '{header}' is read as time, {counted.text} ({counted.where}); it counts from "
+                "the first row"
+            )
+            channels.add("time")
+        elif (
+            "command" not in channels and (valve := valve_states_of(head.name, head.unit, texts)) is not None
+        ):
+            columns[index] = _Derived(column.place, valve.factor, valve.offset)
+            headers[index], units[index] = f"{head.name}: {valve.name}", valve.unit
+            said.append(
+                f"{source.noun} '{header}' is read as the command of the valve, {valve.text} ({valve.where})"
+            )
+            channels.add("command")
+    return said
 
 
 def _own_scale(header: str, index: int, scales: Mapping[str, str]) -> Scale | None:

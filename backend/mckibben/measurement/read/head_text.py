@@ -193,6 +193,16 @@ def _unit_behind(text: str) -> tuple[str, UnitText | None]:
     return text, None
 
 
+def is_voltage(name: str) -> bool:
+    """Whether a name is the symbol of a voltage with what it stands for: "U_p", "U_F1", "V_press".
+
+    >>> is_voltage("U_p"), is_voltage("U"), is_voltage("cup_p")
+    (True, False, False)
+    """
+    words = words_of(name)
+    return len(words) > 1 and words[0] in ("u", "v", "uout", "vout") and not words[1].isdigit()
+
+
 def _sure(name: str, text: str, unit: UnitText) -> bool:
     """Whether a last word is a unit: "Force_N" is, "Sensor A" and "p at" are not."""
     dimension = dimension_of(unit.unit)
@@ -200,6 +210,6 @@ def _sure(name: str, text: str, unit: UnitText) -> bool:
     letter = channel_of_letter(words_of(name), dimension)
     if any(dimension in DIMENSIONS[channel] for channel in named) or letter is not None:
         return True
-    if named and text in ("V", "mV", "mA"):
+    if text in ("V", "mV", "mA") and (named or is_voltage(name)):
         return True
     return text in _SURE_UNITS

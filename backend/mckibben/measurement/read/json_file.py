@@ -14,6 +14,7 @@ import numpy as np
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.read.described_rows import with_described_rows
 from mckibben.measurement.read.limits import MAX_COLUMNS, check_columns, check_rows
 from mckibben.measurement.read.many_records import plain_columns
 from mckibben.measurement.read.mat import choose as choose_vectors
@@ -64,6 +65,7 @@ def open_json(text: str, name: str, correction: Correction | None = None) -> Raw
         ) from error
     except (ValueError, TypeError):
         return None
+    document = with_described_rows(document)
     found = list(islice(_records(document, 0), 2)) if lines is None else []
     records = lines if lines is not None else next(iter(found), None)
     if records is not None and not _are_of_tests(document, found):

@@ -7,11 +7,18 @@ import numpy as np
 from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.evidence import Evidence
-from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.head_text import is_voltage, taken_apart
 from mckibben.measurement.read.questions import column_option
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.unit_words import COUNT, dimension_of
-from mckibben.measurement.read.vocabulary import COUNTER_WORDS, has_word, proper_channel, words_of
+from mckibben.measurement.read.vocabulary import (
+    COUNTER_WORDS,
+    LETTERS,
+    channel_of_word,
+    has_word,
+    proper_channel,
+    words_of,
+)
 
 _SCALES = {
     "pressure": ("bar", "0 to 10 bar"), "force": ("N", "0 to 2000 N"), "length": ("mm", "0 to 300 mm"),
@@ -56,7 +63,7 @@ def _volts(evidence: Evidence) -> list[Question]:
         name, unit = _head(evidence, index)
         if unit is None or dimension_of(unit) not in ("a voltage", "a current"):
             continue
-        channel = proper_channel(recognise(name).channel)
+        channel = proper_channel(recognise(name).channel) or _of_voltage(name)
         if channel not in _SCALES or _is_filled(evidence, channel) or channel in asked:
             continue
         span = f"{_RAW_SPANS.get(unit, f'0 to 10 {unit}')} = {_SCALES[channel][1]}"
@@ -69,6 +76,15 @@ def _volts(evidence: Evidence) -> list[Question]:
             header,
         )
     return list(asked.values())
+
+
+def _of_voltage(name: str) -> str | None:
+    """The channel that the index of a voltage says: "U_p" is of the pressure, "U_F1" of the force."""
+    if not is_voltage(name):
+        return None
+    word = words_of(name)[1]
+    letter = LETTERS.get(word.rstrip("0123456789"))
+    return letter or proper_channel(channel_of_word(word))
 
 
 def _strokes(evidence: Evidence) -> list[Question]:

@@ -91,7 +91,7 @@ def valve_scale_of(text: str, where: str) -> Scale | None:
     for found in _STATE.finditer(text):
         before, number, raw, behind = found["before"], found["number"], found["raw"], found["behind"]
         sides = (before, behind) if found["link"] else (behind, before)
-        state = next(filter(None, (_state_of(side or "") for side in sides)), None)
+        state = next(filter(None, (state_of(side or "") for side in sides)), None)
         if state is not None:
             states.setdefault(state, set()).add((_float(number), raw))
             shown.append(found[0].strip(" ,;"))
@@ -114,7 +114,8 @@ _STATE = re.compile(
 )
 
 
-def _state_of(text: str) -> str | None:
+def state_of(text: str) -> str | None:
+    """The state of a valve in words: "closed", "open" (it fills), "exhaust"; None = none, or several."""
     words = words_of(text)
     known = {
         "closed": VALVE_WORDS["closed"],

@@ -13,6 +13,7 @@ from mckibben.documents.strict import Series, Strict, si_field
 from mckibben.server.schemas.common import Flag
 from mckibben.server.schemas.curves import MuscleGeometry
 from mckibben.server.schemas.experiments import Absorbed, ExperimentValue, Specimen
+from mckibben.server.schemas.measurements import UnreadColumn
 
 MeasurementId = Annotated[
     str,
@@ -270,3 +271,4 @@ class ComparisonAnswer(Strict):
     absorbed: list[Absorbed] = Field(
         description="Errors of readings within the accuracy, which a fit allows for."
     )
+    unread: list[UnreadColumn] = Field(description="Columns of the files that nothing is read from, and why.")

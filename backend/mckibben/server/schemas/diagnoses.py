@@ -17,6 +17,7 @@ from mckibben.server.schemas.comparisons import (
 )
 from mckibben.server.schemas.curves import MuscleGeometry
 from mckibben.server.schemas.experiments import Absorbed, ExperimentValue, Specimen
+from mckibben.server.schemas.measurements import UnreadColumn
 
 
 class DiagnosisRequest(ModelRequest):
@@ -289,6 +290,7 @@ class DiagnosisAnswer(Strict):
     covariance: FittedCovariance | None = Field(
         description="Of the fitted values of the best model; null where the data cannot separate them."
     )
+    unread: list[UnreadColumn] = Field(description="Columns of the files that nothing is read from, and why.")
 
 
 DiagnosisEvents: dict[int | str, dict[str, Any]] = {

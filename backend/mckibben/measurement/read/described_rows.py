@@ -1,0 +1,127 @@
+"""Rows of a JSON document joined with the list of their channels: `channels: [{name, unit}], data: [[]]`."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.unit_words import reference_of, unit_of
+from mckibben.measurement.read.vocabulary import SIGN_WORDS, folded, has_word, words_of
+
+_NAMES = (
+    "name",
+    "channel",
+    "quantity",
+    "label",
+    "signal",
+    "id",
+    "key",
+    "title",
+    "column",
+    "field",
+    "bezeichnung",
+)
+_UNITS = ("unit", "units", "uom", "einheit", "unite", "unidad", "unita")
+_DEEPEST = 12
+_FEWEST = 3  # readings
+
+
+def with_described_rows(document: Any) -> Any:
+    """The document with the rows of one table as records under the heads of its channels.
+
+    It is joined only where one list describes the columns (a name each, one unit at least) and one list of
+    rows has as many numbers in each; every other document stays as it is.
+    """
+    lists = list(_lists(document, 0))
+    described = [found for found in lists if _is_described(found)]
+    if len(described) != 1:
+        return document
+    (channels,) = described
+    width = len(channels)
+    tables = [rows for rows in lists if (table := _rows(rows, width)) is not None and table]
+    if len(tables) != 1:
+        return document
+    heads = [_head(channel) for channel in channels]
+    if len(set(heads)) != width or not any(recognise(head).channel for head in heads):
+        return document
+    (rows,) = tables
+    records = [dict(zip(heads, row, strict=True)) for row in _rows(rows, width) or []]
+    signs = {f"sign {number}": text for number, c in enumerate(channels) if (text := _sign(c))}
+    joined = _replaced(document, rows, records, channels)
+    return {**joined, **signs} if isinstance(joined, dict) else document
+
+
+def _lists(value: Any, depth: int) -> Iterator[list[Any]]:
+    if depth > _DEEPEST:
+        return
+    if isinstance(value, list):
+        yield value
+    elif isinstance(value, dict):
+        for item in value.values():
+            yield from _lists(item, depth + 1)
+
+
+def _is_described(value: Sequence[Any]) -> bool:
+    """Whether a list holds a description of a channel each: texts, a name among them, no list of readings."""
+    if len(value) < 2 or not all(isinstance(one, dict) and _named(one, _NAMES) for one in value):
+        return False
+    plain = not any(isinstance(item, (list, dict)) for one in value for item in one.values())
+    return plain and any(_named(one, _UNITS) for one in value)
+
+
+def _named(channel: Mapping[str, Any], keys: Sequence[str]) -> str:
+    """The text under the first of some keys; "" = none."""
+    plain = {folded(key): item for key, item in channel.items()}
+    return next((plain[k].strip() for k in keys if isinstance(plain.get(k), str) and plain[k].strip()), "")
+
+
+def _rows(value: Sequence[Any], width: int) -> list[list[Any]] | None:
+    """The rows of as many numbers each, also of one list for each column; None = it is no such table."""
+    if not value or not all(isinstance(row, list) for row in value):
+        return None
+    if not all(_is_reading(cell) for row in value for cell in row):
+        return None
+    lengths = {len(row) for row in value}
+    if lengths == {width} and len(value) >= _FEWEST and len(value) != width:
+        return list(value)
+    if len(value) == width and len(lengths) == 1 and max(lengths) >= _FEWEST and lengths != {width}:
+        return [list(row) for row in zip(*value, strict=True)]
+    return None
+
+
+def _is_reading(cell: Any) -> bool:
+    return cell is None or (isinstance(cell, (int, float, str)) and not isinstance(cell, bool))
+
+
+def _head(channel: Mapping[str, Any]) -> str:
+    """The head of a column: its name, its unit, what a pressure counts from."""
+    name, unit = _named(channel, _NAMES), _named(channel, _UNITS)
+    head = f"{name} [{unit}]" if unit and unit_of(unit) is not None and recognise(name).unit is None else name
+    marks = {
+        v.strip() for v in channel.values() if isinstance(v, str) and reference_of(v.strip()) is not None
+    }
+    marks -= {name, unit}
+    return f"{head} ({marks.pop()})" if len(marks) == 1 else head
+
+
+def _sign(channel: Mapping[str, Any]) -> str:
+    """What a description says of the sign of its channel, as a sentence; "" = nothing."""
+    for key, item in channel.items():
+        if isinstance(item, str) and has_word(words_of(key), SIGN_WORDS["positive"] | SIGN_WORDS["negative"]):
+            return f"{_named(channel, _NAMES)}: {key} = {item}"
+        if isinstance(item, str) and has_word(words_of(key), frozenset(("sign", "direction", "vorzeichen"))):
+            return f"{_named(channel, _NAMES)}: {item}"
+    return ""
+
+
+def _replaced(value: Any, rows: list[Any], records: list[dict[str, Any]], channels: list[Any]) -> Any:
+    if value is rows:
+        return records
+    if isinstance(value, dict):
+        return {
+            key: _replaced(item, rows, records, channels)
+            for key, item in value.items()
+            if item is not channels
+        }
+    return value

@@ -1,0 +1,168 @@
+"""The tare of a load cell that a text states: subtracted where it says so, asked about where it does not."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Mapping
+from typing import NamedTuple
+
+import numpy as np
+
+from mckibben.measurement.question import Question
+from mckibben.measurement.read.conditions import Note
+from mckibben.measurement.read.evidence import Array
+from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.header import WEIGHTS, HeaderColumn
+from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.vocabulary import channel_of_word, folded, word_set, words_of
+from mckibben.measurement.read.words import tares as words_of_tares
+from mckibben.physics.units import convert
+
+_NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
+_QUANTITY = re.compile(rf"(?<![\w.,])({_NUMBER})\s*([^\W\d_]+)(?![\w.,]*\d)")
+_UNIT_FIRST = re.compile(rf"\s*[\[(]\s*([^\W\d_]+)\s*[\])]\s*[:=]?\s*({_NUMBER})")
+_SENTENCES = re.compile(r"[;|]|[.!](?=\s|$)")
+_OTHERS = frozenset(("pressure", "length", "displacement", "contraction", "time", "temperature"))
+_NEAR = 40  # characters
+_LARGE = 0.5  # of the largest reading; a tare is no measurement
+
+
+_TARE, _NOT, _DONE = map(word_set, (words_of_tares.TARE, words_of_tares.NOT, words_of_tares.DONE))
+_TO_DO, _INCLUDED = word_set(words_of_tares.TO_DO), word_set(words_of_tares.INCLUDED)
+
+
+class Tare(NamedTuple):
+    """The reading without pull [N] in a text, and whether the readings contain it (None: not said)."""
+
+    value: float
+    contained: bool | None
+    text: str
+    where: str
+
+
+def tares_in(texts: Iterable[tuple[str, str]]) -> list[Tare]:
+    """The tares of forces that texts state, each with a value other than 0.
+
+    >>> tares_in([("Tara 2,1 N nicht abgezogen", "line 2")])
+    [Tare(value=2.1, contained=True, text='Tara 2,1 N nicht abgezogen', where='line 2')]
+    >>> tares_in([("tare 4 N, already subtracted", "line 2")])[0].contained
+    False
+    """
+    found = []
+    for text, where in texts:
+        for sentence in _SENTENCES.split(text):
+            tare = _of_sentence(sentence.strip(" #%*-"), where)
+            if tare is not None and tare.value != 0.0:
+                found.append(tare)
+    return found
+
+
+def notes_of_tares(notes: Iterable[Note]) -> list[tuple[str, str]]:
+    """The conditions of a file whose name says a tare, as texts with their places."""
+    found = []
+    for note in notes:
+        if not _has(words_of(note.key), _TARE):
+            continue
+        unit = taken_apart(note.key).unit or note.key.rpartition("_")[2]
+        bare = isinstance(note.value, float) or re.fullmatch(_NUMBER, str(note.value).strip()) is not None
+        found.append((f"{note.key}: {note.value}{f' {unit}' if bare else ''}", note.where))
+    return found
+
+
+def _of_sentence(sentence: str, where: str) -> Tare | None:
+    sentence = _UNIT_FIRST.sub(r": \2 \1", sentence)
+    words = words_of(sentence)
+    if not _has(words, _TARE):
+        return None
+    values = {
+        value
+        for match in _QUANTITY.finditer(sentence)
+        if _is_beside(sentence, match) and (value := _force(match)) is not None
+    }
+    if len(values) != 1:
+        return None
+    return Tare(values.pop(), _contained(words, folded(sentence)), sentence, where)
+
+
+def _is_beside(sentence: str, found: re.Match[str]) -> bool:
+    """Whether the word for a tare stands near a quantity, without a comma or another number between them.
+
+    Words for another quantity than a force beside it make it the tare of something else.
+    """
+    before = re.split(r",\s|[0-9]", sentence[: found.start()])[-1]
+    behind = re.split(r",\s|[0-9]", sentence[found.end() :])[0]
+    near = [words_of(before[-_NEAR:]), words_of(behind[:_NEAR])]
+    return any(
+        _has(words, _TARE) and not {channel_of_word(word) for word in words} & _OTHERS for words in near
+    )
+
+
+def _force(found: re.Match[str]) -> float | None:
+    """A force [N], also as the weight of a mass; None = the quantity is neither."""
+    unit = unit_of(found[2]) or unit_of(found[2].lower())
+    if unit is None or dimension_of(unit.unit) not in ("a force", "a mass"):
+        return None
+    return float(convert([float(found[1].replace(",", "."))], WEIGHTS.get(unit.unit, unit.unit), "N")[0])
+
+
+def _contained(words: list[str], plain: str) -> bool | None:
+    """Whether the readings contain the tare; None where the words do not say it, or say both."""
+    negated = _has(words, _NOT) or any(phrase in plain for phrase in words_of_tares.NOT_YET)
+    if _has(words, _DONE) and any(phrase in plain for phrase in words_of_tares.MUST):
+        return None if negated else True
+    done, to_do, included = _has(words, _DONE), _has(words, _TO_DO), _has(words, _INCLUDED)
+    if negated:  # of "not included" and "do not subtract" it is not clear which side is meant
+        return True if done and not (to_do or included) else None
+    if done and (included or to_do):
+        return None
+    if done:
+        return False
+    return True if to_do or included else None
+
+
+def _has(words: list[str], known: frozenset[str]) -> bool:
+    return any(word in known for word in words)
+
+
+def subtract_tare(
+    columns: dict[str, Array], by_use: Mapping[str, HeaderColumn], texts: Iterable[tuple[str, str]],
+    conditions: Mapping[str, float | str], messages: list[str],
+) -> list[Question]:  # fmt: skip
+    """Subtract a tare that the readings contain from the force [N], with a message.
+
+    Returns the question where a text states a tare and not whether the readings contain it, where several
+    differ, or where it is as large as the readings.
+    """
+    force, column = columns.get("force"), by_use.get("force")
+    if force is None or column is None or not len(force):
+        return []
+    stated: list[Tare] = []
+    for tare in tares_in(texts):  # the head of each page may say it again
+        if not any((tare.value, tare.contained) == (t.value, t.contained) for t in stated):
+            stated.append(tare)
+    if not stated:
+        return []
+    first = stated[0]
+    place = f"'{first.text[:100]}' ({first.where})"
+    if "force_zero" in conditions:
+        messages.append(f"the tare of {place} is left to the zero of the force that is stated beside it")
+        return []
+    # Of a column that counts a pull as negative it is open which sign the tare has.
+    sure = len(stated) == 1 and column.sign > 0 and first.value < _LARGE * float(np.max(np.abs(force)))
+    if sure and first.contained is False:
+        messages.append(f"{place}: the force is read as without the tare")
+        return []
+    if sure and first.contained:
+        columns["force"] = force - first.value
+        messages.append(f"{first.value:.4g} N is subtracted from the force: {place}")
+        return []
+    return [
+        Question(
+            "zero of force",
+            f"the file states a tare of the force, {place}, and not clearly whether the readings of column "
+            f"'{column.header}' contain it; what do they show without pull",
+            f'--experiment "force_zero={first.value:.4g} N", or --experiment "force_zero=0 N" where it is '
+            "subtracted already",
+            column.header,
+        )
+    ]

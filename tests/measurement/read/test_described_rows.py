@@ -1,0 +1,61 @@
+"""JSON documents with bare rows beside a list of their channels."""
+
+from __future__ import annotations
+
+import json
+from typing import Any
+
+import numpy as np
+import pytest
+
+from mckibben.measurement.read.described_rows import with_described_rows
+from tests.measurement.read.bench import FORCE, PRESSURE, STROKE, assert_is_the_test, read
+
+CHANNELS = [
+    {"name": "pressure", "unit": "bar", "reference": "gauge"},
+    {"name": "force", "unit": "N"},
+    {"name": "displacement", "unit": "mm", "positive": "shortening"},
+]
+ROWS = np.column_stack([PRESSURE, FORCE, STROKE])
+
+
+def document(**parts: Any) -> str:
+    return json.dumps({"rest_length": {"value": 300, "unit": "mm"}, **parts})
+
+
+LAYOUTS = {
+    "rows": document(channels=CHANNELS, data=ROWS.tolist()),
+    "columns": document(channels=CHANNELS, data=ROWS.T.tolist()),
+    "apart": document(meta={"fields": CHANNELS}, result={"values": ROWS.tolist()}),
+}
+
+
+@pytest.mark.parametrize("layout", LAYOUTS)
+def test_rows_are_joined_with_the_list_of_their_channels(layout: str) -> None:
+    found = read(LAYOUTS[layout], "a.json")
+    assert_is_the_test(found)
+    assert not any("read as gauge" in message for message in found.messages)  # it is stated
+
+
+def test_the_sign_and_the_reference_of_a_channel_count() -> None:
+    channels = [
+        CHANNELS[0] | {"reference": "absolute"}, CHANNELS[1], CHANNELS[2] | {"positive": "lengthening"},
+    ]  # fmt: skip
+    rows = ROWS * np.array([1.0, 1.0, -1.0]) + np.array([1.01325, 0.0, 0.0])
+    found = read(document(channels=channels, data=rows.tolist()), "a.json")
+    assert_is_the_test(found)
+    assert any("is turned" in message for message in found.messages)
+
+
+@pytest.mark.parametrize(
+    "other",
+    [
+        {"channels": CHANNELS[:2], "data": ROWS.tolist()},  # another number of columns
+        {"channels": CHANNELS, "data": ROWS.tolist(), "zero": ROWS.tolist()},  # two tables
+        {"channels": [{"name": "a"}, {"name": "b"}, {"name": "c"}], "data": ROWS.tolist()},  # no unit
+        {"channels": CHANNELS, "data": [[1.0, 2.0, 3.0]]},  # one row
+        {"channels": [dict(one, samples=[1.0, 2.0]) for one in CHANNELS], "data": ROWS.tolist()},
+    ],
+)
+def test_other_documents_stay_as_they_are(other: dict[str, Any]) -> None:
+    assert with_described_rows(other) is other
