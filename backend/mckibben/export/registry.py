@@ -16,6 +16,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 # The earliest date of a zip file: a file must not tell when it was made, or two would differ.
 _ANY_DATE = (1980, 1, 1, 0, 0, 0)
 
+
 @dataclass(frozen=True, slots=True)
 class ExportedFile:
     """A file.

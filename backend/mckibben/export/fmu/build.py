@@ -1,4 +1,4 @@
-"""The compilers for an FMU: the system's own, and Zig from its wheel (the extra ``fmu``) for other systems."""
+"""Compilers for an FMU: the system's own, and Zig from its wheel (the extra ``fmu``) for other systems."""
 
 from __future__ import annotations
 
@@ -78,18 +78,20 @@ def built(sources: Mapping[str, str], identifier: str, using: tuple[Compiler, ..
         except (OSError, subprocess.SubprocessError) as error:
             said = getattr(error, "stderr", None) or str(error)
             first = (str(said).strip().splitlines() or ["no message"])[0]
-            remarks.append(f"The FMU has no binary for {compiler.platform}, the compiler failed: {first[:200]}")
+            remarks.append(
+                f"The FMU has no binary for {compiler.platform}, the compiler failed: {first[:200]}"
+            )
             continue
         binaries[f"binaries/{compiler.platform}/{name}"] = (
             next(iter(parts.values())) if len(parts) == 1 else universal(parts)
         )
     missing = [name for name in _SUFFIX if not any(f"/{name}/" in path for path in binaries)]
-    if not binaries:
+    if not using:
         remarks.append(
             "The FMU holds sources only: no C compiler was found here. Install gcc, or the extra 'fmu' "
             "(pip install 'mckibben[fmu]'), and export again; or compile the sources where it is used."
         )
-    elif missing and not remarks:
+    elif missing and binaries and not remarks:
         remarks.append(
             f"The FMU has binaries for {', '.join(each.platform for each in using)}, not for "
             f"{' and '.join(missing)}; the extra 'fmu' (pip install 'mckibben[fmu]') compiles for them too."

@@ -105,18 +105,19 @@ def rodas4() -> Iterator[str]:
 
 def _arrays(plant: Plant) -> Iterator[tuple[str, list[str]]]:
     """Declaration and values of each array; one without values has a zero."""
-    stops = [] if plant.drive is None else [switch.stop is not None for switch in plant.drive.equations.switches]
-    for kind, name, values in (
-        ("double", "start", [each.start for each in plant.states]),
-        ("double", "scales", [each.nominal for each in plant.states]),
-        ("double", "start_switches", [each.start for each in plant.switches]),
-        ("double", "parameters", [each.start for each in plant.parameters]),
-        ("double", "start_inputs", [each.start for each in plant.inputs]),
-        ("int", "played", plant.played),
-        ("int", "is_stop", stops),
+    for name, values in (
+        ("start", [each.start for each in plant.states]),
+        ("scales", [each.nominal for each in plant.states]),
+        ("start_switches", [each.start for each in plant.switches]),
+        ("parameters", [each.start for each in plant.parameters]),
+        ("start_inputs", [each.start for each in plant.inputs]),
     ):
-        texts = [repr(int(v)) if kind == "int" else repr(float(v or 0.0)) for v in values] or ["0"]
-        yield f"const {kind} model_{name}[{len(texts)}]", texts
+        texts = [repr(float(value or 0.0)) for value in values] or ["0.0"]
+        yield f"const double model_{name}[{len(texts)}]", texts
+    switches = [] if plant.drive is None else plant.drive.equations.switches
+    for name, flags in (("played", plant.played), ("is_stop", [each.stop is not None for each in switches])):
+        texts = [str(int(flag)) for flag in flags] or ["0"]
+        yield f"const int model_{name}[{len(texts)}]", texts
 
 
 def _of_drive(plant: Plant) -> Iterator[str]:
@@ -170,7 +171,12 @@ def _of_muscle(plant: Plant) -> Iterator[str]:
     yield from _function(f"void model_guards({_CALLS['guards']})", unused)
     unused = [f"(void){each};" for each in ("number", "p", "k", "u", "y", "w")]
     yield from _function(f"void model_change({_CALLS['change']})", unused)
-    lines = [f"{name}_input in;", f"{name}_result result;", "input_of(&in, y, k, u);", f"{name}_at(&in, &result);"]
+    lines = [
+        f"{name}_input in;",
+        f"{name}_result result;",
+        "input_of(&in, y, k, u);",
+        f"{name}_at(&in, &result);",
+    ]
     lines += [f"out[{place}] = result.{member};" for place, member in enumerate(RESULT_MEMBERS)]
     yield from _function(f"void model_outputs({_OUTPUTS})", [*lines, "(void)p;", "(void)w;"])
 

@@ -11,7 +11,7 @@ void plant_reset(plant *it)
     memcpy(it->w, model_start_switches, sizeof it->w);
     memcpy(it->p, model_parameters, sizeof it->p);
     memcpy(it->u, model_start_inputs, sizeof it->u);
-    it->tolerance = 1e-6;
+    it->tolerance = 1e-7;
     it->step = 1e-4;
 }
 
@@ -43,6 +43,7 @@ void plant_input_rates(const plant *it, double *rates)
 
 void plant_enter_piece(plant *it)
 {
+#if MODEL_PIECES > 1
     const double now = it->time + 1e-12 * (1.0 + fabs(it->time));
     while (it->piece > 0 && now < model_pieces[it->piece][0]) {
         --it->piece;
@@ -50,11 +51,20 @@ void plant_enter_piece(plant *it)
     while (it->piece + 1 < MODEL_PIECES && now >= model_pieces[it->piece + 1][0]) {
         ++it->piece;
     }
+#else
+    it->piece = 0;
+#endif
 }
 
 double plant_next_piece(const plant *it)
 {
-    return it->play && it->piece + 1 < MODEL_PIECES ? model_pieces[it->piece + 1][0] : HUGE_VAL;
+#if MODEL_PIECES > 1
+    if (it->play && it->piece + 1 < MODEL_PIECES) {
+        return model_pieces[it->piece + 1][0];
+    }
+#endif
+    (void)it;
+    return HUGE_VAL;
 }
 
 int plant_settle(plant *it)

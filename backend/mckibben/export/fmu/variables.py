@@ -118,9 +118,7 @@ class Plant:
             meaning = known[full].meaning
             if source is not None:
                 meaning = f"{meaning} Source: {source.source} [{source.grade}]"
-            found.append(
-                Variable(full, _spelled(name), known[full].unit, meaning, float(value), least, most)
-            )
+            found.append(Variable(full, _spelled(name), known[full].unit, meaning, float(value), least, most))
         return found
 
     @cached_property
@@ -160,9 +158,7 @@ class Plant:
         for state in self.drive.equations.states:
             if state.name.partition("@")[0] == "pressure":
                 which = "the second muscle of the pair" if COUNTER in state.name else "the muscle"
-                found.append(
-                    Variable(state.name, _spelled(state.name), "Pa", f"Gauge pressure in {which}.")
-                )
+                found.append(Variable(state.name, _spelled(state.name), "Pa", f"Gauge pressure in {which}."))
         for name, words in self.drive.words("output").items():
             spelled = _spelled(name)
             found.append(Variable(name, f"actual_{spelled}" if spelled in taken else spelled, *words))
