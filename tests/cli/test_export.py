@@ -38,7 +38,7 @@ def test_a_preset_a_file_and_a_saved_model_are_written(run: Run) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("DMSP-20", "--as", "fortran", "-o", "x.f"), ("--as fortran", "Known: c, json")),
+        (("DMSP-20", "--as", "fortran", "-o", "x.f"), ("--as fortran", "Known: c, fmu, json")),
         (("DMSP-21", "--as", "c", "-o", "x.c"), ("DMSP-21", "DMSP-20")),
         (("none.json", "--as", "c", "-o", "x.c"), ("none.json", "cannot be read")),
         (("DMSP-20", "--as", "c", "-o", "none/x.c"), ("-o none/x.c", "there is no folder")),

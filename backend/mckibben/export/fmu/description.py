@@ -36,7 +36,7 @@ _UNITS: dict[str, tuple[int, ...]] = {
     "W": (1, 2, -3, 0, 0, 0),
     "V": (1, 2, -3, -1, 0, 0),
 }
-_TOKEN = re.compile(r"([A-Za-z]+|1)(?:\^(-?\d+))?|([*/()])")
+_TOKEN = re.compile(r"([A-Za-z]+|1)(?:\^?(-?\d+))?|([*/()])")
 # At 1e-6 an integrator of several steps' memory like CVode errs by 0.1 mm where a load lands.
 _TOLERANCE = "1e-07"
 _PLAYED = (

@@ -115,9 +115,10 @@ class Plant:
             if least is None or most is None or not least <= value <= most:
                 least = most = None
             source = said.get(name)
-            meaning = known[full].meaning
-            if source is not None:
-                meaning = f"{meaning} Source: {source.source} [{source.grade}]"
+            ground = (
+                "Not used by this model." if source is None else f"Source: {source.source} [{source.grade}]"
+            )
+            meaning = f"{known[full].meaning} {ground}"
             found.append(Variable(full, _spelled(name), known[full].unit, meaning, float(value), least, most))
         return found
 
