@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import re
 import shlex
+import zipfile
 from pathlib import Path
 
 import numpy as np
@@ -38,7 +39,7 @@ def test_a_preset_a_file_and_a_saved_model_are_written(run: Run) -> None:
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("DMSP-20", "--as", "fortran", "-o", "x.f"), ("--as fortran", "Known: c, json")),
+        (("DMSP-20", "--as", "fortran", "-o", "x.f"), ("--as fortran", "Known: c, fmu, json")),
         (("DMSP-21", "--as", "c", "-o", "x.c"), ("DMSP-21", "DMSP-20")),
         (("none.json", "--as", "c", "-o", "x.c"), ("none.json", "cannot be read")),
         (("DMSP-20", "--as", "c", "-o", "none/x.c"), ("-o none/x.c", "there is no folder")),
@@ -82,11 +83,13 @@ def test_from_a_measurement_to_a_file_in_three_commands(run: Run) -> None:
     for command in commands:
         code, _, err = run(*command)
         assert code == 0, err
-    written = Path(commands[-1][-1])
-    assert written.with_suffix(".h").exists()
-    text = " ".join(written.read_text("utf-8").split())
+    with zipfile.ZipFile(commands[-1][-1]) as archive:
+        text = " ".join(archive.read("sources/muscle.c").decode().split())
+        xml = archive.read("modelDescription.xml").decode()
     saved = mk.load(commands[2][1])
     assert saved.effects["prestress"]["force"] == pytest.approx(90.0, abs=2.0)
     assert repr(saved.effects["prestress"]["force"]) in text
+    assert f'start="{saved.effects["prestress"]["force"]!r}"' in xml
+    assert "fitted to clean.csv" in xml
     assert "fitted to clean.csv" in text
     assert "pressure from 200000 to 500000 Pa (measured)" in text

@@ -96,7 +96,7 @@ def export(
     effects: EffectsFolders = None,
     data: DataFolder = None,
 ) -> None:
-    """Take a model or drive along: source code, lookup tables, equations, JSON."""
+    """Take a model or drive along: FMU, source code, lookup tables, equations, JSON."""
     from mckibben.cli.export import run
     from mckibben.cli.options import open_studio
 

@@ -25,7 +25,9 @@ def run(studio: Studio, *, source: str, format_id: str, out: Path) -> None:
         raise InputError(f"--as {format_id}: {error.message}", hint=error.hint) from error
     stated = stated_source(source, studio)
     try:
-        written = write_export(ExportQuestion(stated, format_id), out, studio, named=f"-o {out}")
+        written = write_export(
+            ExportQuestion(stated, format_id), out, studio, named=f"-o {out}", remark=remark
+        )
     except InputError as error:
         if error.message.startswith("-o "):
             raise

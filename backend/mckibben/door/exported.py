@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import warnings
 from os import PathLike
 from pathlib import Path
 
@@ -35,7 +36,8 @@ class Exportable(Frozen):
         Args:
             path: of the main file; several files stand beside it under its name, or in it if it ends with
                 ``.zip``. A folder takes them under the name of the model.
-            as_: "c", "json", "latex", "matlab", "modelica", "python" or "table".
+            as_: "c", "fmu", "json", "latex", "matlab", "modelica", "python" or "table". An FMU has a binary
+                for each platform that a C compiler is found for; a warning names those that it lacks.
 
         Returns:
             the files written.
@@ -52,7 +54,12 @@ class Exportable(Frozen):
         ['muscle.c', 'muscle.h']
         """
         stated, of = self._to_export()
-        return write_export(ExportQuestion(stated, as_), Path(path), of)
+        return write_export(ExportQuestion(stated, as_), Path(path), of, remark=_warned)
+
+
+def _warned(sentence: str) -> None:
+    """A remark on the files: a warning at the line that called `Exportable.export`."""
+    warnings.warn(sentence, stacklevel=6)
 
 
 def model_to_export(model: StatedModel, of: Studio, name: str) -> tuple[Stated, Studio]:

@@ -66,12 +66,16 @@ class StaticC:
     Args:
         subject: the model.
         prefix: of all public names, an identifier.
+        tunable: whether the constants are members of the input, so that a caller may change them.
     """
 
-    def __init__(self, subject: Subject, prefix: str) -> None:
+    def __init__(self, subject: Subject, prefix: str, *, tunable: bool = False) -> None:
         self.prefix, self._subject, self._equations = prefix, subject, subject.equations
         self._states = names_for(self._equations.states, C)
+        self._tunable = tunable
         self._constants = names_for(self._equations.constants, C, _INPUTS)
+        if tunable:
+            self._constants = {full: f"in->constants[{k}]" for k, full in enumerate(self._constants)}
 
     def header(self) -> Iterator[str]:
         """Types and prototypes."""
@@ -92,6 +96,8 @@ class StaticC:
             yield C.inline(f"    double {member};", meaning)
         if states:
             yield f"    double states[{len(states)}];"
+        if self._tunable:
+            yield f"    double constants[{len(self._constants)}];"
         yield f"}} {name}_input;"
         yield ""
         yield "typedef struct {"
@@ -112,15 +118,17 @@ class StaticC:
         if states:
             yield "/* d/dt of the states; pressure_rate: of the gauge pressure [Pa/s]. */"
             yield f"void {name}_state_rates(const {name}_input *in, double pressure_rate, double *rates);"
+        if states or self._tunable:
             yield "/* A smooth direction for simulations: a muscle that creeps instead of sticking. */"
             yield f"double {name}_direction(double velocity);"
 
     def source(self) -> Iterator[str]:
         """The functions."""
         name, equations = self.prefix, self._equations
-        for full, own in self._constants.items():
-            yield f"static const double {own} = {self._subject.value(full)!r};"
-        yield ""
+        if not self._tunable:
+            for full, own in self._constants.items():
+                yield f"static const double {own} = {self._subject.value(full)!r};"
+            yield ""
         yield "typedef struct {"
         yield from (f"    double {member};" for member in _RAW)
         yield f"}} {name}_raw_result;"
@@ -148,12 +156,17 @@ class StaticC:
         yield from self._figures()
         if equations.states:
             yield from self._rates(operands)
+        if equations.states or self._tunable:
+            yield from self._direction()
 
     def _rest(self) -> Iterator[str]:
         name = self.prefix
         yield ""
         yield f"void {name}_rest({name}_input *in)"
         yield "{"
+        if self._tunable:
+            for full, own in self._constants.items():
+                yield f"    {own} = {self._subject.value(full)!r};"
         yield f"    in->length = {self._constants['nominal_length']};"
         yield "    in->pressure = 0.0;"
         yield "    in->velocity = 0.0;"
@@ -217,7 +230,7 @@ class StaticC:
             yield f"    {name}_result out;"
             yield f"    {name}_rest(&in);"
             yield "    in.pressure = pressure;"
-            yield f"    in.length = {rest} * (1.0 - contraction);"
+            yield f"    in.length = {rest.replace('in->', 'in.')} * (1.0 - contraction);"
             yield f"    {name}_at(&in, &out);"
             yield f"    return out.{figure};"
             yield "}"
@@ -243,6 +256,9 @@ class StaticC:
             yield "    (void)r;"
             yield f"    {name}_raw_rates(&at, pressure_rate, rates);"
             yield "}"
+
+    def _direction(self) -> Iterator[str]:
+        name, equations = self.prefix, self._equations
         yield ""
         yield f"double {name}_direction(double velocity)"
         yield "{"

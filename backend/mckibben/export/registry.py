@@ -3,22 +3,35 @@
 from __future__ import annotations
 
 import importlib
+import io
 import pkgutil
-from collections.abc import Callable
+import zipfile
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from functools import cache
 
 from mckibben.export.subject import Subject
 from mckibben.physics.errors import InputError, did_you_mean
 
+# The earliest date of a zip file: a file must not tell when it was made, or two would differ.
+_ANY_DATE = (1980, 1, 1, 0, 0, 0)
+
 
 @dataclass(frozen=True, slots=True)
 class ExportedFile:
-    """A file: name without a folder, content, media type."""
+    """A file.
+
+    Attributes:
+        name: without a folder.
+        content: of the file.
+        media_type: of the content.
+        remarks: what the user should know of how it was made, sentences.
+    """
 
     name: str
     content: bytes
     media_type: str
+    remarks: tuple[str, ...] = ()
 
     @classmethod
     def of_text(cls, name: str, text: str, media_type: str = "text/plain; charset=utf-8") -> ExportedFile:
@@ -46,6 +59,17 @@ class Format:
     drives: bool = True
     identifier: bool = False
     id: str = ""
+
+
+def zipped(files: Iterable[ExportedFile], name: str, media_type: str = "application/zip") -> ExportedFile:
+    """Files as one zip file; the same files give the same bytes."""
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
+        for file in files:
+            entry = zipfile.ZipInfo(file.name, _ANY_DATE)
+            entry.compress_type = zipfile.ZIP_DEFLATED
+            archive.writestr(entry, file.content)
+    return ExportedFile(name, content.getvalue(), media_type)
 
 
 @cache

@@ -2,20 +2,17 @@
 
 from __future__ import annotations
 
-import io
 import re
-import zipfile
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
 from mckibben.documents.studio import Studio
 from mckibben.export.language import words_of
-from mckibben.export.registry import ExportedFile, Format, format_named
+from mckibben.export.registry import ExportedFile, Format, format_named, zipped
 from mckibben.export.subject import Stated, subject_of
 from mckibben.physics.errors import InputError
 
-# The earliest date of a zip file: a file must not tell when it was made, or two would differ.
-_ANY_DATE = (1980, 1, 1, 0, 0, 0)
 _STEM = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,99}")
 _IDENTIFIER = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,59}")
 
@@ -84,18 +81,14 @@ def checked_stem(stem: str, form: Format) -> str:
     return stem
 
 
-def zipped(files: tuple[ExportedFile, ...], name: str) -> ExportedFile:
-    """Files as one zip file; the same files give the same bytes."""
-    content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED) as archive:
-        for file in files:
-            entry = zipfile.ZipInfo(file.name, _ANY_DATE)
-            entry.compress_type = zipfile.ZIP_DEFLATED
-            archive.writestr(entry, file.content)
-    return ExportedFile(name, content.getvalue(), "application/zip")
-
-
-def write_export(question: ExportQuestion, path: Path, studio: Studio, *, named: str = "") -> list[Path]:
+def write_export(
+    question: ExportQuestion,
+    path: Path,
+    studio: Studio,
+    *,
+    named: str = "",
+    remark: Callable[[str], None] | None = None,
+) -> list[Path]:
     """Write the files of a question.
 
     Args:
@@ -104,6 +97,7 @@ def write_export(question: ExportQuestion, path: Path, studio: Studio, *, named:
             ending ``.zip`` packs several files into one. A folder takes them under the name of the model.
         studio: presets.
         named: how the user named the path, "-o muscle.c"; by default the path.
+        remark: is told what the user should know of the files.
 
     Returns:
         the files written.
@@ -113,7 +107,7 @@ def write_export(question: ExportQuestion, path: Path, studio: Studio, *, named:
     """
     named = named or str(path)
     if path.is_dir():
-        done = export(question, studio)
+        done = _told(export(question, studio), remark)
         return [_written(path / file.name, file.content, named) for file in done.files]
     if not path.parent.is_dir():
         raise InputError(f"{named}: there is no folder {path.parent}", hint="name an existing folder")
@@ -122,12 +116,19 @@ def write_export(question: ExportQuestion, path: Path, studio: Studio, *, named:
         checked_stem(stem, form)
     except InputError as error:
         raise InputError(f"{named}: {error.message}", hint=error.hint) from error
-    done = export(ExportQuestion(question.stated, question.format, stem), studio)
+    done = _told(export(ExportQuestion(question.stated, question.format, stem), studio), remark)
     if len(done.files) == 1:
         return [_written(path, done.files[0].content, named)]
     if path.suffix.lower() == ".zip":
         return [_written(path, done.file.content, named)]
     return [_written(path.parent / file.name, file.content, named) for file in done.files]
+
+
+def _told(done: Export, remark: Callable[[str], None] | None) -> Export:
+    if remark is not None:
+        for sentence in (each for file in done.files for each in file.remarks):
+            remark(sentence)
+    return done
 
 
 def _written(path: Path, content: bytes, named: str) -> Path:

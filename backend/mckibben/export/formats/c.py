@@ -20,12 +20,18 @@ def write(subject: Subject, stem: str) -> tuple[ExportedFile, ...]:
     )
 
 
-def sources(subject: Subject, stem: str) -> tuple[str, str]:
-    """Header and source; names begin with the stem as an identifier."""
+def sources(subject: Subject, stem: str, *, tunable: bool = False) -> tuple[str, str]:
+    """Header and source; names begin with the stem as an identifier.
+
+    Args:
+        subject: the model.
+        stem: of the two files.
+        tunable: whether a caller may change the constants of the static model.
+    """
     prefix = words_of(stem)
     if prefix in C.reserved:
         prefix = f"{prefix}_model"
-    static = StaticC(subject, prefix)
+    static = StaticC(subject, prefix, tunable=tunable)
     drive = None if subject.runnable is None else DriveC(subject.runnable, prefix)
     guard = f"{prefix.upper()}_H"
     comment = list(_comment(subject.about.lines()))

@@ -1,0 +1,1 @@
+"""The parts of an FMU: variables, description, generated and fixed C, compilers."""
