@@ -12,7 +12,6 @@ from pathlib import Path
 import numpy as np
 import orjson
 
-from mckibben.application.json_text import to_json
 from mckibben.application.study_subject import StudySubject, evaluator, subject_of
 from mckibben.application.study_variables import goals_of, limits_of, plan_of, variables_of
 from mckibben.documents.studio import Studio
@@ -35,7 +34,7 @@ from mckibben.studies.statistics import (
     probability,
     summaries,
 )
-from mckibben.studies.table import Figure, Row, StudyTable
+from mckibben.studies.table import Evaluate, Figure, Row, StudyTable
 from mckibben.studies.variable import Variable
 from mckibben.version import __version__
 
@@ -73,9 +72,9 @@ class StudyQuestion:
     @property
     def fingerprint(self) -> str:
         """Of everything that the rows depend on; title, confidence and further fields do not change it."""
-        whole = self.document.model_dump(mode="json", by_alias=True)
-        for name in ("title", "confidence", "subject"):
-            del whole[name]
+        whole = self.document.model_dump(
+            mode="json", by_alias=True, exclude={"title", "confidence", "subject"}
+        )
         content = {"study": whole, "subject": self.subject.content, "version": __version__}
         return hashlib.sha256(orjson.dumps(content, option=orjson.OPT_SORT_KEYS)).hexdigest()
 
@@ -153,26 +152,38 @@ def study_question(document: StudyDocument, studio: Studio, most_runs: int = MOS
         InputError: names the field of the study, what is wrong and what would be right.
     """
     subject = subject_of(document.subject, studio)
+    variables, fields = _varied(document, subject, studio)
+    figures = figures_named(document.figure_paths(), dict(subject.figures))
+    limits = limits_of(document, figures)
+    plan = plan_of(document, variables, figures, most_runs)
+    return StudyQuestion(
+        document, subject, variables, fields, figures, goals_of(document), limits, plan, studio
+    )
+
+
+def evaluator_of(document: StudyDocument, studio: Studio) -> Evaluate:
+    """The function that runs points of a study, without the plan of all its points.
+
+    Raises:
+        InputError: as `study_question`.
+    """
+    subject = subject_of(document.subject, studio)
+    variables, fields = _varied(document, subject, studio)
+    return evaluator(subject, variables, fields, document.figure_paths(), studio)
+
+
+def _varied(
+    document: StudyDocument, subject: StudySubject, studio: Studio
+) -> tuple[tuple[Variable, ...], tuple[StudyField, ...]]:
+    """The varied quantities and their fields; of a robust study those of the design first."""
     fields = []
     for place, quantity in enumerate(document.quantities):
         with fields_inside(f"quantities.{place}.path"):
             fields.append(subject.field(quantity.path, studio))
-    figures = figures_named(document.figure_paths(), dict(subject.figures))
-    variables = variables_of(document, fields)
-    limits = limits_of(document, figures)
-    plan = plan_of(document, variables, figures, most_runs)
-    by_name = {variable.name: field for variable, field in zip(variables, fields, strict=True)}
-    return StudyQuestion(
-        document,
-        subject,
-        plan.variables,
-        tuple(by_name[variable.name] for variable in plan.variables),
-        figures,
-        goals_of(document),
-        limits,
-        plan,
-        studio,
-    )
+    varied = list(zip(variables_of(document, fields), fields, strict=True))
+    if document.method.type == "robust":
+        varied.sort(key=lambda item: item[0].tolerance)
+    return tuple(variable for variable, _ in varied), tuple(field for _, field in varied)
 
 
 def prepare(
@@ -307,21 +318,3 @@ def _remarks(table: StudyTable, sensitivity: Sequence[Sensitivity]) -> list[str]
         if not item.influences:
             remarks.append(f"{item.figure}: no indices: it does not vary, or too few runs have it")
     return remarks
-
-
-def table_text(result: StudyResult) -> str:
-    """The table as CSV, units in the head; nothing where a figure is missing."""
-    import csv
-    import io
-
-    units = {column.name: column.unit for column in result.columns}
-    text = io.StringIO()
-    writer = csv.writer(text, lineterminator="\n")
-    writer.writerow(f"{name} [{units[name]}]" if units.get(name) else name for name in result.table)
-    writer.writerows(zip(*result.table.values(), strict=True))
-    return text.getvalue()
-
-
-def result_json(result: StudyResult) -> bytes:
-    """The whole result as JSON."""
-    return to_json(result)

@@ -69,7 +69,7 @@ class StudySubject:
     def with_point(
         self, variables: Sequence[Variable], fields: Sequence[StudyField], point: Sequence[float]
     ) -> dict[str, Any]:
-        """The document with the values of a point; a factor applies to the design, else to the stated value."""
+        """The document with the values of a point; a factor multiplies the design, else the stated value."""
         values: dict[str, object] = {}
         numbers: dict[str, float] = {}
         both = list(zip(variables, fields, point, strict=True))

@@ -6,7 +6,6 @@ right. Each command is a module, imported only when it runs.
 
 from __future__ import annotations
 
-import os
 import sys
 from pathlib import Path
 from typing import Annotated
@@ -40,7 +39,7 @@ from mckibben.cli.reading import (
     Strict,
     Supply,
 )
-from mckibben.documents.located import one_line
+from mckibben.cli.running import run_app
 from mckibben.physics.errors import InputError
 from mckibben.version import __version__
 
@@ -54,9 +53,6 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     context_settings={"help_option_names": ["-h", "--help"]},
 )
-_BAD_INPUT = 2
-# Options of `mckibben` itself; any other first option belongs to `serve`.
-_OWN_OPTIONS = frozenset({"-h", "--help", "--version"})
 
 
 def _show_version(wanted: bool) -> None:
@@ -345,42 +341,46 @@ def size(
     run(open_studio(presets, effects, data), task=task, as_json=as_json, report=wanted)
 
 
-def _fail(message: str, code: int = _BAD_INPUT) -> int:
-    typer.echo(f"mckibben: {' '.join(message.split())}", err=True)
-    return code
+@app.command()
+def study(
+    study: Annotated[str, typer.Argument(metavar="STUDY", help="A study (JSON file).")],
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="FILE", help="Write the table as .csv or .parquet, the result as .json."
+        ),
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Continue a study of --out that was interrupted.")
+    ] = False,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler", metavar="ADDRESS", help="A Dask scheduler, tcp://host:8786; else this computer."
+        ),
+    ] = None,
+    as_json: AsJson = False,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """Many runs of a drive or task: sweeps, Monte Carlo, sensitivities, optimisation, robust designs."""
+    from mckibben.cli.options import open_studio
+    from mckibben.cli.study import run
 
-
-def _command(arguments: list[str]) -> str:
-    known = {command.name or getattr(command.callback, "__name__", "") for command in app.registered_commands}
-    return f"{arguments[0]} " if arguments[0] in known else ""
+    run(
+        open_studio(presets, effects, data),
+        study=study,
+        out=out,
+        resume=resume,
+        scheduler=scheduler,
+        as_json=as_json,
+    )
 
 
 def run(arguments: list[str]) -> int:
     """Run one command line; the exit code."""
-    if not arguments or (arguments[0].startswith("-") and arguments[0] not in _OWN_OPTIONS):
-        arguments = ["serve", *arguments]
-    try:
-        return app(args=arguments, prog_name="mckibben", standalone_mode=False) or 0
-    except typer.Exit as stop:
-        return stop.exit_code
-    except InputError as error:
-        return _fail(one_line(error))
-    except (KeyboardInterrupt, typer.Abort):
-        return 130
-    except (BrokenPipeError, SystemExit) as stop:
-        # The reader of the pipe has closed it, which click and rich turn into an exit: no more output, also
-        # not by the interpreter on exit.
-        if not any(isinstance(error, BrokenPipeError) for error in (stop, stop.__context__)):
-            raise
-        os.dup2(os.open(os.devnull, os.O_WRONLY), 1)
-        return 0
-    except Exception as error:
-        # Usage errors of typer; their class is click's in some versions and a copy of it in others.
-        if callable(explain := getattr(error, "format_message", None)):
-            return _fail(f"{explain()} (see mckibben {_command(arguments)}--help)")
-        if os.environ.get("MCKIBBEN_DEBUG"):
-            raise
-        return _fail(f"unexpected {type(error).__name__}: {error} (MCKIBBEN_DEBUG=1 shows where)", 1)
+    return run_app(app, arguments)
 
 
 def main() -> None:

@@ -110,7 +110,12 @@ class RobustPlan(FixedPlan):
 
 
 def robust(variables: Sequence[Variable], specimens: int, seed: int) -> RobustPlan:
-    """All specimens of the first design, then of the second; designs are all combinations."""
+    """All specimens of the first design, then of the second; designs are all combinations.
+
+    Args:
+        variables: those of the design first, then those with a distribution.
+        specimens, seed: number of specimens, and where their random numbers come from.
+    """
     designed = [variable for variable in variables if not variable.tolerance]
     spread = [variable for variable in variables if variable.tolerance]
     designs = combinations(designed)
