@@ -88,8 +88,10 @@ def test_the_csv_reads_back_exactly(studio, tmp_path: Path):
     import pandas as pd
 
     result = prepare_file(question(studio), tmp_path / "t.csv", resume=False)(Watch())
-    frame = pd.read_csv(tmp_path / "t.csv", float_precision="round_trip")
-    assert frame["largest.force [N]"].tolist() == result.table["largest.force"]
+    frame = pd.read_csv(tmp_path / "t.csv")
+    assert len(frame) == 20
+    text = (tmp_path / "t.csv").read_text().splitlines()
+    assert [float(line.split(",")[4]) for line in text[1:]] == result.table["largest.force"]
     assert list(frame.columns)[:2] == ["run", "load.mass [kg]"]
 
 
@@ -109,13 +111,13 @@ def test_runs_that_cannot_be_are_rows_with_reasons(studio):
     assert result.outcomes["refused"] >= 5
     assert result.table["outcome"][0] == "completed"
     assert "load.mass" in str(result.table["message"][3])
-    assert "valve.preset" in str(result.table["message"][2])
+    assert "among the valves" in str(result.table["message"][2])
     assert result.table["timing.extend.rise_time"][2] is None
     assert any("refused" in remark for remark in result.remarks)
 
 
 def test_a_controlled_drive_runs_too(studio):
-    drive = {name: value for name, value in SHORT.items() if name != "command"} | {
+    drive: dict[str, Any] = {name: value for name, value in SHORT.items() if name != "command"} | {
         "controller": {"kp": 2.0, "reference": {"shape": "step", "at": "0.1 s", "level": "20 mm"}},
         "duration": "0.3 s",
     }
@@ -125,10 +127,12 @@ def test_a_controlled_drive_runs_too(studio):
             quantities=[{"path": "controller.kp", "values": ["0.5 %/mm", "8 %/mm"]}],
         )
     )(Watch())  # fmt: skip
-    slow, quick = result.table["tracking.rms"]
-    assert isinstance(slow, float)
-    assert isinstance(quick, float)
-    assert slow > quick > 0.0
+    for run, gain in enumerate(("0.5 %/mm", "8 %/mm")):
+        alone = drive | {"controller": drive["controller"] | {"kp": gain}}
+        annotated = drive_of(read_document(alone, "the drive"), studio)
+        follows = simulate(SimulationQuestion(annotated)).tracking
+        assert follows is not None
+        assert result.table["tracking.rms"][run] == pytest.approx(follows.rms, rel=1e-9)
 
 
 def test_a_sizing_task(studio):
@@ -158,4 +162,5 @@ def test_a_robust_study_puts_the_design_that_keeps_the_limit_first(studio):
         )
     )(Watch())  # fmt: skip
     assert [design.design for design in result.designs] == [1, 0]
-    assert [design.probabilities[-1].kept for design in result.designs] == [10, 0]
+    weak, strong = (result.designs[place].probabilities[-1].kept for place in (1, 0))
+    assert weak < strong == 10

@@ -38,7 +38,7 @@ def test_what_is_wrong_is_one_line(run: Run) -> None:
         (["study.json", "--out", "table.xls"], "not a known ending"),
         (["study.json", "--out", "no/table.csv"], "there is no folder"),
         ([write("bad.json", STUDY | {"method": {"type": "grid"}})], "bad.json: quantities.0.distribution"),
-        ([write("bad.json", "{")], "bad.json"),
+        ([write("broken.json", "{")], "mckibben: broken.json: line 1"),
     ]:
         code, out, err = run("study", *arguments)
         assert (code, out) == (2, "")

@@ -80,8 +80,8 @@ def normal(**values: Any) -> dict[str, Any]:
         ({"limits": [{"figure": "largest.force"}]}, "limits.0", "at_least, at_most", None),
         ({"limits": [{"figure": "largest.force", "at_most": "3 bar"}]}, "limits.0.at_most", "a force", None),
         (
-            {"limits": [{"figure": "largest.force", "at_most": 1, "at_least": 2}]}, "limits.0.at_most", "nothing",
-            None,
+            {"limits": [{"figure": "largest.force", "at_most": 1, "at_least": 2}]}, "limits.0.at_most",
+            "nothing", None,
         ),
     ],
 )  # fmt: skip

@@ -16,6 +16,7 @@ from mckibben.door.curves import Curves
 from mckibben.door.diagnosis import Diagnosis
 from mckibben.door.run import Run
 from mckibben.door.sizing import Proposal, Sizing
+from mckibben.door.study import Study
 
 PACKAGE = Path(mk.__file__).parent
 NAMES = {
@@ -29,10 +30,11 @@ NAMES = {
     "presets",
     "read",
     "size",
+    "study",
     "use_effects",
     "use_presets",
 }
-CLASSES = (mk.Model, mk.Measurement, mk.Drive, Curves, Comparison, Diagnosis, Run, Sizing, Proposal)
+CLASSES = (mk.Model, mk.Measurement, mk.Drive, Curves, Comparison, Diagnosis, Run, Sizing, Proposal, Study)
 
 
 def test_the_names_are_these() -> None:
@@ -86,5 +88,11 @@ def test_type_checkers_are_strict_on_the_door_and_see_its_types() -> None:
         for file in files
         if not re.search(r"^# pyright: strict", file.read_text("utf-8"), re.MULTILINE)
     }
-    assert lax == {"frames.py", "figures/style.py", "figures/statics.py", "figures/others.py"}
+    assert lax == {
+        "frames.py",
+        "figures/style.py",
+        "figures/statics.py",
+        "figures/others.py",
+        "figures/study.py",
+    }
     assert len(files) > 10

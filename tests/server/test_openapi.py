@@ -32,6 +32,7 @@ PATHS = {
     "/api/simulations": {"post"},
     "/api/sizings": {"post"},
     "/api/sizings/reports": {"post"},
+    "/api/studies": {"post"},
 }
 
 

@@ -117,6 +117,7 @@ class StudyResult:
         probabilities: of keeping the limits; of random runs alone with intervals.
         designs: of a robust study, the most probable to keep all limits first.
         runs, planned: number of runs that were made, and that the study asks for.
+        goals: figures of the goals.
         seed: of the random numbers; None without.
         outcome: "completed", or how the study ended early.
         message: what that means.
@@ -137,6 +138,7 @@ class StudyResult:
     designs: list[RobustDesign]
     runs: int
     planned: int
+    goals: list[str]
     confidence: float
     seed: int | None
     outcome: str
@@ -271,6 +273,7 @@ def _result(question: StudyQuestion, table: StudyTable, outcome: Outcome, wall_m
         designs=designs,
         runs=len(table.runs),
         planned=plan.runs,
+        goals=[goal.figure for goal in question.goals],
         confidence=level,
         seed=getattr(method, "seed", None),
         outcome=outcome.label,

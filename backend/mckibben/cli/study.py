@@ -7,9 +7,8 @@ from pathlib import Path
 from mckibben.application.study import prepare, study_question
 from mckibben.application.study_file import check_out, journal_of, prepare_file
 from mckibben.cli.output import progress, remark, write_json, write_summary
-from mckibben.documents.located import located
 from mckibben.documents.studio import Studio
-from mckibben.documents.study_files import read_study_file
+from mckibben.documents.study_files import in_file, read_study_file
 from mckibben.physics.errors import InputError
 from mckibben.report.summary.study import notices, summary_of
 from mckibben.simulation.outcome import Outcome
@@ -37,8 +36,7 @@ def run(
     try:
         question = study_question(document, studio)
     except InputError as error:
-        message = located(error.field, error.message).removesuffix(".")
-        raise InputError(f"{study}: {message}", hint=error.hint) from error
+        raise in_file(study, error) from error
     workers = None
     if scheduler is not None:
         from mckibben.application.study_cluster import on_cluster

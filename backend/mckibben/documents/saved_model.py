@@ -27,17 +27,17 @@ Text = Annotated[str, Field(max_length=2000)]
 class RangeInput(Strict):
     """The range of a quantity in the data of the model."""
 
-    least: float
-    most: float
+    least: float = Field(description="Smallest value.")
+    most: float = Field(description="Largest value.")
     unit: str = Field(description="SI unit.")
 
 
 class FittedFile(Strict):
     """A measurement that the model was fitted to."""
 
-    name: str
+    name: str = Field(description="Name of the file.")
     sha256: str | None = Field(description="Of the file; null for a preset of the program.")
-    rows: int
+    rows: int = Field(description="Its number of rows.")
     experiment: dict[str, str] = Field(
         default_factory=dict, description="What it was made with, and who says it, in words."
     )
@@ -46,8 +46,10 @@ class FittedFile(Strict):
 class FitError(Strict):
     """How well the model describes its data."""
 
-    rmse: float
-    holdout_rmse: float | None
+    rmse: float = Field(description="Root mean square of the residual.")
+    holdout_rmse: float | None = Field(
+        description="The same of groups that were left out of the fit; null where there are none."
+    )
     noise: float | None = Field(description="Noise of the data; null where it cannot be estimated.")
     unit: str = Field(description='SI unit; "1" = relative to the noise of each channel.')
 
@@ -58,17 +60,17 @@ class SavedOrigin(Strict):
     program: str = Field(description="Name and version.")
     made: str = Field(description="Date and time, ISO 8601, UTC.")
     kind: str = Field(description="Kind of the measurements.")
-    predicted: str
+    predicted: str = Field(description="The predicted channel, or several.")
     verdict: str = Field(description="Title of the verdict.")
-    error: FitError
-    files: list[FittedFile]
+    error: FitError = Field(description="How well it describes its data.")
+    files: list[FittedFile] = Field(description="What it was fitted to.")
 
 
 class SavedModel(Strict):
     """A model with its values: a muscle with its fitted geometry, effects, and of a transient the drive."""
 
     schema_version: Literal[1] = Field(alias="schema", description="Version of the document.")
-    kind: Literal["model"]
+    kind: Literal["model"] = Field(description="Says that it is a saved model.")
     muscle: MuscleInput = Field(
         description="Without a length where the model is one of muscles of several lengths."
     )
@@ -93,7 +95,9 @@ class SavedModel(Strict):
         None, description="Of the fitted values; null where the data cannot separate them."
     )
     assumed: list[Text] = Field(default_factory=list, description="What nobody said and was assumed.")
-    origin: SavedOrigin | None = None
+    origin: SavedOrigin | None = Field(
+        None, description="Where it comes from; null for a model that was written by hand."
+    )
 
     @model_validator(mode="after")
     def _known_names(self) -> SavedModel:

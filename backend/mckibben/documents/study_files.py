@@ -36,31 +36,36 @@ def read_study_file(path: Path) -> StudyDocument:
         InputError: names the file, the field, what is wrong and what would be right.
     """
     try:
-        content = _content(path)
+        content = _content(path, "")
         if isinstance(content, dict) and isinstance(subject := content.get("subject"), dict):
             content = {**content, "subject": {name: _named(part, path) for name, part in subject.items()}}
         return read_study(content)
     except InputError as error:
-        message = located(error.field, error.message).removesuffix(".")
-        raise InputError(f"{path}: {message}", hint=error.hint, code=error.code) from error
+        raise in_file(str(path), error) from error
+
+
+def in_file(file: str, error: InputError) -> InputError:
+    """The error with its file and its whole field in front: several quantities may have the same mistake."""
+    message = error.message.removesuffix(".")
+    if error.field and not message.startswith(error.field):
+        message = f"{error.field}: {message}"
+    return InputError(f"{file}: {message}", hint=error.hint, code=error.code)
 
 
 def _named(part: Any, study: Path) -> object:
     """The content of the file that a part of the subject names; other parts unchanged."""
     if not isinstance(part, str) or not part.lower().endswith(".json"):
         return part
-    content = _content(study.parent / part)
+    content = _content(study.parent / part, f"{part}: ")
     presets = ("drives", "drive", "tasks", "task")
     if isinstance(content, dict) and content.get("kind") in presets and "document" in content:
         return content["document"]
     return content
 
 
-def _content(path: Path) -> object:
+def _content(path: Path, named: str) -> object:
     try:
         return read_file(path, follow_links=True)
     except BadDocumentError as bad:
         finding = bad.findings[0]
-        raise InputError(
-            f"{path.name}: {located(finding.field, finding.message)}", hint=finding.hint
-        ) from bad
+        raise InputError(f"{named}{located(finding.field, finding.message)}", hint=finding.hint) from bad

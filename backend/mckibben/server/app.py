@@ -30,6 +30,7 @@ from mckibben.server.routes import (
     reports,
     simulations,
     sizings,
+    studies,
 )
 from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
 from mckibben.server.server_timing import TimingMiddleware
@@ -49,6 +50,7 @@ _TAGS = [
     {"name": "inverse", "description": "Which pressure, which contraction, which range?"},
     {"name": "simulations", "description": "Transient simulation of drives."},
     {"name": "sizings", "description": "Sizing: from a task to ranked drives."},
+    {"name": "studies", "description": "Many runs with varied quantities."},
     {"name": "measurements", "description": "Measurement files."},
     {"name": "experiments", "description": "What a measurement was made with, and what is to be asked."},
     {"name": "comparisons", "description": "A model compared with measurements."},
@@ -102,6 +104,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         simulations,
         inverse,
         sizings,
+        studies,
         comparisons,
         diagnoses,
         health,
