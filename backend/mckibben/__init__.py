@@ -2,7 +2,8 @@
 
 ``import mckibben as mk``: models (`Model`), measurements (`read`, `Measurement`), drives (`Drive`), sizing
 (`size`), studies (`study`), and what there is (`presets`, `effects`). Numbers are SI, texts have a unit,
-pressures are gauge; bad input raises `Problem`. `__all__` is all that is public; the modules below are how it works, and change.
+pressures are gauge; bad input raises `Problem`. `__all__` is all that is public; the modules below are how it
+works, and change.
 """
 
 from __future__ import annotations

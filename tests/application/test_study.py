@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import json
+import os
+import subprocess
+import sys
 from pathlib import Path
 from typing import Any
 
@@ -64,6 +68,30 @@ def test_the_table_is_the_same_to_the_last_digit_whatever_the_chunk(studio):
     assert tables[0] == tables[1] == tables[2]
     other = question(studio, method={"type": "monte_carlo", "runs": 20, "seed": 4})
     assert prepare(other)(Watch()).table["load.mass"] != tables[0]["load.mass"]
+
+
+_NEW_PROCESS = """
+import json, sys
+from mckibben.application.study import prepare, study_question
+from mckibben.documents.studio import Studio
+from mckibben.documents.study_files import read_study
+from mckibben.resources import presets_folder
+from mckibben.simulation.outcome import Watch
+asked = study_question(read_study(json.loads(sys.argv[1])), Studio(presets=presets_folder()))
+print(json.dumps([prepare(asked, chunk=chunk)(Watch()).table["largest.force"] for chunk in (32, 5)]))
+"""
+
+
+def test_threads_that_compile_the_equations_give_the_same_digits(studio):
+    """In a new process both threads want the equations at once; compiled side by side they would differ."""
+    study = STUDY | {"method": {"type": "monte_carlo", "runs": 64, "seed": 3}}
+    shown = subprocess.run(
+        [sys.executable, "-c", _NEW_PROCESS, json.dumps(study)], capture_output=True, text=True, check=True,
+        env={**os.environ, "PYTHONPATH": os.pathsep.join(sys.path)},
+    ).stdout  # fmt: skip
+    first, second = json.loads(shown)
+    assert first == second
+    assert first == prepare(study_question(read_study(study), studio))(Watch()).table["largest.force"]
 
 
 def test_a_study_resumes_from_its_journal(studio, tmp_path: Path):

@@ -68,7 +68,7 @@ def on_cluster(question: StudyQuestion, address: str) -> Workers:
                 futures.append(future)
             return futures
 
-        running = as_completed(send(_AHEAD * max(1, sum(client.nthreads().values()))))
+        running = as_completed(send(_AHEAD * max(1, sum(client.nthreads().values()))), loop=client.loop)
         for future in running:
             rows = _rows_of(future, address)
             for more in send(1):
