@@ -1,8 +1,9 @@
 """mckibben: a design studio for pneumatic-muscle drives, and a library.
 
 ``import mckibben as mk``: models (`Model`), measurements (`read`, `Measurement`), drives (`Drive`), sizing
-(`size`), and what there is (`presets`, `effects`). Numbers are SI, texts have a unit, pressures are gauge;
-bad input raises `Problem`. `__all__` is all that is public; the modules below are how it works, and change.
+(`size`), studies (`study`), and what there is (`presets`, `effects`). Numbers are SI, texts have a unit,
+pressures are gauge; bad input raises `Problem`. `__all__` is all that is public; the modules below are how it
+works, and change.
 """
 
 from __future__ import annotations
@@ -22,11 +23,12 @@ if TYPE_CHECKING:
     from mckibben.door.model_files import load
     from mckibben.door.problem import Problem
     from mckibben.door.sizing import size
+    from mckibben.door.study import study
     from mckibben.door.workspace import use_effects, use_presets
 
 __all__ = [
     "Drive", "Measurement", "Model", "Problem", "__version__", "effects", "load", "presets", "read", "size",
-    "use_effects", "use_presets",
+    "study", "use_effects", "use_presets",
 ]  # fmt: skip
 
 _MODULES = {
@@ -39,6 +41,7 @@ _MODULES = {
     "presets": "listing",
     "read": "measurement",
     "size": "sizing",
+    "study": "study",
     "use_effects": "workspace",
     "use_presets": "workspace",
 }

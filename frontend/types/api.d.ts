@@ -68,6 +68,9 @@ export interface paths {
   "/api/sizings/reports": {
     post: operations["write_sizing_report"];
   };
+  "/api/studies": {
+    post: operations["run_study"];
+  };
 }
 
 export interface components {
@@ -1457,6 +1460,13 @@ export interface components {
       /** Wall of the bladder. */
       wall_thickness?: components["schemas"]["Quantity"] | null;
     };
+    /** A figure that is to be small, or large. */
+    Goal: {
+      /** Path of the figure. */
+      figure: string;
+      /** What is better. */
+      direction?: "minimise" | "maximise";
+    };
     /** The goals of a design. */
     GoalsAnswer: {
       /** Largest overshoot. [1] */
@@ -1467,6 +1477,11 @@ export interface components {
       step: number;
       /** Whether the command must never reach its limits. */
       unsaturated: boolean;
+    };
+    /** All combinations of the values. */
+    GridMethod: {
+      /** Name of the method. */
+      type: "grid";
     };
     /** Source of a value of a drive document. */
     Ground: {
@@ -1571,6 +1586,24 @@ export interface components {
       counter_force: (number | null)[];
       /** Pressure in the second muscle. [Pa] */
       counter_pressure: (number | null)[];
+    };
+    /** Latin hypercube: each quantity is spread evenly over its distribution or range. */
+    LatinHypercubeMethod: {
+      /** Name of the method. */
+      type: "latin_hypercube";
+      /** Number of runs. */
+      runs?: number;
+      /** The random numbers follow from it: the same seed gives the same runs. */
+      seed?: number;
+    };
+    /** A limit of a figure; a run without this figure does not keep it. */
+    Limit: {
+      /** Path of the figure. */
+      figure: string;
+      /** Lower limit. */
+      at_least?: number | string | null;
+      /** Upper limit. */
+      at_most?: number | string | null;
     };
     /** Limits stated by the maker; unknown ones are left out. */
     Limits: {
@@ -1702,6 +1735,11 @@ export interface components {
       /** Goals of a controller design; null: no design. */
       design?: components["schemas"]["DesignInput"] | null;
     };
+    /** One run for the first value of each quantity, one for the second values, and so on. */
+    ListMethod: {
+      /** Name of the method. */
+      type: "list";
+    };
     /** The load of the muscle. */
     LoadInput: {
       /** Mass of the load. [kg] */
@@ -1829,6 +1867,19 @@ export interface components {
       pulley_radius?: number | string | null;
       /** Contraction of both muscles of a pair in the middle position. Default 10 %. [1] */
       precontraction?: number | string | null;
+    };
+    /** A lognormal distribution, possibly truncated: its logarithm is normally distributed. */
+    LognormalDistribution: {
+      /** Kind of distribution. */
+      type: "lognormal";
+      /** Median, before truncation. */
+      median: number | string;
+      /** Standard deviation of the natural logarithm; 0.1 is a spread of about 10 %. */
+      log_deviation: number;
+      /** Values below it do not occur: the distribution is truncated there. Default: not truncated. */
+      least?: number | string | null;
+      /** Values above it do not occur: the distribution is truncated there. Default: not truncated. */
+      most?: number | string | null;
     };
     /** Area of the force residual over a closed path: energy dissipation that the model misses. */
     Loop: {
@@ -2048,6 +2099,26 @@ export interface components {
       /** Effect id -> its parameters, SI. */
       effects: { [key: string]: { [key: string]: number | string } };
     };
+    /** Independent random values; ranges are uniform distributions. */
+    MonteCarloMethod: {
+      /** Name of the method. */
+      type: "monte_carlo";
+      /** Number of runs. */
+      runs?: number;
+      /** The random numbers follow from it: the same seed gives the same runs. */
+      seed?: number;
+    };
+    /** Morris' elementary effects: which quantities matter at all, with few runs. */
+    MorrisMethod: {
+      /** Name of the method. */
+      type: "morris";
+      /** Trajectories; trajectories * (quantities + 1) runs. */
+      trajectories?: number;
+      /** Levels of each quantity, an even number. */
+      levels?: number;
+      /** The random numbers follow from it: the same seed gives the same runs. */
+      seed?: number;
+    };
     /** A muscle: geometry, limits, catalogue data and the effects its model has by default. Attributes: extrapolated: why its force is not known from a curve or a measurement; None when it is. Sizing ranks such a muscle behind all others. */
     MuscleAnswer: {
       /** Version of the document. */
@@ -2220,6 +2291,19 @@ export interface components {
       /** From the scatter of neighbouring readings to all that no variable explains; null where a structure remains. */
       interval: number[] | null;
     };
+    /** A normal distribution, possibly truncated. */
+    NormalDistribution: {
+      /** Kind of distribution. */
+      type: "normal";
+      /** Mean, before truncation. */
+      mean: number | string;
+      /** Standard deviation, before truncation. */
+      deviation: number | string;
+      /** Values below it do not occur: the distribution is truncated there. Default: not truncated. */
+      least?: number | string | null;
+      /** Values above it do not occur: the distribution is truncated there. Default: not truncated. */
+      most?: number | string | null;
+    };
     /** An effect that these data cannot show, or that the request excludes. */
     NotTried: {
       /** Its id. */
@@ -2262,6 +2346,17 @@ export interface components {
       diameter: number | null;
       /** Codes of the flags of this point. */
       flags: string[];
+    };
+    /** Optimisation of one or several goals within limits, over the ranges of the quantities. */
+    OptimisationMethod: {
+      /** Name of the method. */
+      type: "optimisation";
+      /** Runs of a generation. */
+      population?: number;
+      /** Number of generations. */
+      generations?: number;
+      /** The random numbers follow from it: the same seed gives the same runs. */
+      seed?: number;
     };
     /** Characteristics over pressure: position at the load, force at the fixed length. */
     OverPressure: {
@@ -2770,6 +2865,15 @@ export interface components {
       /** Rhombi around the muscle. [1] */
       around: number | string;
     };
+    /** Probability that built specimens of each design keep the limits. Quantities with values or a range are those of the design (all combinations); quantities with a distribution differ between specimens. All designs are built with the same specimens. */
+    RobustMethod: {
+      /** Name of the method. */
+      type: "robust";
+      /** Specimens of each design. */
+      runs?: number;
+      /** The random numbers follow from it: the same seed gives the same runs. */
+      seed?: number;
+    };
     /** A model with its values: a muscle with its fitted geometry, effects, and of a transient the drive. */
     SavedModel: {
       /** Version of the document. */
@@ -3040,6 +3144,15 @@ export interface components {
       /** Whether the model keeps it, because it predicts better with it. */
       kept: boolean;
     };
+    /** Sobol's indices: the share of the variance of a figure that each quantity causes. */
+    SobolMethod: {
+      /** Name of the method. */
+      type: "sobol";
+      /** Base samples, a power of two; samples * (quantities + 2) runs. */
+      samples?: number;
+      /** The random numbers follow from it: the same seed gives the same runs. */
+      seed?: number;
+    };
     /** Source of a figure, and its grade. */
     SourceText: {
       /** Short source. */
@@ -3138,6 +3251,181 @@ export interface components {
       load: number | string;
       /** From the nominal length. [m] */
       stroke: number | string;
+    };
+    /** All runs of a study, and what they show; SI. */
+    StudyAnswer: {
+      /** Title of the study. */
+      title: string;
+      /** Name of the method. */
+      method: string;
+      /** Quantities and figures of the table. */
+      columns: components["schemas"]["StudyColumnAnswer"][];
+      /** Column -> values, one for each run that was made; also run, outcome and message. null where a figure does not exist; the message says why. */
+      table: { [key: string]: (number | string | null)[] };
+      /** How runs ended -> number of runs. */
+      outcomes: { [key: string]: number };
+      /** Each figure over all runs. */
+      summary: components["schemas"]["StudyFigureSummary"][];
+      /** Rank correlations; of random runs alone. */
+      correlations: components["schemas"]["StudyCorrelation"][];
+      /** Of the methods sobol and morris. */
+      sensitivity: components["schemas"]["StudySensitivity"][];
+      /** Numbers of the runs on the Pareto front; of one goal the best run; empty without goals. */
+      front: number[];
+      /** Of keeping the limits; of random runs alone. */
+      probabilities: components["schemas"]["StudyProbability"][];
+      /** Of a robust study, the most probable to keep all first. */
+      designs: components["schemas"]["StudyDesign"][];
+      /** Runs that were made. */
+      runs: number;
+      /** Runs of the plan. */
+      planned: number;
+      /** Figures of the goals. */
+      goals: string[];
+      /** Confidence level of all intervals. */
+      confidence: number;
+      /** Seed of the random numbers; null without. */
+      seed: number | null;
+      /** How the study ended. */
+      outcome: "completed" | "timed_out" | "cancelled";
+      /** Advice if the study did not complete. */
+      message: string | null;
+      /** Runs that failed, figures that are missing. */
+      remarks: string[];
+      /** Computing time in ms. */
+      wall_ms: number;
+    };
+    /** A column of the table. */
+    StudyColumnAnswer: {
+      /** Key in the table: the path of the quantity or figure. */
+      name: string;
+      /** Whether it was varied or watched. */
+      kind: "quantity" | "figure";
+      /** SI unit; null for texts and plain numbers. */
+      unit: string | null;
+    };
+    /** Spearman's rank correlation of a quantity and a figure. */
+    StudyCorrelation: {
+      /** Path of the figure. */
+      figure: string;
+      /** Name of the quantity. */
+      quantity: string;
+      /** -1 to 1; null where one of them does not vary. */
+      rank_correlation: number | null;
+    };
+    /** A design of a robust study. */
+    StudyDesign: {
+      /** Its number in the plan. */
+      design: number;
+      /** Quantity -> value. */
+      values: { [key: string]: number | string };
+      /** Of each limit, then of all. */
+      probabilities: components["schemas"]["StudyProbability"][];
+    };
+    /** A study: many runs of one subject with varied quantities. */
+    StudyDocument: {
+      /** Version of the document. */
+      schema?: 1;
+      /** Title for display. */
+      title?: string;
+      /** What is studied. */
+      subject: components["schemas"]["Subject"];
+      /** What is varied. */
+      quantities: components["schemas"]["VariedQuantity"][];
+      /** Figures to watch, besides those of goals and limits: timing.extend.rise_time and the other figures of the timing table, tracking.rms, largest.pressure, best.time. */
+      figures?: string[];
+      /** Goals, of an optimisation or for the Pareto front of the runs. */
+      goals?: components["schemas"]["Goal"][];
+      /** Limits of figures. */
+      limits?: components["schemas"]["Limit"][];
+      /** Which runs are made. */
+      method: components["schemas"]["GridMethod"] | components["schemas"]["ListMethod"] | components["schemas"]["LatinHypercubeMethod"] | components["schemas"]["MonteCarloMethod"] | components["schemas"]["SobolMethod"] | components["schemas"]["MorrisMethod"] | components["schemas"]["OptimisationMethod"] | components["schemas"]["RobustMethod"];
+      /** Confidence level of all intervals. */
+      confidence?: number;
+    };
+    /** A value with its confidence interval. */
+    StudyEstimate: {
+      /** The value. */
+      value: number | null;
+      /** Lower end; null where the runs do not give one. */
+      low: number | null;
+      /** Upper end; null where the runs do not give one. */
+      high: number | null;
+    };
+    /** A figure over all runs that have it. */
+    StudyFigureSummary: {
+      /** Path of the figure. */
+      figure: string;
+      /** Its SI unit. */
+      unit: string;
+      /** Runs that have it. */
+      count: number;
+      /** Runs that lack it. */
+      missing: number;
+      /** Mean, in the unit of the figure. */
+      mean: components["schemas"]["StudyEstimate"] | null;
+      /** Standard deviation, in the unit of the figure. */
+      deviation: components["schemas"]["StudyEstimate"] | null;
+      /** Smallest value, in the unit of the figure. */
+      least: number | null;
+      /** Largest value, in the unit of the figure. */
+      most: number | null;
+      /** Percent, 1 to 99 -> percentile, in the unit of the figure; its interval holds for any distribution. */
+      percentiles: { [key: string]: components["schemas"]["StudyEstimate"] };
+    };
+    /** Influence of a quantity on a figure; each error is the half width of a confidence interval. */
+    StudyInfluence: {
+      /** Path of the figure. */
+      figure: string;
+      /** Name of the quantity. */
+      quantity: string;
+      /** Sobol: share of the variance due to the quantity alone. */
+      first: number | null;
+      /** Its error. */
+      first_error: number | null;
+      /** Sobol: share of the variance with all its interactions. */
+      total: number | null;
+      /** Its error. */
+      total_error: number | null;
+      /** Morris: mean elementary effect, in the unit of the figure. */
+      mean: number | null;
+      /** Morris: mean magnitude of the effects, in the unit of the figure. */
+      mean_size: number | null;
+      /** Its error. */
+      mean_size_error: number | null;
+      /** Morris: standard deviation of the effects, in the unit of the figure; large where the influence is not linear or depends on other quantities. */
+      deviation: number | null;
+    };
+    /** Share of the runs that keep a limit; one that failed does not keep it. */
+    StudyProbability: {
+      /** The figure of the limit, or 'all'. */
+      what: string;
+      /** Runs that keep it. */
+      kept: number;
+      /** All runs. */
+      runs: number;
+      /** kept / runs, with the interval of Clopper and Pearson. */
+      probability: components["schemas"]["StudyEstimate"];
+    };
+    /** Influences on a figure. */
+    StudySensitivity: {
+      /** Path of the figure. */
+      figure: string;
+      /** Of each quantity; empty with too few runs. */
+      influences: components["schemas"]["StudyInfluence"][];
+      /** Blocks of runs used; one with a failed run is left out. */
+      blocks: number;
+      /** Blocks of runs in the plan. */
+      planned_blocks: number;
+    };
+    /** What is studied: a drive, a sizing task, or a saved model in a drive. */
+    Subject: {
+      /** A drive document or the id of a drive preset; with a model, the drive it is in. */
+      drive?: components["schemas"]["DriveDocument"] | string | null;
+      /** A sizing task or the id of a task preset; the figures are those of its first proposal. */
+      task?: components["schemas"]["SizingTask"] | string | null;
+      /** A saved model; its muscle and effects replace those of the drive. */
+      model?: components["schemas"]["SavedModel"] | null;
     };
     /** The compressed-air supply. */
     SupplyInput: {
@@ -3314,6 +3602,17 @@ export interface components {
       /** Command. [1] */
       command: (number | null)[];
     };
+    /** A density that rises linearly from the lower bound to the mode, and falls to the upper bound. */
+    TriangularDistribution: {
+      /** Kind of distribution. */
+      type: "triangular";
+      /** Lower bound. */
+      least: number | string;
+      /** Most probable value. */
+      mode: number | string;
+      /** Upper bound. */
+      most: number | string;
+    };
     /** A tube; its conductance is given for ``reference_length``. */
     TubeAnswer: {
       /** Version of the document. */
@@ -3354,6 +3653,15 @@ export interface components {
       effect: string;
       /** The experiment that separates the two. */
       separated_by: string;
+    };
+    /** All values between two bounds are equally probable. */
+    UniformDistribution: {
+      /** Kind of distribution. */
+      type: "uniform";
+      /** Lower bound. */
+      least: number | string;
+      /** Upper bound. */
+      most: number | string;
     };
     /** A column that nothing is read from. */
     UnreadColumn: {
@@ -3434,6 +3742,25 @@ export interface components {
       supply: number;
       /** Figures of its steps. */
       figures: components["schemas"]["StepFiguresAnswer"];
+    };
+    /** A quantity of the document that is varied: by values, over a range, or with a distribution. */
+    VariedQuantity: {
+      /** Path of the quantity in the document of the subject. */
+      path: string;
+      /** The values. For a field that is no quantity, e.g. the id of a preset, texts. */
+      values?: (number | string)[] | null;
+      /** Lower end of a range. */
+      from?: number | string | null;
+      /** Upper end of a range. */
+      to?: number | string | null;
+      /** Number of values of a range, for a grid and for designs of a robust study. */
+      points?: number | null;
+      /** How a range is divided, and how its values are distributed. */
+      scale?: "linear" | "logarithmic";
+      /** How the value is distributed. */
+      distribution?: components["schemas"]["NormalDistribution"] | components["schemas"]["LognormalDistribution"] | components["schemas"]["UniformDistribution"] | components["schemas"]["TriangularDistribution"] | null;
+      /** Whether the values are factors on the value in the document, e.g. 1 ± 0.05 for a tolerance; of a design in a robust study, on the value of the design. */
+      relative?: boolean;
     };
     /** The verdict of the diagnosis. */
     Verdict: {
@@ -3747,6 +4074,19 @@ export interface operations {
       400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Sweeps, Monte Carlo, sensitivities, optimisation, robust designs; at most 20 000 runs. Closing the connection ends the study. Longer ones: ``mckibben study``. */
+  run_study: {
+    requestBody: { content: { "application/json": components["schemas"]["StudyDocument"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["StudyAnswer"]; "text/event-stream": string } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };

@@ -17,6 +17,7 @@ from mckibben.door.diagnosis import Diagnosis
 from mckibben.door.linear import LinearView
 from mckibben.door.run import Run
 from mckibben.door.sizing import Proposal, Sizing
+from mckibben.door.study import Study
 
 PACKAGE = Path(mk.__file__).parent
 NAMES = {
@@ -30,6 +31,7 @@ NAMES = {
     "presets",
     "read",
     "size",
+    "study",
     "use_effects",
     "use_presets",
 }
@@ -44,6 +46,7 @@ CLASSES = (
     LinearView,
     Sizing,
     Proposal,
+    Study,
 )
 
 
@@ -98,6 +101,6 @@ def test_type_checkers_are_strict_on_the_door_and_see_its_types() -> None:
         for file in files
         if not re.search(r"^# pyright: strict", file.read_text("utf-8"), re.MULTILINE)
     }
-    figures = {f"figures/{name}.py" for name in ("style", "statics", "others", "linear")}
+    figures = {f"figures/{name}.py" for name in ("style", "statics", "others", "linear", "study")}
     assert lax == {"frames.py", *figures}
     assert len(files) > 10

@@ -34,6 +34,7 @@ PATHS = {
     "/api/linearisations": {"post"},
     "/api/sizings": {"post"},
     "/api/sizings/reports": {"post"},
+    "/api/studies": {"post"},
 }
 
 

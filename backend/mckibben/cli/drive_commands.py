@@ -1,4 +1,4 @@
-"""The commands of drives and models: ``simulate``, ``linearise``, ``size``, ``export``."""
+"""The commands of drives and models: ``simulate``, ``linearise``, ``size``, ``export``, ``study``."""
 
 from __future__ import annotations
 
@@ -101,3 +101,40 @@ def export(
     from mckibben.cli.options import open_studio
 
     run(open_studio(presets, effects, data), source=source, format_id=format_id, out=out)
+
+
+@app.command()
+def study(
+    study: Annotated[str, typer.Argument(metavar="STUDY", help="A study (JSON file).")],
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="FILE", help="Write the table as .csv or .parquet, the result as .json."
+        ),
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Continue a study of --out that was interrupted.")
+    ] = False,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler", metavar="ADDRESS", help="A Dask scheduler, tcp://host:8786; else this computer."
+        ),
+    ] = None,
+    as_json: AsJson = False,
+    presets: PresetsFolder = None,
+    effects: EffectsFolders = None,
+    data: DataFolder = None,
+) -> None:
+    """Many runs of a drive or task: sweeps, Monte Carlo, sensitivities, optimisation, robust designs."""
+    from mckibben.cli.options import open_studio
+    from mckibben.cli.study import run
+
+    run(
+        open_studio(presets, effects, data),
+        study=study,
+        out=out,
+        resume=resume,
+        scheduler=scheduler,
+        as_json=as_json,
+    )

@@ -267,30 +267,37 @@ class DriveDocument(Strict):
 
 
 @dataclass(frozen=True, slots=True)
-class _OrPreset:
-    """Also accepts the id of a preset. Not a union, whose errors would not name the field alone."""
+class OrPreset:
+    """Also accepts the id of a preset. Not a union, whose errors would not name the field alone.
+
+    Attributes:
+        kind: of the preset, for messages.
+        example: the id of one.
+    """
+
+    kind: str
+    example: str
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
         """A string is an id, everything else a document."""
-        return core_schema.no_info_wrap_validator_function(_document_or_id, handler(source))
+        return core_schema.no_info_wrap_validator_function(self._document_or_id, handler(source))
 
     def __get_pydantic_json_schema__(
         self, schema: CoreSchema, handler: GetJsonSchemaHandler
     ) -> JsonSchemaValue:
         """A document or an id."""
-        preset = {"type": "string", "pattern": _ID.pattern, "examples": ["paper-step"]}
+        preset = {"type": "string", "pattern": _ID.pattern, "examples": [self.example]}
         return {"anyOf": [handler(schema), preset]}
+
+    def _document_or_id(self, value: object, handler: ValidatorFunctionWrapHandler) -> Any:
+        if not isinstance(value, str):
+            return handler(value)
+        if _ID.match(value) is None:
+            raise InputError(f"cannot be the id of a {self.kind} preset", hint=f"e.g. '{self.example}'")
+        return value
 
 
 _ID = re.compile(r"^[A-Za-z0-9][A-Za-z0-9./-]{0,63}$")
 
 
-def _document_or_id(value: object, handler: ValidatorFunctionWrapHandler) -> Any:
-    if not isinstance(value, str):
-        return handler(value)
-    if _ID.match(value) is None:
-        raise InputError("cannot be the id of a drive preset", hint="e.g. 'paper-step'")
-    return value
-
-
-DriveOrId = Annotated[DriveDocument, _OrPreset()]
+DriveOrId = Annotated[DriveDocument, OrPreset("drive", "paper-step")]

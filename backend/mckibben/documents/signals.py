@@ -94,6 +94,15 @@ class SignalInput:
         }
 
 
+def key_units(shape: str, unit: str) -> dict[str, str]:
+    """The keys of a shape that are quantities, with their SI units; ``unit`` is that of the levels."""
+    if shape not in SHAPES:
+        return {}
+    properties = _shape_schema(shape, unit)["properties"]
+    scalar = {label: schema for label, schema in properties.items() if label not in ("times", "values")}
+    return {label: schema["unit"] for label, schema in scalar.items() if "unit" in schema}
+
+
 def _quantity(unit: str) -> JsonSchemaValue:
     text = {"type": "string", "minLength": 1, "maxLength": MAX_TEXT_LENGTH}
     return {"anyOf": [{"type": "number"}, text], "unit": unit, "examples": [_EXAMPLES[unit]]}

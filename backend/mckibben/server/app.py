@@ -33,6 +33,7 @@ from mckibben.server.routes import (
     reports,
     simulations,
     sizings,
+    studies,
 )
 from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
 from mckibben.server.server_timing import TimingMiddleware
@@ -54,6 +55,7 @@ _TAGS = [
     {"name": "simulations", "description": "Transient simulation of drives."},
     {"name": "linearisations", "description": "Linear models of drives, loops, controller design."},
     {"name": "sizings", "description": "Sizing: from a task to ranked drives."},
+    {"name": "studies", "description": "Many runs with varied quantities."},
     {"name": "measurements", "description": "Measurement files."},
     {"name": "experiments", "description": "What a measurement was made with, and what is to be asked."},
     {"name": "comparisons", "description": "A model compared with measurements."},
@@ -113,6 +115,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         linearisations,
         inverse,
         sizings,
+        studies,
         comparisons,
         diagnoses,
         health,

@@ -11,7 +11,7 @@ from mckibben.documents.quantity import QuantityField
 from mckibben.documents.strict import Series, Strict, si_field
 from mckibben.server.schemas.common import Flag, MakerLimits
 from mckibben.server.schemas.curves import ModelAnswer, MuscleGeometry
-from mckibben.simulation.timing.table import FIGURES
+from mckibben.simulation.timing.table import FIGURE_UNITS
 
 Instant = Annotated[float, QuantityField("s", "0.5 s", at_least=0.0, at_most=LONGEST)]
 
@@ -25,16 +25,11 @@ class SimulationRequest(Strict):
     end: Instant | None = Field(None, alias="to", description="Last row; the end of the run when left out.")
 
 
-_UNITS = {
-    "average_speed": "m/s", "max_speed": "m/s", "end_speed": "m/s", "max_acceleration": "m/s^2",
-    "min_acceleration": "m/s^2", "impact_energy": "J", "air_mass": "kg", "air_volume_anr": "m^3",
-    "tube_air_mass": "kg", "choked_share": "1", "overshoot": "1",
-}  # fmt: skip
 PhaseFigures = Annotated[
     dict[str, float | None],
     Field(
         description="Figures of one phase in SI: "
-        + ", ".join(f"{name} [{_UNITS.get(name, 's')}]" for name in FIGURES)
+        + ", ".join(f"{name} [{unit}]" for name, unit in FIGURE_UNITS.items())
         + ". Speeds are magnitudes along the motion of the phase: shorter in extend, longer in "
         "retract. Accelerations are positive towards shorter in both phases, as in the columns. "
         "Null where it does not exist; see notes for the reason."

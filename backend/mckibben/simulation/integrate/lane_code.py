@@ -4,12 +4,12 @@ from __future__ import annotations
 
 import ctypes
 import math
-import threading
 from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
 
+from mckibben.simulation.integrate.compiling import COMPILING
 from mckibben.simulation.integrate.elimination import Plan
 from mckibben.simulation.integrate.lane_algebra import algebra_texts
 from mckibben.simulation.integrate.lane_writer import lane_writer, lanes_of_machine
@@ -98,14 +98,13 @@ class LaneCodes:
 
     def __init__(self, functions: Functions, plan: Plan) -> None:
         self._functions, self._plan = functions, plan
-        self._lock = threading.Lock()
         self._step: dict[str, LaneFunction] | None = None
         self._outputs: dict[tuple[int, ...], tuple[LaneFunction, np.ndarray]] = {}
 
     @property
     def step(self) -> dict[str, LaneFunction]:
         """What a step needs: ``rates``, ``jacobian``, ``factorise`` and ``solve``."""
-        with self._lock:
+        with COMPILING:
             if self._step is None:
                 wanted = {name: self._functions[name] for name in ("rates", "jacobian")}
                 self._step = lane_code(wanted, plan=self._plan)
@@ -114,7 +113,7 @@ class LaneCodes:
     def outputs(self, chosen: Sequence[int]) -> tuple[LaneFunction, np.ndarray]:
         """A function that computes only these outputs, and the numbers of the arguments it depends on."""
         key = tuple(chosen)
-        with self._lock:
+        with COMPILING:
             found = self._outputs.get(key)
             if found is None:
                 arguments, results = self._functions["outputs"]

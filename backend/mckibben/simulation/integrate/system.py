@@ -13,6 +13,7 @@ from mckibben.physics.drive import DriveModel
 from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
+from mckibben.simulation.integrate.compiling import one_at_a_time
 from mckibben.simulation.integrate.elimination import Plan, plan_of
 from mckibben.simulation.integrate.invariants import Invariants
 from mckibben.simulation.integrate.lane_code import Functions, LaneCodes
@@ -170,6 +171,7 @@ class CompiledDrive:
         return np.concatenate([row[: self.size], constants, row[stop:], state])
 
 
+@one_at_a_time
 @lru_cache(maxsize=128)
 def compiled_drive(structure: DriveStructure, level: int = 0) -> CompiledDrive:
     """A drive's compiled equations, built once (20 to 40 ms) and kept.
@@ -185,6 +187,7 @@ def compiled_drive(structure: DriveStructure, level: int = 0) -> CompiledDrive:
         return compile_system(DriveModel(structure), level)
 
 
+@one_at_a_time
 @lru_cache(maxsize=128)
 def compiled_driven(effects: tuple[Effect, ...], motion: bool, level: int = 0) -> CompiledDrive:
     """The compiled equations of a muscle whose pressure is measured, built once and kept.

@@ -47,6 +47,13 @@ MOTION_FIGURES = (
 PRESSURE_FIGURES = ("pressure_rise_time", "pressure_delay_time", "pressure_settling_time")
 AIR_FIGURES = ("air_mass", "air_volume_anr", "tube_air_mass", "choked_share")
 FIGURES = (*MOTION_FIGURES, *PRESSURE_FIGURES, *AIR_FIGURES)
+_NO_TIMES = {
+    "average_speed": "m/s", "max_speed": "m/s", "end_speed": "m/s", "max_acceleration": "m/s^2",
+    "min_acceleration": "m/s^2", "impact_energy": "J", "air_mass": "kg", "air_volume_anr": "m^3",
+    "tube_air_mass": "kg", "choked_share": "1", "overshoot": "1",
+}  # fmt: skip
+#: Figure -> SI unit.
+FIGURE_UNITS = {name: _NO_TIMES.get(name, "s") for name in FIGURES}
 
 #: Travel [m] and pressure change [Pa] below these count as none.
 SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0

@@ -1,0 +1,141 @@
+"""Studies: many runs of a drive or a task with varied quantities."""
+
+# pyright: strict, reportMissingTypeStubs=false
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from os import PathLike, fspath
+from pathlib import Path
+from typing import TYPE_CHECKING, Any, cast
+
+from mckibben.application.study import StudyQuestion, StudyResult, prepare, study_question
+from mckibben.application.study_file import prepare_file, table_text
+from mckibben.documents.drive_files import read_document
+from mckibben.documents.study_files import in_file, read_study, read_study_file
+from mckibben.door.drive import Drive
+from mckibben.door.frames import frame_of
+from mckibben.door.problem import reported
+from mckibben.door.result import Result
+from mckibben.door.workspace import studio
+from mckibben.physics.errors import InputError
+from mckibben.report.summary import Summary
+from mckibben.report.summary.study import notices, summary_of
+from mckibben.simulation.outcome import Watch
+
+if TYPE_CHECKING:
+    import pandas as pd
+    from plotly.graph_objects import Figure
+
+
+class Study(Result):
+    """A finished study, from `study`; SI. One row for each run, also of those that failed."""
+
+    __slots__ = ("_name", "_question", "_result")
+
+    _question: StudyQuestion
+    _result: StudyResult
+    _name: str
+
+    def __init__(self, question: StudyQuestion, result: StudyResult, name: str) -> None:
+        self._set(_question=question, _result=result, _name=name)
+
+    @property
+    def details(self) -> StudyResult:
+        """Everything: summary, probabilities, sensitivity, front, designs, with confidence intervals."""
+        return self._result
+
+    @property
+    def front(self) -> Sequence[int]:
+        """Numbers of the runs on the Pareto front; of one goal the best run; empty without goals."""
+        return tuple(self._result.front)
+
+    @property
+    def messages(self) -> Sequence[str]:
+        """Runs that failed, figures that are missing, why the study ended early."""
+        return tuple(notices(self._result))
+
+    @reported
+    def drive(self, run: int) -> Drive:
+        """The drive of a run, by its number; of a study of a drive.
+
+        Raises:
+            Problem: there is no such run, or the study is one of a task.
+        """
+        if self._question.subject.kind != "drive":
+            raise InputError("this is a study of a task, its runs have no drive", hint="see to_frame()")
+        if run not in self._result.table["run"]:
+            raise InputError(f"there is no run {run}", hint=f"0 to {self._result.planned - 1}")
+        document = self._question.document_of(self._question_point(run))
+        return Drive.of(read_document(document, "the drive"), f"run {run} of {self._name}", studio())
+
+    def _question_point(self, run: int) -> Sequence[float]:
+        place = self._result.table["run"].index(run)
+        point: list[float] = []
+        for variable in self._question.variables:
+            value = self._result.table[variable.name][place]
+            choices = variable.choices
+            point.append(float(choices.index(str(value))) if choices else float(cast("float", value)))
+        return point
+
+    def to_frame(self) -> pd.DataFrame:
+        """One row for each run: run, quantities, figures, outcome, message; NaN where a figure is missing."""
+        return frame_of(self._result.table)
+
+    def plot(self) -> Figure:
+        """What the method asks for: the Pareto front, influences, or the distribution of the first figure."""
+        from mckibben.door.figures.study import study_figure
+
+        return study_figure(self._result, self._result.title or self._name)
+
+    def _files(self, path: Path) -> str:
+        return table_text(self._result) if path.suffix.lower() == ".csv" else super()._files(path)
+
+    def _answer(self) -> object:
+        return self._result
+
+    def _summary(self) -> Summary:
+        return summary_of(self._result, self._name)
+
+    def _title(self) -> str:
+        return f"Study {self._result.title or self._name}: {self._result.runs} runs"
+
+
+@reported
+def study(
+    study: str | PathLike[str] | Mapping[str, Any],
+    *,
+    out: str | PathLike[str] | None = None,
+    resume: bool = False,
+    progress: Callable[[float], object] | None = None,
+) -> Study:
+    """Many runs of a drive or task: sweep, Monte Carlo, sensitivity, optimisation, robust design.
+
+    Args:
+        study: the study as a document, ``{"subject": {"drive": drive.document}, "quantities": [{"path":
+            "load.mass", "from": "8 kg", "to": "12 kg"}], "figures": ["timing.extend.rise_time"], "method":
+            {"type": "monte_carlo", "runs": 1000}}``, or the path of a file.
+        out: file for the table, .csv, .json or .parquet; runs are kept beside it until it is complete.
+        resume: continue a study of ``out`` that was interrupted.
+        progress: called with the share that is done, 0 to 1.
+
+    Raises:
+        Problem: names the field, what is wrong and what would be right.
+    """
+    name = "the study"
+    if isinstance(study, Mapping):
+        question = study_question(read_study(dict(study)), studio())
+    else:
+        document, name = read_study_file(Path(study)), Path(study).stem
+        try:
+            question = study_question(document, studio())
+        except InputError as error:
+            raise in_file(fspath(study), error) from error
+
+    def tell(share: float) -> None:
+        if progress is not None:
+            progress(share)
+
+    watch = Watch(progress=None if progress is None else tell, time_limit=float("inf"))
+    work = prepare(question) if out is None else prepare_file(question, Path(out), resume=resume)
+    return Study(question, work(watch), name)

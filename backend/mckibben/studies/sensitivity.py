@@ -1,0 +1,157 @@
+"""Global sensitivity: Sobol's indices and Morris' elementary effects, with SALib.
+
+Both need complete blocks of runs: where a run of a block has no figure, the whole block is left out, and the
+result says how many were.
+
+Sources: Sobol, Math. Comput. Simul. 55 (2001) 271; Saltelli et al., Comput. Phys. Commun. 181 (2010) 259
+(estimators); Morris, Technometrics 33 (1991) 161; Campolongo et al., Environ. Model. Softw. 22 (2007) 1509.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from mckibben.studies.plan import FixedPlan
+from mckibben.studies.table import StudyTable
+from mckibben.studies.variable import Variable, points_of
+
+Array = np.ndarray
+_RESAMPLES = 200  # of the bootstrap for intervals: their half widths are then known within about 5 %
+_LEAST_BLOCKS = 8  # fewer give no interval worth the name
+
+
+@dataclass(frozen=True, slots=True)
+class Influence:
+    """Influence of a quantity on a figure; half widths of confidence intervals follow each estimate.
+
+    Sobol: ``first`` is the share of the variance of the figure due to the quantity alone, ``total`` that
+    with all its interactions. Morris: ``mean`` of the elementary effects over the range of the quantity, in
+    the unit of the figure, ``mean_size`` that of their magnitudes (mu*), ``deviation`` their standard
+    deviation: large for an influence that is not linear or depends on other quantities.
+    """
+
+    figure: str
+    quantity: str
+    first: float | None = None
+    first_error: float | None = None
+    total: float | None = None
+    total_error: float | None = None
+    mean: float | None = None
+    mean_size: float | None = None
+    mean_size_error: float | None = None
+    deviation: float | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Sensitivity:
+    """Influences on a figure, and from how many of the planned blocks they follow; empty with too few."""
+
+    figure: str
+    influences: tuple[Influence, ...]
+    blocks: int
+    planned_blocks: int
+
+
+@dataclass(frozen=True, eq=False)
+class SobolPlan(FixedPlan):
+    """Runs for Sobol's indices; blocks of variables + 2 runs belong together."""
+
+    seed: int
+
+    def sensitivity(self, table: StudyTable, confidence: float) -> list[Sensitivity]:
+        """First-order and total indices of each figure."""
+        from SALib.analyze import sobol
+
+        def analyse(values: Array, _: Array) -> list[dict[str, float]]:
+            found = sobol.analyze(
+                _problem(self.variables), values, calc_second_order=False, num_resamples=_RESAMPLES,
+                conf_level=confidence, seed=self.seed,
+            )  # fmt: skip
+            names = {"first": "S1", "first_error": "S1_conf", "total": "ST", "total_error": "ST_conf"}
+            return _by_variable(found, names, len(self.variables))
+
+        return _each_figure(self, table, len(self.variables) + 2, analyse)
+
+
+def sobol_plan(variables: Sequence[Variable], samples: int, seed: int) -> SobolPlan:
+    """Saltelli's sampling on a scrambled Sobol sequence: samples * (variables + 2) runs."""
+    from SALib.sample import sobol
+
+    shares = sobol.sample(_problem(variables), samples, calc_second_order=False, seed=seed)
+    return SobolPlan(tuple(variables), points_of(variables, np.asarray(shares)), seed)
+
+
+@dataclass(frozen=True, eq=False)
+class MorrisPlan(FixedPlan):
+    """Runs for elementary effects; trajectories of variables + 1 runs belong together."""
+
+    shares: Array
+    levels: int
+    seed: int
+
+    def sensitivity(self, table: StudyTable, confidence: float) -> list[Sensitivity]:
+        """Elementary effects on each figure."""
+        from SALib.analyze import morris
+
+        def analyse(values: Array, runs: Array) -> list[dict[str, float]]:
+            found = morris.analyze(
+                _problem(self.variables), self.shares[runs], values, num_resamples=_RESAMPLES,
+                conf_level=confidence, num_levels=self.levels, seed=self.seed,
+            )  # fmt: skip
+            names = {
+                "mean": "mu",
+                "mean_size": "mu_star",
+                "mean_size_error": "mu_star_conf",
+                "deviation": "sigma",
+            }
+            return _by_variable(found, names, len(self.variables))
+
+        return _each_figure(self, table, len(self.variables) + 1, analyse)
+
+
+def morris_plan(variables: Sequence[Variable], trajectories: int, levels: int, seed: int) -> MorrisPlan:
+    """Random trajectories that change one quantity at a time: trajectories * (variables + 1) runs.
+
+    A range is covered from end to end; a distribution, which may be unbounded, between its quantiles
+    0.5 / levels and 1 - 0.5 / levels.
+    """
+    from SALib.sample import morris
+
+    shares = np.asarray(morris.sample(_problem(variables), trajectories, num_levels=levels, seed=seed))
+    outside = np.array([0.5 / levels if variable.tolerance else 0.0 for variable in variables])
+    points = points_of(variables, outside + shares * (1.0 - 2.0 * outside))
+    return MorrisPlan(tuple(variables), points, shares, levels, seed)
+
+
+def _problem(variables: Sequence[Variable]) -> dict[str, Any]:
+    count = len(variables)
+    return {
+        "num_vars": count,
+        "names": [f"x{index}" for index in range(count)],
+        "bounds": [[0.0, 1.0]] * count,
+    }
+
+
+def _by_variable(found: Any, names: dict[str, str], count: int) -> list[dict[str, float]]:
+    return [{name: float(found[key][index]) for name, key in names.items()} for index in range(count)]
+
+
+def _each_figure(plan: FixedPlan, table: StudyTable, block: int, analyse: Any) -> list[Sensitivity]:
+    planned, results = plan.runs // block, []
+    for figure in table.figures:
+        whole = np.full(plan.runs, np.nan)
+        whole[table.runs] = table.figure(figure.path)
+        kept = np.isfinite(whole.reshape(planned, block)).all(axis=1)
+        runs = np.flatnonzero(np.repeat(kept, block))
+        blocks, influences = int(kept.sum()), ()
+        if blocks >= min(_LEAST_BLOCKS, planned) and np.ptp(whole[runs]) > 0.0:
+            influences = tuple(
+                Influence(figure.path, variable.name, **estimate)
+                for variable, estimate in zip(plan.variables, analyse(whole[runs], runs), strict=True)
+            )
+        results.append(Sensitivity(figure.path, influences, blocks, planned))
+    return results
