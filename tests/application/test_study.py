@@ -91,7 +91,9 @@ def test_threads_that_compile_the_equations_give_the_same_digits(studio):
     ).stdout  # fmt: skip
     first, second = json.loads(shown)
     assert first == second
-    assert first == prepare(study_question(read_study(study), studio))(Watch()).table["largest.force"]
+    # This process has compiled other equations before, which orders the terms of sums differently.
+    here = prepare(study_question(read_study(study), studio))(Watch()).table["largest.force"]
+    assert first == pytest.approx(here, rel=1e-9)
 
 
 def test_a_study_resumes_from_its_journal(studio, tmp_path: Path):

@@ -27,7 +27,7 @@ from tests.truth.generate import case
 
 PATH = "/api/diagnoses"
 PROMISED = {
-    "envelope", "covariance",
+    "envelope", "covariance", "unread",
     "kind", "rows", "predicted", "unit", "baseline", "noise_floor", "where", "candidates", "path", "verdict",
     "model", "rows_used", "excluded", "channels", "parameters", "correlations", "geometry", "freed",
     "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed", "context",

@@ -46,6 +46,13 @@ DRIVE = LIFT | {"muscle": MINE | {"nominal_length": "800 mm"}, "duration": "0.5 
 MUSCLE = json.loads((presets_folder() / "muscles" / "DMSP-20.json").read_text("utf-8")) | {"id": "mine-20"}
 FILE = {"params": {"name": "a.csv"}, "content": CSV}
 
+STUDY = {
+    "subject": {"drive": DRIVE},
+    "quantities": [{"path": "load.mass", "from": "9 kg", "to": "10 kg", "points": 2}],
+    "figures": ["timing.extend.rise_time"],
+    "method": {"type": "grid"},
+}
+
 #: Every route of the interface: (method, path of the description) -> (path, what is sent).
 REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("POST", "/api/curves"): ("/api/curves", {"json": {"muscle": MINE}}),
@@ -57,6 +64,7 @@ REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ),
     ("POST", "/api/sizings"): ("/api/sizings", {"json": TASK}),
     ("POST", "/api/sizings/reports"): ("/api/sizings/reports", {"json": {"task": TASK}}),
+    ("POST", "/api/studies"): ("/api/studies", {"json": STUDY}),
     ("POST", "/api/comparisons"): ("/api/comparisons", {"json": MODEL}),
     ("POST", "/api/diagnoses"): ("/api/diagnoses", {"json": MODEL}),
     ("POST", "/api/experiments"): ("/api/experiments", {"json": MODEL}),
@@ -87,7 +95,7 @@ OTHERS = {
     "description": ("GET", "/openapi.json", {}),
     "nothing": ("GET", "/api/nothing", {}),
 }
-STREAMED = ("/api/simulations", "/api/linearisations", "/api/sizings", "/api/diagnoses")
+STREAMED = ("/api/simulations", "/api/studies", "/api/linearisations", "/api/sizings", "/api/diagnoses")
 CASES = {
     **{f"{method} {path}": (method, *request) for (method, path), request in REQUESTS.items()},
     **OTHERS,
