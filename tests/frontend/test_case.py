@@ -195,6 +195,7 @@ def test_the_model_becomes_a_muscle_whose_curves_show_how_sure_they_are(
     dialog.get_by_role("button", name="Save").click()
     expect(dialog.get_by_role("alert")).to_contain_text("taken by a built-in preset")
     dialog.get_by_label("Id").fill("of-the-case")
+    dialog.get_by_label("Title").fill("Muscle of the case")  # other tests look for DMSP-20
     dialog.get_by_role("button", name="Save").click()
     expect(dialog).to_have_count(0)
     page.get_by_role("button", name="Design", exact=True).click()
