@@ -4090,6 +4090,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };

@@ -16,7 +16,9 @@ _NEGATIVE = 1e-6  # eigenvalue of the correlation matrix below which it is no co
 
 ParameterName = Annotated[
     str,
-    Field(max_length=130, pattern=r"^[a-z][a-z0-9_]*(\.[A-Za-z][A-Za-z0-9_]*)?$", examples=["dahl.force"]),
+    Field(
+        max_length=130, pattern=r"^[a-z][a-z0-9_]*(\.[A-Za-z][A-Za-z0-9_]*)?$", examples=["effect.parameter"]
+    ),
 ]
 Channel = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]{0,63}$")]
 

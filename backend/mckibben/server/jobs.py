@@ -10,10 +10,11 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from mckibben.application import diagnose, linearise, size
+from mckibben.application import diagnose, linearise, size, study
 from mckibben.application.json_text import to_json
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
+from mckibben.documents.study import StudyDocument
 from mckibben.documents.task import SizingTask
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
@@ -27,6 +28,8 @@ from mckibben.server.schemas.reports import ReportRequest
 from mckibben.server.schemas.sizing_reports import SizingReportRequest
 from mckibben.simulation.outcome import TIME_LIMIT, Watch
 
+_MOST_RUNS = 20_000  # of a study by a request: a minute of both cores, and a table that a page can hold
+_STUDY_LIMIT = 900.0  # s
 #: What is left to do when a job is prepared: the bytes of the answer.
 Prepared = Callable[[Watch], bytes]
 
@@ -85,11 +88,17 @@ def _linear_view(body: LinearisationRequest, studio: Studio, _store: Measurement
     return lambda watch: to_json(work(watch))
 
 
+def _study(body: StudyDocument, studio: Studio, _store: MeasurementStore) -> Prepared:
+    work = study.prepare(study.study_question(body, studio, _MOST_RUNS))
+    return lambda watch: to_json(work(watch))
+
+
 #: The kinds of long work.
 JOBS: Mapping[str, Job] = {
     "diagnosis": Job(_diagnosis, diagnose.TIME_LIMIT),
     "linear view": Job(_linear_view),
     "report": Job(_report, diagnose.TIME_LIMIT),
+    "study": Job(_study, _STUDY_LIMIT),
     "sizing": Job(_sizing),
     "sizing report": Job(_sizing_report),
 }

@@ -14,7 +14,7 @@ from contextlib import aclosing
 from typing import Any, ParamSpec, TypeVar
 
 import orjson
-from fastapi import Request
+from fastapi import Request, Response
 from fastapi.concurrency import run_in_threadpool
 from fastapi.sse import EventSourceResponse, format_sse_event
 from starlette.requests import ClientDisconnect
@@ -23,6 +23,7 @@ from mckibben.application.json_text import to_json
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
+from mckibben.server.answer import JsonAnswer
 from mckibben.server.errors import input_error_answer, unexpected_answer
 from mckibben.server.jobs import JOBS
 from mckibben.server.workers import Workers
@@ -115,35 +116,49 @@ async def answered(
     studio: Studio,
     store: MeasurementStore,
     *,
-    streamed: bool = True,
     quick: bool = False,
-) -> bytes | EventSourceResponse:
-    """The answer of a job: its bytes, or a stream of events if the caller requests one.
+) -> Response:
+    """The answer of a job: JSON, or a stream of events if the caller requests one.
 
     Args:
         request: of the caller; the job ends when it has disconnected.
         kind: of `JOBS`.
         body: the validated body.
         studio, store: for a job that runs in the server.
-        streamed: whether the route has events.
         quick: a job that ends so soon that it need not wait for a worker.
 
     Raises:
         InputError: what the job refuses; once a stream has begun, it is its last event.
         BusyError: too many jobs wait.
     """
-    workers: Workers | None = request.app.state.workers
-    if workers is None or quick:
+    if not wants_events(request):
+        return JsonAnswer(await whole(request, kind, body, studio, store, quick=quick))
+    workers = _workers(request, quick=quick)
+    if workers is None:
         job = JOBS[kind]
         work = await prepared(request, job.prepare, body, studio, store)
-        if streamed and wants_events(request):
-            return events(work, time_limit=job.time_limit)
-        return await finished(request, work, lambda found: found, time_limit=job.time_limit)
+        return events(work, time_limit=job.time_limit)
     stream = _worked(workers, kind, body)
-    if streamed and wants_events(request):
-        first = await anext(stream)  # what is refused at once has the status of an error
-        return EventSourceResponse(_whole(first, stream))
-    ending = asyncio.ensure_future(_last(stream))
+    first = await anext(stream)  # what is refused at once has the status of an error
+    return EventSourceResponse(_whole_stream(first, stream))
+
+
+async def whole(
+    request: Request,
+    kind: str,
+    body: object,
+    studio: Studio,
+    store: MeasurementStore,
+    *,
+    quick: bool = False,
+) -> bytes:
+    """The bytes of the answer of a job; arguments and errors as in `answered`."""
+    workers = _workers(request, quick=quick)
+    if workers is None:
+        job = JOBS[kind]
+        work = await prepared(request, job.prepare, body, studio, store)
+        return await finished(request, work, lambda found: found, time_limit=job.time_limit)
+    ending = asyncio.ensure_future(_last(_worked(workers, kind, body)))
     while True:
         done, _ = await asyncio.wait({ending}, timeout=_LOOK_EVERY)
         if done:
@@ -151,6 +166,11 @@ async def answered(
         if await request.is_disconnected():
             ending.cancel()
             raise ClientDisconnect
+
+
+def _workers(request: Request, *, quick: bool) -> Workers | None:
+    """The workers of the server; None for a job that runs in the server itself."""
+    return None if quick else request.app.state.workers
 
 
 async def _worked(workers: Workers, kind: str, body: object) -> AsyncGenerator[tuple[str, bytes]]:
@@ -175,7 +195,9 @@ async def _worked(workers: Workers, kind: str, body: object) -> AsyncGenerator[t
             workers.stop(running)
 
 
-async def _whole(first: tuple[str, bytes], stream: AsyncGenerator[tuple[str, bytes]]) -> AsyncIterator[bytes]:
+async def _whole_stream(
+    first: tuple[str, bytes], stream: AsyncGenerator[tuple[str, bytes]]
+) -> AsyncIterator[bytes]:
     async with aclosing(stream):
         yield _event(*first)
         try:

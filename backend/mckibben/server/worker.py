@@ -97,15 +97,20 @@ def perform(kind: str, body: Any, address: str, key: bytes, number: int) -> byte
     job = JOBS[kind]
     with Client(address, authkey=key) as line:
         line.send(number)
-        stop = threading.Event()
+        stop, speaking = threading.Event(), threading.Lock()
+
+        def say(message: Message) -> None:
+            with speaking:  # a job may have threads
+                line.send(message)
+
         threading.Thread(target=_listen, args=(line, stop), daemon=True).start()
         try:
             work = job.prepare(body, _own.studio, _own.store)
-            line.send(Message("prepared"))
+            say(Message("prepared"))
             watch = Watch(
                 cancelled=stop.is_set,
-                progress=lambda share: line.send(Message("progress", to_json({"share": share}))),
-                found=lambda found: line.send(Message("progress", to_json({"found": found}))),
+                progress=lambda share: say(Message("progress", to_json({"share": share}))),
+                found=lambda found: say(Message("progress", to_json({"found": found}))),
                 time_limit=job.time_limit,
             )
             return work(watch)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request, Response
 
 from mckibben.server import request_examples
-from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import answered
 from mckibben.server.schemas.common import errors
@@ -24,5 +24,4 @@ async def diagnose_model(
     body: DiagnosisRequest, request: Request, studio: StudioDep, store: StoreDep
 ) -> Response:
     """The missing effects with reasons, twins, path and verdict; closing the connection ends the search."""
-    answer = await answered(request, "diagnosis", body, studio, store)
-    return JsonAnswer(answer) if isinstance(answer, bytes) else answer
+    return await answered(request, "diagnosis", body, studio, store)

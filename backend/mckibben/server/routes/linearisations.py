@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request, Response
 
 from mckibben.server import request_examples
-from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import answered
 from mckibben.server.schemas.common import errors
@@ -25,5 +25,4 @@ async def linearise_drive(
     body: LinearisationRequest, request: Request, studio: StudioDep, store: StoreDep
 ) -> Response:
     """Linear models of a drive at an operating point; closing the connection ends sweep and design."""
-    answer = await answered(request, "linear view", body, studio, store, quick=body.design is None)
-    return JsonAnswer(answer) if isinstance(answer, bytes) else answer
+    return await answered(request, "linear view", body, studio, store, quick=body.design is None)

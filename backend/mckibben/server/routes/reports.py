@@ -8,7 +8,7 @@ from fastapi.responses import HTMLResponse
 from mckibben.server import request_examples
 from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
-from mckibben.server.long_work import answered
+from mckibben.server.long_work import whole
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.reports import ReportAnswer, ReportRequest
 
@@ -23,4 +23,4 @@ router = APIRouter(prefix="/api/reports", tags=["reports"], route_class=StrictRo
 )
 async def write_report(body: ReportRequest, request: Request, studio: StudioDep, store: StoreDep) -> Response:
     """The comparison and the diagnosis of a model as one file for archive and print."""
-    return HTMLResponse(await answered(request, "report", body, studio, store, streamed=False))
+    return HTMLResponse(await whole(request, "report", body, studio, store))

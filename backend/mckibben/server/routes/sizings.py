@@ -9,9 +9,9 @@ from fastapi.responses import HTMLResponse
 
 from mckibben.documents.task import SizingTask
 from mckibben.server import request_examples
-from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
-from mckibben.server.long_work import answered
+from mckibben.server.long_work import answered, whole
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.reports import ReportAnswer
 from mckibben.server.schemas.simulations import SimulationEvents
@@ -27,8 +27,7 @@ _RESPONSES: dict[int | str, dict[str, Any]] = {**errors(400, 413, 415, 422, 429)
 )
 async def size_drives(body: SizingTask, request: Request, studio: StudioDep, store: StoreDep) -> Response:
     """Ranked drives for a task, and rejected ones with reasons; closing the connection ends the search."""
-    answer = await answered(request, "sizing", body, studio, store)
-    return JsonAnswer(answer) if isinstance(answer, bytes) else answer
+    return await answered(request, "sizing", body, studio, store)
 
 
 @router.post(
@@ -41,4 +40,4 @@ async def write_sizing_report(
     body: SizingReportRequest, request: Request, studio: StudioDep, store: StoreDep
 ) -> Response:
     """A new search, and one of its drives as a file for archive and print; disconnecting ends the search."""
-    return HTMLResponse(await answered(request, "sizing report", body, studio, store, streamed=False))
+    return HTMLResponse(await whole(request, "sizing report", body, studio, store))

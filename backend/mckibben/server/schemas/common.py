@@ -54,6 +54,21 @@ class SourceText(Strict):
     )
 
 
+def streamed(found: str = "") -> dict[int | str, dict[str, Any]]:
+    """The documented stream of a route.
+
+    Args:
+        found: what a progress event may hold besides, in words; "" = nothing.
+    """
+    more = f', "found": {found}' if found else ""
+    words = (
+        f'With `Accept: text/event-stream`: events `progress` ({{"share": 0 to 1{more}}}; while it waits for '
+        'a worker also "waiting": {"before": jobs before it, "seconds": until it begins}), then `done` '
+        "(the answer) or `error` (the error body)."
+    )
+    return {200: {"content": {"text/event-stream": {"schema": {"type": "string", "description": words}}}}}
+
+
 ERRORS: dict[int | str, dict[str, Any]] = {
     status: {"model": ErrorBody, "description": text}
     for status, text in {

@@ -7,6 +7,7 @@ from typing import Any, Literal
 from pydantic import Field
 
 from mckibben.documents.strict import Series, Strict
+from mckibben.server.schemas.common import streamed
 from mckibben.server.schemas.comparisons import (
     ChannelError,
     Correlation,
@@ -233,7 +234,7 @@ class FittedCovariance(Strict):
     """Covariance of the fitted values that the data determine."""
 
     names: list[str] = Field(
-        description="effect.parameter, or a dimension of the muscle.", examples=[["dahl.force"]]
+        description="effect.parameter, or a dimension of the muscle.", examples=[["effect.parameter"]]
     )
     matrix: list[list[float]] = Field(description="Products of their SI units, one row per name.")
 
@@ -293,16 +294,4 @@ class DiagnosisAnswer(Strict):
     unread: list[UnreadColumn] = Field(description="Columns of the files that nothing is read from, and why.")
 
 
-DiagnosisEvents: dict[int | str, dict[str, Any]] = {
-    200: {
-        "content": {
-            "text/event-stream": {
-                "schema": {
-                    "type": "string",
-                    "description": "With `Accept: text/event-stream`: events `progress` "
-                    '({"share": 0 to 1, "found": a candidate or null}), then `done` (the answer) or `error`.',
-                }
-            }
-        }
-    }
-}
+DiagnosisEvents = streamed("a candidate or null")

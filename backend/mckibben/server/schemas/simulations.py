@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any, Literal
+from typing import Annotated, Literal
 
 from pydantic import Field
 
 from mckibben.documents.drive import LONGEST, DriveOrId
 from mckibben.documents.quantity import QuantityField
 from mckibben.documents.strict import Series, Strict, si_field
-from mckibben.server.schemas.common import Flag, MakerLimits
+from mckibben.server.schemas.common import Flag, MakerLimits, streamed
 from mckibben.server.schemas.curves import ModelAnswer, MuscleGeometry
 from mckibben.simulation.timing.table import FIGURE_UNITS
 
@@ -168,16 +168,4 @@ class SimulationAnswer(Strict):
     duration: float = si_field("s", "Duration of the whole run.")
 
 
-SimulationEvents: dict[int | str, dict[str, Any]] = {
-    200: {
-        "content": {
-            "text/event-stream": {
-                "schema": {
-                    "type": "string",
-                    "description": "With `Accept: text/event-stream`: events `progress` "
-                    '({"share": 0 to 1}), then `done` (the answer) or `error` (the error body).',
-                }
-            }
-        }
-    }
-}
+SimulationEvents = streamed()

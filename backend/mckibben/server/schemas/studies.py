@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any, Literal
+from typing import Literal
 
 from pydantic import Field
 
 from mckibben.documents.strict import Strict
+from mckibben.server.schemas.common import streamed
 
 _IN = "in the unit of the figure"
 
@@ -125,17 +126,6 @@ class StudyAnswer(Strict):
     wall_ms: float = Field(description="Computing time in ms.")
 
 
-StudyEvents: dict[int | str, dict[str, Any]] = {
-    200: {
-        "content": {
-            "text/event-stream": {
-                "schema": {
-                    "type": "string",
-                    "description": "With `Accept: text/event-stream`: events `progress` "
-                    '({"share": 0 to 1, "found": {"table": columns of new runs, "planned": runs of the plan} '
-                    "or absent}; runs come as they end, not in order), then `done` (the answer) or `error`.",
-                }
-            }
-        }
-    }
-}
+StudyEvents = streamed(
+    '{"table": columns of new runs, "planned": runs of the plan} or absent; runs come as they end'
+)

@@ -175,8 +175,9 @@ def simulate(
     tolerance: float = TOLERANCE,
     engine: str = "auto",
     watch: Watch | None = None,
+    start: Start | None = None,
 ) -> Run:
-    """Run a drive from rest.
+    """Run a drive.
 
     Args:
         drive: what to run.
@@ -185,11 +186,12 @@ def simulate(
         tolerance: relative error per step.
         watch: may end the run early.
         engine: see `mckibben.simulation.integrate.engine.integrate`.
+        start: where it begins; None = where it rests.
     """
     compiled = compiled_drive(drive.structure)
     parameters = parameters_of(drive, compiled)
     times, inputs, command = segments_of(drive)
-    start = start_of(drive, compiled, parameters, before_of(drive, inputs))
+    start = start or start_of(drive, compiled, parameters, before_of(drive, inputs))
     grid = np.linspace(0.0, drive.duration, points) if grid is None else grid
     began = time.perf_counter()
     solution = integrate(

@@ -19,9 +19,9 @@ from mckibben.simulation.drive.transient import (
     external_force,
     parameters_of,
     run_of,
-    segments_of,
+    simulate,
 )
-from mckibben.simulation.integrate.engine import compiled_drive, integrate, kernel
+from mckibben.simulation.integrate.engine import compiled_drive, kernel
 from mckibben.simulation.linear.point import OperatingPoint
 from mckibben.simulation.outcome import Watch
 
@@ -62,22 +62,7 @@ def run_from(
         grid: times of the rows.
         tolerance, engine: see `mckibben.simulation.drive.transient.simulate`.
     """
-    compiled = compiled_drive(drive.structure)
-    times, inputs, command = segments_of(drive)
-    start, began = _start(point), time.perf_counter()
-    solution = integrate(
-        compiled,
-        parameters=parameters_of(drive, compiled),
-        start=start.state,
-        switches=start.switches,
-        restitution=drive.restitution,
-        times=times,
-        inputs=inputs,
-        grid=grid,
-        tolerance=tolerance,
-        engine=engine,
-    )
-    return run_of(drive, compiled, grid, start, solution, command, time.perf_counter() - began)
+    return simulate(drive, grid=grid, tolerance=tolerance, engine=engine, start=_start(point))
 
 
 def controlled_from(
