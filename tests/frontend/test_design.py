@@ -340,6 +340,15 @@ def test_save_as_my_preset(page: Page, page_guard: PageGuard) -> None:
     page.get_by_role("button", name="Save", exact=True).click()
     expect(page.locator("#preset")).to_have_value("DMSP-20-mine")
     expect(field(page, "Braid angle")).to_have_value("26")
+    # A second one stands beside the first, and the muscles of the maker stay where they were.
+    page.get_by_role("button", name="Save as my preset…").click()
+    page.get_by_label("Id", exact=True).fill("DMSP-20-second")
+    page.get_by_role("button", name="Save", exact=True).click()
+    expect(page.locator("#preset")).to_have_value("DMSP-20-second")
+    mine = page.locator("#preset optgroup[label='My presets'] option")
+    assert {"DMSP-20-mine", "DMSP-20-second"} <= {option.get_attribute("value") for option in mine.all()}
+    for id in ("DMSP-20", "DMSP-20-mine"):
+        expect(page.locator(f"#preset option[value='{id}']")).to_have_count(1)
 
 
 FIGURES = ["5", "6", "7", "9", "10a", "10b", "11a", "11b", "12a", "12b"]

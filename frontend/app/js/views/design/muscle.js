@@ -131,7 +131,8 @@ function presetSelect() {
     for (const m of muscles.value) {
       const name = [m.maker, m.series].filter((x, i, all) => x && all.indexOf(x) === i).join(" · ") ||
         "Other";
-      groups.set(m.origin === "user" ? "My presets" : name, [...groups.get(name) ?? [], m]);
+      const group = m.origin === "user" ? "My presets" : name;
+      groups.set(group, [...groups.get(group) ?? [], m]);
     }
     const chosen = presetId.value;
     return [
