@@ -92,7 +92,7 @@ def test_nothing_to_start_with(page: Page, page_guard: PageGuard) -> None:
     page.unroute("**/api/**")
     page.locator(".banner").get_by_role("button", name="Try again").click()
     expect(page.locator(".banner")).to_be_hidden()
-    expect(page.locator("#preset option", has_text="DMSP-20")).to_be_attached()
+    expect(page.locator('#preset option[value="DMSP-20"]')).to_be_attached()
 
 
 def test_an_answer_that_is_not_json(page: Page, page_guard: PageGuard) -> None:

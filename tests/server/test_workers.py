@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import asyncio
 import contextlib
 import json
 import os
@@ -22,6 +21,7 @@ import pytest
 from mckibben.server.settings import Settings
 from mckibben.server.workers import BusyError, Ticket, Workers
 from tests.running_server import RunningServer
+from tests.server.conftest import run_async
 
 DIAGNOSIS = {
     "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
@@ -196,7 +196,7 @@ def test_places_go_by_arrival_and_the_queue_has_an_end() -> None:
         third.leave()
         assert (pool.running, pool.waiting) == (0, 0)
 
-    asyncio.run(run())
+    run_async(run())
 
 
 def test_a_free_worker_is_given_at_once() -> None:
@@ -208,4 +208,4 @@ def test_a_free_worker_is_given_at_once() -> None:
             pool.enter()
         return tickets
 
-    assert len(asyncio.run(run())) == 2
+    assert len(run_async(run())) == 2
