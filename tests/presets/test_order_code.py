@@ -7,7 +7,7 @@ import pytest
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
-from mckibben.presets.order_code import OrderCode, order_code
+from mckibben.presets.order_code import OrderCode, begin_of_order_code, order_code
 from mckibben.resources import presets_folder
 
 KNOWN = ["DMSP-5", "DMSP-10", "DMSP-20", "MAS-10", "MAS-20", "hand-made"]
@@ -59,3 +59,15 @@ def test_a_muscle_is_found_by_its_code_with_the_length_of_the_code() -> None:
     with pytest.raises(InputError, match="'25ON'") as refused:
         studio.facts("DMSP-20-25ON")
     assert (refused.value.code, refused.value.field) == ("unknown_preset", "muscle.preset")
+
+
+@pytest.mark.parametrize("preset", ["DMSP-5", "DMSP-40", "MAS-10"])
+def test_what_is_written_on_a_parts_list_is_understood_again(preset: str) -> None:
+    code = begin_of_order_code(preset=preset, length=0.2471)
+    assert code is not None
+    assert order_code(f"{code}-RM-CM", [preset]) == OrderCode(preset, 0.247, ("RM", "CM"))
+
+
+@pytest.mark.parametrize("preset", ["hand-made", "paper", "DMSP-20-mine"])
+def test_other_muscles_have_no_order_code(preset: str) -> None:
+    assert begin_of_order_code(preset=preset, length=0.3) is None

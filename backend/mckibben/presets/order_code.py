@@ -13,6 +13,7 @@ from dataclasses import dataclass
 from mckibben.physics.errors import InputError, did_you_mean
 
 _LENGTH = re.compile(r"(?P<behind>\d+)N|N(?P<before>\d+)", re.IGNORECASE)
+_ORDERED = {"DMSP": "{preset}-{length}N", "MAS": "{preset}-N-{length}"}
 _FURTHER = re.compile(r"[A-Z]{1,6}", re.IGNORECASE)
 _EXAMPLE = "e.g. DMSP-20-300N-RM-CM or MAS-10-N-100-AA-MCFK"
 
@@ -67,3 +68,19 @@ def order_code(text: str, known: Collection[str]) -> OrderCode | None:
         if _FURTHER.fullmatch(part) is None:
             raise InputError(f"'{part}' in the order code {text} is not understood", hint=_EXAMPLE)
     return OrderCode(preset, length * 1e-3, tuple(part.upper() for part in rest[1:]))
+
+
+def begin_of_order_code(*, preset: str, length: float) -> str | None:
+    """What an order of this muscle begins with, "DMSP-20-300N"; membrane and connections follow.
+
+    Args:
+        preset: id of the preset.
+        length: nominal length [m], rounded to whole millimetres.
+
+    Returns:
+        None for a preset that is not of a series with known order codes.
+    """
+    series, _, size = preset.partition("-")
+    if series not in _ORDERED or not size.isdigit():
+        return None
+    return _ORDERED[series].format(preset=preset, length=round(length * 1e3))

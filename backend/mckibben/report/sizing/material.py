@@ -52,6 +52,7 @@ class Part:
         id: of the preset.
         number: how many are needed.
         order: title of the preset, with the length of parts cut to length.
+        code: what its order code begins with; None where the series has none that is known.
         maker: of the part.
         origin: "built-in" or "user" preset.
         figures: those used in the sizing.
@@ -62,6 +63,7 @@ class Part:
     id: str
     number: int
     order: str
+    code: str | None
     maker: str
     origin: str
     figures: Sequence[KnownFigure]

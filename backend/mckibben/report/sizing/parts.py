@@ -25,7 +25,8 @@ def parts_section(material: SizingMaterial, chosen: Chosen) -> Html:
     return html(
         table(columns, rows),
         paragraph(
-            "Titles are those of the presets, not order codes: state connections and lengths with the order.",
+            "An order code goes on with membrane and connections; other titles are those of the presets, "
+            "not order codes: state connections and lengths with the order.",
             note=True,
         ),
         heading("Also needed, not chosen here"),
@@ -40,7 +41,8 @@ def _kind(part: Part) -> str:
 def _order(part: Part) -> Child:
     remark = " (your own preset)" if part.origin == "user" else ""
     maker = "" if not part.maker or part.order.startswith(part.maker) else f", {part.maker}"
-    return f"{part.order}{maker}{remark}"
+    code = f"; order code {part.code}-…" if part.code else ""
+    return f"{part.order}{maker}{remark}{code}"
 
 
 def _sources(part: Part) -> str:

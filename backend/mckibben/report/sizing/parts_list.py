@@ -8,6 +8,7 @@ from mckibben.documents.drive_parts import ENTERING
 from mckibben.documents.studio import Studio
 from mckibben.physics.effect import Effect
 from mckibben.presets import Preset
+from mckibben.presets.order_code import begin_of_order_code
 from mckibben.presets.quantity import Quantity, quantities
 from mckibben.report.sizing.material import KnownFigure, Part
 from mckibben.report.sources import Figure
@@ -32,8 +33,9 @@ def parts_of(design: Design, studio: Studio) -> list[Part]:
     muscle = library.muscle(group.muscle.id)
     valve = library.get("valves", group.valve.id)
     length = f"nominal length {design.length * 1e3:.4g} mm"
+    code = begin_of_order_code(preset=muscle.id, length=design.length)
     parts = [
-        _part("muscle", muscle, group.muscles, f"{muscle.title}, {length}", studio.catalogue),
+        _part("muscle", muscle, group.muscles, f"{muscle.title}, {length}", studio.catalogue, code),
         _part("valve", valve, 2 if group.duty.pair else 1, valve.title, studio.catalogue),
     ]
     tube = group.tube.tube
@@ -44,12 +46,20 @@ def parts_of(design: Design, studio: Studio) -> list[Part]:
     return parts
 
 
-def _part(kind: str, preset: Preset, number: int, order: str, catalogue: Mapping[str, Effect]) -> Part:
+def _part(
+    kind: str,
+    preset: Preset,
+    number: int,
+    order: str,
+    catalogue: Mapping[str, Effect],
+    code: str | None = None,
+) -> Part:
     return Part(
         kind=kind,
         id=preset.id,
         number=number,
         order=order,
+        code=code,
         maker=preset.maker,
         origin=preset.origin,
         figures=[
