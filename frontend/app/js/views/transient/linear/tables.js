@@ -29,7 +29,11 @@ const table = (caption, heads, rows) =>
       "table",
       { class: "data" },
       h("caption", { class: "unseen" }, caption),
-      h("thead", null, h("tr", null, ...heads.map((head) => h("th", { scope: "col" }, head)))),
+      h(
+        "thead",
+        null,
+        h("tr", null, ...heads.map((head) => head ? h("th", { scope: "col" }, head) : h("td", null))),
+      ),
       h(
         "tbody",
         null,

@@ -1,0 +1,33 @@
+"""What axe objects to in a page."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from axe_playwright_python.sync_playwright import Axe
+from playwright.sync_api import Page
+
+from tests.frontend.views import marked
+
+# What passed and what does not apply is not described: for a large page that is 80 % of the work.
+_ALL: dict[str, Any] = {"resultTypes": ["violations"]}
+_COLOURS = {**_ALL, "runOnly": {"type": "rule", "values": ["color-contrast", "link-in-text-block"]}}
+
+
+def violations(page: Page) -> list[str]:
+    """What axe objects to in the page as it stands, and to its colours in the other theme."""
+    theme = page.locator("html").get_attribute("data-theme")
+    found = _objections(page, _ALL, theme)
+    other = "light" if theme == "dark" else "dark"
+    page.emulate_media(color_scheme=other)
+    marked(page, f'[data-theme="{other}"]')
+    found += _objections(page, _COLOURS, other)
+    page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
+    marked(page, f'[data-theme="{theme}"]')
+    return found
+
+
+def _objections(page: Page, options: dict[str, Any], theme: str | None) -> list[str]:
+    """Each rule that is broken, with the first place where it is."""
+    broken = Axe().run(page, options=options).response["violations"]
+    return [f"{rule['id']} ({theme}): {rule['nodes'][0]['html'][:160]}" for rule in broken]
