@@ -208,6 +208,9 @@ class Workers:
             ticket: of the job.
             kind: of `mckibben.server.jobs.JOBS`.
             body: the validated body of the request.
+
+        Raises:
+            InputError: the server ends.
         """
         if self.ending:
             raise _ending()
@@ -220,6 +223,9 @@ class Workers:
             pool, listener = self._ready_pool()
             arguments = [kind, body, listener.address, self._key, running.number]
             running.future = pool.schedule(perform, args=arguments, timeout=JOBS[kind].time_limit + _OVERTIME)
+            running.stopped = running.stopped or self.ending
+            if running.stopped:  # meanwhile; what stopped it met the future that stood here before
+                running.future.cancel()
 
         def ended() -> None:
             self._running.pop(running.number, None)
@@ -227,9 +233,14 @@ class Workers:
             ticket.leave()
 
         try:
-            await asyncio.to_thread(schedule)
+            scheduling = asyncio.ensure_future(asyncio.to_thread(schedule))
+            while not (await asyncio.wait({scheduling}, timeout=_LOOK_EVERY))[0]:
+                if self.ending:  # the first processes take seconds to start: longer than the end may take
+                    raise _ending()
+            await scheduling
         except BaseException:
             self._running.pop(running.number, None)
+            running.stopped = True
             running.future.cancel()
             raise
         running.future.add_done_callback(lambda _: loop.is_closed() or loop.call_soon_threadsafe(ended))
