@@ -6,6 +6,7 @@ what it allows is accepted, does not hold for texts with units, whose grammar no
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable
 from typing import Any
 
@@ -40,7 +41,7 @@ OPERATIONS = [(method, path) for path, methods in PATHS.items() for method in so
 INFALLIBLE = [("get", path) for path in ("/api/health", "/api/effects", "/api/exports", "/api/mysteries")]
 FALLIBLE = [operation for operation in OPERATIONS if operation not in INFALLIBLE]
 MODELS = ["/api/curves", "/api/inverse", "/api/comparisons"]
-EXAMPLES = 50
+EXAMPLES = int(os.environ.get("MCKIBBEN_REQUESTS", "20"))  # of each operation; tests.benchmarks.requests: 500
 HOST = {"host": "127.0.0.1"}
 
 
