@@ -20,7 +20,7 @@ hypothesis.settings.load_profile("mckibben")
 
 
 # The tools first, which need nothing compiled; then where most of the time goes, the longest first: whoever
-# takes one of these last lets the other worker wait.
+# takes one of these last lets the other workers wait.
 FIRST = (
     "test_toolchain.py",
     "frontend/test_transient.py",
@@ -110,8 +110,11 @@ def announce(pytestconfig: pytest.Config) -> Callable[[str], None]:
 
 @pytest.fixture(scope="session")
 def server(compiled_kernels: None, tmp_path_factory: pytest.TempPathFactory) -> Iterator[RunningServer]:
-    """The real server with empty data and preset folders, one for the whole run."""
-    with RunningServer(tmp_path_factory.mktemp("server")) as running:
+    """The real server with empty data and preset folders, one for the whole run.
+
+    One process does its long work: what one test made it compile is there for the next.
+    """
+    with RunningServer(tmp_path_factory.mktemp("server"), arguments=["--workers", "1"]) as running:
         yield running
     assert "Traceback" not in running.output, running.output
 
