@@ -2358,7 +2358,7 @@ export interface components {
       /** The random numbers follow from it: the same seed gives the same runs. */
       seed?: number;
     };
-    /** Characteristics over pressure: position at the load, force at the fixed length. */
+    /** Characteristics over pressure: position at the load, force and diameters at the fixed length. */
     OverPressure: {
       /** Gauge pressure. [Pa] */
       pressure: number[];
@@ -2372,6 +2372,10 @@ export interface components {
       fixed_length: number | null;
       /** Force over pressure; null without a fixed length. */
       force_at_fixed_length: components["schemas"]["ForceAtLength"] | null;
+      /** Braid diameter; null without a fixed length. [m] */
+      diameter_at_fixed_length: (number | null)[] | null;
+      /** Outer diameter of the wall; null without a fixed length. [m] */
+      outer_diameter_at_fixed_length: (number | null)[] | null;
       /** Width of the loop; null without a load. */
       loop?: components["schemas"]["HysteresisLoop"] | null;
     };

@@ -351,7 +351,7 @@ def test_save_as_my_preset(page: Page, page_guard: PageGuard) -> None:
         expect(page.locator(f"#preset option[value='{id}']")).to_have_count(1)
 
 
-FIGURES = ["5", "6", "7", "9", "10a", "10b", "11a", "11b", "12a", "12b"]
+FIGURES = ["5", "6", "7", "9", "10a", "10b", "11a", "11b", "12a", "12b", "13"]
 
 
 def test_the_figures_of_the_paper(page: Page) -> None:

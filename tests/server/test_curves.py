@@ -188,6 +188,23 @@ def test_force_over_pressure_at_a_fixed_length(shared_client: TestClient) -> Non
     assert over["force_at_fixed_length"]["venting"][-1] == pytest.approx(386.3132, abs=1e-4)
 
 
+def test_diameters_over_pressure_at_a_fixed_length(shared_client: TestClient) -> None:
+    held = {"pressures": ["6 bar"], "fixed_length": "98 mm"}
+    rigid = curves(shared_client, PAPER, **held)["over_pressure"]
+    assert rigid["diameter_at_fixed_length"] == pytest.approx([rigid["diameter_at_fixed_length"][0]] * 81)
+    stretched = curves(shared_client, PAPER, **held, effects={"thread_extensibility": {"compliance": 1e-5}})
+    over = stretched["over_pressure"]
+    # D = sqrt(b'^2 - L^2)/(n pi) with b' = b/(1 - q), q = P b L c/(2 pi n^2), by hand.
+    length, thread = 0.098, 0.1 / math.cos(math.radians(25.0))
+    turns = 0.1 * math.tan(math.radians(25.0)) / (math.pi * 0.01)
+    for pressure, diameter in zip(over["pressure"], over["diameter_at_fixed_length"], strict=True):
+        share = pressure * thread * length * 1e-5 / (2.0 * math.pi * turns**2)
+        longer = thread / (1.0 - share)
+        assert diameter == pytest.approx(math.sqrt(longer**2 - length**2) / (turns * math.pi), rel=1e-12)
+    outer = over["outer_diameter_at_fixed_length"]
+    assert outer[0] < outer[-1]
+
+
 def test_friction_separates_filling_from_venting(shared_client: TestClient) -> None:
     effects = {"coulomb_friction": {}}
     over = curves(shared_client, {"preset": "DMSP-20"}, effects=effects, load=300, fixed_length=0.28)[

@@ -33,6 +33,7 @@ from mckibben.simulation.statics.characteristics import (
     OperatingPoint,
     PressureBranch,
     characteristics,
+    diameters_at_length,
     force_at_length,
     held_contractions,
     ideal_contraction,
@@ -111,9 +112,10 @@ class HysteresisLoop:
 
 @dataclass(frozen=True, slots=True)
 class OverPressure:
-    """Position at the load and force at the fixed length over the pressure, for filling and venting.
+    """Position at the load, force and diameters at the fixed length over the pressure.
 
     Attributes:
+        diameter_at_fixed_length, outer_diameter_at_fixed_length: of braid and wall [m]; None without it.
         loop: width of the loop of the two branches; None without a load.
     """
 
@@ -123,6 +125,8 @@ class OverPressure:
     venting: PressureBranch | None
     fixed_length: float | None
     force_at_fixed_length: ForceBranches | None
+    diameter_at_fixed_length: Array | None
+    outer_diameter_at_fixed_length: Array | None
     loop: HysteresisLoop | None
 
 
@@ -318,16 +322,18 @@ def _over_pressure(
         return None
     temperature = question.conditions.temperature
     forces, filling, venting, loop = None, None, None, None
+    diameter, outer_diameter = None, None
     if fixed is not None:
         _check_fixed_length(fixed, model)
         forces = force_at_length(model, grid, fixed, temperature=temperature)
+        diameter, outer_diameter = diameters_at_length(model, grid, fixed, temperature=temperature)
     if load is not None:
         filling, venting = (
             pressure_branch(model, grid, contraction, direction=direction, temperature=temperature)
             for contraction, direction in ((under_load.filling, FILLING), (under_load.venting, VENTING))
         )
         loop = _loop(np.array(question.pressures), grid, under_load, model.muscle.nominal_length)
-    return OverPressure(grid, load, filling, venting, fixed, forces, loop)
+    return OverPressure(grid, load, filling, venting, fixed, forces, diameter, outer_diameter, loop)
 
 
 def _loop(

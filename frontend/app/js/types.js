@@ -27,7 +27,7 @@
 /** @typedef {"braid" | "thread" | "rhombus"} Form */
 /** @typedef {{preset: string | null, form: Form, values: Record<string, number>}} Muscle */
 /** @typedef {"contraction" | "length" | "braid_angle"} Across */
-/** @typedef {"contraction" | "length" | "diameter" | "outer_diameter" | "force"} Over */
+/** @typedef {"contraction" | "length" | "diameter" | "outer_diameter" | "outer_diameter_at_fixed_length" | "force"} Over */
 /** The Design view's part of the document; SI throughout.
  * @typedef {{muscle: Muscle, effects: Record<string, Record<string, number>> | null, pressures: number[],
  *   load: number, direction: -1 | 0 | 1, temperature: number, dead_volume: number,

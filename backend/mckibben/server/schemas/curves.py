@@ -131,7 +131,7 @@ class HysteresisLoop(Strict):
 
 
 class OverPressure(Strict):
-    """Characteristics over pressure: position at the load, force at the fixed length."""
+    """Characteristics over pressure: position at the load, force and diameters at the fixed length."""
 
     pressure: list[float] = si_field("Pa", "Gauge pressure.")
     load: float | None = si_field("N", "The load.")
@@ -140,6 +140,10 @@ class OverPressure(Strict):
     fixed_length: float | None = si_field("m", "The fixed length.")
     force_at_fixed_length: ForceAtLength | None = Field(
         description="Force over pressure; null without a fixed length."
+    )
+    diameter_at_fixed_length: Series | None = si_field("m", "Braid diameter; null without a fixed length.")
+    outer_diameter_at_fixed_length: Series | None = si_field(
+        "m", "Outer diameter of the wall; null without a fixed length."
     )
     loop: HysteresisLoop | None = Field(None, description="Width of the loop; null without a load.")
 

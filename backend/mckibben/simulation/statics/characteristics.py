@@ -264,6 +264,20 @@ def force_at_length(model: StaticModel, grid: Array, length: float, *, temperatu
     return ForceBranches(both[: len(grid)], both[len(grid) :])
 
 
+def diameters_at_length(
+    model: StaticModel, grid: Array, length: float, *, temperature: float
+) -> tuple[Array, Array]:
+    """Braid diameter and outer diameter [m] at a fixed length [m] over a grid of gauge pressures [Pa].
+
+    Constant as long as no effect stretches the threads or changes the wall: whatever changes is that effect.
+    """
+    there = model.outputs(length=length, pressure=grid, temperature=temperature)
+    diameter, outer = (
+        np.broadcast_to(there[name], np.shape(grid)).copy() for name in ("diameter", "outer_diameter")
+    )
+    return diameter, outer
+
+
 def ideal_contraction(model: StaticModel) -> float:
     """Contraction at which the ideal force is zero."""
     return float(ideal.max_contraction(braid_angle=model.muscle.braid_angle))

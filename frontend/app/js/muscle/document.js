@@ -2,6 +2,7 @@
 // The design: muscle, effects and operating conditions. Every view about the muscle shares this part of the
 // document.
 import { BAR } from "../format.js";
+import { OVER } from "./curve-axes.js";
 import { computed } from "../reactive.js";
 import { addPart, doc, edit, look } from "../state.js";
 
@@ -50,7 +51,7 @@ const DESIGN_CHECKS = {
   range: (x) => x === null || (Array.isArray(x) && x.length === 2 && x.every(isNumber)),
   clipped: (x) => typeof x === "boolean",
   across: (x) => ["contraction", "length", "braid_angle"].includes(String(x)),
-  over: (x) => ["contraction", "length", "diameter", "outer_diameter", "force"].includes(String(x)),
+  over: (x) => Object.keys(OVER).includes(String(x)),
   reference: (x) => x === null || typeof x === "string",
 };
 

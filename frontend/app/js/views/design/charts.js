@@ -14,7 +14,7 @@ import { menuButton } from "../../ui/menu.js";
 import { curves, fault, faultField, reference, retry } from "./model.js";
 import { faultNotice, goToField } from "../../ui/fault.js";
 import { forgetRanges } from "../../plots/axes.js";
-import { ACROSS, OVER, pressureName, shareOf } from "../../muscle/curve-axes.js";
+import { ACROSS, atFixedLength, OVER, pressureName, shareOf } from "../../muscle/curve-axes.js";
 import { cursor, readout } from "./readout.js";
 
 /** @typedef {import("../../muscle/curve-axes.js").View} View */
@@ -131,7 +131,7 @@ function stateNote() {
 function overHint() {
   const d = design.value;
   const system = units.value;
-  if (d.over !== "force") return `at a load of ${withUnit(d.load, "force", system)}`;
+  if (!atFixedLength(d.over)) return `at a load of ${withUnit(d.load, "force", system)}`;
   if (d.fixed_length != null) return `at ${withUnit(d.fixed_length, "length", system)}`;
   return h("button", {
     type: "button",
@@ -211,7 +211,7 @@ export function chartColumn() {
     Object.entries(ACROSS).map(([key, { title }]) => [key, `over ${title.toLowerCase()}`])
   );
   const overOptions = /** @type {[import("../../types.js").Over, string][]} */ (
-    Object.entries(OVER).map(([key, { title }]) => [key, key === "force" ? "Force at fixed length" : title])
+    Object.entries(OVER).map(([key, { title }]) => [key, title])
   );
   const column = h(
     "div",

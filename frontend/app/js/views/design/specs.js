@@ -2,7 +2,7 @@
 // What the plots of stiffness, volume and pressure show: from the server's answer to lines, points and shaded
 // zones in the user's units. Pure functions.
 import { scaleOf, toShown } from "../../format.js";
-import { OVER, xAxis, xColumn } from "../../muscle/curve-axes.js";
+import { atFixedLength, OVER, xAxis, xColumn } from "../../muscle/curve-axes.js";
 import { curveFamily, limitZones } from "../../muscle/force-plot.js";
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../../plots/axes.js";
 
@@ -71,15 +71,17 @@ export function overPressureSpec(v, p) {
   const { curves, over, system } = v;
   const { title, quantity } = OVER[over];
   const o = curves.over_pressure;
-  const atFixedLength = o?.force_at_fixed_length;
-  const branch = (/** @type {"filling" | "venting"} */ way) =>
-    over === "force" ? atFixedLength?.[way] ?? [] : o?.[way]?.[over] ?? [];
+  const branch = (/** @type {"filling" | "venting"} */ way) => {
+    if (over === "force") return o?.force_at_fixed_length?.[way] ?? [];
+    if (over === "outer_diameter_at_fixed_length") return o?.[over] ?? []; // the same both ways
+    return o?.[way]?.[over] ?? [];
+  };
   const x = shown(o?.pressure ?? [], "pressure", system);
   const filling = shown(branch("filling"), quantity, system),
     venting = shown(branch("venting"), quantity, system);
-  const dots = over === "force" || over === "outer_diameter" ? [] : curves.operating_points;
+  const dots = atFixedLength(over) || over === "outer_diameter" ? [] : curves.operating_points;
   const y = shown(
-    dots.map((d) => over === "force" || over === "outer_diameter" ? null : d[over]),
+    dots.map((d) => atFixedLength(over) || over === "outer_diameter" ? null : d[over]),
     quantity,
     system,
   );
