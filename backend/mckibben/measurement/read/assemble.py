@@ -20,6 +20,7 @@ from mckibben.measurement.read.constants import notes_with_constants, with_const
 from mckibben.measurement.read.contradictions import condition_questions, numbers_in_words
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
+from mckibben.measurement.read.hangers import add_hanger
 from mckibben.measurement.read.head_text import channel_number
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
 from mckibben.measurement.read.held_by_text import hold_pressure
@@ -155,6 +156,10 @@ def assemble(
     slack = _oldest_first(columns, by_use, slack, source, messages)
     hold_pressure(columns, by_use, name, source, conditions, messages)
     tare = subtract_tare(columns, by_use, [*source.rest, *notes_of_tares(source.notes)], conditions, messages)
+    tare += add_hanger(
+        columns, by_use, source.rest, conditions, messages,
+        answered="force_zero" in conditions or "load_mass" in correction.conditions,
+    )  # fmt: skip
     skipped = dict(reading.table.skipped)
     for reason, left_out in skipped.items():
         messages.append(f"{left_out.rows} rows left out: {reason} (first: {left_out.first})")

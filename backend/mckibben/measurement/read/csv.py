@@ -34,6 +34,7 @@ _PIECE = 1_000_000  # bytes
 _HEADER_WITHIN = 10_000  # lines
 _FOOTER_LINES = 100
 _LONGEST_COMMENT = 2000  # characters
+_SHORT_TABLE = 3_000_000  # characters
 _LONGEST_LINE = 10_000  # characters
 #: Double precision as Fortran writes it: "0.300D+03".
 _FORTRAN = re.compile(r"(?<![\w.])([+-]?\d*\.\d+)D([+-]\d{2,3})(?!\w)")
@@ -73,6 +74,9 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
     if is_json(text) and (found := open_json(text, name, correction)) is not None:
         found.messages[:0] = messages
         return found
+    if text[:1000].lstrip()[:1] == "<" and (found := _of_marked_up(text, name, correction)) is not None:
+        found.messages[:0] = messages
+        return found
     refusal: InputError | None = None
     plain: RawTable | None = None
     try:
@@ -90,6 +94,13 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
     if plain is None:
         raise refusal or InputError(f"{name}: no table", field="file", hint=HEADER_EXAMPLE)
     return plain
+
+
+def _of_marked_up(text: str, name: str, correction: Correction) -> RawTable | None:
+    """The table of a text in XML; None = it is none."""
+    from mckibben.measurement.read.xml_file import is_xml, open_xml
+
+    return open_xml(text, name, correction) if is_xml(text) else None
 
 
 def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
@@ -119,6 +130,7 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         and len(pressures) < 2
         and "\n#" not in body  # titles of blocks
         and not _has_thousands(body, separator)
+        and not _has_remarks(body, sample, separator)
     )
 
     def read(numeric: Sequence[int], words: Sequence[int], skip: bool) -> CellTable:
@@ -162,6 +174,13 @@ def _with_texts(notes: list[Note], texts: Sequence[tuple[str, str]], name: str) 
     """The conditions of a file, and those that the sentences of its comments and its name say."""
     known = {note.key for note in notes}
     return notes + [note for note in statements(texts, name) if note.key not in known]
+
+
+def _has_remarks(body: str, sample: Sequence[Sequence[str]], separator: str) -> bool:
+    """Whether a few lines of a short table hold words and empty cells: events between the readings."""
+    if len(body) > _SHORT_TABLE or any(kind_of(cell) == TEXT for cell in (sample[0] if sample else ())):
+        return False
+    return re.search(rf"(?m)^.*[^\W\d_]{{4,}}.*{separator}\s*(?:{separator}\s*)*$", body) is not None
 
 
 def _has_thousands(body: str, separator: str) -> bool:

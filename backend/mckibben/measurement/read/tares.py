@@ -81,7 +81,7 @@ def _of_sentence(sentence: str, where: str) -> Tare | None:
     }
     if len(values) != 1:
         return None
-    return Tare(values.pop(), _contained(words, folded(sentence)), sentence, where)
+    return Tare(values.pop(), is_contained(words, folded(sentence)), sentence, where)
 
 
 def _is_beside(sentence: str, found: re.Match[str]) -> bool:
@@ -105,7 +105,7 @@ def _force(found: re.Match[str]) -> float | None:
     return float(convert([float(found[1].replace(",", "."))], WEIGHTS.get(unit.unit, unit.unit), "N")[0])
 
 
-def _contained(words: list[str], plain: str) -> bool | None:
+def is_contained(words: list[str], plain: str) -> bool | None:
     """Whether the readings contain the tare; None where the words do not say it, or say both."""
     negated = _has(words, _NOT) or any(phrase in plain for phrase in words_of_tares.NOT_YET)
     if _has(words, _DONE) and any(phrase in plain for phrase in words_of_tares.MUST):
