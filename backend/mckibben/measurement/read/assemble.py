@@ -23,7 +23,7 @@ from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.hangers import add_hanger
 from mckibben.measurement.read.head_text import channel_number
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
-from mckibben.measurement.read.held_by_text import hold_pressure
+from mckibben.measurement.read.held_by_text import hold_pressure, hold_stroke
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.signs import FORCE_SIGN, STROKE_SIGN
@@ -155,6 +155,7 @@ def assemble(
     columns, by_use, slack = read_channels(used, reading)
     slack = _oldest_first(columns, by_use, slack, source, messages)
     hold_pressure(columns, by_use, name, source, conditions, messages)
+    hold_stroke(columns, by_use, source, name, conditions, messages)
     tare = subtract_tare(columns, by_use, [*source.rest, *notes_of_tares(source.notes)], conditions, messages)
     tare += add_hanger(
         columns, by_use, source.rest, conditions, messages,

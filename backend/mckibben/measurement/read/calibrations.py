@@ -71,7 +71,7 @@ def calibration_of(header: str, unit: str | None, heads: Sequence[tuple[str, str
     raw = dimension_of(head.unit) if head.unit else ""
     share = head.unit == FULL_SCALE or is_raw_share(head.name, head.unit) or _is_stroke_share(head)
     if head.unit is not None and raw not in RAW_DIMENSIONS and not share:
-        return None
+        return _of_position(head.name, head.unit, texts) if raw == "a length" else None
     found = [
         *_by_formula(head.name, head.unit, heads, texts),
         *(_by_scale(head.name, head.unit, heads, texts) if head.unit else ()),
@@ -82,6 +82,23 @@ def calibration_of(header: str, unit: str | None, heads: Sequence[tuple[str, str
         found = [*_of_head(header, head.name), *_by_range(head.name, texts)]
     distinct = [s for i, s in enumerate(found) if not any(_equal(s, other) for other in found[:i])]
     return distinct[0] if len(distinct) == 1 else None
+
+
+def _of_position(name: str, unit: str, texts: Texts) -> Scale | None:
+    """The formula by which a stroke follows from a position: ``muscle length = crosshead + 214.6 mm``."""
+    if recognise(name, unit).channel == "length":
+        return None
+    found = [
+        Scale(formula.factor, formula.offset, unit, unit, formula.name, f"'{formula.text}'", where)
+        for text, where in texts
+        for formula in formulas_in(text)
+        if _plain(formula.symbol) == _plain(name)
+        and _plain(formula.name) != _plain(name)
+        and formula.unit == unit
+        and recognise(formula.name, unit).channel in ("length", "displacement")
+        and abs(formula.factor) == 1.0
+    ]
+    return found[0] if found and all(_equal(found[0], other) for other in found) else None
 
 
 def _is_stroke_share(head: object) -> bool:
@@ -241,8 +258,10 @@ def _equal(one: Scale, other: Scale) -> bool:
         if dimension_of(_bare(one.unit)) != dimension_of(_bare(other.unit)):
             return False
         times = factor(_bare(other.unit), _bare(one.unit))
-        other = other._replace(factor=other.factor * times.multiplier / times.divisor)
-    return abs(one.factor - other.factor) <= _SAME * abs(one.factor)
+        per = times.multiplier / times.divisor
+        other = other._replace(factor=other.factor * per, offset=other.offset * per)
+    near = abs(one.offset - other.offset) <= _SAME * (abs(one.offset) + abs(one.factor))
+    return near and abs(one.factor - other.factor) <= _SAME * abs(one.factor)
 
 
 def _si(value: float, unit: str) -> float:

@@ -20,6 +20,7 @@ from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
 from mckibben.measurement.read.held import held_pressure
 from mckibben.measurement.read.json_file import is_json, open_json
 from mckibben.measurement.read.lines import located_text
+from mckibben.measurement.read.other_texts import other_text
 from mckibben.measurement.read.raw import RawRows, shown_rows
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
@@ -74,7 +75,8 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
     if is_json(text) and (found := open_json(text, name, correction)) is not None:
         found.messages[:0] = messages
         return found
-    if text[:1000].lstrip()[:1] == "<" and (found := _of_marked_up(text, name, correction)) is not None:
+    text, found = other_text(text, name, correction)
+    if found is not None:
         found.messages[:0] = messages
         return found
     refusal: InputError | None = None
@@ -94,13 +96,6 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
     if plain is None:
         raise refusal or InputError(f"{name}: no table", field="file", hint=HEADER_EXAMPLE)
     return plain
-
-
-def _of_marked_up(text: str, name: str, correction: Correction) -> RawTable | None:
-    """The table of a text in XML; None = it is none."""
-    from mckibben.measurement.read.xml_file import is_xml, open_xml
-
-    return open_xml(text, name, correction) if is_xml(text) else None
 
 
 def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:

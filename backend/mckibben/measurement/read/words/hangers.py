@@ -7,7 +7,7 @@ HANGER = (
     "hanger hangers holder carrier pan hook tray cradle basket clamp platform bucket rod carriage fixture adapter "
     "eyebolt shackle plate gehange haken aufhangung halter teller schale gewichtshalter gewichtsteller stange "
     "gestange schlitten plateau crochet supporto support piattello gancio portapesos portapesas plato gancho "
-    "bandeja prato suporte szalka wieszak hak misa zaves haak schaal hallare krok vågskål ripustin koukku "
+    "bandeja prato suporte szalka wieszak hak misa zaves haak schaal hallare krok vagskal ripustin koukku "
     "kanca aski подвес крюк чаша フック 皿 吊り 挂钩 托盘 걸이"
 )
 #: It comes on top of the weights.
