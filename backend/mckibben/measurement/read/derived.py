@@ -136,7 +136,7 @@ def _counted(
             counted = time_of_count(head.name, texts, by_one=by_one) if rising else None
         if counted is not None:
             columns[index] = _Derived(column.place, counted.factor, from_first=True)
-            headers[index], units[index] = f"time: {header}", "s"
+            headers[index], units[index] = f"{header} (time)", "s"
             said.append(
                 f"{source.noun} '{header}' is read as time, {counted.text} ({counted.where}); it counts from "
                 "the first row"

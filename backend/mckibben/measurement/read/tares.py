@@ -23,6 +23,8 @@ _QUANTITY = re.compile(rf"(?<![\w.,])({_NUMBER})\s*([^\W\d_]+)(?![\w.,]*\d)")
 _UNIT_FIRST = re.compile(rf"\s*[\[(]\s*([^\W\d_]+)\s*[\])]\s*[:=]?\s*({_NUMBER})")
 _SENTENCES = re.compile(r"[;|]|[.!](?=\s|$)")
 _OTHERS = frozenset(("pressure", "length", "displacement", "contraction", "time", "temperature"))
+#: A tare without unit is the only number of its sentence, at the end.
+_BARE = re.compile(rf"^[^0-9]*[:=\s]\s*({_NUMBER})\s*$")
 _NEAR = 40  # characters
 _LARGE = 0.5  # of the largest reading; a tare is no measurement
 
@@ -32,12 +34,16 @@ _TO_DO, _INCLUDED = word_set(words_of_tares.TO_DO), word_set(words_of_tares.INCL
 
 
 class Tare(NamedTuple):
-    """The reading without pull [N] in a text, and whether the readings contain it (None: not said)."""
+    """The reading without pull [N] in a text, and whether the readings contain it (None: not said).
+
+    ``bare``: the text gives no unit; the value is the number as it stands.
+    """
 
     value: float
     contained: bool | None
     text: str
     where: str
+    bare: bool = False
 
 
 def tares_in(texts: Iterable[tuple[str, str]]) -> list[Tare]:
@@ -65,7 +71,7 @@ def notes_of_tares(notes: Iterable[Note]) -> list[tuple[str, str]]:
             continue
         unit = taken_apart(note.key).unit or note.key.rpartition("_")[2]
         bare = isinstance(note.value, float) or re.fullmatch(_NUMBER, str(note.value).strip()) is not None
-        found.append((f"{note.key}: {note.value}{f' {unit}' if bare else ''}", note.where))
+        found.append((f"{note.key}: {note.value}{f' {unit}' if bare and unit_of(unit) else ''}", note.where))
     return found
 
 
@@ -79,6 +85,8 @@ def _of_sentence(sentence: str, where: str) -> Tare | None:
         for match in _QUANTITY.finditer(sentence)
         if _is_beside(sentence, match) and (value := _force(match)) is not None
     }
+    if not values and (bare := _BARE.search(sentence)) and not {*map(channel_of_word, words)} & _OTHERS:
+        return Tare(float(bare[1].replace(",", ".")), None, sentence, where, bare=True)
     if len(values) != 1:
         return None
     return Tare(values.pop(), is_contained(words, folded(sentence)), sentence, where)
@@ -148,7 +156,7 @@ def subtract_tare(
         messages.append(f"the tare of {place} is left to the zero of the force that is stated beside it")
         return []
     # Of a column that counts a pull as negative it is open which sign the tare has.
-    sure = len(stated) == 1 and column.sign > 0 and first.value < _LARGE * float(np.max(np.abs(force)))
+    sure = len(stated) == 1 and not first.bare and column.sign > 0 and first.value < _LARGE * float(np.max(np.abs(force)))
     if sure and first.contained is False:
         messages.append(f"{place}: the force is read as without the tare")
         return []
@@ -159,8 +167,9 @@ def subtract_tare(
     return [
         Question(
             "zero of force",
-            f"the file states a tare of the force, {place}, and not clearly whether the readings of column "
-            f"'{column.header}' contain it; what do they show without pull",
+            f"the file states a tare of the force, {place}, {'without a unit, ' if first.bare else ''}and not "
+            f"clearly whether the readings of column '{column.header}' contain it; what do they show without "
+            "pull",
             f'--experiment "force_zero={first.value:.4g} N", or --experiment "force_zero=0 N" where it is '
             "subtracted already",
             column.header,
