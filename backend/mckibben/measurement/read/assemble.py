@@ -150,7 +150,7 @@ def assemble(
     messages += said
     ignored = [*meaning.ignored, *(c.header for c in meaning.columns if c not in used)]
     reading = ChannelReading(
-        source.place, source.noun, table, conditions, messages, ignored, skip, source.clocks
+        source.place, source.noun, table, conditions, messages, ignored, skip, source.clocks, source.rest
     )
     columns, by_use, slack = read_channels(used, reading)
     slack = _oldest_first(columns, by_use, slack, source, messages)

@@ -7,6 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from mckibben.measurement.read.formulas import formulas_in
 from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.positions import is_position, position_scale
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.scales import Scale, scale_in
 from mckibben.measurement.read.unit_words import (
@@ -98,7 +99,11 @@ def _of_position(name: str, unit: str, texts: Texts) -> Scale | None:
         and recognise(formula.name, unit).channel in ("length", "displacement")
         and abs(formula.factor) == 1.0
     ]
-    return found[0] if found and all(_equal(found[0], other) for other in found) else None
+    if not found:
+        known = recognise(name, unit)
+        open_one = known.channel is None and not known.why.startswith("it is")
+        return position_scale(name, unit, texts) if open_one or is_position(name) else None
+    return found[0] if all(_equal(found[0], other) for other in found) else None
 
 
 def _is_stroke_share(head: object) -> bool:

@@ -17,6 +17,7 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.conditions import CONDITION_UNITS, Note, key_of
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.matrix_maps import maps_apart
+from mckibben.measurement.read.packed import packed_values
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import HeaderColumn
 from mckibben.measurement.read.stated import in_known_words
@@ -342,7 +343,7 @@ def _signals(value: Any) -> dict[str, Any] | None:
             head = f"{head} ({marks.pop()})" if len(marks) == 1 else head
         while head in found:
             head += "'"
-        found[head] = vectors[0]
+        found[head] = packed_values(vectors[0], struct)
     return found
 
 
