@@ -36,7 +36,9 @@ def open_archive(data: bytes, name: str, correction: Correction | None = None) -
     """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
-            parts = [part for part in archive.infolist() if not part.is_dir() and "__MACOSX" not in part.filename]
+            parts = [
+                part for part in archive.infolist() if not part.is_dir() and "__MACOSX" not in part.filename
+            ]
             names = {part.filename for part in parts}
             if "xl/workbook.xml" in names or any(one.startswith("xl/") for one in names):
                 return None
@@ -62,13 +64,15 @@ def _refused(name: str, why: str, hint: str) -> InputError:
 def _check(parts: list[zipfile.ZipInfo], name: str, size: int) -> None:
     """Refuse an archive that unpacks to more than is read, or is protected."""
     if len(parts) > _MOST_PARTS:
-        raise _refused(name, f"the archive has {len(parts)} parts, at most {_MOST_PARTS} are read", "split it")
+        raise _refused(
+            name, f"the archive has {len(parts)} parts, at most {_MOST_PARTS} are read", "split it"
+        )
     Allowance(name, size).take(sum(part.file_size for part in parts), "all parts of the archive")
     for part in parts:
         if part.flag_bits & 1:
             raise _refused(name, "the archive is protected by a password", "pack it without")
         if part.file_size > max(_RATIO_FROM, _MAX_RATIO * part.compress_size):
-            why = f"its part '{part.filename[:80]}' is packed beyond measure; at most {_MAX_RATIO} times are read"
+            why = f"its part '{part.filename[:80]}' is packed beyond measure, more than {_MAX_RATIO} times"
             raise _refused(name, why, "send the file itself")
 
 
@@ -123,7 +127,9 @@ def _of_arrays(
         if array.dtype.names:
             values |= {field: array[field] for field in array.dtype.names}
         elif array.dtype.kind in "US":
-            values[key] = str(array.reshape(-1)[0]) if array.size == 1 else [str(v) for v in array.reshape(-1)]
+            values[key] = (
+                str(array.reshape(-1)[0]) if array.size == 1 else [str(v) for v in array.reshape(-1)]
+            )
         elif array.dtype.kind in "biuf":
             values[key] = array
     if not values:

@@ -1,4 +1,4 @@
-"""Which calibration a text states for a column of a raw signal: a scale, a formula, a range, a sensitivity."""
+"""The calibration that texts state for a column of a signal: a scale, a formula, a range, a sensitivity."""
 
 from __future__ import annotations
 

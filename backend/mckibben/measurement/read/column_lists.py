@@ -66,7 +66,9 @@ def listed_columns(grid: Grid, until: int, width: int) -> ColumnList | None:
     return plain if plain is not None and _name_channels(plain.names) else None
 
 
-_SENTENCE = re.compile(rf"(?i)(?<!\w){_WORD}(?:\s+[^\W\d]+){{0,3}}?\s*(?:[:=]|\bare\b|\bis\b|\bsind\b|\bsont\b|\bson\b|\bsono\b|\bcontain\b|\bhold\b|\benthalten\b)\s*:?\s*(.+)")
+_SENTENCE = re.compile(
+    rf"(?i)(?<!\w){_WORD}(?:\s+[^\W\d]+){{0,3}}?\s*(?:[:=]|\bare\b|\bis\b|\bsind\b|\bsont\b|\bson\b|\bsono\b|\bcontain\b|\bhold\b|\benthalten\b)\s*:?\s*(.+)"
+)
 _PARTS = re.compile(r"\s*[,;]\s*(?:and|und|et|e|y|dann|then)?\s+|\s+(?:and|und|et)\s+")
 _IN = re.compile(r"(?:the\s+)?(.+?)\s+(?:in|en|em|im|w|v)\s+(\S+?)(?:\s+(.+))?")
 

@@ -68,8 +68,8 @@ def with_described_rows(document: Any) -> Any:
 
 
 def _with_described_names(document: Any, lists: Sequence[list[Any]], channels: list[Any]) -> Any:
-    """The document with its records under the heads of the channels whose names they use; None = they do not."""
-    heads = {_named(channel, _NAMES): _head(channel) for channel in channels}
+    """The document with its records under the heads of the channels they name; None = they name none."""
+    heads: dict[str, str] = {_named(channel, _NAMES): _head(channel) for channel in channels}
     tables = [
         rows
         for rows in lists
@@ -79,7 +79,7 @@ def _with_described_names(document: Any, lists: Sequence[list[Any]], channels: l
     if len(tables) != 1 or len(set(heads.values())) != len(channels):
         return None
     (rows,) = tables
-    records = [{heads.get(key, key): cell for key, cell in row.items()} for row in rows]
+    records: list[dict[str, Any]] = [{heads.get(key, key): cell for key, cell in row.items()} for row in rows]
     joined = _replaced(document, rows, records, channels)
     signs = {f"sign {number}": text for number, c in enumerate(channels) if (text := _sign(c))}
     return {**joined, **signs} if isinstance(joined, dict) else None

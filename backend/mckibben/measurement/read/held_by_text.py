@@ -81,8 +81,8 @@ def hold_stroke(
         found = {key: one for key, one in found.items() if key[0] == "length"} or found
     if not found and str(conditions.get(KIND_SAID, conditions.get("kind", ""))) == "isometric":
         raise InputError(
-            f"{name}: the file says that the test is isometric, and neither a column nor a text says at which "
-            "length the muscle was held",
+            f"{name}: the file says that the test is isometric, and neither a column nor a text says at "
+            "which length the muscle was held",
             field="length", hint="write it as a column, 'length_mm', or as a line, '# clamped at L = 285 mm'",
         )  # fmt: skip
     if len(found) > 1:
@@ -116,7 +116,8 @@ def _held_strokes(text: str) -> list[HeldQuantity]:
 
 _LIMITS = REMARK_WORDS["loadless"]
 _HELD_WORDS = REMARK_WORDS["constant"] | word_set(
-    "clamped clamp held locked blocked fixed at eingespannt festgehalten fixiert fest bei bloque fixe fixee bloquee "
+    "clamped clamp held locked blocked fixed at eingespannt "
+    "festgehalten fixiert fest bei bloque fixe fixee bloquee "
     "a fija fijo sujeto bloccato bloccata fissa fissato fixado fixo preso zablokowany zamocowany upnuty "
     "ingeklemd vastgezet fastspand last fast kiinni sabit закреплен зажат 固定 fixed-length"
 )

@@ -4,7 +4,27 @@ from __future__ import annotations
 
 from html.parser import HTMLParser
 
-_LINES = frozenset(("p", "br", "div", "li", "h1", "h2", "h3", "h4", "h5", "h6", "tr", "table", "caption", "title", "dt", "dd", "pre"))
+_LINES = frozenset(
+    (
+        "p",
+        "br",
+        "div",
+        "li",
+        "h1",
+        "h2",
+        "h3",
+        "h4",
+        "h5",
+        "h6",
+        "tr",
+        "table",
+        "caption",
+        "title",
+        "dt",
+        "dd",
+        "pre",
+    )
+)
 _SILENT = frozenset(("script", "style", "svg", "template"))
 _MOST_SPANNED = 60  # columns
 

@@ -189,7 +189,12 @@ def _head_of_key(key: str, texts: Sequence[str], unit: str | None) -> str:
     ``x=shortening`` in another line says what it is.
     """
     said = next(
-        (f[1] for text in texts if (f := re.search(rf"(?<![\w]){re.escape(key)}\s*[=:]\s*([^\W\d][^\s,;]*)", text))), ""
+        (
+            f[1]
+            for text in texts
+            if (f := re.search(rf"(?<![\w]){re.escape(key)}\s*[=:]\s*([^\W\d][^\s,;]*)", text))
+        ),
+        "",
     )
     if unit is not None:
         return f"{key} {said} [{unit}]" if said else f"{key} [{unit}]"

@@ -18,7 +18,9 @@ from mckibben.measurement.read.yaml_file import YamlError, document_of_yaml
 from mckibben.physics.errors import InputError
 
 _LONGEST = 30_000_000  # characters
-_SCRIPTS = re.compile(r"(?m)^[ \t]*[A-Za-z_][^\n=<:]{0,60}(?:=|<-|:=)[ \t]*[A-Za-z_.]*[ \t]*[\[({]\s*[-+.0-9]")
+_SCRIPTS = re.compile(
+    r"(?m)^[ \t]*[A-Za-z_][^\n=<:]{0,60}(?:=|<-|:=)[ \t]*[A-Za-z_.]*[ \t]*[\[({]\s*[-+.0-9]"
+)
 
 
 def other_text(text: str, name: str, correction: Correction) -> tuple[str, RawTable | None]:

@@ -1,4 +1,4 @@
-"""Numbers that are kept packed: the value is a factor times the number, plus an offset that stand beside it."""
+"""Packed numbers: the value is a factor times the number plus an offset, both of which stand beside it."""
 
 from __future__ import annotations
 
@@ -11,7 +11,10 @@ from numpy.typing import NDArray
 #: Pairs of names (factor, offset); the first is that of the netCDF conventions, whose numbers are any.
 _NAMES = (
     (("scale_factor",), ("add_offset",)),
-    (("scale", "gain", "slope", "factor", "scaling", "multiplier", "resolution", "lsb"), ("offset", "intercept", "bias")),
+    (
+        ("scale", "gain", "slope", "factor", "scaling", "multiplier", "resolution", "lsb"),
+        ("offset", "intercept", "bias"),
+    ),
 )  # fmt: skip
 
 

@@ -1,4 +1,4 @@
-"""The zero and the direction of a position that texts state: ``the laser reads 152.4 mm at the rest length``."""
+"""Zero and direction of a position that texts state: ``the laser reads 152.4 mm at the rest length``."""
 
 from __future__ import annotations
 
@@ -7,7 +7,14 @@ from collections.abc import Iterator, Sequence
 
 from mckibben.measurement.read.scales import Scale
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
-from mckibben.measurement.read.vocabulary import REMARK_WORDS, SIGN_WORDS, folded, has_word, word_set, words_of
+from mckibben.measurement.read.vocabulary import (
+    REMARK_WORDS,
+    SIGN_WORDS,
+    folded,
+    has_word,
+    word_set,
+    words_of,
+)
 from mckibben.measurement.read.words import positions as words
 from mckibben.physics.units import factor
 
@@ -16,7 +23,11 @@ Texts = Sequence[tuple[str, str]]
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _QUANTITY = re.compile(rf"(?<![\w.,])({_NUMBER})\s*([^\W\d_]+|\")(?![\w.,]*\d)")
 _CLAUSES = re.compile(r"[;|]|[,.](?=\s|$)|\s[–-]\s|\b(?:and|und|et)\b")
-_POSITIONS, _GROWS, _FALLS = word_set(f"{words.POSITION} {words.POSITION_TOO}"), word_set(words.GROWS), word_set(words.FALLS)
+_POSITIONS, _GROWS, _FALLS = (
+    word_set(f"{words.POSITION} {words.POSITION_TOO}"),
+    word_set(words.GROWS),
+    word_set(words.FALLS),
+)
 _AT_REST = REMARK_WORDS["at rest"]
 _SHORTER = SIGN_WORDS["shortening"] | SIGN_WORDS["shorter"] | word_set(words.SHORTENS)
 _LONGER = SIGN_WORDS["extension"] | SIGN_WORDS["longer"]
@@ -54,7 +65,12 @@ def _zeros(text: str, own: set[str], unit: str) -> Iterator[float]:
             before = words_of(clause[: match.start()])[-4:]
             behind = words_of(clause[match.end() :])[:2]
             near = has_word([*before, *behind], _POSITIONS) or own & {*before, *behind}
-            if known is not None and dimension_of(known.unit) == "a length" and near and before[-1:] != ["l0"]:
+            if (
+                known is not None
+                and dimension_of(known.unit) == "a length"
+                and near
+                and before[-1:] != ["l0"]
+            ):
                 scale = factor(known.unit, unit)
                 found.append(float(match[1].replace(",", ".")) * scale.multiplier / scale.divisor)
         if len(found) == 1:

@@ -1,4 +1,4 @@
-"""Numbers of a document with their units: ``{"value": 280, "unit": "mm"}``, ``{"L0": 280, "L0_unit": "mm"}``."""
+"""Numbers of a document with their units: ``{"value": 280, "unit": "mm"}``, ``{"L0": 2, "L0_unit": "m"}``."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def with_quantities(value: Any, depth: int) -> Any:
 
 
 def _with_units_beside(value: Mapping[str, Any]) -> dict[str, Any]:
-    """Numbers with the unit under a key of its own: ``{"L0": 250, "L0Unit": "mm"}`` is ``{"L0": "250 mm"}``."""
+    """Numbers with the unit under a key of its own: ``{"L": 250, "LUnit": "mm"}`` is ``{"L": "250 mm"}``."""
     result = dict(value)
     for key, number in value.items():
         if isinstance(number, bool) or not isinstance(number, (int, float)):

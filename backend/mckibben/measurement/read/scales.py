@@ -34,7 +34,8 @@ _RATED = re.compile(
     rf"(?<![\d.,-])({_NUMBER})\s*(?P<raw>mV\s?/\s?V)\s*(?:@|at|bei|à|a|for|=)\s*({_NUMBER})\s*{_UNIT}"
 )
 _POINT = re.compile(
-    rf"(?<![\w.,])({_NUMBER})\s*{_RAW}\s*(?:=|≙|≈|->|→|:|at|bei|for|corresponds to|entspricht)\s*({_NUMBER})\s*{_UNIT}(?![\w/])"
+    rf"(?<![\w.,])({_NUMBER})\s*{_RAW}\s*(?:=|≙|≈|->|→|:|at|bei|for|corresponds to|entspricht)\s*"
+    rf"({_NUMBER})\s*{_UNIT}(?![\w/])"
 )
 _POINT_BACK = re.compile(
     rf"(?<![\w.,])({_NUMBER})\s*{_UNIT}\s*(?:=|≙|≈|->|→|:|at|bei|for|@)\s*({_NUMBER})\s*{_RAW}(?![\w/])"

@@ -13,8 +13,9 @@ from mckibben.measurement.read.unit_words import dimension_of, unit_of
 
 _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[Nn]a[Nn]|NA"
 _ASSIGNED = re.compile(
-    r"(?m)^[ \t]*(?:(?:const|var|let|static|double|float|real)\s+)*(?P<name>[A-Za-z_][\w.]*)(?:\s*\[[0-9]*\])?"
-    r"[ \t]*(?:=|<-|:=|:)[ \t]*(?:(?:np\.|numpy\.)?(?:array|asarray|list|vector|c|Series|pd\.Series)\s*\()?[ \t]*"
+    r"(?m)^[ \t]*(?:(?:const|var|let|static|double|float|real)\s+)*(?P<name>[A-Za-z_][\w.]*)"
+    r"(?:\s*\[[0-9]*\])?[ \t]*(?:=|<-|:=|:)[ \t]*"
+    r"(?:(?:np\.|numpy\.|pd\.)?(?:array|asarray|list|vector|c|Series)\s*\()?[ \t]*"
     r"(?P<open>[\[({]|(?=[-+.0-9]))"
 )
 _SCALAR = re.compile(rf"(?P<number>{_NUMBER})\s*(?P<rest>[;,]?[^\n]*)")
@@ -105,7 +106,7 @@ def _float(text: str) -> float:
 
 
 def _head(vector: _Vector) -> str:
-    """A name with the unit and the words of the remark behind it: ``p``, "bar, gauge" -> ``p gauge [bar]``."""
+    """A name with unit and words of the remark behind it: ``p``, "bar, gauge" -> ``p gauge [bar]``."""
     if not vector.remark or taken_apart(vector.name).unit is not None:
         return vector.name
     remark = taken_apart(vector.remark)

@@ -47,7 +47,8 @@ def _of_text(text: str) -> tuple[tuple[float, frozenset[str]], ...]:
             continue
         numbers = [
             match for match in _NUMBER.finditer(clause)
-            if (behind := re.match(r"\s*([^\W\d_]+)", clause[match.end() :])) is None or _is_no_count(behind[1])
+            if (behind := re.match(r"\s*([^\W\d_]+)", clause[match.end() :])) is None
+            or _is_no_count(behind[1])
         ]  # fmt: skip
         if len(numbers) != 1 or _is_size_of_error(clause[: numbers[0].start()]):
             continue

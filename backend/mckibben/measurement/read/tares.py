@@ -156,7 +156,12 @@ def subtract_tare(
         messages.append(f"the tare of {place} is left to the zero of the force that is stated beside it")
         return []
     # Of a column that counts a pull as negative it is open which sign the tare has.
-    sure = len(stated) == 1 and not first.bare and column.sign > 0 and first.value < _LARGE * float(np.max(np.abs(force)))
+    sure = (
+        len(stated) == 1
+        and not first.bare
+        and column.sign > 0
+        and first.value < _LARGE * float(np.max(np.abs(force)))
+    )
     if sure and first.contained is False:
         messages.append(f"{place}: the force is read as without the tare")
         return []
@@ -167,9 +172,9 @@ def subtract_tare(
     return [
         Question(
             "zero of force",
-            f"the file states a tare of the force, {place}, {'without a unit, ' if first.bare else ''}and not "
-            f"clearly whether the readings of column '{column.header}' contain it; what do they show without "
-            "pull",
+            f"the file states a tare of the force, {place}, "
+            f"{'without a unit, ' if first.bare else ''}and not clearly whether the readings of column "
+            f"'{column.header}' contain it; what do they show without pull",
             f'--experiment "force_zero={first.value:.4g} N", or --experiment "force_zero=0 N" where it is '
             "subtracted already",
             column.header,

@@ -23,7 +23,7 @@ _NEEDED = ("pressure", "force", *STROKES)
 class _Line(NamedTuple):
     """A row of one quantity: its row in the grid, its head, its values."""
 
-    index: int
+    row: int
     head: str
     values: list[Cell]
 
@@ -32,7 +32,7 @@ def turned(grid: Grid) -> Rewritten | None:
     """The grid with a column per quantity; None = it does not lie on its side."""
     if len(grid) > _MOST_ROWS or (isinstance(grid, TextGrid) and grid.separator == BLANKS):
         return None
-    lines = {line.index: line for index in range(len(grid)) if (line := _line(grid, index)) is not None}
+    lines = {line.row: line for index in range(len(grid)) if (line := _line(grid, index)) is not None}
     blocks = _blocks(sorted(lines))
     blocks = [block for block in blocks if _is_table([lines[index] for index in block])]
     if not blocks or sum(len(lines[i].values) for block in blocks for i in block) > MAX_CELLS:

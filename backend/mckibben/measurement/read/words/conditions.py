@@ -7,7 +7,8 @@ REMARKS = {
     "at rest": {
         "en": (
             "l0 rest resting unloaded relaxed free initial nominal gauge start sample specimen original "
-            "undeformed natural neutral slack unpressurized unpressurised depressurized depressurised uninflated deflated vented "
+            "undeformed natural neutral slack unpressurized unpressurised "
+            "depressurized depressurised uninflated deflated vented "
             "unstretched unactuated"
         ),
         "de": (

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 #: What has or shows a position.
 POSITION = (
-    "position laser reading reads read shows showed indicates sensor encoder stage carriage crosshead traverse "
+    "position laser reading reads read shows showed "
+    "indicates sensor encoder stage carriage crosshead traverse "
     "slide slider ruler lvdt probe coordinate traversenposition stellung "
-    "zeigt anzeige schlitten abstand distance ablesung ablesewert wegsensor seilzug lineal nullpunkt lecture indique "
-    "capteur chariot posizione lettura legge segna slitta sensore posicion lectura marca indica carro posicao "
+    "zeigt anzeige schlitten abstand distance ablesung ablesewert "
+    "wegsensor seilzug lineal nullpunkt lecture indique "
+    "capteur chariot posizione lettura legge segna slitta "
+    "sensore posicion lectura marca indica carro posicao "
     "leitura pozycja odczyt czujnik poloha odectet положение датчик показание konum okuma positie avlast "
     "asento lukema laserabstand lasersensor"
 )
@@ -15,13 +18,16 @@ POSITION = (
 POSITION_TOO = "pos actuator scale zero reference lage stand"
 #: The number becomes larger.
 GROWS = (
-    "grows grow growing increases increase increasing rises rise rising larger up steigt wachst zunehmend zunimmt "
-    "grosser augmente croit augmentant aumenta cresce crescente creciente crece rosnie roste возрастает растет artar "
+    "grows grow growing increases increase increasing rises rise "
+    "rising larger up steigt wachst zunehmend zunimmt "
+    "grosser augmente croit augmentant aumenta cresce crescente "
+    "creciente crece rosnie roste возрастает растет artar "
     "neemt_toe stijgt okar stiger kasvaa positive positiv"
 )
 #: The number becomes smaller.
 FALLS = (
-    "falls fall falling decreases decrease decreasing drops smaller down sinkt fallt abnehmend abnimmt kleiner "
+    "falls fall falling decreases decrease decreasing drops "
+    "smaller down sinkt fallt abnehmend abnimmt kleiner "
     "diminue diminuant decroit diminuisce cala decrescente disminuye decrece diminui decresce maleje klesa "
     "убывает уменьшается azalir daalt minskar sjunker falder laskee vahenee negative negativ"
 )
