@@ -74,7 +74,7 @@ def calibration_of(header: str, unit: str | None, heads: Sequence[tuple[str, str
     if head.unit is not None and raw not in RAW_DIMENSIONS and not share:
         return _of_position(head.name, head.unit, texts) if raw == "a length" else None
     found = [
-        *_by_formula(head.name, head.unit, heads, texts),
+        *_by_formula(header, head.name, head.unit, heads, texts),
         *(_by_scale(head.name, head.unit, heads, texts) if head.unit else ()),
     ]
     if not found and head.unit == BRIDGE:
@@ -133,7 +133,7 @@ def _fits(channel: str | None, unit: str) -> bool:
 
 
 def _by_formula(
-    name: str, unit: str | None, heads: Sequence[tuple[str, str | None]], texts: Texts
+    header: str, name: str, unit: str | None, heads: Sequence[tuple[str, str | None]], texts: Texts
 ) -> Iterator[Scale]:
     """The formulas whose symbol is the column, or any signal where the result is what the column measures."""
     plain = _plain(name)
@@ -142,7 +142,7 @@ def _by_formula(
         for formula in formulas_in(text):
             symbol = _plain(formula.symbol)
             channel = _channel(formula.name)
-            own = symbol == plain or (symbol in words_of(name) and symbol not in others)
+            own = symbol in (plain, _plain(header)) or (symbol in words_of(name) and symbol not in others)
             meant = symbol in _ANY_SIGNAL and symbol not in others and channel is not None
             meant = meant and unit is not None and _proper(_channel(name)) == _proper(channel)
             if not (own or meant) or (unit is None and recognise(name).channel not in (None, channel)):

@@ -69,7 +69,7 @@ def with_described_rows(document: Any) -> Any:
 
 def _with_described_names(document: Any, lists: Sequence[list[Any]], channels: list[Any]) -> Any:
     """The document with its records under the heads of the channels they name; None = they name none."""
-    heads: dict[str, str] = {_named(channel, _NAMES): _head(channel) for channel in channels}
+    heads = {_named(channel, _NAMES): _head(channel) for channel in channels}
     tables = [
         rows
         for rows in lists

@@ -10,6 +10,7 @@ from pathlib import PurePath
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.html_file import text_of_html
 from mckibben.measurement.read.json_file import open_document
+from mckibben.measurement.read.latex_file import is_latex, text_of_latex
 from mckibben.measurement.read.mat import choose
 from mckibben.measurement.read.script_file import vectors_of_script
 from mckibben.measurement.read.source import RawTable
@@ -36,6 +37,8 @@ def other_text(text: str, name: str, correction: Correction) -> tuple[str, RawTa
         if is_html(text):
             return text_of_html(text), None
         return (text, open_xml(text, name, correction)) if is_xml(text) else (text, None)
+    if is_latex(text):
+        return text_of_latex(text), None
     suffix = PurePath(name).suffix.lower()
     if suffix in (".yaml", ".yml") or re.match(r"(?:%YAML[^\n]*\n)?---\s*\n\s*[^\s,;]+:", begin):
         return text, _of_yaml(text, name, correction)
