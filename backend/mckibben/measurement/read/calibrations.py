@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from mckibben.measurement.read.formulas import formulas_in
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.positions import is_position, position_scale
+from mckibben.measurement.read.positions import is_position, position_scale, pulley_scale
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.scales import Scale, scale_in
 from mckibben.measurement.read.unit_words import (
@@ -72,6 +72,8 @@ def calibration_of(header: str, unit: str | None, heads: Sequence[tuple[str, str
     raw = dimension_of(head.unit) if head.unit else ""
     share = head.unit == FULL_SCALE or is_raw_share(head.name, head.unit) or _is_stroke_share(head)
     if head.unit is not None and raw not in RAW_DIMENSIONS and not share:
+        if raw == "an angle":
+            return pulley_scale(head.unit, texts)
         return _of_position(head.name, head.unit, texts) if raw == "a length" else None
     found = [
         *_by_formula(header, head.name, head.unit, heads, texts),

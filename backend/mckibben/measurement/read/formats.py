@@ -78,6 +78,10 @@ def _opened(data: bytes, name: str, correction: Correction | None = None) -> Raw
         source = open_inner(inner, name_inside, correction)
         source.messages.append(f"the file is gzip-compressed: '{name_inside}' in it is read")
         return source
+    if data.startswith(b"SQLite format 3\0"):
+        from mckibben.measurement.read.sqlite_file import open_sqlite
+
+        return open_sqlite(data, name, correction)
     if data.startswith(b"TDSm"):
         from mckibben.measurement.read.tdms import open_tdms
 

@@ -40,6 +40,7 @@ _SURE_UNITS = frozenset(
         "ms",
         "mV",
         "kg",
+        "deg",
     ]
 )  # no name ends like them
 _WITHIN = re.compile(r"[\[({<]([^\[\](){}<>]*(?:\([^()]*\))?)[\])}>](?=[\s,;:.]|$)")

@@ -11,10 +11,12 @@ from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.conditions import ATMOSPHERE
+from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.header import HeaderColumn
 from mckibben.measurement.read.held import HeldQuantity, held_pressure, held_quantities
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import KIND_SAID, NAME
+from mckibben.measurement.read.unit_words import RAW_DIMENSIONS, dimension_of
 from mckibben.measurement.read.vocabulary import REMARK_WORDS, folded, has_word, word_set, words_of
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
@@ -72,6 +74,8 @@ def hold_stroke(
     """
     if not {"pressure", "force"} <= set(columns) or set(columns) & {*STROKES, "diameter", "command"}:
         return
+    if _has_other_stroke(source, by_use):
+        return
     found = {
         (said.channel, float(convert([said.value], said.unit, CHANNEL_UNITS[said.channel])[0])): (said, where)
         for text, where in source.rest
@@ -99,21 +103,41 @@ def hold_stroke(
 
 
 def _held_strokes(text: str) -> list[HeldQuantity]:
-    """The strokes at which a text says that the muscle was held, clause by clause."""
+    """The strokes at which a text says that the muscle was held, clause by clause.
+
+    Right before the quantity stands that it was held, or the name of the quantity: "clamped at 285 mm".
+    """
     found = []
     for clause in re.split(r"[,;(]\s|[.]\s|:\s", text):
         words = words_of(clause)
-        if _LIMITS & set(words):
+        if _LIMITS & set(words) or has_word(words, _OTHER_LENGTHS):
             continue
         held = has_word(words, _HELD_WORDS) or "isometr" in folded(clause)
-        found += [
-            said
-            for said in held_quantities(clause)
-            if said.channel in STROKES and (said.worded or held) and (held or re.search("=|:", said.text))
-        ]
+        for said in held_quantities(clause):
+            before = words_of(clause[: max(0, clause.find(said.text))] + " " + said.text)[-_NEAR:]
+            near = has_word(before, _HELD_WORDS) or said.worded
+            if said.channel in STROKES and near and (held or re.search("=|:", said.text)):
+                found.append(said)
     return found
 
 
+def _has_other_stroke(source: RawTable, by_use: Mapping[str, HeaderColumn]) -> bool:
+    """Whether a column that is not read may be the stroke: lengths, angles, signals without a scale."""
+    used = {column.place for column in by_use.values()}
+    units = [*source.units, *[None] * (len(source.headers) - len(source.units))]
+    for index, header in enumerate(source.headers):
+        unit = taken_apart(header, units[index]).unit if index not in used else None
+        if unit is not None and dimension_of(unit) in ("a length", "an angle", *RAW_DIMENSIONS):
+            return True
+    return False
+
+
+_NEAR = 5  # words, those of the quantity among them
+_OTHER_LENGTHS = word_set(
+    "radius diameter pulley drum wheel wire tube hose cylinder bore wall travel range radius durchmesser rolle "
+    "scheibe schlauch rayon diametre poulie raggio diametro puleggia radio polea raio polia promien srednica "
+    "polomer prumer straal halfsalja"
+)
 _LIMITS = REMARK_WORDS["loadless"]
 _HELD_WORDS = REMARK_WORDS["constant"] | word_set(
     "clamped clamp held locked blocked fixed at eingespannt "

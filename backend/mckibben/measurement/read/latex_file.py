@@ -12,10 +12,14 @@ _UNITS = {
     r"\milli": "m", r"\kilo": "k", r"\mega": "M", r"\centi": "c", r"\hecto": "h", r"\metre": "m", r"\meter": "m",
     r"\newton": "N", r"\pascal": "Pa", r"\bar": "bar", r"\kilogram": "kg", r"\second": "s", r"\percent": "%",
 }  # fmt: skip
-_RULES = re.compile(r"\\(?:toprule|midrule|bottomrule|hline|cline\{[^}]*\}|cmidrule(?:\([^)]*\))?\{[^}]*\}|noalign\{[^}]*\})")
+_RULES = re.compile(
+    r"\\(?:toprule|midrule|bottomrule|hline|cline\{[^}]*\}|cmidrule(?:\([^)]*\))?\{[^}]*\}|noalign\{[^}]*\})"
+)
 _QUANTITY = re.compile(r"\\(?:SI|qty)(?:\[[^\]]*\])?\{([^{}]*)\}\{([^{}]*)\}")
 _UNIT = re.compile(r"\\(?:si|unit)(?:\[[^\]]*\])?\{([^{}]*)\}")
-_COMMANDS = re.compile(r"\\(?:num|textbf|textit|mathrm|text|emph|multicolumn\{[0-9]+\}\{[^{}]*\}|caption|ensuremath)\s*\{([^{}]*)\}")
+_COMMANDS = re.compile(
+    r"\\(?:num|textbf|textit|mathrm|text|emph|multicolumn\{[0-9]+\}\{[^{}]*\}|caption|ensuremath)\s*\{([^{}]*)\}"
+)
 
 
 def is_latex(text: str) -> bool:

@@ -6,7 +6,7 @@ Every line keeps its number.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from mckibben.measurement.read.blocks import Table
 from mckibben.measurement.read.column_lists import is_column_list
@@ -34,6 +34,10 @@ _PAIR = re.compile(
     r"""(?!\s*[:=])|(?![\w:.]))"""
 )
 _UNIT_SAID = re.compile(r"(?i)\bunits?\s*[:=]\s*[\"'\[(]?([^\s,;\"'\])]+)")
+_STAMP = re.compile(
+    r"\s*\[?(?P<clock>(?:[0-9]{4}-[0-9]{2}-[0-9]{2}[T ])?[0-9]{1,2}:[0-9]{2}:[0-9]{2}(?:[.,][0-9]{1,6})?)\]?(?=[\s,;])"
+)
+_ALIKE = 2.0  # how much more a line with the same three keys and more counts
 _KEYED_SHARE = 0.5  # of the lines, from which a text is a log of keys and values
 
 
@@ -143,21 +147,24 @@ def _keyed(lines: Sequence[str]) -> tuple[list[str], list[tuple[str, str]]] | No
     filled = [line for line in lines[:600] if line.strip()]
     counted = [_pairs(line) for line in filled]
     share = sum(len(pairs) >= 2 for pairs in counted)
-    if len(filled) < 3 or share < _KEYED_SHARE * len(filled):
+    first = next((pairs for pairs in counted if len(pairs) >= 2), {})
+    alike = sum(pairs.keys() >= first.keys() for pairs in counted) if len(first) > 2 else 0
+    if len(filled) < 3 or max(share, _ALIKE * alike) < _KEYED_SHARE * len(filled):
         return None
-    first = next(pairs for pairs in counted if len(pairs) >= 2)
     keys = list(first)
-    rest = [
-        (line.strip(), f"line {number}")
-        for number, line in enumerate(lines, start=1)
-        if line.strip() and len(_pairs(line)) < 2
-    ]
-    rows = []
-    for line in lines:
+    stamped = _stamps(line for line, pairs in zip(filled, counted, strict=True) if len(pairs) >= 2)
+    stamped = stamped and not any(recognise(key).channel == "time" for key in keys)
+    rest, rows = [], []
+    for number, line in enumerate(lines, start=1):
         pairs = _pairs(line)
-        rows.append("\t".join(pairs.get(key, "") for key in keys) if len(pairs) >= 2 else "")
+        good = len(pairs) >= 2 and (_ALIKE * alike < share or pairs.keys() >= first.keys())
+        stamp = [found["clock"] if (found := _STAMP.match(line)) else ""] if stamped else []
+        rows.append("\t".join([*stamp, *(pairs.get(key, "") for key in keys)]) if good else "")
+        if line.strip() and not good:
+            rest.append((line.strip(), f"line {number}"))
     units = _units_of_pairs(filled)
     heads = [_head_of_key(key, [text for text, _ in rest], units.get(key)) for key in keys]
+    heads = ["time", *heads] if stamped else heads
     row = next((number for number, line in enumerate(rows) if line), 0)
     if row == 0:
         return None if not rows else (["\t".join(heads), *rows], [(text, where) for text, where in rest])
@@ -172,6 +179,12 @@ def _pairs(line: str) -> dict[str, str]:
         for found in _PAIR.finditer(body)
         if found["unit"] is None or unit_of(found["unit"]) is not None
     }
+
+
+def _stamps(lines: Iterable[str]) -> bool:
+    """Whether all lines begin with a time of day or a date and time."""
+    found = [_STAMP.match(line) is not None for line in lines]
+    return bool(found) and all(found)
 
 
 def _units_of_pairs(lines: Sequence[str]) -> dict[str, str]:

@@ -28,6 +28,7 @@ _POSITIONS, _GROWS, _FALLS = (
     word_set(words.GROWS),
     word_set(words.FALLS),
 )
+_PULLEYS, _RADII, _DIAMETERS = word_set(words.PULLEY), word_set(words.RADIUS), word_set(words.DIAMETER)
 _AT_REST = REMARK_WORDS["at rest"]
 _SHORTER = SIGN_WORDS["shortening"] | SIGN_WORDS["shorter"] | word_set(words.SHORTENS)
 _LONGER = SIGN_WORDS["extension"] | SIGN_WORDS["longer"]
@@ -94,3 +95,42 @@ def _direction(text: str, own: set[str]) -> bool | None:
 def is_position(name: str) -> bool:
     """Whether a name is that of a position or of a sensor for it, not of a stroke of the muscle."""
     return has_word(words_of(name), _POSITIONS) or bool({*folded(name).split()} & _POSITIONS)
+
+
+def pulley_scale(unit: str, texts: Texts) -> Scale | None:
+    """Displacement [mm] of a wire over a pulley whose radius or diameter a text states, from its angle.
+
+    None where no text states one, or texts state several.
+    """
+    found: set[tuple[float, str, str]] = set()
+    for text, where in texts:
+        for clause in re.split(r"[;|]|[,.](?=\s|$)", text):
+            said = words_of(clause)
+            if not has_word(said, _PULLEYS):
+                continue
+            share = 0.5 if has_word(said, _DIAMETERS) else 1.0 if has_word(said, _RADII) else None
+            sizes = [
+                float(match[1].replace(",", ".")) * scale.multiplier / scale.divisor
+                for match in _QUANTITY.finditer(clause)
+                if (known := unit_of(match[2])) is not None and dimension_of(known.unit) == "a length"
+                for scale in (factor(known.unit, "mm"),)
+            ]
+            if share is not None and len(sizes) == 1:
+                found.add((share * sizes[0], text, where))
+    if len({radius for radius, _, _ in found}) != 1:
+        return None
+    radius, text, where = next(iter(found))
+    falls = {one for said, _ in texts if (one := _direction(said, {"angle"})) is not None}
+    if len(falls) > 1:
+        return None
+    turn = factor(unit, "rad")
+    sign = -1.0 if falls == {True} else 1.0
+    return Scale(
+        sign * radius * turn.multiplier / turn.divisor,
+        0.0,
+        unit,
+        "mm",
+        "displacement",
+        f"'{text[:100]}'",
+        where,
+    )
