@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import math
 import zipfile
 import zlib
 from pathlib import PurePosixPath
@@ -23,7 +24,9 @@ _MAX_RATIO = 200  # of one part; number tables reach about 20
 _RATIO_FROM = 1_000_000  # bytes
 _TEXTS = (".csv", ".txt", ".tsv", ".dat", ".asc", ".prn", ".log", ".md", ".lvm")
 _TABLES = (".xlsx", ".mat", ".h5", ".hdf5", ".json", ".tdms", ".xml", ".yaml", ".yml", ".jsonl", ".npz")
-_MOST_REPEATED = 1000  # columns of one cell
+_MOST_REPEATED = 1000  # rows or columns of one kind
+_MOST_CELLS = 4_000_000
+_LONGEST_OFFICE = 40_000_000  # bytes
 _OFFICE = "{urn:oasis:names:tc:opendocument:xmlns:office:1.0}"
 _TABLE = "{urn:oasis:names:tc:opendocument:xmlns:table:1.0}"
 
@@ -121,7 +124,7 @@ def _of_arrays(
     for part in parts:
         key = part.filename.removesuffix(".npy")
         try:
-            array = np.load(io.BytesIO(archive.read(part)), allow_pickle=False)
+            array = _array_of(archive.read(part))
         except ValueError:
             continue
         if array.dtype.names:
@@ -137,10 +140,24 @@ def _of_arrays(
     return choose(values, name, correction)
 
 
+def _array_of(content: bytes) -> np.ndarray:
+    """An array as numpy saves it, where its bytes are all there; raises ValueError."""
+    stream = io.BytesIO(content)
+    version = np.lib.format.read_magic(stream)
+    read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
+    shape, _, kind = read(stream)
+    if kind.hasobject or math.prod(shape) * kind.itemsize > len(content):
+        raise ValueError("objects, or fewer bytes than its head says")
+    return np.load(io.BytesIO(content), allow_pickle=False)
+
+
 def _of_office(content: bytes, name: str, correction: Correction | None) -> RawTable:
     """The sheets of an OpenDocument spreadsheet."""
     from mckibben.measurement.read.xlsx import open_sheets
 
+    if len(content) > _LONGEST_OFFICE:
+        why = f"the document unpacks to more than {_LONGEST_OFFICE} bytes"
+        raise _refused(name, why, "save it as .xlsx or CSV")
     if b"<!ENTITY" in content or b"<!DOCTYPE" in content:
         raise _refused(name, "the document defines entities of its own", "save it as .xlsx or CSV")
     try:
@@ -150,8 +167,11 @@ def _of_office(content: bytes, name: str, correction: Correction | None) -> RawT
     except ParseError as error:
         raise _refused(name, f"the document is damaged ({error})", "save it as .xlsx or CSV") from error
     sheets = []
+    left = [_MOST_CELLS]
     for table in root.iter(f"{_TABLE}table"):
-        rows = _rows_of(table)
+        rows = _rows_of(table, left)
+        if left[0] < 0:
+            raise _refused(name, f"the document has more than {_MOST_CELLS} cells", "save it as CSV")
         if rows:
             sheets.append((str(table.get(f"{_TABLE}name") or "sheet")[:40], rows))
     if not sheets:
@@ -159,7 +179,8 @@ def _of_office(content: bytes, name: str, correction: Correction | None) -> RawT
     return open_sheets(sheets, name, correction)
 
 
-def _rows_of(table: Element) -> list[tuple[int, tuple[Cell, ...]]]:
+def _rows_of(table: Element, left: list[int]) -> list[tuple[int, tuple[Cell, ...]]]:
+    """Number and cells of the rows that are filled; ``left``: cells that may still be read."""
     rows: list[tuple[int, tuple[Cell, ...]]] = []
     number = 0
     for row in table.iter(f"{_TABLE}table-row"):
@@ -170,6 +191,9 @@ def _rows_of(table: Element) -> list[tuple[int, tuple[Cell, ...]]]:
         while cells and cells[-1] in (None, ""):
             cells.pop()
         times = int(row.get(f"{_TABLE}number-rows-repeated") or 1)
+        left[0] -= len(cells) * min(times, _MOST_REPEATED)
+        if left[0] < 0:
+            return rows
         if cells:
             rows += [(number + k + 1, tuple(cells)) for k in range(min(times, _MOST_REPEATED))]
         number += times

@@ -79,7 +79,7 @@ def _with_described_names(document: Any, lists: Sequence[list[Any]], channels: l
     if len(tables) != 1 or len(set(heads.values())) != len(channels):
         return None
     (rows,) = tables
-    records: list[dict[str, Any]] = [{heads.get(key, key): cell for key, cell in row.items()} for row in rows]
+    records = [{heads[k] if k in heads else str(k): cell for k, cell in row.items()} for row in rows]
     joined = _replaced(document, rows, records, channels)
     signs = {f"sign {number}": text for number, c in enumerate(channels) if (text := _sign(c))}
     return {**joined, **signs} if isinstance(joined, dict) else None

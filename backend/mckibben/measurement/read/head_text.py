@@ -138,7 +138,7 @@ def without_paths(names: Sequence[str]) -> list[str]:
 
 
 #: Letters of a share that are that of the contraction.
-_SHARES = frozenset("h k e ε κ eps epsilon kappa".split())
+_SHARES = frozenset(["h", "k", "e", "ε", "κ", "eps", "epsilon", "kappa"])
 
 
 def channel_of_letter(words: list[str], dimension: str) -> str | None:

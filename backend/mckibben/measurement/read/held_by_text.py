@@ -134,7 +134,7 @@ def _has_other_stroke(source: RawTable, by_use: Mapping[str, HeaderColumn]) -> b
 
 _NEAR = 5  # words, those of the quantity among them
 _OTHER_LENGTHS = word_set(
-    "radius diameter pulley drum wheel wire tube hose cylinder bore wall travel range radius durchmesser rolle "
+    "radius diameter pulley drum wheel wire tube hose cylinder bore wall travel range durchmesser rolle "
     "scheibe schlauch rayon diametre poulie raggio diametro puleggia radio polea raio polia promien srednica "
     "polomer prumer straal halfsalja"
 )

@@ -5,12 +5,13 @@ from __future__ import annotations
 import re
 
 _SYMBOLS = {
-    r"\varepsilon": "ε", r"\epsilon": "ε", r"\kappa": "κ", r"\Delta": "Δ", r"\mu": "µ", r"\%": "%", r"\degree": "°",
+    r"\varepsilon": "ε", r"\epsilon": "ε", r"\kappa": "κ", r"\Delta": "Δ", r"\mu": "µ", r"\%": "%",
+    r"\degree": "°",
     r"\,": " ", r"\;": " ", r"\ ": " ", r"\&": "and", r"\_": "_", r"\#": "#", "~": " ", "$": "", "--": "-",
 }  # fmt: skip
 _UNITS = {
-    r"\milli": "m", r"\kilo": "k", r"\mega": "M", r"\centi": "c", r"\hecto": "h", r"\metre": "m", r"\meter": "m",
-    r"\newton": "N", r"\pascal": "Pa", r"\bar": "bar", r"\kilogram": "kg", r"\second": "s", r"\percent": "%",
+    r"\milli": "m", r"\kilo": "k", r"\mega": "M", r"\centi": "c", r"\hecto": "h", r"\metre": "m",
+    r"\meter": "m", r"\newton": "N", r"\pascal": "Pa", r"\bar": "bar", r"\kilogram": "kg", r"\second": "s", r"\percent": "%",
 }  # fmt: skip
 _RULES = re.compile(
     r"\\(?:toprule|midrule|bottomrule|hline|cline\{[^}]*\}|cmidrule(?:\([^)]*\))?\{[^}]*\}|noalign\{[^}]*\})"

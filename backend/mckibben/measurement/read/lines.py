@@ -35,7 +35,8 @@ _PAIR = re.compile(
 )
 _UNIT_SAID = re.compile(r"(?i)\bunits?\s*[:=]\s*[\"'\[(]?([^\s,;\"'\])]+)")
 _STAMP = re.compile(
-    r"\s*\[?(?P<clock>(?:[0-9]{4}-[0-9]{2}-[0-9]{2}[T ])?[0-9]{1,2}:[0-9]{2}:[0-9]{2}(?:[.,][0-9]{1,6})?)\]?(?=[\s,;])"
+    r"\s*\[?(?P<clock>(?:[0-9]{4}-[0-9]{2}-[0-9]{2}[T ])?"
+    r"[0-9]{1,2}:[0-9]{2}:[0-9]{2}(?:[.,][0-9]{1,6})?)\]?(?=[\s,;])"
 )
 _ALIKE = 2.0  # how much more a line with the same three keys and more counts
 _KEYED_SHARE = 0.5  # of the lines, from which a text is a log of keys and values

@@ -19,6 +19,7 @@ from mckibben.measurement.read.yaml_file import YamlError, document_of_yaml
 from mckibben.physics.errors import InputError
 
 _LONGEST = 30_000_000  # characters
+_LONGEST_SLOW = 8_000_000  # of web pages and YAML
 _SCRIPTS = re.compile(
     r"(?m)^[ \t]*[A-Za-z_][^\n=<:]{0,60}(?:=|<-|:=)[ \t]*[A-Za-z_.]*[ \t]*[\[({]\s*[-+.0-9]"
 )
@@ -35,11 +36,14 @@ def other_text(text: str, name: str, correction: Correction) -> tuple[str, RawTa
     begin = text[:4000].lstrip("\ufeff \t\r\n")
     if begin[:1] == "<":
         if is_html(text):
+            _check_length(text, name, "web page")
             return text_of_html(text), None
         return (text, open_xml(text, name, correction)) if is_xml(text) else (text, None)
     if is_latex(text):
         return text_of_latex(text), None
     suffix = PurePath(name).suffix.lower()
+    if suffix in (".yaml", ".yml"):
+        _check_length(text, name, "YAML text")
     if suffix in (".yaml", ".yml") or re.match(r"(?:%YAML[^\n]*\n)?---\s*\n\s*[^\s,;]+:", begin):
         return text, _of_yaml(text, name, correction)
     if suffix == ".toml":
@@ -53,6 +57,15 @@ def other_text(text: str, name: str, correction: Correction) -> tuple[str, RawTa
         values, remarks = found
         return text, replace(choose(values, name, correction, remarks), format="csv")
     return text, None
+
+
+def _check_length(text: str, name: str, what: str) -> None:
+    """Refuse a text of a kind that is read slowly."""
+    if len(text) > _LONGEST_SLOW:
+        raise InputError(
+            f"{name}: the {what} has {len(text)} characters, at most {_LONGEST_SLOW} are read", field="file",
+            hint="save the table as CSV",
+        )  # fmt: skip
 
 
 def _of_yaml(text: str, name: str, correction: Correction) -> RawTable | None:

@@ -7,7 +7,7 @@ from typing import Any
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.correction import Correction
-from mckibben.measurement.read.limits import MAX_UNPACKED
+from mckibben.measurement.read.limits import MAX_UNPACKED, WORD, Allowance, check_columns
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
@@ -41,7 +41,12 @@ def open_sqlite(data: bytes, name: str, correction: Correction | None = None) ->
         base.set_authorizer(
             lambda action, *_: sqlite3.SQLITE_OK if action in _ALLOWED else sqlite3.SQLITE_DENY
         )
-        sheets = [(title[:40], rows) for title in tables[:_MOST_TABLES] if (rows := _rows(base, title, name))]
+        allowance = Allowance(name, len(data))
+        sheets = [
+            (title[:40], rows)
+            for title in tables[:_MOST_TABLES]
+            if (rows := _rows(base, title, name, allowance))
+        ]
     except (sqlite3.Error, UnicodeDecodeError) as error:
         raise _refused(name, f"the data base is damaged ({error})", "export the table as CSV") from error
     finally:
@@ -51,15 +56,24 @@ def open_sqlite(data: bytes, name: str, correction: Correction | None = None) ->
     return open_sheets(sheets, name, correction)
 
 
-def _rows(base: sqlite3.Connection, title: str, name: str) -> list[tuple[int, tuple[Cell, ...]]]:
-    """The names of the columns, and the rows below them; a table of two columns of words has no names."""
+def _rows(
+    base: sqlite3.Connection, title: str, name: str, allowance: Allowance
+) -> list[tuple[int, tuple[Cell, ...]]]:
+    """The names of the columns, and the rows below them."""
     quoted = title.replace('"', '""')
     cursor = base.execute(f'SELECT * FROM "{quoted}" LIMIT {_MOST_ROWS + 1}')
     heads = tuple(str(column[0])[:120] for column in cursor.description)
-    rows = [(2 + number, tuple(map(_plain, row))) for number, row in enumerate(cursor)]
-    if len(rows) > _MOST_ROWS or len(rows) * len(heads) > _MOST_CELLS:
-        why = f"its table '{title[:40]}' has more than {_MOST_ROWS} rows or {_MOST_CELLS} cells"
-        raise _refused(name, why, "export a part of it as CSV")
+    check_columns(len(heads), f"{name}, table '{title[:40]}'", "columns")
+    rows: list[tuple[int, tuple[Cell, ...]]] = []
+    for number, row in enumerate(cursor, start=2):
+        if number > _MOST_ROWS or number * len(heads) > _MOST_CELLS:
+            why = f"its table '{title[:40]}' has more than {_MOST_ROWS} rows or {_MOST_CELLS} cells"
+            raise _refused(name, why, "export a part of it as CSV")
+        cells = tuple(map(_plain, row))
+        long = sum(len(cell) for cell in cells if isinstance(cell, str) and len(cell) > WORD)
+        if long:
+            allowance.take(long, f"table '{title[:40]}'")
+        rows.append((number, cells))
     return [(1, heads), *rows] if rows else []
 
 

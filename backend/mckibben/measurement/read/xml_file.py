@@ -6,6 +6,7 @@ Elements become objects of their attributes and children; those of one name in o
 from __future__ import annotations
 
 import re
+from collections import Counter
 from typing import Any
 from xml.etree.ElementTree import Element, ParseError, XMLParser
 
@@ -82,7 +83,7 @@ def _object(element: Element, depth: int) -> Any:
         return None
     result: dict[str, Any] = {key.rpartition("}")[2]: _plain(text) for key, text in element.attrib.items()}
     children = [(_tag(child), _object(child, depth + 1)) for child in element]
-    tags = [tag for tag, _ in children]
+    counts = Counter(tag for tag, _ in children)
     text = _text(element.text or "")
     if not children:
         if not result:
@@ -90,10 +91,10 @@ def _object(element: Element, depth: int) -> Any:
         if text != "":
             result["values" if isinstance(text, list) else _VALUE] = text
         return result
-    if len(set(tags)) == 1 and len(tags) > 1 and not result:
+    if len(counts) == 1 and len(children) > 1 and not result:
         return [value for _, value in children]
     for tag, value in children:
-        if tags.count(tag) == 1:
+        if counts[tag] == 1:
             result[tag if tag not in result else f"{tag} element"] = value
         elif tag in result and isinstance(result[tag], list):
             result[tag].append(value)

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import json
 import re
 from typing import Any
 
 _NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _KEY = re.compile(r"""(?P<key>"[^"]*"|'[^']*'|[^\s\[\]{},#:"'][^:#]*?)\s*:(?:\s+(?P<value>.*))?""")
 _DEEPEST = 40
+_LONGEST_FLOW = 20_000  # characters of lists in lists that are no JSON
 
 
 class YamlError(ValueError):
@@ -26,20 +28,20 @@ def document_of_yaml(text: str) -> tuple[Any, list[str]]:
     """
     comments: list[str] = []
     lines: list[tuple[int, int, str]] = []
-    pending = ""
-    indent = 0
+    pending: list[str] = []
+    indent = opened = 0
     for number, raw in enumerate(text.expandtabs(2).split("\n"), start=1):
         line, comment = _without_comment(raw)
         comments += [comment] if comment else []
         if not line.strip() or line.strip() in ("---", "...") or line.startswith("%YAML"):
             continue
-        if pending:
-            pending += " " + line.strip()
-        else:
-            pending, indent = line.strip(), len(line) - len(line.lstrip())
-        if _open_brackets(pending) <= 0:
-            lines.append((number, indent, pending))
-            pending = ""
+        if not pending:
+            indent, opened = len(line) - len(line.lstrip()), 0
+        pending.append(line.strip())
+        opened += _open_brackets(line)
+        if opened <= 0:
+            lines.append((number, indent, " ".join(pending)))
+            pending = []
     if pending or not lines:
         raise YamlError(lines[-1][0] if lines else 1)
     reader = _Reader(lines)
@@ -139,6 +141,12 @@ class _Reader:
 def _value(text: str, number: int) -> Any:
     """A number, truth, text, or a list or object in brackets."""
     if text[:1] in ("[", "{"):
+        try:
+            return json.loads(text)
+        except ValueError:
+            pass
+        if len(text) > _LONGEST_FLOW and re.search(r"[\[{\"']", text[1:]) is not None:
+            raise YamlError(number)
         value, rest = _flow(text, number, 0)
         if rest.strip():
             raise YamlError(number)

@@ -39,7 +39,8 @@ SHORTENS = (
 #: What a wire from the muscle turns.
 PULLEY = (
     "pulley pulleys drum wheel sheave spool capstan rolle seilrolle seilscheibe scheibe trommel umlenkrolle "
-    "poulie tambour puleggia tamburo carrucola polea tambor polia krazek kolo kladka blok trissa шкив ролик 滑车 滑轮"
+    "poulie tambour puleggia tamburo carrucola polea tambor polia krazek kolo kladka blok trissa "
+    "шкив ролик 滑车 滑轮"
 )
 RADIUS = "radius radii rayon raggio radio raio promien polomer straal radie радиус 半径 반지름"
 DIAMETER = "diameter durchmesser diametre diametro srednica prumer halfsalja halkaisija диаметр 直径 직경 dia"
