@@ -126,10 +126,11 @@ def _counted(
     texts = [*source.rest, *((f"{note.key}: {note.value}", note.where) for note in source.notes)]
     for index, header in enumerate(headers[:_MOST_SCALED]):
         column, head = columns[index], taken_apart(header, units[index])
-        if known[index].channel is not None or column != _Derived(column.place):
+        if known[index].channel not in (None, "command") or column != _Derived(column.place):
             continue
         counted = None
-        if "time" not in channels and head.unit is None:
+        stated = known[index].channel == "command"
+        if "time" not in channels and head.unit is None and not stated:
             shown = _numbers(source, column.place)
             rising = len(shown) > 1 and all(b > a for a, b in pairwise(shown))
             by_one = rising and all(b - a == 1.0 for a, b in pairwise(shown))
@@ -142,9 +143,9 @@ def _counted(
                 "the first row"
             )
             channels.add("time")
-        elif (
-            "command" not in channels and (valve := valve_states_of(head.name, head.unit, texts)) is not None
-        ):
+        elif (stated or "command" not in channels) and (
+            valve := valve_states_of(head.name, head.unit, texts)
+        ) is not None:
             columns[index] = _Derived(column.place, valve.factor, valve.offset)
             headers[index], units[index] = f"{head.name}: {valve.name}", valve.unit
             said.append(

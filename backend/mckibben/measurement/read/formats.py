@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import PurePath
 
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.csv import open_csv
 from mckibben.measurement.read.derived import with_derived
+from mckibben.measurement.read.legend import told_units
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
@@ -39,7 +41,17 @@ def open_source(data: bytes, name: str, correction: Correction | None = None) ->
     """
     chosen = {} if correction is None else correction.columns
     scales = {name: choice.scale for name, choice in chosen.items() if choice is not None and choice.scale}
-    return with_derived(_opened(data, name, correction), scales)
+    return with_derived(_with_told_units(_opened(data, name, correction)), scales)
+
+
+def _with_told_units(source: RawTable) -> RawTable:
+    """The table with the units that sentences of the file tell of its columns."""
+    units = [*source.units, *[None] * (len(source.headers) - len(source.units))]
+    found, said = told_units(source.headers, units, source.rest)
+    if not found:
+        return source
+    units = [found.get(index, unit) for index, unit in enumerate(units)]
+    return replace(source, units=tuple(units), messages=[*source.messages, *said])
 
 
 def open_inner(data: bytes, name: str, correction: Correction | None = None) -> RawTable:

@@ -11,7 +11,8 @@ _SYMBOLS = {
 }  # fmt: skip
 _UNITS = {
     r"\milli": "m", r"\kilo": "k", r"\mega": "M", r"\centi": "c", r"\hecto": "h", r"\metre": "m",
-    r"\meter": "m", r"\newton": "N", r"\pascal": "Pa", r"\bar": "bar", r"\kilogram": "kg", r"\second": "s", r"\percent": "%",
+    r"\meter": "m", r"\newton": "N", r"\pascal": "Pa", r"\bar": "bar", r"\kilogram": "kg",
+    r"\second": "s", r"\percent": "%",
 }  # fmt: skip
 _RULES = re.compile(
     r"\\(?:toprule|midrule|bottomrule|hline|cline\{[^}]*\}|cmidrule(?:\([^)]*\))?\{[^}]*\}|noalign\{[^}]*\})"

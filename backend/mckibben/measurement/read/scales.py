@@ -53,6 +53,13 @@ _ZERO = re.compile(
 )
 
 
+#: The reading at the rest length: "4 mA at the rest length", "0 V bei Ruhelänge".
+_AT_REST = re.compile(
+    rf"(?i)(?<![\w.,])({_NUMBER})\s*(?:{_COUNTED}|m?V|m?A|%)\s*(?:=|at|bei|à|a|for|when|in)\s*(?:the\s+|der\s+|la\s+)?"
+    r"(?:rest\w*|L_?0|ruhe\w*|unloaded|relaxed|initial|natural|longueur (?:au repos|initiale)|riposo|reposo|repouso)"
+)
+
+
 class Scale(NamedTuple):
     """Value = factor times reading in ``raw`` plus offset, in ``unit``; ``name``: what it is of.
 
@@ -92,8 +99,15 @@ def scale_in(text: str, where: str) -> Scale | None:
     (0.8, 0.0, 'V', 'bar(g)')
     """
     found = _of_description(text, where)
-    if found is None or len(re.findall(rf"\d\s*{_RAW}(?![^\W\d_])", _ZERO.sub(" ", text))) > 1:
+    if found is None:
         return None
+    spans = [*_RANGES.finditer(text), *_VALUE_RANGE.finditer(text)]
+    rest = text.replace(spans[0][0], " ") if len(spans) == 1 else text
+    most = 0 if len(spans) == 1 else 1
+    if len(re.findall(rf"\d\s*{_RAW}(?![^\W\d_])", _ZERO.sub(" ", _AT_REST.sub(" ", rest)))) > most:
+        return None
+    if dimension_of(found.unit) == "a length" and (rest_at := _AT_REST.search(text)) is not None:
+        found = found._replace(offset=-found.factor * _float(rest_at[1]), zeroed=True)
     reference = reference_among(words_of(text))
     if reference is not None and dimension_of(found.unit) == "a pressure":
         found = found._replace(unit=f"{found.unit}({'a' if reference else 'g'})")
