@@ -17,6 +17,7 @@ _TOKEN = re.compile(
 _COMPOUND = re.compile(r"\s*([^\W\d_]+[2²]?)\s*/\s*([^\W\d_]+)(?![\w(])")
 _UNIT = re.compile(r"\s*[\[(]?([^\W\d_%]+[2²]?|%)[\])]?(?!\w)")
 _LEFT = re.compile(r"([^\W\d][^=;:|]{0,40}?)\s*$")
+_GOES_ON = re.compile(r"\s*(?:[-+*/×·^²³⋅]|\((?!\s*[^\W\d_]+\s*[),;]))")
 _LONGEST = 120  # characters of a formula
 
 
@@ -52,6 +53,8 @@ def formulas_in(text: str) -> Iterator[Formula]:
         line = parser.whole()
         if line is None or not line.factor or parser.symbol is None or not parser.operations:
             continue
+        if _GOES_ON.match(parser.rest):
+            continue  # with a second signal, a power, or what is not understood
         head = taken_apart(left[1])
         behind = _UNIT.match(parser.rest)
         after = unit_of(behind[1]) if behind else None
@@ -157,10 +160,12 @@ class _Parser:
             self._take_unit()
             return _Line(0.0, float(found["number"].replace(",", ".")))
         if found["name"]:
-            name = re.split(r"\s*[\[(]", found["name"])[0]
+            name, _, inside = re.sub(r"\s*[\[(]\s*", "[", found["name"]).partition("[")
             if self.symbol not in (None, name):
                 raise ValueError("two symbols")
-            self.symbol, self.at = name, found.end()
+            unit = unit_of(inside.strip(" )]")) if inside else None
+            own = unit is None or not _measures(unit.unit)  # the unit of the result stands behind the formula
+            self.symbol, self.at = name, found.end() if own else found.start("name") + len(name)
             return _Line(1.0, 0.0)
         if found["sign"] in ("(",):
             self.at = found.end()

@@ -125,6 +125,19 @@ def _strokes(evidence: Evidence) -> list[Question]:
         return []
     for index in _free(evidence):
         name, unit = _head(evidence, index)
+        if dimension_of(unit) == "an angle" and (span := _span(evidence, index)) is not None:
+            header = evidence.headers[index]
+            return [
+                Question(
+                    "stroke",
+                    f"{evidence.noun} '{header}' holds an angle, {span[0]:.4g} to {span[1]:.4g} {unit}, and the "
+                    "file has no other stroke; no text says the radius of its pulley; which angle is which stroke",
+                    column_option("displacement", name, "0 to 90 deg = 0 to 40 mm"),
+                    header,
+                )
+            ]
+    for index in _free(evidence):
+        name, unit = _head(evidence, index)
         reason = evidence.meaning.reasons.get(index, _UNKNOWN)
         if unit is None and reason == _UNKNOWN and _span(evidence, index) is not None:
             return [

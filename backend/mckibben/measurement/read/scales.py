@@ -56,7 +56,8 @@ _ZERO = re.compile(
 #: The reading at the rest length: "4 mA at the rest length", "0 V bei Ruhelänge".
 _AT_REST = re.compile(
     rf"(?i)(?<![\w.,])({_NUMBER})\s*(?:{_COUNTED}|m?V|m?A|%)\s*(?:=|at|bei|à|a|for|when|in)\s*(?:the\s+|der\s+|la\s+)?"
-    r"(?:rest\w*|L_?0|ruhe\w*|unloaded|relaxed|initial|natural|longueur (?:au repos|initiale)|riposo|reposo|repouso)"
+    r"(?:rest\w*|L_?0|ruhe\w*|unloaded|relaxed|initial|natural|longueur (?:au repos|initiale)|"
+    r"riposo|reposo|repouso)"
 )
 
 
@@ -99,8 +100,8 @@ def scale_in(text: str, where: str) -> Scale | None:
     (0.8, 0.0, 'V', 'bar(g)')
     """
     found = _of_description(text, where)
-    if found is None:
-        return None
+    if found is None or _of_points(text) is not None:
+        return found
     spans = [*_RANGES.finditer(text), *_VALUE_RANGE.finditer(text)]
     rest = text.replace(spans[0][0], " ") if len(spans) == 1 else text
     most = 0 if len(spans) == 1 else 1
@@ -116,7 +117,7 @@ def scale_in(text: str, where: str) -> Scale | None:
 
 def said_scale(text: str) -> Scale | None:
     """The scale that a user says: ``0-10 V = 0-10 bar``, ``4100 to 9300 counts = 0 to 80 mm``."""
-    return scale_in(text, "you")
+    return scale_in(re.sub(r"(?<=[0-9])\s*(?:deg(?:rees?)?\b|°)", " counts", text), "you")
 
 
 def valve_scale_of(text: str, where: str) -> Scale | None:
