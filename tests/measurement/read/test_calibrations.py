@@ -33,7 +33,8 @@ def test_a_straight_line_in_a_sentence(text: str) -> None:
 
 
 @pytest.mark.parametrize(
-    "text", ["F [N] = U * U", "eps = (L0 - L)/L0", "T = 20 degC", "p = 2*U_p - 1", "F [N] = 2*a + 3*b", "x = 3 mm"]
+    "text",
+    ["F [N] = U * U", "eps = (L0 - L)/L0", "T = 20 degC", "p = 2*U_p - 1", "F [N] = 2*a + 3*b", "x = 3 mm"],
 )
 def test_what_is_no_straight_line_of_one_signal_is_none(text: str) -> None:
     assert list(formulas_in(text)) == []
@@ -60,7 +61,8 @@ def test_a_scale_in_a_sentence(text: str) -> None:
 
 def test_an_offset_in_the_unit_of_the_result_leaves_the_scale_open() -> None:
     scale = scale_in("gain 200 N/V, offset 12 N", "line 1")
-    assert scale is not None and not scale.zeroed
+    assert scale is not None
+    assert not scale.zeroed
 
 
 def test_volts_by_formulas() -> None:
@@ -73,7 +75,8 @@ def test_volts_by_formulas() -> None:
 
 
 def test_a_bridge_by_its_sensitivity_in_two_lines() -> None:
-    text = f"{REST}# load cell: rated load 2000 N\n# load cell: sensitivity 2.0 mV/V\nt [s],p [bar],load cell [mV/V],s [mm]\n"
+    remarks = "# load cell: rated load 2000 N\n# load cell: sensitivity 2.0 mV/V\n"
+    text = f"{REST}{remarks}t [s],p [bar],load cell [mV/V],s [mm]\n"
     assert_is_the_test(read(text + table(TIME, PRESSURE, FORCE / 1000.0, STROKE)))
 
 
@@ -98,17 +101,26 @@ def test_a_position_with_its_reading_at_the_rest_length() -> None:
     scale = position_scale("laser", "mm", [(falls, "line 1")])
     assert scale is not None
     assert (scale.factor, scale.offset) == (-1.0, 152.4)
-    found = read(f"# rest length 300 mm\n# {falls}\nt [s],p [bar],F [N],laser [mm]\n" + table(TIME, PRESSURE, FORCE, 152.4 - STROKE))
+    found = read(
+        f"# rest length 300 mm\n# {falls}\nt [s],p [bar],F [N],laser [mm]\n"
+        + table(TIME, PRESSURE, FORCE, 152.4 - STROKE)
+    )
     assert_is_the_test(found)
 
 
 def test_a_position_without_its_zero_is_asked_about() -> None:
     with pytest.raises(InputError, match="zero"):
-        read("# rest length 300 mm\nt [s],p [bar],F [N],laser [mm]\n" + table(TIME, PRESSURE, FORCE, 152.4 - STROKE))
+        read(
+            "# rest length 300 mm\nt [s],p [bar],F [N],laser [mm]\n"
+            + table(TIME, PRESSURE, FORCE, 152.4 - STROKE)
+        )
 
 
 def test_two_zeros_of_a_position_are_none() -> None:
-    texts = [("The laser reads 152.4 mm at L0", "line 1"), ("at the rest length the laser shows 160 mm", "line 2")]
+    texts = [
+        ("The laser reads 152.4 mm at L0", "line 1"),
+        ("at the rest length the laser shows 160 mm", "line 2"),
+    ]
     assert position_scale("laser", "mm", texts) is None
 
 

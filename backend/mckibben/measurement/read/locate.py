@@ -92,6 +92,9 @@ def find_runs(grid: Grid, until: int | None = None) -> list[Run]:
         if not numbers or len(numbers) < texts or (run is None and _sums_up(grid, index)):
             run = None
             continue
+        if run is not None and run.rows > 1 and texts and _is_remark(grid, index, run):
+            run = None
+            continue
         clocks = frozenset(i for i, kind in enumerate(kinds) if kind == CLOCK)
         if run is None or not _continues(run, kinds, numbers, clocks):
             run = Run(index, index, frozenset(numbers), len(cells), clocks=clocks)

@@ -21,7 +21,7 @@ from mckibben.physics.errors import InputError
 _LONGEST = 30_000_000  # characters
 _LONGEST_SLOW = 8_000_000  # of web pages and YAML
 _SCRIPTS = re.compile(
-    r"(?m)^[ \t]*[A-Za-z_][^\n=<:]{0,60}(?:=|<-|:=)[ \t]*[A-Za-z_.]*[ \t]*[\[({]\s*[-+.0-9]"
+    r"(?m)^[ \t]*[A-Za-z_][^\n=<:]{0,60}(?:=|<-|:=)[ \t]*[A-Za-z_.]*[ \t]*[\[({]+\s*[-+.0-9]"
 )
 
 

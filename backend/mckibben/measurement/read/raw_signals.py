@@ -130,8 +130,9 @@ def _strokes(evidence: Evidence) -> list[Question]:
             return [
                 Question(
                     "stroke",
-                    f"{evidence.noun} '{header}' holds an angle, {span[0]:.4g} to {span[1]:.4g} {unit}, and the "
-                    "file has no other stroke; no text says the radius of its pulley; which angle is which stroke",
+                    f"{evidence.noun} '{header}' holds an angle, {span[0]:.4g} to {span[1]:.4g} {unit}, and "
+                    "the file has no other stroke; no text says the radius of its pulley; which angle is "
+                    "which stroke",
                     column_option("displacement", name, "0 to 90 deg = 0 to 40 mm"),
                     header,
                 )

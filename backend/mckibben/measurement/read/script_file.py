@@ -15,7 +15,7 @@ _NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[Nn]a[Nn]|NA"
 _ASSIGNED = re.compile(
     r"(?m)^[ \t]*(?:(?:const|var|let|static|double|float|real)\s+)*(?P<name>[A-Za-z_][\w.]*)"
     r"(?:\s*\[[0-9]*\])?[ \t]*(?:=|<-|:=|:)[ \t]*"
-    r"(?:(?:np\.|numpy\.|pd\.)?(?:array|asarray|list|vector|c|Series)\s*\()?[ \t]*"
+    r"(?:(?:np\.|numpy\.|pd\.)?(?:array|asarray|list|vector|c|Series)(?:\s*\((?=\s*[\[({])|(?=\s*\()))?[ \t]*"
     r"(?P<open>[\[({]|(?=[-+.0-9]))"
 )
 _SCALAR = re.compile(rf"(?P<number>{_NUMBER})\s*(?P<rest>[;,]?[^\n]*)")
