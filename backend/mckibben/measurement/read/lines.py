@@ -154,7 +154,7 @@ def _keyed(lines: Sequence[str]) -> tuple[list[str], list[tuple[str, str]]] | No
         return None
     keys = list(first)
     stamped = _stamps(line for line, pairs in zip(filled, counted, strict=True) if len(pairs) >= 2)
-    stamped = stamped and not any(recognise(key).channel == "time" for key in keys)
+    stamped = stamped and not any(key.lower() == "t" or recognise(key).channel == "time" for key in keys)
     rest, rows = [], []
     for number, line in enumerate(lines, start=1):
         pairs = _pairs(line)

@@ -49,8 +49,8 @@ class Tare(NamedTuple):
 def tares_in(texts: Iterable[tuple[str, str]]) -> list[Tare]:
     """The tares of forces that texts state, each with a value other than 0.
 
-    >>> tares_in([("Tara 2,1 N nicht abgezogen", "line 2")])
-    [Tare(value=2.1, contained=True, text='Tara 2,1 N nicht abgezogen', where='line 2')]
+    >>> tares_in([("Tara 2,1 N nicht abgezogen", "line 2")])[0][:2]
+    (2.1, True)
     >>> tares_in([("tare 4 N, already subtracted", "line 2")])[0].contained
     False
     """
