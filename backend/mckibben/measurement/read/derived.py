@@ -15,6 +15,7 @@ from mckibben.measurement.read.calibrations import calibration_of, is_raw_share
 from mckibben.measurement.read.cells import CellTable
 from mckibben.measurement.read.counters import time_of_count, valve_states_of
 from mckibben.measurement.read.head_text import CHANNEL_NUMBER, taken_apart
+from mckibben.measurement.read.positions import falls_with_shortening
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.scales import (
     Scale,
@@ -256,6 +257,8 @@ def _with_zero(scale: Scale, texts: Sequence[tuple[str, str]]) -> Scale | None:
     """
     if scale.offset:
         return scale
+    if dimension_of(scale.unit) == "a length" and falls_with_shortening(scale.text, scale.where, texts):
+        return scale._replace(factor=-scale.factor)
     channel = proper_channel(recognise(scale.name, scale.unit).channel)
     for text, where in texts:
         if where == scale.where or channel is None:

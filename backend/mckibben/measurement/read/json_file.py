@@ -214,7 +214,8 @@ def _of_records(
     common = set(max(kinds, key=lambda keys: kinds[keys] * len(keys)))
     good = {keys for keys in kinds if 2 * len(common & set(keys)) > len(common)}
     readings = [(n, record) for n, record in flat if tuple(record) in good]
-    others = [(n, record) for n, record in flat if tuple(record) not in good]
+    whole = dict(records)
+    others = [(n, _flat(with_quantities(whole[n], 0))) for n, record in flat if tuple(record) not in good]
     heads = list(dict.fromkeys(key for keys in kinds if keys in good for key in keys))
     check_columns(len(heads), name, "columns")
     noun = "line" if document is None else "record"

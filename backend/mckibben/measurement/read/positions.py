@@ -92,6 +92,15 @@ def _direction(text: str, own: set[str]) -> bool | None:
     return None
 
 
+def falls_with_shortening(said: str, where: str, texts: Texts) -> bool:
+    """Whether the text that states a scale also says that the reading falls as the muscle shortens."""
+    return any(
+        place == where and _direction(f"position; {text}", set()) is True
+        for text, place in texts
+        if said.strip("'")[:20] in text
+    )
+
+
 def is_position(name: str) -> bool:
     """Whether a name is that of a position or of a sensor for it, not of a stroke of the muscle."""
     return has_word(words_of(name), _POSITIONS) or bool({*folded(name).split()} & _POSITIONS)

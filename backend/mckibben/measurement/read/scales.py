@@ -40,7 +40,7 @@ _POINT = re.compile(
 _POINT_BACK = re.compile(
     rf"(?<![\w.,])({_NUMBER})\s*{_UNIT}\s*(?:=|≙|≈|->|→|:|at|bei|for|@)\s*({_NUMBER})\s*{_RAW}(?![\w/])"
 )
-_PER = re.compile(rf"({_NUMBER})\s*{_UNIT}\s*/\s*{_RAW}\b")
+_PER = re.compile(rf"({_NUMBER})\s*{_UNIT}\s*(?:/|\bper\b|\bpro\b|\bje\b|\bpar\b|\bpor\b)\s*{_RAW}\b")
 _SENSITIVITY = re.compile(rf"({_NUMBER})\s*{_RAW}\s*/\s*{_UNIT}")
 _CLOSED = re.compile(
     rf"({_NUMBER})\s*{_RAW}\s*(?:=|:|is)?\s*(?:closed|shut|zu|geschlossen|neutral|middle|mitte)"

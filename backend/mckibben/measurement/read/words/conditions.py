@@ -71,7 +71,7 @@ REMARKS = {
         "ca": "alimentació", "lt": "tiekimo",
     },
     "ambient": {
-        "en": "ambient baro barometer barometric atmospheric atmosphere",
+        "en": "ambient amb pamb patm atm baro barometer barometric atmospheric atmosphere",
         "de": "luftdruck umgebungsdruck umgebung", "fr": "atmosphérique ambiante baromètre",
         "it": "atmosferica ambiente barometro", "es": "atmosférica barómetro", "pt": "atmosférica barômetro",
         "pl": "atmosferyczne otoczenia barometr", "cs": "barometrický okolí atmosférický",
