@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import json
+
 import numpy as np
 import pytest
 
@@ -171,3 +173,62 @@ def test_the_states_of_a_valve_by_numbers() -> None:
     rows = table(TIME, PRESSURE, STROKE, states)
     found = read(f"{text}t [s],p [bar],shortening [mm],valve_state\n{rows}")
     np.testing.assert_allclose(found.columns["command"], states - 1.0)
+
+
+@pytest.mark.parametrize(
+    ("remark", "sign"),
+    [
+        ("sign of the load cell: compression +, tension -", -1.0),
+        ("load cell: tension +, compression -", 1.0),
+        ("load cell 0-5 kN", 1.0),
+    ],
+)
+def test_a_sign_behind_its_word(remark: str, sign: float) -> None:
+    rows = table(TIME, PRESSURE, sign * FORCE, STROKE)
+    assert_is_the_test(read(f"# {remark}\n{HEAD}{rows}"))
+
+
+def test_samples_at_a_rate_and_encoder_steps_in_words() -> None:
+    text = (
+        "# rest length 300 mm\n# sampled at 200 Hz\n"
+        "# encoder: 5 um per count, 0 at the rest length, counts {}\n"
+    )
+    head = "sample\tp [bar]\tF [N]\tencoder [counts]\n"
+    for words, sign in (("up as the muscle shortens", 1.0), ("down as the muscle shortens", -1.0)):
+        rows = table(np.arange(len(TIME)), PRESSURE, FORCE, sign * STROKE * 200.0, separator="\t")
+        found = read(text.format(words) + head + rows)
+        assert_is_the_test(found)
+        np.testing.assert_allclose(found.columns["time"], np.arange(len(TIME)) / 200.0)
+
+
+def test_header_lines_of_json_with_quantities_and_units() -> None:
+    units = {"t": "s", "p": "bar", "F": "N", "s": "mm"}
+    head = {"type": "header", "L0": {"value": 0.3, "unit": "m"}, "units": units, "s": "shortening"}
+    rows = [json.dumps(head)]
+    for number, row in enumerate(zip(TIME, PRESSURE, FORCE, STROKE, strict=True)):
+        rows.append(json.dumps(dict(zip(("type", *units), ("data", *map(float, row)), strict=True))))
+        if number % 10 == 5:
+            rows.append(json.dumps({"type": "event", "t": float(row[0]), "msg": "reversal"}))
+    assert_is_the_test(read("\n".join(rows), "a.ndjson"))
+
+
+def test_loads_in_the_titles_of_sections_make_an_isotonic_test() -> None:
+    pressure = np.arange(2.0, 6.0, 0.25)
+    sections = [
+        f"\nload {mass} kg\np [bar]\tL [mm]\n"
+        + table(pressure, 290.0 - 10.0 * pressure + mass, separator="\t")
+        for mass in (3, 8, 15)
+    ]
+    found = read("muscle, rest length 300 mm\n" + "\n".join(sections), "a.txt")
+    assert found.kind == "isotonic"
+    np.testing.assert_allclose(found.columns["force"], np.repeat([3.0, 8.0, 15.0], len(pressure)) * KILOGRAM)
+
+
+def test_names_above_and_ways_with_units_below() -> None:
+    rows = "\n".join(f"{e};{500 - 20 * e};{470 - 20 * e}" for e in range(20))
+    found = read(
+        f"# rest length 300 mm, pressure 4 bar\nKontraktion;Kraft;\n[%];Belasten [N];Entlasten [N]\n{rows}"
+    )
+    assert found.rows == 40
+    np.testing.assert_allclose(found.columns["contraction"], np.tile(np.arange(20) / 100.0, 2))
+    np.testing.assert_allclose(found.columns["force"][[0, 20]], [500.0, 470.0])
