@@ -42,7 +42,7 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
     named = at if at is not None else _row_of_names(texts, rows, run, lists)
     said = lists[named]
     above = texts[named]
-    full = any(sum(map(bool, texts[index])) >= run.width for index in rows if index != named)
+    full = any(sum(map(bool, texts[index])) >= run.width for index in rows if index > named)
     if not full and _without_row_names(grid, run, above):
         above = texts[named] = ["", *above]
     names = _padded(above, run.width)
