@@ -20,9 +20,10 @@ from mckibben.measurement.read.constants import notes_with_constants, with_const
 from mckibben.measurement.read.contradictions import condition_questions, numbers_in_words
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
+from mckibben.measurement.read.hangers import add_hanger
 from mckibben.measurement.read.head_text import channel_number
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
-from mckibben.measurement.read.held_by_text import hold_pressure
+from mckibben.measurement.read.held_by_text import hold_pressure, hold_stroke
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.signs import FORCE_SIGN, STROKE_SIGN
@@ -149,12 +150,17 @@ def assemble(
     messages += said
     ignored = [*meaning.ignored, *(c.header for c in meaning.columns if c not in used)]
     reading = ChannelReading(
-        source.place, source.noun, table, conditions, messages, ignored, skip, source.clocks
+        source.place, source.noun, table, conditions, messages, ignored, skip, source.clocks, source.rest
     )
     columns, by_use, slack = read_channels(used, reading)
     slack = _oldest_first(columns, by_use, slack, source, messages)
     hold_pressure(columns, by_use, name, source, conditions, messages)
+    hold_stroke(columns, by_use, source, name, conditions, messages)
     tare = subtract_tare(columns, by_use, [*source.rest, *notes_of_tares(source.notes)], conditions, messages)
+    tare += add_hanger(
+        columns, by_use, source.rest, conditions, messages,
+        answered="force_zero" in conditions or "load_mass" in correction.conditions,
+    )  # fmt: skip
     skipped = dict(reading.table.skipped)
     for reason, left_out in skipped.items():
         messages.append(f"{left_out.rows} rows left out: {reason} (first: {left_out.first})")

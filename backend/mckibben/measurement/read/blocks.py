@@ -179,7 +179,7 @@ def _carried(grid: Grid, pieces: Sequence[tuple[int, int]], used: Sequence[int])
         if filled[:1] != [0] or len(filled) > _MOST_BLOCKS:
             continue
         gaps = [b - a for a, b in zip(filled, [*filled[1:], len(rows)], strict=True)]
-        if min(gaps) < _SHORTEST_BLOCK:
+        if min(gaps) < _SHORTEST_BLOCK or _is_slow_signal(gaps):
             continue
         marked = any(kind_of(c) == GAP and _bad(c) for c in (r[column] for r in rows if column < len(r)))
         if (
@@ -189,6 +189,11 @@ def _carried(grid: Grid, pieces: Sequence[tuple[int, int]], used: Sequence[int])
         ):
             found.add(column)
     return frozenset(found)
+
+
+def _is_slow_signal(gaps: Sequence[int]) -> bool:
+    """Whether a column is filled every so many rows all along: a signal that was sampled more slowly."""
+    return len(gaps) > _MOST_EVEN_BLOCKS and len(set(gaps[:-1])) == 1
 
 
 def _others_filled(rows: Sequence[Sequence[Cell]], column: int, used: Sequence[int]) -> bool:
@@ -202,6 +207,7 @@ def _others_filled(rows: Sequence[Sequence[Cell]], column: int, used: Sequence[i
 
 _CARRIED_WITHIN = 2000  # rows that show it
 _MOST_BLOCKS = 60
+_MOST_EVEN_BLOCKS = 16
 _SHORTEST_BLOCK = 3  # rows
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
@@ -18,6 +18,7 @@ from mckibben.measurement.read.directions import direction_of
 from mckibben.measurement.read.head_text import channel_number
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, proposal
+from mckibben.measurement.read.sentinels import sentinels_in
 from mckibben.measurement.read.signs import (
     COMPRESSION_POSITIVE,
     EXTENSION_POSITIVE,
@@ -52,6 +53,7 @@ class ChannelReading:
     ignored: list[str]
     skip: bool = False
     clocks: frozenset[int] = frozenset()
+    texts: Sequence[tuple[str, str]] = ()
 
     @property
     def ambient(self) -> float:
@@ -123,6 +125,9 @@ def _without_sentinels(column: HeaderColumn, reading: ChannelReading) -> None:
                 and _FAR * float(np.max(np.abs(raw[~(same | odd)]), initial=0.0)) < abs(value)
             ):
                 odd |= same
+    if column.use != "time":
+        for value in sentinels_in(reading.texts, column.use):
+            odd |= np.abs(raw - value) <= 1e-9 * abs(value)
     if not odd.any() or 2 * int(np.count_nonzero(odd)) > len(raw):
         return
     first = int(np.argmax(odd))

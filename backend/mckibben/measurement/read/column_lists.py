@@ -10,6 +10,7 @@ from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
 from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.locate import names_channel, texts_of
 from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.unit_words import unit_of
 
 _WITHIN = 300  # rows above the readings
 _LONGEST = 2000  # characters of a row
@@ -21,7 +22,7 @@ _WORD = (
 )
 _END = r"\s*(?:[:=)\]–-]|->|is\b)\s*"
 _NUMBERED = re.compile(
-    rf"(?i)(?:{_WORD}\.?\s*(?:no\.?|nr\.?|#)?\s*([0-9]{{1,2}})|(?:第\s*)?([0-9]{{1,2}})\s*(?:列目?|열)|\$([0-9]{{1,2}}))"
+    rf"(?i)(?:(?:{_WORD}|ch)\.?\s*(?:no\.?|nr\.?|#)?\s*([0-9]{{1,2}})|(?:第\s*)?([0-9]{{1,2}})\s*(?:列目?|열)|\$([0-9]{{1,2}}))"
     rf"(?:{_END}|\s+(?=[^\W\d]))"
 )
 _LINE = re.compile(rf"\s*[\[(]?([0-9]{{1,2}})(?:{_END}|\.\s+)(.+)")
@@ -40,6 +41,8 @@ def listed_columns(grid: Grid, until: int, width: int) -> ColumnList | None:
 
     A list counts when it names every column by its number, or as many as there are, two channels at least.
     """
+    if (told := _told_columns(grid, until, width)) is not None:
+        return told
     numbered: dict[int, tuple[str, int]] = {}
     lines: dict[int, tuple[str, int]] = {}
     plain: ColumnList | None = None
@@ -61,6 +64,40 @@ def listed_columns(grid: Grid, until: int, width: int) -> ColumnList | None:
             if _name_channels(names):
                 return ColumnList(names, min(row for _, row in entries.values()))
     return plain if plain is not None and _name_channels(plain.names) else None
+
+
+_SENTENCE = re.compile(
+    rf"(?i)(?<!\w){_WORD}(?:\s+[^\W\d]+){{0,3}}?\s*(?:[:=]|\bare\b|\bis\b|\bsind\b|\bsont\b|\bson\b|\bsono\b|\bcontain\b|\bhold\b|\benthalten\b)\s*:?\s*(.+)"
+)
+_PARTS = re.compile(r"\s*[,;]\s*(?:and|und|et|e|y|dann|then)?\s+|\s+(?:and|und|et)\s+")
+_IN = re.compile(r"(?:the\s+)?(.+?)\s+(?:in|en|em|im|w|v)\s+(\S+?)(?:\s+(.+))?")
+
+
+def _told_columns(grid: Grid, until: int, width: int) -> ColumnList | None:
+    """The columns that a sentence of the preamble tells: "the columns are time in seconds, force in newtons".
+
+    The sentence may go on over several lines. It counts where it tells as many as there are, all with units.
+    """
+    first = max(0, until - _WITHIN)
+    texts = [_text_of(grid, index) for index in range(first, until)]
+    if sum(map(len, texts)) > 20 * _LONGEST:
+        return None
+    for number, text in enumerate(texts):
+        if (begin := _SENTENCE.search(text)) is None:
+            continue
+        whole = re.split(r"[.](?:\s|$)", " ".join([begin[1], *texts[number + 1 : number + 6]]))[0]
+        parts = [_IN.fullmatch(part.strip()) for part in _PARTS.split(whole)]
+        if len(parts) != width or width < 2 or not all(parts):
+            continue
+        names = []
+        for part in parts:
+            unit = unit_of(part[2]) or unit_of(part[2].rstrip("s")) if part else None
+            if part is None or unit is None:
+                break
+            names.append(f"{part[1]} [{unit.unit}]")
+        if len(names) == width and _name_channels(names):
+            return ColumnList(names, first + number)
+    return None
 
 
 def is_column_list(line: str) -> bool:

@@ -6,7 +6,6 @@ it. Nothing depends on how variables or fields are called, except that a field i
 
 from __future__ import annotations
 
-import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
@@ -18,19 +17,17 @@ from mckibben.measurement.read.conditions import CONDITION_UNITS, Note, key_of
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.matrix_maps import maps_apart
 from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.signals import is_vector, signals_of, texts_of_signals
 from mckibben.measurement.read.source import HeaderColumn
 from mckibben.measurement.read.stated import in_known_words
 from mckibben.measurement.read.unit_lists import names_units, unit_said, units_in_text, units_of_columns
-from mckibben.measurement.read.unit_words import dimension_of, reference_of, unit_of
-from mckibben.measurement.read.vectors import as_column, sorted_out
+from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.vectors import sorted_out
 from mckibben.measurement.read.vocabulary import UNIT_WORDS, words_of
 from mckibben.physics.errors import InputError
 
-_NAME = re.compile(r"(?i)(signal_?)?(name|label|title|bezeichnung|channel)")
-_DIMENSION = "dim"  # what recorders of signals write for "unit"
 _MAX_COLUMNS = 60  # of a matrix that is taken apart
 _DEEPEST = 4
-_SETTINGS = 4  # most numbers of a setting beside a signal
 _HELD = ("pressure", "force", *STROKES)  # what a test may hold
 _FEWEST_ROWS = 4  # of a matrix that can be readings
 RUN = "group"
@@ -99,7 +96,7 @@ def _with_units(values: dict[str, Any], inner: list[tuple[str, Any]], outer: Uni
     A text or list of all units counts too, and what is said of the name further out.
     """
     structs = [value for _, value in inner if isinstance(value, dict)]
-    vectors = [key for key, value in values.items() if _is_vector(value)]
+    vectors = [key for key, value in values.items() if is_vector(value)]
     beside = units_of_columns(vectors, {k: v for k, v in values.items() if isinstance(v, str)})
     listed = dict(zip(vectors, beside, strict=True))
     result = {}
@@ -133,10 +130,10 @@ def _tables(
     table = NamedTable(path, {})
     inner: list[tuple[str, Any]] = []
     for key, value in values.items():
-        signals = _signals(value)
+        signals = signals_of(key, value)
         if signals is not None:
             own |= signals
-            table.rest += _texts(value, f"{noun} '{f'{path}.' if path else ''}{key}'")
+            table.rest += texts_of_signals(value, f"{noun} '{f'{path}.' if path else ''}{key}'")
         elif isinstance(value, dict) or (isinstance(value, list) and value and isinstance(value[0], dict)):
             inner.append((key, value))
         else:
@@ -180,7 +177,7 @@ def _holds_vector(value: Any, depth: int = 0) -> bool:
         return any(_holds_vector(item, depth + 1) for item in value.values())
     if isinstance(value, list) and value and isinstance(value[0], dict):
         return _holds_vector(value[0], depth + 1)
-    return _is_vector(value)
+    return is_vector(value)
 
 
 def _parts(
@@ -309,52 +306,6 @@ def _channel_of_constant(head: str) -> str | None:
     return "pressure" if known.unit is not None and dimension_of(known.unit) == "a pressure" else None
 
 
-def _signals(value: Any) -> dict[str, Any] | None:
-    """Head -> vector of a signal or an array of signals; None = it is neither."""
-    structs = value if isinstance(value, list) else [value]
-    if not structs or not all(isinstance(struct, dict) for struct in structs):
-        return None
-    found: dict[str, Any] = {}
-    for struct in structs:
-        vectors = [v for v in struct.values() if _is_vector(v)]
-        if len(vectors) > 1:  # beside the readings a few settings, "plotStyle = [0 1]"
-            vectors = [v for v in vectors if v.size > _SETTINGS] or vectors
-        text = next(
-            (v.strip() for k, v in struct.items() if isinstance(v, str) and _NAME.fullmatch(k) and v.strip()),
-            "",
-        )
-        if len(vectors) != 1 or not text:
-            return None
-        unit = next((v.strip() for k, v in struct.items() if isinstance(v, str) and _is_unit_name(k)), "")
-        head = (
-            f"{text} [{unit}]"
-            if unit and unit_of(unit) is not None and recognise(text).unit is None
-            else text
-        )
-        if reference_of(unit) is None and (unit_of(unit) is not None or recognise(head).unit is not None):
-            marks = {
-                word
-                for k, v in struct.items()
-                if isinstance(v, str) and k != "unit" and v.strip() != text
-                for word in (v, *re.split(r"[\s,;/]+", v))
-                if reference_of(word) is not None
-            }
-            head = f"{head} ({marks.pop()})" if len(marks) == 1 else head
-        while head in found:
-            head += "'"
-        found[head] = vectors[0]
-    return found
-
-
-def _is_vector(value: Any) -> bool:
-    return (
-        isinstance(value, np.ndarray)
-        and value.dtype.kind in "biuf"
-        and value.size > 1
-        and as_column(value) is not None
-    )
-
-
 def _matrices_apart(values: Mapping[str, Any]) -> dict[str, Any]:
     """Matrices as columns, named by the list of as many texts beside them."""
     result: dict[str, Any] = {}
@@ -376,17 +327,3 @@ def _matrices_apart(values: Mapping[str, Any]) -> dict[str, Any]:
             if isinstance(value, list) and value in lists:
                 del result[key]
     return result
-
-
-def _is_unit_name(key: str) -> bool:
-    return key.lower() == _DIMENSION or names_units(key)
-
-
-def _texts(value: Any, where: str) -> list[tuple[str, str]]:
-    structs = value if isinstance(value, list) else [value]
-    return [
-        (text, where)
-        for struct in structs
-        for key, text in struct.items()
-        if isinstance(text, str) and text.strip() and not _NAME.fullmatch(key) and not _is_unit_name(key)
-    ]

@@ -24,6 +24,11 @@ _PERIOD = re.compile(
     r"(?P<what>time|period|interval|step|rate|frequency|zeit|periode|intervall|rate|frequenz)"
     rf"(?:{_IS}|\s+(?:of|von)?\s*)(?i:{_TIME})"
 )
+#: "sampled at 200 Hz", "recorded every 5 ms".
+_SAMPLED = re.compile(
+    r"(?i:\b(?:sampled|recorded|logged|acquired|abgetastet|aufgezeichnet)\s+(?:at|with|every|mit|alle)\s+)"
+    rf"(?i:{_TIME})"
+)
 #: The rate is not that of the rows.
 _THINNED = re.compile(
     r"(?i)averag|decimat|down-?sampl|every\s+[0-9n]|gemittelt|jede[rsn]?\b|reduced|filter|mean of"
@@ -60,7 +65,7 @@ def time_of_count(header: str, texts: Sequence[tuple[str, str]], *, by_one: bool
                     if (seconds := _seconds(match)) is not None:
                         found.setdefault(seconds, (match[0].strip(), where))
         if by_one and samples and _THINNED.search(text) is None:
-            for match in _PERIOD.finditer(text):
+            for match in (*_PERIOD.finditer(text), *_SAMPLED.finditer(text)):
                 if (seconds := _seconds(match)) is not None:
                     found.setdefault(seconds, (match[0].strip(), where))
     if len(found) != 1:

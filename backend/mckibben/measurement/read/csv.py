@@ -20,6 +20,7 @@ from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
 from mckibben.measurement.read.held import held_pressure
 from mckibben.measurement.read.json_file import is_json, open_json
 from mckibben.measurement.read.lines import located_text
+from mckibben.measurement.read.other_texts import other_text
 from mckibben.measurement.read.raw import RawRows, shown_rows
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
@@ -34,6 +35,7 @@ _PIECE = 1_000_000  # bytes
 _HEADER_WITHIN = 10_000  # lines
 _FOOTER_LINES = 100
 _LONGEST_COMMENT = 2000  # characters
+_SHORT_TABLE = 3_000_000  # characters
 _LONGEST_LINE = 10_000  # characters
 #: Double precision as Fortran writes it: "0.300D+03".
 _FORTRAN = re.compile(r"(?<![\w.])([+-]?\d*\.\d+)D([+-]\d{2,3})(?!\w)")
@@ -71,6 +73,10 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
     messages: list[str] = []
     text = _decoded(data, name, messages)
     if is_json(text) and (found := open_json(text, name, correction)) is not None:
+        found.messages[:0] = messages
+        return found
+    text, found = other_text(text, name, correction)
+    if found is not None:
         found.messages[:0] = messages
         return found
     refusal: InputError | None = None
@@ -119,6 +125,7 @@ def _plain(text: str, name: str, messages: list[str]) -> tuple[RawTable, bool]:
         and len(pressures) < 2
         and "\n#" not in body  # titles of blocks
         and not _has_thousands(body, separator)
+        and not _has_remarks(body, sample, separator)
     )
 
     def read(numeric: Sequence[int], words: Sequence[int], skip: bool) -> CellTable:
@@ -162,6 +169,13 @@ def _with_texts(notes: list[Note], texts: Sequence[tuple[str, str]], name: str) 
     """The conditions of a file, and those that the sentences of its comments and its name say."""
     known = {note.key for note in notes}
     return notes + [note for note in statements(texts, name) if note.key not in known]
+
+
+def _has_remarks(body: str, sample: Sequence[Sequence[str]], separator: str) -> bool:
+    """Whether a few lines of a short table hold words and empty cells: events between the readings."""
+    if len(body) > _SHORT_TABLE or any(kind_of(cell) == TEXT for cell in (sample[0] if sample else ())):
+        return False
+    return re.search(rf"(?m)^.*[^\W\d_]{{4,}}.*{separator}\s*(?:{separator}\s*)*$", body) is not None
 
 
 def _has_thousands(body: str, separator: str) -> bool:

@@ -11,21 +11,36 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.measurement.read.calibrations import calibration_of, is_raw_share
 from mckibben.measurement.read.cells import CellTable
 from mckibben.measurement.read.counters import time_of_count, valve_states_of
 from mckibben.measurement.read.head_text import CHANNEL_NUMBER, taken_apart
+from mckibben.measurement.read.positions import falls_with_shortening
 from mckibben.measurement.read.recognise import recognise
-from mckibben.measurement.read.scales import Scale, said_scale, scale_in, scale_of, valve_scale_of
+from mckibben.measurement.read.scales import (
+    Scale,
+    said_scale,
+    says_zero,
+    scale_in,
+    scale_of,
+    valve_scale_of,
+    zero_in,
+)
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.unit_words import COUNT, dimension_of, unit_of
-from mckibben.measurement.read.vocabulary import channel_of_word, words_of
+from mckibben.measurement.read.unit_words import (
+    BRIDGE,
+    COUNT,
+    FULL_SCALE,
+    RAW_DIMENSIONS,
+    dimension_of,
+    unit_of,
+)
+from mckibben.measurement.read.vocabulary import channel_of_word, proper_channel, words_of
 from mckibben.physics.units import convert
 
 _PARTS = {"ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}  # of a second, and how many it has
 _FRACTION = re.compile(r":[0-9]{2}:[0-9]{2}[.,:][0-9]+\s*$")  # of a second
 _MOST_SCALED = 40  # columns
-#: What a signal is measured in before it has a scale.
-RAW_DIMENSIONS = ("a voltage", "a current", "a count")
 
 
 @dataclass(frozen=True)
@@ -112,25 +127,26 @@ def _counted(
     texts = [*source.rest, *((f"{note.key}: {note.value}", note.where) for note in source.notes)]
     for index, header in enumerate(headers[:_MOST_SCALED]):
         column, head = columns[index], taken_apart(header, units[index])
-        if known[index].channel is not None or column != _Derived(column.place):
+        if known[index].channel not in (None, "command") or column != _Derived(column.place):
             continue
         counted = None
-        if "time" not in channels and head.unit is None:
+        stated = known[index].channel == "command"
+        if "time" not in channels and head.unit is None and not stated:
             shown = _numbers(source, column.place)
             rising = len(shown) > 1 and all(b > a for a, b in pairwise(shown))
             by_one = rising and all(b - a == 1.0 for a, b in pairwise(shown))
             counted = time_of_count(head.name, texts, by_one=by_one) if rising else None
         if counted is not None:
             columns[index] = _Derived(column.place, counted.factor, from_first=True)
-            headers[index], units[index] = f"time: {header}", "s"
+            headers[index], units[index] = f"{header} (time)", "s"
             said.append(
                 f"{source.noun} '{header}' is read as time, {counted.text} ({counted.where}); it counts from "
                 "the first row"
             )
             channels.add("time")
-        elif (
-            "command" not in channels and (valve := valve_states_of(head.name, head.unit, texts)) is not None
-        ):
+        elif (stated or "command" not in channels) and (
+            valve := valve_states_of(head.name, head.unit, texts)
+        ) is not None:
             columns[index] = _Derived(column.place, valve.factor, valve.offset)
             headers[index], units[index] = f"{head.name}: {valve.name}", valve.unit
             said.append(
@@ -222,18 +238,60 @@ def _numbers(source: RawTable, index: int) -> list[float]:
 
 
 def _scale(source: RawTable, index: int, header: str, unit: str | None) -> Scale | None:
-    """The scale that the texts of the file state for a column of volts, milliamperes or counts."""
+    """The scale that the texts of the file state for a column of a signal, by its name or by what it is."""
+    texts = [*source.rest, *((f"{note.key}: {note.value}", note.where) for note in source.notes)]
+    named = _named_scale(source, index, header, unit)
+    if named is not None:
+        return _with_zero(named, texts)
+    heads = [
+        (head, source.units[i] if i < len(source.units) else None) for i, head in enumerate(source.headers)
+    ]
+    found = calibration_of(header, unit, heads, texts)
+    return None if found is None else _with_zero(found, texts)
+
+
+def _with_zero(scale: Scale, texts: Sequence[tuple[str, str]]) -> Scale | None:
+    """The scale with the zero of its signal that another text states; None = it is open whether to add it.
+
+    It counts where that text names the same quantity.
+    """
+    if scale.offset:
+        return scale
+    if dimension_of(scale.unit) == "a length" and falls_with_shortening(scale.text, scale.where, texts):
+        return scale._replace(factor=-scale.factor)
+    channel = proper_channel(recognise(scale.name, scale.unit).channel)
+    for text, where in texts:
+        if where == scale.where or channel is None:
+            continue
+        named = {proper_channel(c) for word in words_of(text) if (c := channel_of_word(word)) is not None}
+        if channel not in named:
+            continue
+        zero = zero_in(text, scale.raw)
+        if zero is not None:
+            return scale._replace(offset=-scale.factor * zero, text=f"{scale.text} and '{text[:60]}'")
+        if says_zero(text, scale.unit):
+            return None
+    return scale
+
+
+def _named_scale(source: RawTable, index: int, header: str, unit: str | None) -> Scale | None:
+    """The scale that a text states for a column that it names."""
     head = taken_apart(header, unit)
-    if head.unit is None or dimension_of(head.unit) not in RAW_DIMENSIONS:
+    share = is_raw_share(head.name, head.unit) or (
+        head.unit == "%" and recognise(head.name).channel == "displacement"
+    )
+    if head.unit is None or not (dimension_of(head.unit) in RAW_DIMENSIONS or share):
         return None
+    measured = dimension_of(FULL_SCALE if share else head.unit)
     for text, where in source.rest:
         found = scale_of(text, head.name, where)
         named = found is not None
         if found is None and _names_only(text, index, source.headers):
             found = scale_in(text, where)
-        if found is None or not found.zeroed or dimension_of(found.raw) != dimension_of(head.unit):
+        if found is None or not found.zeroed or dimension_of(found.raw) != measured:
             continue
-        per = 1.0 if head.unit == COUNT else float(convert([1.0], head.unit, found.raw)[0])
+        plain = share or head.unit in (COUNT, BRIDGE, FULL_SCALE)
+        per = 1.0 if plain else float(convert([1.0], head.unit, found.raw)[0])
         known = recognise(found.name, found.unit) if named else recognise(head.name)
         name = found.name if named and known.channel is not None else head.name
         return found._replace(factor=found.factor * per, name=name)

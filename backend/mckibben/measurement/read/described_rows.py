@@ -23,6 +23,18 @@ _NAMES = (
     "bezeichnung",
 )
 _UNITS = ("unit", "units", "uom", "einheit", "unite", "unidad", "unita")
+_WORDS = (
+    "description",
+    "desc",
+    "quantity",
+    "meaning",
+    "beschreibung",
+    "comment",
+    "remark",
+    "longname",
+    "long_name",
+)
+_SHORT = 60  # characters
 _DEEPEST = 12
 _FEWEST = 3  # readings
 
@@ -39,6 +51,9 @@ def with_described_rows(document: Any) -> Any:
         return document
     (channels,) = described
     width = len(channels)
+    renamed = _with_described_names(document, lists, channels)
+    if renamed is not None:
+        return renamed
     tables = [rows for rows in lists if (table := _rows(rows, width)) is not None and table]
     if len(tables) != 1:
         return document
@@ -50,6 +65,24 @@ def with_described_rows(document: Any) -> Any:
     signs = {f"sign {number}": text for number, c in enumerate(channels) if (text := _sign(c))}
     joined = _replaced(document, rows, records, channels)
     return {**joined, **signs} if isinstance(joined, dict) else document
+
+
+def _with_described_names(document: Any, lists: Sequence[list[Any]], channels: list[Any]) -> Any:
+    """The document with its records under the heads of the channels they name; None = they name none."""
+    heads = {_named(channel, _NAMES): _head(channel) for channel in channels}
+    tables = [
+        rows
+        for rows in lists
+        if rows is not channels and len(rows) >= _FEWEST and all(isinstance(row, dict) for row in rows)
+        and len(set(heads) & set(rows[0])) >= 2
+    ]  # fmt: skip
+    if len(tables) != 1 or len(set(heads.values())) != len(channels):
+        return None
+    (rows,) = tables
+    records = [{heads[k] if k in heads else str(k): cell for k, cell in row.items()} for row in rows]
+    joined = _replaced(document, rows, records, channels)
+    signs = {f"sign {number}": text for number, c in enumerate(channels) if (text := _sign(c))}
+    return {**joined, **signs} if isinstance(joined, dict) else None
 
 
 def _lists(value: Any, depth: int) -> Iterator[list[Any]]:
@@ -97,6 +130,9 @@ def _is_reading(cell: Any) -> bool:
 def _head(channel: Mapping[str, Any]) -> str:
     """The head of a column: its name, its unit, what a pressure counts from."""
     name, unit = _named(channel, _NAMES), _named(channel, _UNITS)
+    said = _named(channel, _WORDS)
+    if said and len(said) < _SHORT and recognise(name, unit or None).channel is None:
+        name = f"{name} {said}" if recognise(f"{name} {said}", unit or None).channel else name
     head = f"{name} [{unit}]" if unit and unit_of(unit) is not None and recognise(name).unit is None else name
     marks = {
         v.strip() for v in channel.values() if isinstance(v, str) and reference_of(v.strip()) is not None

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from pathlib import PurePath
 
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.csv import open_csv
 from mckibben.measurement.read.derived import with_derived
+from mckibben.measurement.read.legend import told_units
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
@@ -26,7 +28,6 @@ _REFUSED = {
     b"\xd0\xcf\x11\xe0": ("an old Excel workbook (.xls)", "save it as .xlsx or CSV"),
     b"TDSh": ("a TDMS index, without the data", "send the .tdms file beside it"),
     b"%PDF": ("a PDF document", "send the table itself, as CSV or .xlsx"),
-    b"\x1f\x8b": ("gzip-compressed", "unpack it first"),
     b"7z\xbc\xaf": ("a 7z archive", "unpack it first"),
     b"MATLAB 4": ("a MATLAB 4 file", "save it with -v7"),
 }
@@ -40,7 +41,30 @@ def open_source(data: bytes, name: str, correction: Correction | None = None) ->
     """
     chosen = {} if correction is None else correction.columns
     scales = {name: choice.scale for name, choice in chosen.items() if choice is not None and choice.scale}
-    return with_derived(_opened(data, name, correction), scales)
+    return with_derived(_with_told_units(_opened(data, name, correction)), scales)
+
+
+def _with_told_units(source: RawTable) -> RawTable:
+    """The table with the units that sentences of the file tell of its columns."""
+    units = [*source.units, *[None] * (len(source.headers) - len(source.units))]
+    found, said = told_units(source.headers, units, source.rest)
+    if not found:
+        return source
+    units = [found.get(index, unit) for index, unit in enumerate(units)]
+    return replace(source, units=tuple(units), messages=[*source.messages, *said])
+
+
+def open_inner(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
+    """The table of a file that was packed in another one; an archive in an archive is not read.
+
+    Raises:
+        InputError: a format that is not read, or a damaged file.
+    """
+    if data.startswith((b"PK", b"\x1f\x8b")) and not name.lower().endswith(".xlsx"):
+        raise InputError(
+            f"{name}: no column can be read: an archive in an archive", field="file", hint="unpack it first"
+        )
+    return _opened(data, name, correction)
 
 
 def _opened(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
@@ -54,9 +78,22 @@ def _opened(data: bytes, name: str, correction: Correction | None = None) -> Raw
             raise InputError(f"{name}: no column can be read: the file is {what}", field="file", hint=remedy)
     # Each reader is imported when its format comes: together they take half a second.
     if data.startswith(b"PK"):
+        from mckibben.measurement.read.archive import open_archive
         from mckibben.measurement.read.xlsx import open_xlsx
 
-        return open_xlsx(data, name, correction)
+        found = open_archive(data, name, correction)
+        return open_xlsx(data, name, correction) if found is None else found
+    if data.startswith(b"\x1f\x8b"):
+        from mckibben.measurement.read.archive import unpacked_gzip
+
+        inner, name_inside = unpacked_gzip(data, name)
+        source = open_inner(inner, name_inside, correction)
+        source.messages.append(f"the file is gzip-compressed: '{name_inside}' in it is read")
+        return source
+    if data.startswith(b"SQLite format 3\0"):
+        from mckibben.measurement.read.sqlite_file import open_sqlite
+
+        return open_sqlite(data, name, correction)
     if data.startswith(b"TDSm"):
         from mckibben.measurement.read.tdms import open_tdms
 

@@ -40,6 +40,7 @@ _SURE_UNITS = frozenset(
         "ms",
         "mV",
         "kg",
+        "deg",
     ]
 )  # no name ends like them
 _WITHIN = re.compile(r"[\[({<]([^\[\](){}<>]*(?:\([^()]*\))?)[\])}>](?=[\s,;:.]|$)")
@@ -136,11 +137,17 @@ def without_paths(names: Sequence[str]) -> list[str]:
     return [part or name for name, part in zip(names, parts, strict=True)]
 
 
+#: Letters of a share that are that of the contraction.
+_SHARES = frozenset(["h", "k", "e", "ε", "κ", "eps", "epsilon", "kappa"])
+
+
 def channel_of_letter(words: list[str], dimension: str) -> str | None:
     """A letter with its unit: "F1 [N]", "s / mm"."""
     if not dimension:
         return None
     for word in words:
+        if dimension == "a plain number or a share" and word in _SHARES:
+            return "contraction"
         letter = re.fullmatch(r"([a-z])[0-9]{0,2}", word)
         channel = LETTERS.get(letter[1]) if letter else None
         if channel is not None and dimension in DIMENSIONS[channel]:

@@ -378,7 +378,8 @@ def _with_unit(
     if fits(unit, CHANNEL_UNITS[use]):
         return column._replace(use=use, unit=unit)
     measured = meaning(unit)
-    if measured in ("a voltage", "a current") or letter or use in ("direction", "group"):
+    share = unit == "%" and use in ("pressure", "force", "length")  # of the range of its sensor
+    if measured in ("a voltage", "a current") or share or letter or use in ("direction", "group"):
         what = f"{measured}, not a {use}" if measured else f"no unit of a {use}"
         messages.append(f"{noun} '{column.header}' is not used: '{unit}' is {what}")
         return None

@@ -42,7 +42,8 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
     named = at if at is not None else _row_of_names(texts, rows, run, lists)
     said = lists[named]
     above = texts[named]
-    if _without_row_names(grid, run, above):
+    full = any(sum(map(bool, texts[index])) >= run.width for index in rows if index > named)
+    if not full and _without_row_names(grid, run, above):
         above = texts[named] = ["", *above]
     names = _padded(above, run.width)
     names = [f"{name} {said[name]}" if name in said else name for name in names]
@@ -69,6 +70,9 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
     units = [unit or in_cells.get(column) for column, unit in enumerate(units)]
     for index in reversed(rows):
         if index in (named, units_at):
+            continue
+        if (more := _continued(grid, named, index, names)) is not None:
+            names = more
             continue
         other = _padded(texts[index], width)
         if index > named and (values := _values_below(names, other)):
@@ -181,6 +185,31 @@ def _listed_above(grid: Grid, index: int) -> dict[str, str]:
 def _lettered(name: str, unit: str) -> bool:
     """Whether a name says a channel by itself or by a letter that fits the unit, not by the unit alone."""
     return recognise(name, unit).penalty < BY_UNIT
+
+
+def _continued(grid: Grid, named: int, index: int, names: Sequence[str]) -> list[str] | None:
+    """Names that go on in another line of fixed width, "MUSCLE" over "LENGTH"; None = they do not.
+
+    Each word stands below or above one name, and together they name a channel, or what is none.
+    """
+    if not isinstance(grid, TextGrid) or grid.separator != BLANKS or abs(index - named) != 1:
+        return None
+    heads = list(re.finditer(r"\S+", grid.lines[named].expandtabs()))
+    words = list(re.finditer(r"\S+", grid.lines[index].expandtabs()))
+    if len(heads) != len(names) or not 0 < len(words) < len(heads):
+        return None
+    result = list(names)
+    for word in words:
+        over = [c for c, h in enumerate(heads) if h.start() <= word.end() and word.start() <= h.end()]
+        if len(over) != 1 or unit_of(word[0]) is not None or word[0][0].isdigit():
+            return None
+        pair = (names[over[0]], word[0]) if index > named else (word[0], names[over[0]])
+        result[over[0]] = " ".join(pair)
+    for column, (name, longer) in enumerate(zip(names, result, strict=True)):
+        known = recognise(longer)
+        if recognise(name).channel is not None and known.channel is None and known.why[:5] != "it is":
+            result[column] = name
+    return result
 
 
 def _placed_units(names: str, units: str) -> list[str] | None:

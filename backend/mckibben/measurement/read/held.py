@@ -28,6 +28,11 @@ _HELD = re.compile(
 _HELD_OTHER = re.compile(
     rf"(?:(?P<word>[^\W\d_]+0?)\s*[=:]?\s*)?(?<![\w.,-])(?P<number>{_NUMBER})\s*(?P<unit>mm|cm|m|%|kg|kN|N)(?![\w/])"
 )
+#: A scale or a range of a sensor is nothing held: "100 % = 10 bar", "1 V = 2 bar", "0-10 bar".
+_SCALE = re.compile(
+    rf"(?i){_NUMBER}\s*(?:%(?:\s*FS)?|m?V(?:/V)?|m?A|counts?|digits?|ticks?)\s*(?:=|≙|≈|:|->|→|for|per|to|is|entspr\w*)"
+    rf"\s*{_NUMBER}|{_NUMBER}\s*(?:m?bar|[kMh]?Pa|psi|k?N|mm|cm)\s*(?:=|≙|≈|->|→|@|at)\s*{_NUMBER}\s*(?:%|m?V|m?A|counts?|digits?)"
+)
 _NOT_HELD = ("the supply", "the surrounding air", "a preload", "a deviation")
 _BARE_LENGTH = 80.0  # mm; a title that says less without a word names a stroke, not a length
 
@@ -50,6 +55,8 @@ class HeldQuantity(NamedTuple):
 
 def held_pressure(text: str) -> HeldQuantity | None:
     """The one pressure that a text names: ``"p = 2,5 bar"``, ``"F @ 3 bar"``; None = none, or several."""
+    if _SCALE.search(text):
+        return None
     found = list(_HELD.finditer(text.replace("_", " ")))
     if len(found) != 1:
         return None
@@ -70,6 +77,8 @@ def held_pressure(text: str) -> HeldQuantity | None:
 
 def held_quantities(text: str) -> list[HeldQuantity]:
     """The pressure, stroke and load that a title names, at most one each: ``"L = 280 mm"``, ``"10 %"``."""
+    if _SCALE.search(text):
+        return []
     pressure = held_pressure(text)
     found = {} if pressure is None else {"pressure": pressure}
     at_rest = any(other_quantity(word, "length") is not None for word in words_of(text))

@@ -18,6 +18,7 @@ from mckibben.measurement.read.described_rows import with_described_rows
 from mckibben.measurement.read.limits import MAX_COLUMNS, check_columns, check_rows
 from mckibben.measurement.read.many_records import plain_columns
 from mckibben.measurement.read.mat import choose as choose_vectors
+from mckibben.measurement.read.quantities import with_quantities
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.reshape import regular
 from mckibben.measurement.read.reshape.rows import RowsGrid
@@ -65,6 +66,21 @@ def open_json(text: str, name: str, correction: Correction | None = None) -> Raw
         ) from error
     except (ValueError, TypeError):
         return None
+    return open_document(document, name, correction, lines=lines)
+
+
+def open_document(
+    document: Any, name: str, correction: Correction | None = None, *,
+    lines: list[tuple[int, Record]] | None = None,
+) -> RawTable:  # fmt: skip
+    """The table of a document of objects, lists, numbers and texts, whatever it was written in.
+
+    ``lines``: objects of the lines of a text, instead of the document.
+
+    Raises:
+        InputError: nothing that is a table.
+    """
+    correction = correction or Correction()
     document = with_described_rows(document)
     found = list(islice(_records(document, 0), 2)) if lines is None else []
     records = lines if lines is not None else next(iter(found), None)
@@ -198,7 +214,8 @@ def _of_records(
     common = set(max(kinds, key=lambda keys: kinds[keys] * len(keys)))
     good = {keys for keys in kinds if 2 * len(common & set(keys)) > len(common)}
     readings = [(n, record) for n, record in flat if tuple(record) in good]
-    others = [(n, record) for n, record in flat if tuple(record) not in good]
+    whole = dict(records)
+    others = [(n, _flat(with_quantities(whole[n], 0))) for n, record in flat if tuple(record) not in good]
     heads = list(dict.fromkeys(key for keys in kinds if keys in good for key in keys))
     check_columns(len(heads), name, "columns")
     noun = "line" if document is None else "record"
@@ -261,7 +278,7 @@ _KNOWN = ("nominal_length", "load_mass", "load_force", "supply_pressure", "ambie
 def _beside(document: Any) -> Iterator[tuple[str, Any]]:
     """Single values and texts of a document outside of its records; quantities as one text."""
     if isinstance(document, dict):
-        for key, value in _flat(_with_quantities(document, 0)).items():
+        for key, value in _flat(with_quantities(document, 0)).items():
             if not isinstance(value, (list, dict)):
                 yield key, value
 
@@ -307,21 +324,6 @@ def _cell(value: Any) -> Cell:
     return str(value)[:80]
 
 
-def _with_quantities(value: Any, depth: int) -> Any:
-    """Objects of a number and its unit as one text: ``{"value": 280, "unit": "mm"}`` is "280 mm"."""
-    if not isinstance(value, dict) or depth > _DEEPEST:
-        return value
-    numbers = [v for v in value.values() if isinstance(v, (int, float)) and not isinstance(v, bool)]
-    units = [v for k, v in value.items() if isinstance(v, str) and (len(value) == 2 or "unit" in k.lower())]
-    if (
-        len(numbers) == len(units) == 1
-        and unit_of(units[0]) is not None
-        and all(isinstance(v, (str, int, float)) for v in value.values())
-    ):
-        return f"{numbers[0]:.10g} {units[0]}"
-    return {key: _with_quantities(item, depth + 1) for key, item in value.items()}
-
-
 def _columns_of_records(records: Sequence[Record]) -> dict[str, Any]:
     """Records of readings as vectors: NaN where one lacks a number, words as texts."""
     flat = [_flat(record) for record in records]
@@ -341,12 +343,12 @@ def _values(value: Any, depth: int) -> Any:
     if depth > _DEEPEST:
         return None
     if isinstance(value, dict):
-        whole = _with_quantities(value, _DEEPEST)
+        whole = with_quantities(value, _DEEPEST)
         if not isinstance(whole, dict):
             return whole
         found: dict[str, Any] = {}
         for key, item in value.items():
-            text = _with_quantities(item, 0)
+            text = with_quantities(item, 0)
             if isinstance(item, dict) and isinstance(text, str):
                 number, _, unit = text.partition(" ")
                 found[f"{key} [{unit}]"] = float(number)

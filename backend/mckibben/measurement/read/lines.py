@@ -6,7 +6,7 @@ Every line keeps its number.
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 
 from mckibben.measurement.read.blocks import Table
 from mckibben.measurement.read.column_lists import is_column_list
@@ -16,6 +16,7 @@ from mckibben.measurement.read.grid import TextGrid, separator_of
 from mckibben.measurement.read.head_text import taken_apart, without_paths
 from mckibben.measurement.read.legend import explain_heads
 from mckibben.measurement.read.limits import check_columns, check_rows
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.reshape import Regular, regular
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import in_known_words, statements
@@ -29,9 +30,15 @@ _FIRST_LINES = 5000
 _LONGEST_LINE = 200_000  # characters
 _PAIR = re.compile(
     r"""["']?(?P<key>[A-Za-zµκ][A-Za-z0-9_ ]{0,30}?)["']?\s*[:=]\s*"""
-    r"""(?P<value>[+-]?[0-9]+(?:\.[0-9]*)?(?:[eE][+-]?[0-9]+)?)(?![\w:.])"""
+    r"""(?P<value>[+-]?[0-9]+(?:\.[0-9]*)?(?:[eE][+-]?[0-9]+)?)(?:\s?(?P<unit>[A-Za-zµ°%][A-Za-z²2/]*)(?![\w=:])"""
+    r"""(?!\s*[:=])|(?![\w:.]))"""
 )
 _UNIT_SAID = re.compile(r"(?i)\bunits?\s*[:=]\s*[\"'\[(]?([^\s,;\"'\])]+)")
+_STAMP = re.compile(
+    r"\s*\[?(?P<clock>(?:[0-9]{4}-[0-9]{2}-[0-9]{2}[T ])?"
+    r"[0-9]{1,2}:[0-9]{2}:[0-9]{2}(?:[.,][0-9]{1,6})?)\]?(?=[\s,;])"
+)
+_ALIKE = 2.0  # how much more a line with the same three keys and more counts
 _KEYED_SHARE = 0.5  # of the lines, from which a text is a log of keys and values
 
 
@@ -141,20 +148,24 @@ def _keyed(lines: Sequence[str]) -> tuple[list[str], list[tuple[str, str]]] | No
     filled = [line for line in lines[:600] if line.strip()]
     counted = [_pairs(line) for line in filled]
     share = sum(len(pairs) >= 2 for pairs in counted)
-    if len(filled) < 3 or share < _KEYED_SHARE * len(filled):
+    first = next((pairs for pairs in counted if len(pairs) >= 2), {})
+    alike = sum(pairs.keys() >= first.keys() for pairs in counted) if len(first) > 2 else 0
+    if len(filled) < 3 or max(share, _ALIKE * alike) < _KEYED_SHARE * len(filled):
         return None
-    first = next(pairs for pairs in counted if len(pairs) >= 2)
     keys = list(first)
-    rest = [
-        (line.strip(), f"line {number}")
-        for number, line in enumerate(lines, start=1)
-        if line.strip() and len(_pairs(line)) < 2
-    ]
-    rows = []
-    for line in lines:
+    stamped = _stamps(line for line, pairs in zip(filled, counted, strict=True) if len(pairs) >= 2)
+    stamped = stamped and not any(key.lower() == "t" or recognise(key).channel == "time" for key in keys)
+    rest, rows = [], []
+    for number, line in enumerate(lines, start=1):
         pairs = _pairs(line)
-        rows.append("\t".join(pairs.get(key, "") for key in keys) if len(pairs) >= 2 else "")
-    heads = [_head_of_key(key, [text for text, _ in rest]) for key in keys]
+        good = len(pairs) >= 2 and (_ALIKE * alike < share or pairs.keys() >= first.keys())
+        stamp = [found["clock"] if (found := _STAMP.match(line)) else ""] if stamped else []
+        rows.append("\t".join([*stamp, *(pairs.get(key, "") for key in keys)]) if good else "")
+        if line.strip() and not good:
+            rest.append((line.strip(), f"line {number}"))
+    units = _units_of_pairs(filled)
+    heads = [_head_of_key(key, [text for text, _ in rest], units.get(key)) for key in keys]
+    heads = ["time", *heads] if stamped else heads
     row = next((number for number, line in enumerate(rows) if line), 0)
     if row == 0:
         return None if not rows else (["\t".join(heads), *rows], [(text, where) for text, where in rest])
@@ -164,11 +175,45 @@ def _keyed(lines: Sequence[str]) -> tuple[list[str], list[tuple[str, str]]] | No
 
 def _pairs(line: str) -> dict[str, str]:
     body = re.sub(r"^.*?->\s*", "", line)
-    return {found["key"].strip(): found["value"] for found in _PAIR.finditer(body)}
+    return {
+        found["key"].strip(): found["value"]
+        for found in _PAIR.finditer(body)
+        if found["unit"] is None or unit_of(found["unit"]) is not None
+    }
 
 
-def _head_of_key(key: str, texts: Sequence[str]) -> str:
-    """A key with the unit of another line: ``x`` and "x[mm shortening]" -> ``x shortening [mm]``."""
+def _stamps(lines: Iterable[str]) -> bool:
+    """Whether all lines begin with a time of day or a date and time."""
+    found = [_STAMP.match(line) is not None for line in lines]
+    return bool(found) and all(found)
+
+
+def _units_of_pairs(lines: Sequence[str]) -> dict[str, str]:
+    """Key -> unit behind its numbers, where it is the same in all lines: ``p=2.001bar``."""
+    found: dict[str, set[str]] = {}
+    for line in lines:
+        for pair in _PAIR.finditer(re.sub(r"^.*?->\s*", "", line)):
+            found.setdefault(pair["key"].strip(), set()).add(pair["unit"] or "")
+    return {key: units.pop() for key, units in found.items() if len(units) == 1 and units != {""}}
+
+
+def _head_of_key(key: str, texts: Sequence[str], unit: str | None) -> str:
+    """A key with its unit, or that of another line: "x[mm shortening]" -> ``x shortening [mm]``.
+
+    ``x=shortening`` in another line says what it is.
+    """
+    said = next(
+        (
+            f[1]
+            for text in texts
+            if (f := re.search(rf"(?<![\w]){re.escape(key)}\s*[=:]\s*([^\W\d][^\s,;]*)", text))
+        ),
+        "",
+    )
+    if unit is not None:
+        return f"{key} {said} [{unit}]" if said else f"{key} [{unit}]"
+    if said and unit_of(said) is None and recognise(f"{key} {said}").channel is not None:
+        return f"{key} {said}"
     for text in texts:
         for found in re.finditer(rf"(?<![\w]){re.escape(key)}\s*[\[(]([^\])]*)[\])]", text):
             inside = found[1].strip()

@@ -92,6 +92,9 @@ def find_runs(grid: Grid, until: int | None = None) -> list[Run]:
         if not numbers or len(numbers) < texts or (run is None and _sums_up(grid, index)):
             run = None
             continue
+        if run is not None and run.rows > 1 and texts and _is_remark(grid, index, run):
+            run = None
+            continue
         clocks = frozenset(i for i, kind in enumerate(kinds) if kind == CLOCK)
         if run is None or not _continues(run, kinds, numbers, clocks):
             run = Run(index, index, frozenset(numbers), len(cells), clocks=clocks)
@@ -148,7 +151,7 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
         elif alike and follows and not _is_footer(grid, run):
             last = kept[-1]
             between = range(last.last, run.first)
-            broken = [(i, i + 1) for i in between if _is_broken(grid, i)]
+            broken = [(i, i + 1) for i in between if _is_broken(grid, i) and not _is_remark(grid, i, last)]
             last.pieces = last.pieces or [(last.first, last.last)]
             last.pieces += [*broken, (run.first, run.last)]
             last.last, last.rows, last.filled = run.last, last.rows + run.rows, last.filled + run.filled
@@ -161,7 +164,7 @@ def _row_above(grid: Grid, run: Run) -> list[str]:
     """The last row of texts above a run."""
     for index in range(run.first - 1, max(-1, run.first - 4), -1):
         if any(names := texts_of(grid.cells(index))):
-            return names
+            return [] if _is_remark(grid, index, run) else names
     return []
 
 
@@ -195,6 +198,19 @@ def _is_broken(grid: Grid, index: int) -> bool:
         return False
     remark = isinstance(grid, TextGrid) and re.match(r"\s*(#|%|//)", grid.lines[index])
     return not remark and not any(held_quantities(text) for _, text in titles_of(grid, index))
+
+
+def _is_remark(grid: Grid, index: int, run: Run) -> bool:
+    """Whether a row between readings tells an event: words, at most the time, and cells left empty."""
+    kinds = [kind_of(cell) for cell in grid.cells(index)]
+    shown = [kinds[column] if column < len(kinds) else GAP for column in sorted(run.numbers)]
+    readings = sum(kind in (NUMBER, CLOCK) for kind in shown)
+    worded = any(
+        " " in text or text.isalpha()
+        for text, kind in zip(texts_of(grid.cells(index)), kinds, strict=True)
+        if kind == TEXT
+    )
+    return worded and len(shown) > 2 and readings <= 1 and GAP in shown
 
 
 def _sums_up(grid: Grid, index: int) -> bool:

@@ -35,7 +35,7 @@ def axes_of_map(
         head: the row of names above.
         titles: (row, column, text) of what else stands above.
     """
-    parts = [part.strip() for part in _PARTED.split(corner) if part.strip()]
+    parts = [as_load(part.strip()) for part in _PARTED.split(corner) if part.strip()]
     if len(parts) == 2:
         return parts
     texts = [text for _, _, text in titles]
@@ -52,6 +52,14 @@ def axes_of_map(
     return [down, *across[:1]] if down else []
 
 
+def as_load(name: str) -> str:
+    """A mass as the load that it is: ``"m [kg]"`` -> ``"load m [kg]"``; any other name as it is."""
+    known = recognise(name)
+    if known.channel is None and dimension_of(known.unit) == "a mass":
+        return f"load {name}"
+    return name
+
+
 def value_of_map(above: Sequence[str], channels: Sequence[str | None]) -> str | None:
     """``"Static force [N] of DMSP-20"`` -> ``"Static force [N]"``."""
     for text in above:
@@ -60,6 +68,12 @@ def value_of_map(above: Sequence[str], channels: Sequence[str | None]) -> str | 
             if unit is None or not dimension_of(unit.unit):
                 continue
             name = f"{found[1].strip()} [{found[2]}]".strip()
+            if recognise(name).channel not in (None, *channels):
+                return name
+    for clause in (part for text in above for part in re.split(r"[,;:(.]\s*", text)):
+        found = re.match(r"(.{3,40}?)\s+(?:in|en|em|w|v|i)\s+(\S+)(?:\s|$)", clause.strip())
+        if found is not None and (unit := unit_of(found[2])) is not None and dimension_of(unit.unit):
+            name = f"{found[1].strip()} [{found[2]}]"
             if recognise(name).channel not in (None, *channels):
                 return name
     for text in above:
@@ -83,7 +97,7 @@ def _said(texts: Sequence[str], word: str) -> str:
 
 def _is_axis(text: str) -> bool:
     """Whether a text names a stroke or a pressure with its unit."""
-    known = recognise(text) if text else None
+    known = recognise(as_load(text)) if text else None
     return known is not None and known.unit is not None and known.channel in (*STROKES, "pressure", "force")
 
 

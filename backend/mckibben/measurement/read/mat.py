@@ -6,15 +6,19 @@ the file is ever executed; objects are not read.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
+
+from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.read.conditions import Note
-from mckibben.measurement.read.containers import NamedTable, matrix_tables, named_tables
+from mckibben.measurement.read.containers import NamedTable, known_uses, matrix_tables, named_tables
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.mat5 import DamagedError, Foreign, read_variables
-from mckibben.measurement.read.source import RawTable, array_source
+from mckibben.measurement.read.recognise import BY_UNIT, recognise
+from mckibben.measurement.read.source import HeaderColumn, RawTable, array_source
 from mckibben.measurement.read.stated import in_known_words, statements
 from mckibben.physics.errors import InputError, did_you_mean
 
@@ -39,8 +43,13 @@ def open_mat(data: bytes, name: str, correction: Correction | None = None) -> Ra
     return choose(values, name, correction)
 
 
-def choose(values: dict[str, Any], name: str, correction: Correction | None = None) -> RawTable:
+def choose(
+    values: dict[str, Any], name: str, correction: Correction | None = None,
+    texts: Sequence[tuple[str, str]] = (),
+) -> RawTable:  # fmt: skip
     """The source of a file's variables, or of the struct (array of structs, matrix) with most channels.
+
+    ``texts``: those beside the variables, and where they stand.
 
     Raises:
         InputError: vectors of different lengths, nothing that is a vector, no such struct.
@@ -77,7 +86,7 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
             field=f"{_NOUN}s", hint="e.g. pressure_bar = [0; 1; 2], length_mm = [300; 290; 280]",
         )  # fmt: skip
     rivals = [t for t in usable if t is not best and most >= 2 and t.known() >= most]
-    rest = [text for table in tables for text in table.rest]
+    rest = [*(text for table in tables for text in table.rest), *texts]
     notes = _notes_beside(best, tables)
     known_notes = in_known_words(notes)
     known = {note.key for note in known_notes}
@@ -89,8 +98,9 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
     if problem is not None:
         messages.append(problem.message)
     place = f"{name}, struct '{best.title}'" if best.title else name
+    columns = with_held_values(best.columns, known_notes, messages)
     source = array_source(
-        best.columns, place=place, format="mat", noun=_NOUN, notes=known_notes, messages=messages
+        columns, place=place, format="mat", noun=_NOUN, notes=known_notes, messages=messages
     )
     others = [table for table in usable if table is not best]
     heads = [f"{table.title}.{head}".lstrip(".") for table in others for head in table.columns]
@@ -103,6 +113,32 @@ def choose(values: dict[str, Any], name: str, correction: Correction | None = No
         choices = tuple((t.title or _LOOSE, ", ".join(t.columns)[:80]) for t in (best, *rivals))
         source = replace(source, choices=choices)
     return source
+
+
+def with_held_values(
+    columns: Mapping[str, HeaderColumn], notes: Sequence[Note], messages: list[str]
+) -> dict[str, HeaderColumn]:
+    """The columns, and those of single values that were held: a pressure, or a length beside the one at rest.
+
+    The name has to say the quantity and its unit; a message says each.
+    """
+    known = known_uses(list(columns))
+    rows = len(next(iter(columns.values()), ()))
+    result = dict(columns)
+    at_rest = any(note.key == "nominal_length" for note in notes)
+    if "force" not in known:
+        return result
+    for note in notes:
+        head = recognise(note.key)
+        held = head.channel in ("pressure", "length") and head.unit is not None and head.penalty < BY_UNIT
+        if not held or head.channel in known or not isinstance(note.value, (int, float)):
+            continue
+        if head.channel == "length" and (not at_rest or known & set(STROKES)):
+            continue
+        result[note.key] = np.full(rows, float(note.value))
+        known.add(str(head.channel))
+        messages.append(f"{_NOUN} '{note.key}' is one value: it is held in all rows")
+    return result
 
 
 def _notes_beside(best: NamedTable, tables: Sequence[NamedTable]) -> list[Note]:

@@ -20,6 +20,7 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.limits import WORD, Allowance, check_variables, inflated
 from mckibben.measurement.read.mat import choose
 from mckibben.measurement.read.mat5 import Foreign
+from mckibben.measurement.read.packed import packed_values
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.unit_lists import names_units, unit_among, unit_said, units_of_columns
@@ -122,8 +123,8 @@ class _Mat73Reader:
                 found[key] = _text(value)
             elif isinstance(value, np.ndarray) and value.dtype.kind in "OSU" and value.ndim == 1:
                 found[key] = [_text(word) for word in value]
-            elif np.ndim(value) == 0 and np.asarray(value).dtype.kind in "biuf":
-                found[key] = np.asarray(value, dtype=float)
+            elif np.size(value) == 1 and np.asarray(value).dtype.kind in "biuf":
+                found[key] = np.asarray(value, dtype=float).reshape(())
         for key in [key for key, value in found.items() if isinstance(value, np.ndarray)]:
             unit = unit_said(key, found)
             if unit is not None:
@@ -149,7 +150,7 @@ class _Mat73Reader:
             units = units_of_columns(fields, attributes)
             columns = {_headed(f, u): table[f].astype(float) for f, u in zip(fields, units, strict=True)}
             return {key: _beside(attributes, columns)}
-        values = self._read(key, dataset)
+        values = packed_values(self._read(key, dataset), attributes)
         if values.ndim == 2 and names is not None and len(names) in values.shape:
             table = values if values.shape[1] == len(names) else values.T
             units = units_of_columns(names, attributes)

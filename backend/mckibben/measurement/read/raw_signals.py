@@ -6,11 +6,12 @@ import numpy as np
 
 from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.question import Question
+from mckibben.measurement.read.calibrations import is_raw_share
 from mckibben.measurement.read.evidence import Evidence
 from mckibben.measurement.read.head_text import is_voltage, taken_apart
 from mckibben.measurement.read.questions import column_option
 from mckibben.measurement.read.recognise import recognise
-from mckibben.measurement.read.unit_words import COUNT, dimension_of
+from mckibben.measurement.read.unit_words import BRIDGE, COUNT, FULL_SCALE, RAW_DIMENSIONS, dimension_of
 from mckibben.measurement.read.vocabulary import (
     COUNTER_WORDS,
     LETTERS,
@@ -24,7 +25,11 @@ _SCALES = {
     "pressure": ("bar", "0 to 10 bar"), "force": ("N", "0 to 2000 N"), "length": ("mm", "0 to 300 mm"),
     "displacement": ("mm", "0 to 100 mm"), "contraction": ("mm", "0 to 100 mm"),
 }  # fmt: skip
-_RAW_SPANS = {"V": "0 to 10 V", "mV": "0 to 20 mV", "mA": "4 to 20 mA", "A": "0.004 to 0.02 A"}
+_RAW_SPANS = {
+    "V": "0 to 10 V", "mV": "0 to 20 mV", "mA": "4 to 20 mA", "A": "0.004 to 0.02 A",
+    BRIDGE: "0 to 2 mV/V", FULL_SCALE: "0 to 100 %FS", "%": "0 to 100 %",
+}  # fmt: skip
+_CALIBRATED = tuple(dimension for dimension in RAW_DIMENSIONS if dimension != "a count")
 _UNKNOWN = "its name is not known"
 
 
@@ -61,7 +66,8 @@ def _volts(evidence: Evidence) -> list[Question]:
     asked: dict[str, Question] = {}
     for index in _free(evidence):
         name, unit = _head(evidence, index)
-        if unit is None or dimension_of(unit) not in ("a voltage", "a current"):
+        share = is_raw_share(name, unit)
+        if unit is None or unit == COUNT or not (dimension_of(unit) in RAW_DIMENSIONS or share):
             continue
         channel = proper_channel(recognise(name).channel) or _of_voltage(name)
         if channel not in _SCALES or _is_filled(evidence, channel) or channel in asked:
@@ -70,7 +76,8 @@ def _volts(evidence: Evidence) -> list[Question]:
         header = evidence.headers[index]
         asked[channel] = Question(
             f"scale of {channel}",
-            f"{evidence.noun} '{header}' ({channel}) is a signal in {unit}, and no text of the file says its "
+            f"{evidence.noun} '{header}' ({channel}) is a signal in {unit}"
+            f"{' of a range' if share else ''}, and no text of the file says its "
             f"scale; which is it",
             column_option(channel, name, span),
             header,
@@ -94,7 +101,7 @@ def _strokes(evidence: Evidence) -> list[Question]:
         return []
     if any(
         proper_channel(recognise(_head(evidence, index)[0]).channel) in STROKES
-        and dimension_of(_head(evidence, index)[1]) in ("a voltage", "a current")
+        and dimension_of(_head(evidence, index)[1]) in _CALIBRATED
         for index in _free(evidence)
     ):
         return []  # its scale is asked for
@@ -116,6 +123,20 @@ def _strokes(evidence: Evidence) -> list[Question]:
             ]
     if "force" not in channels:
         return []
+    for index in _free(evidence):
+        name, unit = _head(evidence, index)
+        if dimension_of(unit) == "an angle" and (span := _span(evidence, index)) is not None:
+            header = evidence.headers[index]
+            return [
+                Question(
+                    "stroke",
+                    f"{evidence.noun} '{header}' holds an angle, {span[0]:.4g} to {span[1]:.4g} {unit}, and "
+                    "the file has no other stroke; no text says the radius of its pulley; which angle is "
+                    "which stroke",
+                    column_option("displacement", name, "0 to 90 deg = 0 to 40 mm"),
+                    header,
+                )
+            ]
     for index in _free(evidence):
         name, unit = _head(evidence, index)
         reason = evidence.meaning.reasons.get(index, _UNKNOWN)

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from mckibben.measurement.read.head_text import channel_of_letter, taken_apart, without_run
 from mckibben.measurement.read.held import proper, without_pressure
-from mckibben.measurement.read.unit_words import COUNT, DIMENSIONS, dimension_of
+from mckibben.measurement.read.unit_words import COUNT, DIMENSIONS, RAW_DIMENSIONS, dimension_of
 from mckibben.measurement.read.vocabulary import (
     LESS_WANTED,
     NO_CHANNEL,
@@ -55,7 +55,7 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         return Recognised(None, None, None, 0, "it names a value, not what was measured")
     if head.unit == COUNT:
         return Recognised(None, head.unit, None, 0, "it holds counts of a converter, not a physical value")
-    if dimension in ("a voltage", "a current"):
+    if dimension in RAW_DIMENSIONS:
         return Recognised(None, head.unit, None, 0, f"'{head.unit}' is {dimension}, no calibrated value")
     meant = _without_statistic(words, dimension)
     named = [channel for word in meant if (channel := channel_of_word(word)) is not None]

@@ -5,18 +5,42 @@ from __future__ import annotations
 import re
 from typing import NamedTuple
 
-from mckibben.measurement.read.unit_words import CLOCK, COUNT, dimension_of, unit_of
+from mckibben.measurement.read.unit_words import (
+    BRIDGE,
+    CLOCK,
+    COUNT,
+    FULL_SCALE,
+    RAW_DIMENSIONS,
+    dimension_of,
+    unit_of,
+)
 from mckibben.measurement.read.vocabulary import MOVES, VALVE_WORDS, has_word, reference_among, words_of
 
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _COUNTED = r"counts?|cts|digits?|pulses?|incs?|increments?|inkremente|impulse?|ticks?|steps?|LSB"
-_RAW = rf"(?P<raw>mV|V|mA|A|{_COUNTED})"
+_SHARE = r"%(?:\s*(?:FS|F\.S\.|full[ -]scale|of (?:full scale|range)|v\.\s?E\.))?"
+_RAW = rf"(?P<raw>mV\s?/\s?V|mV|V|mA|A|{_SHARE}|{_COUNTED})"
 _UNIT = r"(?P<unit>[^\W\d_]+[0-9²]?(?:/[^\W\d_]+[2²]?)?(?:\s?\((?:a|g|abs|gauge)\))?|%)"
 _TO = r"\s*(?:=|≙|≈|:|->|→|for|per|to|is|corresponds to|entspricht|entsprechen|pour|per|für)\s*"
 _SPAN = rf"({_NUMBER})\s*(?:-|–|\.\.+|to|bis|\.{{2,3}}|…)\s*({_NUMBER})\s*"
 _RANGES = re.compile(rf"{_SPAN}{_RAW}{_TO}{_SPAN}{_UNIT}")
 _EQUAL = re.compile(rf"(?<![\d.,-])({_NUMBER})\s*{_RAW}{_TO}({_NUMBER})\s*{_UNIT}")
-_PER = re.compile(rf"({_NUMBER})\s*{_UNIT}\s*/\s*{_RAW}\b")
+#: The value before the signal: "200 N = 1 V", "0-10 bar -> 4-20 mA", "range 0-10 bar (0-5 V)".
+_VALUE_RANGE = re.compile(rf"{_SPAN}{_UNIT}(?:{_TO}|\s*[,/(]\s*){_SPAN}{_RAW}(?![\w/])")
+_VALUE_EQUAL = re.compile(
+    rf"(?<![\d.,-])({_NUMBER})\s*{_UNIT}(?:{_TO}|\s*(?:@|at|bei|à)\s*)({_NUMBER})\s*{_RAW}(?![\w/])"
+)
+_RATED = re.compile(
+    rf"(?<![\d.,-])({_NUMBER})\s*(?P<raw>mV\s?/\s?V)\s*(?:@|at|bei|à|a|for|=)\s*({_NUMBER})\s*{_UNIT}"
+)
+_POINT = re.compile(
+    rf"(?<![\w.,])({_NUMBER})\s*{_RAW}\s*(?:=|≙|≈|->|→|:|at|bei|for|corresponds to|entspricht)\s*"
+    rf"({_NUMBER})\s*{_UNIT}(?![\w/])"
+)
+_POINT_BACK = re.compile(
+    rf"(?<![\w.,])({_NUMBER})\s*{_UNIT}\s*(?:=|≙|≈|->|→|:|at|bei|for|@)\s*({_NUMBER})\s*{_RAW}(?![\w/])"
+)
+_PER = re.compile(rf"({_NUMBER})\s*{_UNIT}\s*(?:/|\bper\b|\bpro\b|\bje\b|\bpar\b|\bpor\b)\s*{_RAW}\b")
 _SENSITIVITY = re.compile(rf"({_NUMBER})\s*{_RAW}\s*/\s*{_UNIT}")
 _CLOSED = re.compile(
     rf"({_NUMBER})\s*{_RAW}\s*(?:=|:|is)?\s*(?:closed|shut|zu|geschlossen|neutral|middle|mitte)"
@@ -26,6 +50,14 @@ _OPEN = re.compile(rf"({_NUMBER})\s*{_RAW}\s*(?:=|:|is)?\s*(?:fully\s+)?(?:opens
 #: At which reading the value is 0: "0 V at L0", "zero at rest length".
 _ZERO = re.compile(
     rf"(?i)(?:\b0(?:[.,]0+)?\s*(?:{_COUNTED}|m?V|m?A)?|\bzero|\bnull)\s*(?:=|at|bei|à|a|en|when|for)\s"
+)
+
+
+#: The reading at the rest length: "4 mA at the rest length", "0 V bei Ruhelänge".
+_AT_REST = re.compile(
+    rf"(?i)(?<![\w.,])({_NUMBER})\s*(?:{_COUNTED}|m?V|m?A|%)\s*(?:=|at|bei|à|a|for|when|in)\s*(?:the\s+|der\s+|la\s+)?"
+    r"(?:rest\w*|L_?0|ruhe\w*|unloaded|relaxed|initial|natural|longueur (?:au repos|initiale)|"
+    r"riposo|reposo|repouso)"
 )
 
 
@@ -68,8 +100,15 @@ def scale_in(text: str, where: str) -> Scale | None:
     (0.8, 0.0, 'V', 'bar(g)')
     """
     found = _of_description(text, where)
-    if found is None or len(re.findall(rf"\d\s*{_RAW}(?![^\W\d_])", _ZERO.sub(" ", text))) > 1:
+    if found is None or _of_points(text) is not None:
+        return found
+    spans = [*_RANGES.finditer(text), *_VALUE_RANGE.finditer(text)]
+    rest = text.replace(spans[0][0], " ") if len(spans) == 1 else text
+    most = 0 if len(spans) == 1 else 1
+    if len(re.findall(rf"\d\s*{_RAW}(?![^\W\d_])", _ZERO.sub(" ", _AT_REST.sub(" ", rest)))) > most:
         return None
+    if dimension_of(found.unit) == "a length" and (rest_at := _AT_REST.search(text)) is not None:
+        found = found._replace(offset=-found.factor * _float(rest_at[1]), zeroed=True)
     reference = reference_among(words_of(text))
     if reference is not None and dimension_of(found.unit) == "a pressure":
         found = found._replace(unit=f"{found.unit}({'a' if reference else 'g'})")
@@ -78,7 +117,7 @@ def scale_in(text: str, where: str) -> Scale | None:
 
 def said_scale(text: str) -> Scale | None:
     """The scale that a user says: ``0-10 V = 0-10 bar``, ``4100 to 9300 counts = 0 to 80 mm``."""
-    return scale_in(text, "you")
+    return scale_in(re.sub(r"(?<=[0-9])\s*(?:deg(?:rees?)?\b|°)", " counts", text), "you")
 
 
 def valve_scale_of(text: str, where: str) -> Scale | None:
@@ -135,27 +174,104 @@ def _of_description(text: str, where: str) -> Scale | None:
             slope = 1.0 / (one - zero)
             shown = f"'{shut[0]}, {opened[0]}'"
             return Scale(slope, -zero * slope, shut["raw"], "1", f"valve {name}", shown, where)
-    found = _RANGES.search(text)
-    if found is not None and (unit := _unit(found["unit"])) is not None:
-        low, high, least, most = (_float(found[n]) for n in (1, 2, 4, 5))
+    for pattern, places in ((_RANGES, (1, 2, 4, 5)), (_VALUE_RANGE, (4, 5, 1, 2))):
+        found = pattern.search(text)
+        if found is None or (unit := _unit(found["unit"])) is None:
+            continue
+        low, high, least, most = (_float(found[n]) for n in places)
         if high != low:
             slope = (most - least) / (high - low)
             return Scale(
                 slope, least - slope * low, _raw_unit(found["raw"]), unit, name, f"'{found[0]}'", where
             )
-    for pattern, inverse in ((_EQUAL, False), (_PER, False), (_SENSITIVITY, True)):
+    line = _of_points(text)
+    if line is not None:
+        slope, offset, raw, unit, shown = line
+        return Scale(slope, offset, raw, unit, name, shown, where)
+    for pattern, inverse in (
+        (_RATED, False), (_EQUAL, False), (_VALUE_EQUAL, True), (_PER, False), (_SENSITIVITY, True),
+    ):  # fmt: skip
         found = pattern.search(text)
         if found is None or (unit := _unit(found["unit"])) is None or not _float(found[1]):
             continue
-        slope = _float(found[3]) / _float(found[1]) if pattern is _EQUAL else _float(found[1])
+        if pattern in (_RATED, _EQUAL, _VALUE_EQUAL):
+            if not _float(found[3]):
+                continue
+            slope = _float(found[3]) / _float(found[1])
+        else:
+            slope = _float(found[1])
         slope = 1.0 / slope if inverse else slope
-        zeroed = _raw_unit(found["raw"]) != COUNT or _ZERO.search(text) is not None
-        return Scale(slope, 0.0, _raw_unit(found["raw"]), unit, name, f"'{found[0]}'", where, zeroed)
+        raw = _raw_unit(found["raw"])
+        zeroed = raw != COUNT or _ZERO.search(text) is not None
+        zero = zero_in(text.replace(found[0], " "), raw)
+        if zero is not None:
+            return Scale(slope, -slope * zero, raw, unit, name, f"'{text.strip()[:80]}'", where)
+        if says_zero(text.replace(found[0], " "), unit):
+            zeroed = False
+        return Scale(slope, 0.0, raw, unit, name, f"'{found[0]}'", where, zeroed)
     return None
 
 
+_ZERO_WORD = (
+    r"(?i)(?<![^\W\d_])(?:zero|offset|null(?:punkt|wert)?|bias|d[ée]calage|intercept|zero[ -]?point|nulpunt)"
+    r"(?:[ -](?:output|reading|signal|point|value|error|load|pressure|shift|force|balance))?"
+)
+_ZERO_AT = re.compile(
+    rf"{_ZERO_WORD}\s*(?:at|bei|is|=|:|of|von|à|a)?\s*({_NUMBER})\s*(?P<unit>{_RAW}|[^\W\d_]+)(?![\w/])"
+)
+
+
+def zero_in(text: str, raw: str) -> float | None:
+    """The reading without load that a text states, in the unit of the signal; None = none.
+
+    >>> zero_in("gain 200 N/V, offset 0.12 V", "V")
+    0.12
+    """
+    for found in _ZERO_AT.finditer(text):
+        if _raw_unit(found["unit"]) == raw:
+            return _float(found[1])
+    return None
+
+
+def says_zero(text: str, unit: str) -> bool:
+    """Whether a text states an offset in the unit of the result: whether it is added is not said."""
+    bare = unit.removesuffix("(a)").removesuffix("(g)")
+    return any(
+        _float(found[1]) != 0.0 and (known := unit_of(found["unit"])) is not None
+        and dimension_of(known.unit) == dimension_of(bare)
+        for found in _ZERO_AT.finditer(text)
+    )  # fmt: skip
+
+
+def _of_points(text: str) -> tuple[float, float, str, str, str] | None:
+    """(slope, offset, unit of the signal, unit, words) of two points: ``0.5 V = 0 bar, 4.5 V = 10 bar``.
+
+    More points have to lie on one straight line.
+    """
+    points = [
+        (_float(found[a]), _float(found[b]), _raw_unit(found["raw"]), unit, found[0])
+        for pattern, a, b in ((_POINT, 1, 3), (_POINT_BACK, 3, 1))
+        for found in pattern.finditer(text)
+        if (unit := _unit(found["unit"])) is not None
+    ]
+    if len({raw for _, _, raw, _, _ in points}) != 1 or len({unit for *_, unit, _ in points}) != 1:
+        return None
+    distinct = sorted({(x, y) for x, y, *_ in points})
+    if len({x for x, _ in distinct}) < 2:
+        return None
+    (x0, y0), (x1, y1) = distinct[0], distinct[-1]
+    slope = (y1 - y0) / (x1 - x0)
+    if not slope or any(abs(y0 + slope * (x - x0) - y) > 0.005 * abs(y1 - y0) for x, y in distinct):
+        return None
+    shown = "'" + ", ".join(found for *_, found in points) + "'"
+    return slope, y0 - slope * x0, points[0][2], points[0][3], shown
+
+
 def _raw_unit(text: str) -> str:
-    return COUNT if re.fullmatch(_COUNTED, text) else text
+    bare = "".join(text.split())
+    if bare.startswith("%"):
+        return FULL_SCALE
+    return COUNT if re.fullmatch(_COUNTED, bare) else BRIDGE if bare == "mV/V" else bare
 
 
 def _float(text: str) -> float:
@@ -165,10 +281,6 @@ def _float(text: str) -> float:
 def _unit(text: str) -> str | None:
     """A unit with its reference; None = it is none, or that of a raw signal."""
     unit = unit_of(text)
-    if (
-        unit is None
-        or unit.unit in (CLOCK, COUNT)
-        or dimension_of(unit.unit) in ("", "a voltage", "a current")
-    ):
+    if unit is None or unit.unit in (CLOCK, COUNT) or dimension_of(unit.unit) in ("", *RAW_DIMENSIONS):
         return None
     return f"{unit.unit}{ {True: '(a)', False: '(g)', None: ''}[unit.absolute] }"

@@ -31,6 +31,9 @@ _ASIDE = re.compile(r"\(([^()]*)\)")
 #: "+ = shortening", "(+) longer": a sign that stands for the word.
 _PLUS = re.compile(r"(?<![\w.,+])\(?\+\)?(?=\s*(?:[A-Za-z]\w{0,2}\s*)?(?:=|:|≙|->|→|is\b))")
 _MINUS = re.compile(r"(?<![\w.,-])\(?[-−]\)?(?=\s*(?:[A-Za-z]\w{0,2}\s*)?(?:=|≙|->|→))")
+#: "compression +, tension -": a sign behind the word.
+_PLUS_BEHIND = re.compile(r"(?<=[^\W\d_])\s*[:=]?\s*\(?\+\)?(?=\s*(?:[,;.)/]|$))")
+_MINUS_BEHIND = re.compile(r"(?<=[^\W\d_])\s*[:=]?\s+\(?[-−]\)?(?=\s*(?:[,;.)/]|$))")
 #: What stands between a sign and what it means.
 _MEANS = re.compile(
     r"=|≙|->|→|\b(?:when|if|while|means|wenn|falls|sobald|heisst|bedeutet|quand|lorsque|si|signifie|se|"
@@ -47,6 +50,7 @@ def signs_of(text: str) -> Iterator[tuple[str, str]]:
     >>> list(signs_of("Extension positive = muscle gets longer"))
     [('stroke_sign', 'extension positive')]
     """
+    text = _MINUS_BEHIND.sub(" minus", _PLUS_BEHIND.sub(" plus", text))
     plain = folded(_MINUS.sub(" minus ", _PLUS.sub(" plus ", text)))
     if not _says_a_sign(words_of(plain)):
         return

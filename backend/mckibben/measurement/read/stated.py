@@ -22,6 +22,7 @@ from mckibben.measurement.read.vocabulary import (
     word_set,
     words_of,
 )
+from mckibben.measurement.read.words.positions import POSITION
 from mckibben.resources import presets_folder
 
 NAME = "the file's name"
@@ -59,6 +60,7 @@ _CLAUSE = re.compile(r"[;|]|[.,:](?!\d)\s")
 _BEFORE = frozenset(("mm", "cm", "kg", "bar", "mbar", "kPa", "MPa", "hPa", "psi", "kN", "lbf", "inch"))
 _VALUED = re.compile(rf"(?P<name>[^\W\d_]+)\s*(?:[=:]|is|was|ist|war)?\s*{_NUMBER}\s*(?:{_UNIT})")
 _OF_OTHER_AIR = ("the supply", "the surrounding air")
+_POSITIONS = word_set(POSITION)
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
@@ -225,6 +227,8 @@ def _key_of(quantity: _Quantity) -> str | None:
         return "ambient_pressure"
     if words & LOADLESS:
         return None
+    if measured == "a length" and has_word(quantity.words[-3:], _POSITIONS):
+        return None  # "the laser reads 152 mm at the rest length"
     lengthy = any(channel_of_word(word) == "length" for word in quantity.words)
     at_rest = _is_at_rest(quantity.words) and (lengthy or "l0" in words)
     if (at_rest or _REST_LENGTHS.search(joined)) and measured in ("", "a length"):

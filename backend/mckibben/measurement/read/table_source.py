@@ -13,6 +13,7 @@ from mckibben.measurement.read.grid import BLANKS, TextGrid
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.raw import RawRows, shown_rows
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
+from mckibben.measurement.read.stated import KIND_SAID
 from mckibben.measurement.read.table import FAST_FROM, read_table
 from mckibben.measurement.read.tables import told_channels
 from mckibben.measurement.read.values import Clock, NumberStyle, is_elapsed, is_falling, number_of, style_of
@@ -38,6 +39,9 @@ def source_of(
     told = told_channels(table)
     several = len(table.parts) > 1
     numbered = several and not _has(table, "group")
+    if several and "force" in told and not any(note.key == KIND_SAID for note in notes):
+        where = table.parts[0].held["force"].where  # a load in the title of each part
+        notes = [*notes, Note(where, KIND_SAID, "isotonic")]
     said = list(messages) + table.messages
     for channel in told:
         names.append(channel)

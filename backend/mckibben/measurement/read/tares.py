@@ -23,6 +23,8 @@ _QUANTITY = re.compile(rf"(?<![\w.,])({_NUMBER})\s*([^\W\d_]+)(?![\w.,]*\d)")
 _UNIT_FIRST = re.compile(rf"\s*[\[(]\s*([^\W\d_]+)\s*[\])]\s*[:=]?\s*({_NUMBER})")
 _SENTENCES = re.compile(r"[;|]|[.!](?=\s|$)")
 _OTHERS = frozenset(("pressure", "length", "displacement", "contraction", "time", "temperature"))
+#: A tare without unit is the only number of its sentence, at the end.
+_BARE = re.compile(rf"^[^0-9]*[:=\s]\s*({_NUMBER})\s*$")
 _NEAR = 40  # characters
 _LARGE = 0.5  # of the largest reading; a tare is no measurement
 
@@ -32,19 +34,23 @@ _TO_DO, _INCLUDED = word_set(words_of_tares.TO_DO), word_set(words_of_tares.INCL
 
 
 class Tare(NamedTuple):
-    """The reading without pull [N] in a text, and whether the readings contain it (None: not said)."""
+    """The reading without pull [N] in a text, and whether the readings contain it (None: not said).
+
+    ``bare``: the text gives no unit; the value is the number as it stands.
+    """
 
     value: float
     contained: bool | None
     text: str
     where: str
+    bare: bool = False
 
 
 def tares_in(texts: Iterable[tuple[str, str]]) -> list[Tare]:
     """The tares of forces that texts state, each with a value other than 0.
 
-    >>> tares_in([("Tara 2,1 N nicht abgezogen", "line 2")])
-    [Tare(value=2.1, contained=True, text='Tara 2,1 N nicht abgezogen', where='line 2')]
+    >>> tares_in([("Tara 2,1 N nicht abgezogen", "line 2")])[0][:2]
+    (2.1, True)
     >>> tares_in([("tare 4 N, already subtracted", "line 2")])[0].contained
     False
     """
@@ -65,7 +71,7 @@ def notes_of_tares(notes: Iterable[Note]) -> list[tuple[str, str]]:
             continue
         unit = taken_apart(note.key).unit or note.key.rpartition("_")[2]
         bare = isinstance(note.value, float) or re.fullmatch(_NUMBER, str(note.value).strip()) is not None
-        found.append((f"{note.key}: {note.value}{f' {unit}' if bare else ''}", note.where))
+        found.append((f"{note.key}: {note.value}{f' {unit}' if bare and unit_of(unit) else ''}", note.where))
     return found
 
 
@@ -79,9 +85,11 @@ def _of_sentence(sentence: str, where: str) -> Tare | None:
         for match in _QUANTITY.finditer(sentence)
         if _is_beside(sentence, match) and (value := _force(match)) is not None
     }
+    if not values and (bare := _BARE.search(sentence)) and not {*map(channel_of_word, words)} & _OTHERS:
+        return Tare(float(bare[1].replace(",", ".")), None, sentence, where, bare=True)
     if len(values) != 1:
         return None
-    return Tare(values.pop(), _contained(words, folded(sentence)), sentence, where)
+    return Tare(values.pop(), is_contained(words, folded(sentence)), sentence, where)
 
 
 def _is_beside(sentence: str, found: re.Match[str]) -> bool:
@@ -105,7 +113,7 @@ def _force(found: re.Match[str]) -> float | None:
     return float(convert([float(found[1].replace(",", "."))], WEIGHTS.get(unit.unit, unit.unit), "N")[0])
 
 
-def _contained(words: list[str], plain: str) -> bool | None:
+def is_contained(words: list[str], plain: str) -> bool | None:
     """Whether the readings contain the tare; None where the words do not say it, or say both."""
     negated = _has(words, _NOT) or any(phrase in plain for phrase in words_of_tares.NOT_YET)
     if _has(words, _DONE) and any(phrase in plain for phrase in words_of_tares.MUST):
@@ -148,7 +156,12 @@ def subtract_tare(
         messages.append(f"the tare of {place} is left to the zero of the force that is stated beside it")
         return []
     # Of a column that counts a pull as negative it is open which sign the tare has.
-    sure = len(stated) == 1 and column.sign > 0 and first.value < _LARGE * float(np.max(np.abs(force)))
+    sure = (
+        len(stated) == 1
+        and not first.bare
+        and column.sign > 0
+        and first.value < _LARGE * float(np.max(np.abs(force)))
+    )
     if sure and first.contained is False:
         messages.append(f"{place}: the force is read as without the tare")
         return []
@@ -159,7 +172,8 @@ def subtract_tare(
     return [
         Question(
             "zero of force",
-            f"the file states a tare of the force, {place}, and not clearly whether the readings of column "
+            f"the file states a tare of the force, {place}, "
+            f"{'without a unit, ' if first.bare else ''}and not clearly whether the readings of column "
             f"'{column.header}' contain it; what do they show without pull",
             f'--experiment "force_zero={first.value:.4g} N", or --experiment "force_zero=0 N" where it is '
             "subtracted already",

@@ -35,6 +35,16 @@ DIMENSIONS = {
 }  # fmt: skip
 CLOCK = "clock"  # times of day or dates; they count from the first row
 COUNT = "count"  # of a converter: no physical unit
+BRIDGE = "mV/V"  # output of a strain gauge bridge over its supply
+FULL_SCALE = "%FS"  # of the range of a sensor
+#: What a signal is measured in before it has a scale.
+RAW_DIMENSIONS = ("a voltage", "a current", "a count", "the output of a bridge", "a share of a range")
+_BRIDGES = re.compile(r"(?:mV|µV|uV)\s?/\s?V")
+_FULL_SCALES = re.compile(
+    r"(?i)%\s*(?:of\s+)?(?:f\.?\s?s\.?o?\.?|full[ -]?scale(?:\s+output)?|(?:the\s+|full\s+)?range|span|"
+    r"v\.?\s?e\.?|(?:vom\s+)?endwert(?:es)?|(?:vom\s+)?messbereich(?:s|es)?|p\.?\s?e\.?|e\.?\s?m\.?|"
+    r"f\.?\s?e\.?|nennwert)"
+)
 
 
 class UnitText(NamedTuple):
@@ -62,6 +72,10 @@ def unit_of(text: str) -> UnitText | None:
         return UnitText(CLOCK)
     if bare.lower() in _COUNTS:
         return UnitText(COUNT)
+    if _BRIDGES.fullmatch(bare):
+        return UnitText(BRIDGE)
+    if _FULL_SCALES.fullmatch(bare):
+        return UnitText(FULL_SCALE)
     plain, absolute = split_mark(bare)
     if absolute is None:
         plain, absolute = _reference_in(bare)
@@ -96,9 +110,17 @@ def reference_of(text: str) -> bool | None:
 
 def dimension_of(unit: str | None) -> str:
     """What a unit measures, "" where it is none: ``"a force"``."""
-    if unit is None or unit in (CLOCK, COUNT):
-        return {CLOCK: "a time", COUNT: "a count"}.get(unit or "", "")
+    if unit is None or unit in _OWN:
+        return _OWN.get(unit or "", "")
     return meaning(unit) or ""
+
+
+_OWN = {
+    CLOCK: "a time",
+    COUNT: "a count",
+    BRIDGE: "the output of a bridge",
+    FULL_SCALE: "a share of a range",
+}
 
 
 def _reference_in(text: str) -> tuple[str, bool | None]:

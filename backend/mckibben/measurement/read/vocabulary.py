@@ -51,9 +51,25 @@ def is_unparted(word: str) -> bool:
 def has_word(text_words: list[str], known: frozenset[str]) -> bool:
     """Whether one of the words is known; long ones also as beginnings, unparted ones wherever they stand."""
     return any(
-        word in known or any(is_part(word, stem) for stem in known if len(stem) >= _STEM or is_unparted(stem))
+        word in known
+        or any(is_part(word, stem) for stem in known if len(stem) >= _STEM or is_unparted(stem))
+        or any(_is_form(word, stem) for stem in known)
         for word in text_words
     )
+
+
+def _is_form(word: str, known: str) -> bool:
+    """Whether a word is another form of a long one that ends with a vowel: "poczatkowej" of "poczatkowa"."""
+    return (
+        len(known) >= _STEM_OF_FORMS
+        and known[-1] in _ENDINGS
+        and word.startswith(known[:-1])
+        and len(word) <= len(known) + 2
+    )
+
+
+_STEM_OF_FORMS = 7
+_ENDINGS = "aeiyаеияый"
 
 
 def is_part(word: str, stem: str) -> bool:

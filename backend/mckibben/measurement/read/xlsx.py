@@ -52,8 +52,18 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
         InputError: not a workbook, damaged, packed beyond measure, without a table, or without the sheet that
             the user names.
     """
+    return open_sheets(_sheets(data, name), name, correction)
+
+
+def open_sheets(
+    sheets: Sequence[tuple[str, Rows]], name: str, correction: Correction | None = None
+) -> RawTable:
+    """The table of sheets of cells, each with its title.
+
+    Raises:
+        InputError: no table, or not the sheet that the user names.
+    """
     correction = correction or Correction()
-    sheets = _sheets(data, name)
     wanted = correction.sheet
     tables: list[Table] = []
     notes: dict[str, list[Note]] = {}

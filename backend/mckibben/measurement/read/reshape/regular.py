@@ -5,8 +5,10 @@ from __future__ import annotations
 from typing import NamedTuple
 
 from mckibben.measurement.read.grid import Grid
+from mckibben.measurement.read.reshape.deviations import without_deviations
 from mckibben.measurement.read.reshape.labelled import without_labels
 from mckibben.measurement.read.reshape.tall import pivoted
+from mckibben.measurement.read.reshape.transposed import turned
 from mckibben.measurement.read.reshape.united import without_units
 
 
@@ -24,7 +26,7 @@ def regular(grid: Grid) -> Regular:
     messages: list[str] = []
     unread: list[tuple[str, str]] = []
     rewritten = False
-    for rewrite in (without_labels, pivoted, without_units):
+    for rewrite in (turned, without_labels, pivoted, without_deviations, without_units):
         found = rewrite(grid)
         if found is not None:
             grid, said, left = found

@@ -50,3 +50,14 @@ NUMBER_WORDS = {
     "pl": "dwa trzy cztery pięć sześć", "cs": "dva tři čtyři pět šest",
     "ru": "два три четыре пять шесть семь восемь девять десять", "tr": "iki üç dört beş altı",
 }  # fmt: skip
+#: Words that a number stands for no reading, folded, parted by blanks.
+NO_READING = (
+    "missing lost invalid error fault faulty dropout dropouts overload failed failure unavailable nodata gap "
+    "fehlend fehlende fehlt fehlerhaft fehler ungultig "
+    "ungultige ausfall sensorausfall messausfall ausgefallen "
+    "manquant manquante manquantes perdu perdue invalide erreur "
+    "mancante mancanti perso errore assente non_valido "
+    "faltante faltantes perdido invalido ausente falha blad "
+    "brakujace chybi chyba ontbreekt ongeldig fout saknas "
+    "ogiltig puuttuu virhe eksik gecersiz hata пропуск ошибка потеря 欠測 无效 缺失 결측"
+)

@@ -5,7 +5,7 @@ from __future__ import annotations
 #: Channel -> language -> words for it.
 CHANNELS = {
     "time": {
-        "en": "time timestamp ts datetime seconds clock elapsed",
+        "en": "time timestamp stamp ts datetime seconds clock elapsed",
         "de": "*zeit sekunden uhrzeit zeitstempel dauer", "fr": "temps heure horodatage instant",
         "it": "tempo ora", "es": "tiempo hora instante", "pt": "tempo hora", "pl": "czas czasu",
         "cs": "čas času", "ru": "время времени", "tr": "zaman süre", "nl": "tijd tijdstip",

@@ -7,10 +7,14 @@ REMARKS = {
     "at rest": {
         "en": (
             "l0 rest resting unloaded relaxed free initial nominal gauge start sample specimen original "
-            "undeformed unpressurized unpressurised depressurized depressurised uninflated deflated vented "
+            "undeformed natural neutral slack unpressurized unpressurised "
+            "depressurized depressurised uninflated deflated vented "
             "unstretched unactuated"
         ),
-        "de": "ruhe anfang anfangs nenn einspann ausgangs ungedehnt drucklos unbelastet entlüftet",
+        "de": (
+            "ruhe ruhezustand ruhelage anfang anfangs nenn einspann ausgangs ungedehnt drucklos unbelastet "
+            "entlüftet entspannt entspannten spannungslos ursprüngliche"
+        ),
         "fr": "vide repos initiale libre origine dépressurisé",
         "it": "riposo iniziale libera nominale", "es": "reposo inicial libre original nominal despresurizado",
         "pt": "repouso inicial livre original despressurizado",
@@ -67,7 +71,7 @@ REMARKS = {
         "ca": "alimentació", "lt": "tiekimo",
     },
     "ambient": {
-        "en": "ambient baro barometer barometric atmospheric atmosphere",
+        "en": "ambient amb pamb patm atm baro barometer barometric atmospheric atmosphere",
         "de": "luftdruck umgebungsdruck umgebung", "fr": "atmosphérique ambiante baromètre",
         "it": "atmosferica ambiente barometro", "es": "atmosférica barómetro", "pt": "atmosférica barômetro",
         "pl": "atmosferyczne otoczenia barometr", "cs": "barometrický okolí atmosférický",

@@ -1,0 +1,145 @@
+"""Zero and direction of a position that texts state: ``the laser reads 152.4 mm at the rest length``."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+
+from mckibben.measurement.read.scales import Scale
+from mckibben.measurement.read.unit_words import dimension_of, unit_of
+from mckibben.measurement.read.vocabulary import (
+    REMARK_WORDS,
+    SIGN_WORDS,
+    folded,
+    has_word,
+    word_set,
+    words_of,
+)
+from mckibben.measurement.read.words import positions as words
+from mckibben.physics.units import factor
+
+Texts = Sequence[tuple[str, str]]
+
+_NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
+_QUANTITY = re.compile(rf"(?<![\w.,])({_NUMBER})\s*([^\W\d_]+|\")(?![\w.,]*\d)")
+_CLAUSES = re.compile(r"[;|]|[,.](?=\s|$)|\s[–-]\s|\b(?:and|und|et)\b")
+_POSITIONS, _GROWS, _FALLS = (
+    word_set(f"{words.POSITION} {words.POSITION_TOO}"),
+    word_set(words.GROWS),
+    word_set(words.FALLS),
+)
+_PULLEYS, _RADII, _DIAMETERS = word_set(words.PULLEY), word_set(words.RADIUS), word_set(words.DIAMETER)
+_AT_REST = REMARK_WORDS["at rest"]
+_SHORTER = SIGN_WORDS["shortening"] | SIGN_WORDS["shorter"] | word_set(words.SHORTENS)
+_LONGER = SIGN_WORDS["extension"] | SIGN_WORDS["longer"]
+
+
+def position_scale(name: str, unit: str, texts: Texts) -> Scale | None:
+    """Displacement = reading less its value at the rest length, in the direction that the texts state.
+
+    None where no text states that value, or texts state several; without a stated direction the readings are
+    taken to grow as the muscle shortens, which the questions about signs check.
+    """
+    own = {word for word in words_of(name) if len(word) > 1}
+    zeros = {(value, where, text) for text, where in texts for value in _zeros(text, own, unit)}
+    if len({value for value, _, _ in zeros}) != 1:
+        return None
+    value, where, text = next(iter(zeros))
+    falls = {found for said, _ in texts if (found := _direction(said, own)) is not None}
+    if len(falls) > 1:
+        return None
+    sign = -1.0 if falls == {True} else 1.0
+    return Scale(sign, -sign * value, unit, unit, "displacement", f"'{text[:100]}'", where)
+
+
+def _zeros(text: str, own: set[str], unit: str) -> Iterator[float]:
+    """The readings at the rest length that a text states, in the unit of the column."""
+    for clause in _CLAUSES.split(text):
+        said = words_of(clause)
+        if not (has_word(said, _AT_REST) or "l0" in said):
+            continue
+        if not (own & set(said) or has_word(said, _POSITIONS)):
+            continue
+        found = []
+        for match in _QUANTITY.finditer(clause):
+            known = unit_of(match[2])
+            before = words_of(clause[: match.start()])[-4:]
+            behind = words_of(clause[match.end() :])[:2]
+            near = has_word([*before, *behind], _POSITIONS) or own & {*before, *behind}
+            if (
+                known is not None
+                and dimension_of(known.unit) == "a length"
+                and near
+                and before[-1:] != ["l0"]
+            ):
+                scale = factor(known.unit, unit)
+                found.append(float(match[1].replace(",", ".")) * scale.multiplier / scale.divisor)
+        if len(found) == 1:
+            yield found[0]
+
+
+def _direction(text: str, own: set[str]) -> bool | None:
+    """Whether the reading falls as the muscle shortens; None where a text does not say it."""
+    whole = set(words_of(text))
+    if not (own & whole or has_word(list(whole), _POSITIONS)):
+        return None
+    for clause in _CLAUSES.split(text):
+        said = words_of(clause)
+        grows, falls = has_word(said, _GROWS), has_word(said, _FALLS)
+        shorter, longer = has_word(said, _SHORTER), has_word(said, _LONGER)
+        if grows != falls and shorter != longer:
+            return falls if shorter else grows
+    return None
+
+
+def falls_with_shortening(said: str, where: str, texts: Texts) -> bool:
+    """Whether the text that states a scale also says that the reading falls as the muscle shortens."""
+    return any(
+        place == where and _direction(f"position; {text}", set()) is True
+        for text, place in texts
+        if said.strip("'")[:20] in text
+    )
+
+
+def is_position(name: str) -> bool:
+    """Whether a name is that of a position or of a sensor for it, not of a stroke of the muscle."""
+    return has_word(words_of(name), _POSITIONS) or bool({*folded(name).split()} & _POSITIONS)
+
+
+def pulley_scale(unit: str, texts: Texts) -> Scale | None:
+    """Displacement [mm] of a wire over a pulley whose radius or diameter a text states, from its angle.
+
+    None where no text states one, or texts state several.
+    """
+    found: set[tuple[float, str, str]] = set()
+    for text, where in texts:
+        for clause in re.split(r"[;|]|[,.](?=\s|$)", text):
+            said = words_of(clause)
+            if not has_word(said, _PULLEYS):
+                continue
+            share = 0.5 if has_word(said, _DIAMETERS) else 1.0 if has_word(said, _RADII) else None
+            sizes = [
+                float(match[1].replace(",", ".")) * scale.multiplier / scale.divisor
+                for match in _QUANTITY.finditer(clause)
+                if (known := unit_of(match[2])) is not None and dimension_of(known.unit) == "a length"
+                for scale in (factor(known.unit, "mm"),)
+            ]
+            if share is not None and len(sizes) == 1:
+                found.add((share * sizes[0], text, where))
+    if len({radius for radius, _, _ in found}) != 1:
+        return None
+    radius, text, where = next(iter(found))
+    falls = {one for said, _ in texts if (one := _direction(said, {"angle"})) is not None}
+    if len(falls) > 1:
+        return None
+    turn = factor(unit, "rad")
+    sign = -1.0 if falls == {True} else 1.0
+    return Scale(
+        sign * radius * turn.multiplier / turn.divisor,
+        0.0,
+        unit,
+        "mm",
+        "displacement",
+        f"'{text[:100]}'",
+        where,
+    )

@@ -1,0 +1,139 @@
+"""Signals that become readings by what a text states: formulas, ranges, sensitivities, points, positions.
+
+The test writes a signal from readings of its own by the stated calibration; reading has to give them back.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mckibben.measurement.read.calibrations import calibration_of
+from mckibben.measurement.read.formulas import formulas_in
+from mckibben.measurement.read.positions import position_scale
+from mckibben.measurement.read.scales import scale_in
+from mckibben.physics.errors import InputError
+from tests.measurement.read.bench import FORCE, PRESSURE, STROKE, TIME, assert_is_the_test, read, table
+
+REST = "# rest length 300 mm, gauge pressure, tension positive\n"
+
+#: Sentence -> (name, unit, symbol, factor, offset) by hand.
+FORMULAS = {
+    "F [N] = 200*(U_F - 0.5)": ("F", "N", "U_F", 200.0, -100.0),
+    "p = 2.5 bar/V * U_p - 1.25 bar": ("p", "bar", "U_p", 2.5, -1.25),
+    "Kraft: F = 203,4 * U (N)": ("F", "N", "U", 203.4, 0.0),
+    "force in N = (adc - 512) / 4": ("force", "N", "adc", 0.25, -128.0),
+    "muscle length = crosshead + 214.6 mm": ("muscle length", "mm", "crosshead", 1.0, 214.6),
+}
+
+
+@pytest.mark.parametrize("text", FORMULAS)
+def test_a_straight_line_in_a_sentence(text: str) -> None:
+    assert next(formulas_in(text))[:5] == FORMULAS[text]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["F [N] = U * U", "eps = (L0 - L)/L0", "T = 20 degC", "p = 2*U_p - 1", "F [N] = 2*a + 3*b", "x = 3 mm"],
+)
+def test_what_is_no_straight_line_of_one_signal_is_none(text: str) -> None:
+    assert list(formulas_in(text)) == []
+
+
+#: Sentence -> (value at 0 of the signal, value at 1) by hand.
+SCALES = {
+    "0.5 V = 0 bar, 4.5 V = 10 bar": (-1.25, 1.25),
+    "range 0-10 bar (0-5 V)": (0.0, 2.0),
+    "gain 200 N/V, offset 0.12 V": (-24.0, 176.0),
+    "200 N = 1 V": (0.0, 200.0),
+    "100 % = 10 bar": (0.0, 0.1),
+    "0...10 bar -> 4...20 mA": (-2.5, -1.875),
+    "4-20 mA = 0-100 mm, 12 mA at the rest length": (-75.0, -68.75),
+}
+
+
+@pytest.mark.parametrize("text", SCALES)
+def test_a_scale_in_a_sentence(text: str) -> None:
+    scale = scale_in(text, "line 1")
+    assert scale is not None
+    np.testing.assert_allclose((scale.offset, scale.factor + scale.offset), SCALES[text], rtol=1e-12)
+
+
+def test_an_offset_in_the_unit_of_the_result_leaves_the_scale_open() -> None:
+    scale = scale_in("gain 200 N/V, offset 12 N", "line 1")
+    assert scale is not None
+    assert not scale.zeroed
+
+
+def test_volts_by_formulas() -> None:
+    text = (
+        f"{REST}# p [bar] = 1.25*U_p - 0.62\n# F [N] = 251.3*(U_F - 0.102)\n# s [mm] = 20*U_s\n"
+        "t [s],U_p [V],U_F [V],U_s [V]\n"
+    )
+    found = read(text + table(TIME, (PRESSURE + 0.62) / 1.25, FORCE / 251.3 + 0.102, STROKE / 20.0))
+    assert_is_the_test(found)
+
+
+def test_a_bridge_by_its_sensitivity_in_two_lines() -> None:
+    remarks = "# load cell: rated load 2000 N\n# load cell: sensitivity 2.0 mV/V\n"
+    text = f"{REST}{remarks}t [s],p [bar],load cell [mV/V],s [mm]\n"
+    assert_is_the_test(read(text + table(TIME, PRESSURE, FORCE / 1000.0, STROKE)))
+
+
+def test_per_cent_of_full_scale() -> None:
+    text = (
+        f"{REST}# Druck: 100 % = 10 bar\n# Kraft: 100 % = 2500 N\n# Hub: 100 % = 150 mm\n"
+        "Zeit [s],Druck [%],Kraft [%],Hub [%]\n"
+    )
+    assert_is_the_test(read(text + table(TIME, PRESSURE * 10.0, FORCE / 25.0, STROKE / 1.5)))
+
+
+@pytest.mark.parametrize("head", ["load cell [mV/V]", "Kraft [% FS]", "force [%]"])
+def test_a_signal_without_its_scale_is_asked_about(head: str) -> None:
+    with pytest.raises(InputError) as caught:
+        read(f"{REST}t [s],p [bar],{head},s [mm]\n" + table(TIME, PRESSURE, FORCE / 25.0, STROKE))
+    assert head.partition(" [")[0] in str(caught.value)
+    assert "scale" in str(caught.value)
+
+
+def test_a_position_with_its_reading_at_the_rest_length() -> None:
+    falls = "The laser reads 152.4 mm at the rest length; its reading falls as the muscle shortens."
+    scale = position_scale("laser", "mm", [(falls, "line 1")])
+    assert scale is not None
+    assert (scale.factor, scale.offset) == (-1.0, 152.4)
+    found = read(
+        f"# rest length 300 mm\n# {falls}\nt [s],p [bar],F [N],laser [mm]\n"
+        + table(TIME, PRESSURE, FORCE, 152.4 - STROKE)
+    )
+    assert_is_the_test(found)
+
+
+def test_a_position_without_its_zero_is_asked_about() -> None:
+    with pytest.raises(InputError, match="zero"):
+        read(
+            "# rest length 300 mm\nt [s],p [bar],F [N],laser [mm]\n"
+            + table(TIME, PRESSURE, FORCE, 152.4 - STROKE)
+        )
+
+
+def test_two_zeros_of_a_position_are_none() -> None:
+    texts = [
+        ("The laser reads 152.4 mm at L0", "line 1"),
+        ("at the rest length the laser shows 160 mm", "line 2"),
+    ]
+    assert position_scale("laser", "mm", texts) is None
+
+
+def test_the_angle_of_a_pulley() -> None:
+    text = "# rest length 300 mm\n# wire over a pulley of 25 mm radius, angle 0 at the rest length\n"
+    angle = np.degrees(STROKE / 25.0)
+    assert_is_the_test(read(f"{text}t [s],p [bar],F [N],angle [deg]\n" + table(TIME, PRESSURE, FORCE, angle)))
+    with pytest.raises(InputError):
+        read("# rest length 300 mm\nt [s],p [bar],F [N],angle [deg]\n" + table(TIME, PRESSURE, FORCE, angle))
+
+
+def test_two_calibrations_of_one_column_are_none() -> None:
+    texts = [("F [N] = 200*U_F", "line 1"), ("F [N] = 210*U_F", "line 2")]
+    heads = [("U_F [V]", None), ("p [bar]", None)]
+    assert calibration_of("U_F [V]", None, heads, texts) is None
+    assert calibration_of("U_F [V]", None, heads, texts[:1]) is not None
