@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mckibben.application.drive_of_design import drive_document
 from mckibben.application.envelope import MeasuredRange, range_of, use_notices
@@ -75,7 +75,7 @@ class ProposedDrive:
         binding: the limit with the least margin.
         reservations: what costs it rank: margins below 5 %, an impact above the stated limit.
         reason: reason of its rank.
-        front: whether no other proposal is better in every respect.
+        front: whether no other proposal and no explored drive is better in every respect.
         notes: notes for the builder.
         unverified: unverified values in use, by preset.
         drive: drive document of one of the muscles.
@@ -229,13 +229,16 @@ def prepare(question: SizingQuestion) -> Callable[[Watch], SizingResult]:
 
 
 def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingResult:
-    proposals = [_proposal(proposal, question) for proposal in sizing.proposals]
-    front = front_of(sizing.explored)
+    listed, explored = _fronts(sizing)
+    proposals = [
+        _proposal(replace(proposal, front=on), question)
+        for proposal, on in zip(sizing.proposals, listed, strict=True)
+    ]
     return SizingResult(
         proposals=proposals,
         ranking=why_first(sizing.proposals, question.task),
         rejected=[_rejected(item) for item in sizing.rejected],
-        explored=[_explored(trial, on) for trial, on in zip(sizing.explored, front, strict=True)],
+        explored=[_explored(trial, on) for trial, on in zip(sizing.explored, explored, strict=True)],
         combinations=sizing.combinations,
         pruned=sizing.pruned,
         simulated=sizing.simulated,
@@ -245,6 +248,26 @@ def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingR
         flags=_notices(proposals, question.document),
         wall_ms=wall_ms,
     )
+
+
+def _fronts(sizing: Sizing) -> tuple[list[bool], list[bool]]:
+    """Whether nothing beats a proposal, and an explored design: one front over both.
+
+    Explored designs whose parts are proposed do not count: the proposal is the same drive, refined. They are
+    on the front where it is.
+    """
+    proposed = [_parts(proposal.trial) for proposal in sizing.proposals]
+    others = [trial for trial in sizing.explored if _parts(trial) not in proposed]
+    front = front_of([*(proposal.trial for proposal in sizing.proposals), *others])
+    listed, rest = front[: len(proposed)], iter(front[len(proposed) :])
+    of_parts = dict(zip(proposed, listed, strict=True))
+    named = [_parts(trial) for trial in sizing.explored]
+    return listed, [of_parts[parts] if parts in of_parts else next(rest) for parts in named]
+
+
+def _parts(trial: Trial) -> tuple[str, int, str, str]:
+    group = trial.design.group
+    return group.muscle.id, group.parallel, group.valve.id, group.tube.id
 
 
 def _untried(sizing: Sizing) -> str | None:
