@@ -87,7 +87,7 @@ def why_first(ordered: list[Proposal], task: Task) -> str | None:
     if _ties([first, second]) == [0, 0]:
         equal = "both fulfil the task with the same probability"
         if _share(first) != _share(second):
-            equal = f"their probabilities, {_share(first)} and {_share(second)}, cannot be told apart"
+            equal = f"their probabilities, {_share(first)} and {_share(second)}, do not differ significantly"
         return f"{before}: {equal}, and {reason}."
     return f"{before}, because it fulfils the task with {_share(first)} probability, not {_share(second)}."
 

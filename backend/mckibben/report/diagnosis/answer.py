@@ -59,7 +59,7 @@ def _missing(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
         )
     columns = [
         Head("Missing"), Head("Probability", number=True), Head("Error", number=True),
-        Head("Held-out", number=True), Head("Cannot be told from"), Head("What would tell", wide=True),
+        Head("Held-out", number=True), Head("Indistinguishable from"), Head("What would tell", wide=True),
     ]  # fmt: skip
     return table(columns, rows, whole=False)
 
