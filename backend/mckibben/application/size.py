@@ -17,7 +17,7 @@ from mckibben.documents.task import SizingTask
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.sizing import PartsCatalogue, Proposal, Rejection, Sizing, Task
 from mckibben.sizing import size as search_designs
-from mckibben.sizing.ranking import front_of, why_first
+from mckibben.sizing.ranking import joint_front, why_first
 from mckibben.sizing.trial import Trial
 
 _MESSAGES = {
@@ -229,7 +229,7 @@ def prepare(question: SizingQuestion) -> Callable[[Watch], SizingResult]:
 
 
 def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingResult:
-    listed, explored = _fronts(sizing)
+    listed, explored = joint_front(sizing.proposals, sizing.explored)
     proposals = [
         _proposal(replace(proposal, front=on), question)
         for proposal, on in zip(sizing.proposals, listed, strict=True)
@@ -248,26 +248,6 @@ def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingR
         flags=_notices(proposals, question.document),
         wall_ms=wall_ms,
     )
-
-
-def _fronts(sizing: Sizing) -> tuple[list[bool], list[bool]]:
-    """Whether nothing beats a proposal, and an explored design: one front over both.
-
-    Explored designs whose parts are proposed do not count: the proposal is the same drive, refined. They are
-    on the front where it is.
-    """
-    proposed = [_parts(proposal.trial) for proposal in sizing.proposals]
-    others = [trial for trial in sizing.explored if _parts(trial) not in proposed]
-    front = front_of([*(proposal.trial for proposal in sizing.proposals), *others])
-    listed, rest = front[: len(proposed)], iter(front[len(proposed) :])
-    of_parts = dict(zip(proposed, listed, strict=True))
-    named = [_parts(trial) for trial in sizing.explored]
-    return listed, [of_parts[parts] if parts in of_parts else next(rest) for parts in named]
-
-
-def _parts(trial: Trial) -> tuple[str, int, str, str]:
-    group = trial.design.group
-    return group.muscle.id, group.parallel, group.valve.id, group.tube.id
 
 
 def _untried(sizing: Sizing) -> str | None:
