@@ -362,6 +362,9 @@ def test_the_drives_survive_a_look_at_another_view(page: Page) -> None:
     expect(page.locator(".status")).to_contain_text("found; first")
     page.get_by_role("button", name="Design", exact=True).click()
     expect(rows(page).first).to_be_visible()
+    link_of(page)
+    page.reload()
+    expect(rows(page).first).to_be_visible()
 
 
 def test_parts_that_may_be_used(page: Page) -> None:

@@ -65,6 +65,7 @@ function offerToContinue(last) {
   document.body.append(box);
 }
 
+const AT_REST_MS = 3000;
 const showKeys = () => showShortcuts(KEYS);
 
 /** @type {import("./ui/shortcuts.js").Shortcut[]} */
@@ -120,6 +121,7 @@ function start() {
   if (last) offerToContinue(last);
   loadAll();
   requestAnimationFrame(() => setTimeout(fetchPlotly));
+  setTimeout(() => import("./commands.js"), AT_REST_MS); // so that the palette opens before the next key
   performance.mark("usable");
   document.documentElement.dataset.ready = "1";
 }
