@@ -268,7 +268,7 @@ def test_errors_stand_at_the_field(
     page.evaluate("document.querySelectorAll('.sizing details').forEach((el) => { el.open = false; })")
     propose_button(page).click()
     box = page.locator(f'.sizing [data-field="{path}"]')
-    expect(box.locator(".error")).to_contain_text(says)
+    expect(box.locator(".error")).to_contain_text(says, timeout=20_000)
     expect(box.locator("input")).to_be_visible()  # what was folded is open
     page.get_by_role("button", name="Go to the field").click()
     expect(box.locator("input")).to_be_focused()
