@@ -59,6 +59,9 @@ export interface paths {
   "/api/reports": {
     post: operations["write_report"];
   };
+  "/api/signatures": {
+    post: operations["draw_signatures"];
+  };
   "/api/simulations": {
     post: operations["simulate_drive"];
   };
@@ -2957,6 +2960,64 @@ export interface components {
       /** conservative, dissipative, lumped or reading. */
       energy: string;
     };
+    /** The pictures of an effect, each computed by the model of the muscle with and without it. */
+    SignatureAnswer: {
+      /** Id of the effect. */
+      effect: string;
+      /** All its parameters in SI. */
+      values: { [key: string]: number };
+      /** One for each kind of test that shows it. */
+      pictures: components["schemas"]["SignaturePictureAnswer"][];
+      /** Kinds it names, but whose prediction does not contain it. */
+      hidden: string[];
+      /** Effects in both models, because it only changes what they do. */
+      acts_on: string[];
+      /** Temperature of the tests [K]. */
+      temperature: number;
+      /** Largest gauge pressure of the tests [Pa]. */
+      pressure: number;
+    };
+    /** The residual of one run, in the order of its motion. */
+    SignatureCurveAnswer: {
+      /** What the rig held: pressure, length or load; null in a drive. */
+      level: number | null;
+      /** What moved. */
+      x: number[];
+      /** The residual: with the effect minus without it. */
+      y: number[];
+    };
+    /** What the effect leaves in one kind of test; SI. */
+    SignaturePictureAnswer: {
+      /** Kind of the test. */
+      kind: string;
+      /** What is predicted: force, length, diameter, stroke or pressure. */
+      quantity: string;
+      /** Its SI unit. */
+      unit: string;
+      /** What moves: contraction, pressure or time. */
+      x: string;
+      /** Its SI unit. */
+      x_unit: string;
+      /** What the rig holds in each run; empty in a drive. */
+      held: string;
+      /** Its SI unit. */
+      held_unit: string;
+      /** One for each run. */
+      curves: components["schemas"]["SignatureCurveAnswer"][];
+      /** Root mean square of the residual. */
+      rms: number;
+    };
+    /** An effect on a muscle. */
+    SignatureRequest: {
+      /** The muscle. */
+      muscle: components["schemas"]["MuscleInput"];
+      /** Id of the effect. */
+      effect: string;
+      /** Its parameters in SI; missing ones take their usual size. */
+      values?: { [key: string]: number };
+      /** Largest gauge pressure of the tests; null: the muscle's limit, else 6 bar. [Pa] */
+      pressure?: number | string | null;
+    };
     /** Columns over time, in SI; pressures gauge; positions, velocities and accelerations positive towards shorter. */
     SimulationAnswer: {
       /** Instants of the rows; fewer than requested if the run ended early. [s] */
@@ -3950,6 +4011,19 @@ export interface operations {
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** What an effect leaves in the residual of each kind of test that shows it, on this muscle. */
+  draw_signatures: {
+    requestBody: { content: { "application/json": components["schemas"]["SignatureRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["SignatureAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Iterator
 
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.frontend.views import enter, open_catalogue, open_design
+from tests.frontend.test_accessibility import violations
+from tests.frontend.views import enter, load, open_catalogue, open_design
 from tests.running_server import RunningServer
 
 
@@ -100,3 +102,26 @@ def test_refused_files_are_named(page: Page, broken_preset: str) -> None:
     page.get_by_role("button", name="Catalogue", exact=True).click()
     expect(page.get_by_role("region", name="Refused files")).to_contain_text(broken_preset)
     expect(page.get_by_role("button", name="Festo DMSP-20", exact=True)).to_be_visible()
+
+
+def test_the_atlas_shows_each_effect_and_puts_it_into_the_model(page: Page) -> None:
+    load(page, "#effects")
+    cards = page.locator(".atlas-grid > li")
+    expect(cards.first.locator("svg")).to_be_visible(timeout=20_000)
+    assert cards.count() > 40
+    page.get_by_label("Search the catalogue").fill("coulomb")
+    page.locator(".atlas-grid").get_by_role("button", name="Coulomb friction").click()
+    detail = page.get_by_role("region", name="Effect", exact=True)
+    figures = detail.locator(".pictures figure")
+    expect(figures.locator("b")).to_have_text(["isobaric", "isotonic", "static", "transient"])
+    expect(figures.first).to_contain_text("± 10 N", use_inner_text=True)
+    with page.expect_response("**/api/signatures"):
+        enter(page, "Force", "20")
+    expect(figures.first).to_contain_text("± 20 N", use_inner_text=True)  # its own slider moves the picture
+    twins = detail.locator(".twins").first
+    expect(twins.locator("svg.signature")).to_have_count(2)
+    expect(twins.locator("p")).not_to_be_empty()
+    assert violations(page) == []
+    detail.get_by_role("button", name="Put it into my model").click()
+    expect(page).to_have_title(re.compile("^Design"))
+    expect(page.locator("[data-effect]", has_text="Coulomb friction").get_by_role("switch")).to_be_checked()

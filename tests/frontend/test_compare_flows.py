@@ -164,7 +164,7 @@ def test_what_no_effect_explains_is_told_with_its_place_and_a_term_by_hand_expla
         "Something is missing that no catalogued effect explains"
     )
     expect(page.locator(".strip")).to_have_attribute("data-state", "unknown")
-    expect(page.locator("#next-what")).to_contain_text("contraction")
+    expect(page.locator("#next-what")).to_contain_text("ε")
     expect(page.locator("#next-action")).to_have_text("Copy plan")
     start = error(page)
     left = page.get_by_role("region", name="What is left")

@@ -39,6 +39,11 @@ def example(page: Page, title: str) -> None:
     expect(page.locator(".status")).to_contain_text(title)
 
 
+def unfold(page: Page) -> None:
+    """Open every card and part that is collapsed."""
+    page.evaluate("document.querySelectorAll('.sizing details').forEach((el) => { el.open = true; })")
+
+
 def propose_button(page: Page) -> Locator:
     """That in the head of the task, which is there at all times."""
     return page.locator(".task-head").get_by_role("button", name="Propose drives")
@@ -101,6 +106,10 @@ def test_from_the_empty_page_to_the_printed_report(page: Page, tmp_path: Path) -
     paper = page.context.new_page()
     act(lambda: paper.set_content(saved.value.path().read_text("utf-8")))
     paper.emulate_media(media="print")
+    paper.set_viewport_size({"width": 680, "height": 998})  # what A4 leaves inside the margins, in CSS px
+    answer = paper.locator("section").first.bounding_box()
+    assert answer
+    assert answer["y"] + answer["height"] < 998  # the answer is on the first page
     for text in ("18", "50 mm", drive.split(",")[0].split(" ")[-1]):
         expect(paper.locator("body")).to_contain_text(text)
     pdf = tmp_path / "report.pdf"
@@ -254,12 +263,12 @@ def test_errors_stand_at_the_field(
 ) -> None:
     page_guard.allow(REFUSED)
     open_task(page)
-    page.evaluate("document.querySelectorAll('.sizing details').forEach((el) => { el.open = true; })")
+    unfold(page)
     enter(page, name, text)
     page.evaluate("document.querySelectorAll('.sizing details').forEach((el) => { el.open = false; })")
     propose_button(page).click()
     box = page.locator(f'.sizing [data-field="{path}"]')
-    expect(box.locator(".error")).to_contain_text(says)
+    expect(box.locator(".error")).to_contain_text(says, timeout=20_000)
     expect(box.locator("input")).to_be_visible()  # what was folded is open
     page.get_by_role("button", name="Go to the field").click()
     expect(box.locator("input")).to_be_focused()
@@ -271,7 +280,7 @@ def test_wrong_units_and_rows_are_told_before_the_server_is_asked(page: Page) ->
     open_task(page)
     enter(page, "Stroke", "6 bar")
     expect(page.locator('[data-field="stroke"] .error')).to_contain_text("this is a length")
-    page.evaluate("document.querySelectorAll('.sizing details').forEach((el) => { el.open = true; })")
+    unfold(page)
     area = page.locator("#force-over-stroke")
     area.fill("0 100\n30")
     area.blur()
@@ -286,9 +295,8 @@ def test_cancel_keeps_what_was_there(page: Page) -> None:
     open_task(page)
     searched(page)
     found = rows(page).count()
-    page.locator(".parts-choice").nth(1).locator("summary").click()
+    unfold(page)
     page.locator(".parts-choice").nth(1).get_by_role("checkbox").nth(1).check()
-    page.evaluate("document.querySelectorAll('.sizing details').forEach((el) => { el.open = true; })")
     enter(page, "Specimens", "5000")
     expect(page.locator(".notice")).to_contain_text("The task has changed")
     field(page, "Mass").press("Control+Enter")
@@ -324,6 +332,7 @@ def test_a_link_restores_the_task_and_an_old_one_still_opens(page: Page) -> None
     open_task(page)
     example(page, "Joint of two")
     enter(page, "Torque", "1.5")
+    unfold(page)
     page.locator("#rank-by").select_option("time")
     document, link = stored(page), link_of(page)
     open_task(page, link)
@@ -353,11 +362,17 @@ def test_the_drives_survive_a_look_at_another_view(page: Page) -> None:
     expect(page.locator(".status")).to_contain_text("found; first")
     page.get_by_role("button", name="Design", exact=True).click()
     expect(rows(page).first).to_be_visible()
+    link_of(page)
+    page.reload()
+    expect(rows(page).first).to_be_visible()
 
 
 def test_parts_that_may_be_used(page: Page) -> None:
     open_task(page)
     muscles = page.locator('[data-field="catalogue.muscles"]')
+    catalogue = page.get_by_role("region", name="Catalogue")
+    expect(catalogue.locator("summary small").first).to_have_text("3 muscles, MPYE-5-1/8-HF")
+    catalogue.locator("summary").first.click()
     muscles.locator("summary").click()
     for name in ("DMSP-10", "DMSP-20", "DMSP-40"):  # those of the example
         muscles.get_by_role("checkbox", name=re.compile(f"^{name}")).uncheck()

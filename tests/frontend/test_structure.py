@@ -26,7 +26,7 @@ LAYERS: tuple[tuple[str, ...], ...] = (
     ("plots/",),
     ("muscle/", "drive/", "measurement/"),
     ("views/",),
-    ("link.js", "design-tab.js", "shell.js", "main.js"),
+    ("link.js", "address.js", "design-tab.js", "shell.js", "commands.js", "main.js"),
 )
 
 _COMMENT = re.compile(r"/\*.*?\*/|^\s*//[^\n]*", re.DOTALL | re.MULTILINE)

@@ -31,6 +31,7 @@ PATHS = {
     "/api/mysteries": {"get"},
     "/api/mysteries/{mystery_id}/reveal": {"post"},
     "/api/simulations": {"post"},
+    "/api/signatures": {"post"},
     "/api/linearisations": {"post"},
     "/api/sizings": {"post"},
     "/api/sizings/reports": {"post"},

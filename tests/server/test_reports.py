@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 import re
 import shlex
+from base64 import b64decode
 from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
@@ -51,16 +52,27 @@ def report(client: TestClient, body: dict[str, Any]) -> str:
     assert response.headers["content-type"] == "text/html; charset=utf-8"
     text = response.text
     page = Reader(text)
-    assert not page.tags & {"script", "link", "img", "iframe", "object", "embed", "base", "form", "a"}
+    assert not page.tags & {"script", "link", "img", "iframe", "object", "embed", "base", "form"}
     for name, value in page.attributes:
         assert not name.startswith("on"), name
-        assert name not in ("src", "href", "action", "style"), name
+        assert name not in ("src", "action", "style"), name
+        # A link only saves a file that it holds itself.
+        assert name != "href" or (value or "").startswith("data:application/json;base64,"), value
         assert name == "xmlns" or "://" not in (value or ""), (name, value)
     style = text[text.index("<style>") : text.index("</style>")]
     assert "url(" not in style
     assert "@import" not in style
     ElementTree.fromstring(text.removeprefix("<!DOCTYPE html>\n"))
     return text
+
+
+def attached(text: str) -> dict[str, str]:
+    """Name and content of the files inside a report."""
+    root = ElementTree.fromstring(text.removeprefix("<!DOCTYPE html>\n"))
+    return {
+        link.attrib["download"]: b64decode(link.attrib["href"].partition(",")[2]).decode()
+        for link in root.iter("a")
+    }
 
 
 def tables(text: str) -> dict[str, list[list[ElementTree.Element]]]:
@@ -208,8 +220,11 @@ def test_the_command_repeats_the_figures(
 ) -> None:
     text, comparison, _ = diagnosed
     root = ElementTree.fromstring(text.removeprefix("<!DOCTYPE html>\n"))
-    lines, model = ["".join(element.itertext()) for element in root.iter("pre")]
-    (tmp_path / "model.json").write_text(model, "utf-8")
+    (lines,) = ["".join(element.itertext()) for element in root.iter("pre")]
+    inside = attached(text)
+    assert set(inside) == {"model.json", "comparison.json", "diagnosis.json"}
+    assert json.loads(inside["comparison.json"])["rmse"] == comparison["rmse"]
+    (tmp_path / "model.json").write_text(inside["model.json"], "utf-8")
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MCKIBBEN_DATA", str(tmp_path))
     assert cli.run([*shlex.split(lines.splitlines()[0])[1:], "--json"]) == 0

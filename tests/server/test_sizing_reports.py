@@ -21,7 +21,7 @@ from mckibben.report.sizing.words import limit_name
 from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
 from tests.server.conftest import assert_error, post
-from tests.server.test_reports import NASTY, Reader, exact, tables
+from tests.server.test_reports import NASTY, Reader, attached, exact, tables
 from tests.server.test_sizings import IMPOSSIBLE, TASK
 
 PATH = "/api/sizings/reports"
@@ -43,8 +43,8 @@ BESIDE: dict[str, Any] = {
     "uncertainty": {"specimens": 0},
 }
 WHOLE = [
-    "Result", "Task", "Parts list", "Curves and operating points", "Motion", "Margins", "Uncertainty",
-    "Alternatives", "Rejected parts", "Assumptions", "Figures and their grades", "Equations",
+    "Result", "Margins", "Parts list", "Curves and operating points", "Motion", "Uncertainty",
+    "Alternatives", "Task", "Rejected parts", "Assumptions", "Figures and their grades", "Equations",
     "How to reproduce",
 ]  # fmt: skip
 
@@ -57,10 +57,12 @@ def report(client: TestClient, body: dict[str, Any]) -> str:
     assert "default-src 'self'" in response.headers["content-security-policy"]
     text = response.text
     page = Reader(text)
-    assert not page.tags & {"script", "link", "img", "iframe", "object", "embed", "base", "form", "a"}
+    assert not page.tags & {"script", "link", "img", "iframe", "object", "embed", "base", "form"}
     for name, value in page.attributes:
         assert not name.startswith("on"), name
-        assert name not in ("src", "href", "action", "style"), name
+        assert name not in ("src", "action", "style"), name
+        # A link only saves a file that it holds itself.
+        assert name != "href" or (value or "").startswith("data:application/json;base64,"), value
         assert name == "xmlns" or "://" not in (value or ""), (name, value)
     assert any((value or "").startswith("default-src 'none'") for _, value in page.attributes)
     style = text[text.index("<style>") : text.index("</style>")]
@@ -82,9 +84,10 @@ def words(cell: ElementTree.Element) -> str:
     return "".join(cell.itertext())
 
 
-def files(text: str) -> list[str]:
-    """What is to be copied: commands, task.json, drive.json."""
-    return [words(element) for element in root_of(text).iter("pre")]
+def commands(text: str) -> str:
+    """What is to be copied."""
+    (lines,) = [words(element) for element in root_of(text).iter("pre")]
+    return lines
 
 
 @pytest.fixture(scope="module")
@@ -227,7 +230,7 @@ def test_what_was_given_and_what_was_assumed_is_told(lifted: tuple[str, dict]) -
     assert words(rows["Stroke of the load"][0][0]) == "60\xa0mm"
     assert words(rows["Ambient temperature"][0][0]) == "20\xa0°C"
     assert words(rows["Tolerance of the supply pressure"][0][0]) == "3\xa0%"
-    task = text[text.index("2 Task") : text.index("3 Parts list")]
+    task = text[text.index("8 Task") : text.index("9 Rejected parts")]
     assumed = text[text.index("Values the task does not state") :]
     assert "Ambient temperature" not in task
     assert "Ambient temperature" in assumed
@@ -312,15 +315,17 @@ def test_hashes_are_those_of_the_files_and_the_commands_repeat_it(
     capsysbinary: pytest.CaptureFixture[bytes],
 ) -> None:
     text, answer = lifted
-    lines, *contents = files(text)
-    assert "mckibben size task.json" in lines.splitlines()
+    assert "mckibben size task.json" in commands(text).splitlines()
     rows = tables(text)
-    for name, content in zip(("task.json", "drive.json"), contents, strict=True):
+    inside = attached(text)
+    assert json.loads(inside.pop("sizing.json"))["proposals"][0] == answer["proposals"][0]
+    assert set(inside) == {"task.json", "drive.json"}
+    for name, content in inside.items():
         read = json.loads(content)
         plain = json.dumps(read, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
         assert words(rows[f"SHA-256 of {name}"][0][0]) == hashlib.sha256(plain.encode()).hexdigest()
         (tmp_path / name).write_text(content, "utf-8")
-    assert json.loads(contents[1]) == answer["proposals"][0]["drive"]
+    assert json.loads(inside["drive.json"]) == answer["proposals"][0]["drive"]
     monkeypatch.chdir(tmp_path)
     monkeypatch.setenv("MCKIBBEN_DATA", str(tmp_path))
     assert cli.run(["size", "task.json", "--json"]) == 0

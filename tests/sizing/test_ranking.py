@@ -55,7 +55,7 @@ def test_a_difference_within_the_uncertainty_is_a_tie_and_goes_by_what_the_task_
     assert order(dear, cheap) == order(cheap, dear) == ["cheap", "dear"]
     sentence = why_first(ranked([dear, cheap], AIR), AIR)
     assert sentence is not None
-    assert sentence.startswith("cheap comes before dear: their probabilities, 93 ± 2 % and 95 ± 2 %, cannot")
+    assert sentence.startswith("cheap comes before dear: their probabilities, 93 ± 2 % and 95 ± 2 %, do not")
     assert "1.15 l of air a cycle, not 2.19 l" in sentence
 
 

@@ -123,7 +123,16 @@ def test_it_ranks_by_probability(studio: Studio) -> None:
 def test_nothing_beats_the_front(studio: Studio) -> None:
     answer = answer_of({**LIFT, "catalogue": {**LIFT["catalogue"], "tubes": None, "valves": None}}, studio)
     names = {"air_volume_anr": 1, "time": 1, "nominal_length": 1, "force_reserve": -1, "stiffness": -1}
-    designs = answer["explored"]
+    parts = ("muscle", "parallel", "valve", "tube")
+    listed = {tuple(item[name] for name in parts): item["front"] for item in answer["proposals"]}
+    designs = list(answer["proposals"])
+    for item in answer["explored"]:
+        of_parts = tuple(item[name] for name in parts)
+        if of_parts in listed:  # the same drive, refined: plot and list agree
+            assert item["front"] is listed[of_parts]
+        else:
+            designs.append(item)
+    assert len(designs) > len(listed)
     assert any(item["front"] for item in designs)
     for item in designs:
         beaten = any(

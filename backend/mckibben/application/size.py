@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mckibben.application.drive_of_design import drive_document
 from mckibben.application.envelope import MeasuredRange, range_of, use_notices
@@ -17,7 +17,7 @@ from mckibben.documents.task import SizingTask
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.sizing import PartsCatalogue, Proposal, Rejection, Sizing, Task
 from mckibben.sizing import size as search_designs
-from mckibben.sizing.ranking import front_of, why_first
+from mckibben.sizing.ranking import joint_front, why_first
 from mckibben.sizing.trial import Trial
 
 _MESSAGES = {
@@ -75,7 +75,7 @@ class ProposedDrive:
         binding: the limit with the least margin.
         reservations: what costs it rank: margins below 5 %, an impact above the stated limit.
         reason: reason of its rank.
-        front: whether no other proposal is better in every respect.
+        front: whether no other proposal and no explored drive is better in every respect.
         notes: notes for the builder.
         unverified: unverified values in use, by preset.
         drive: drive document of one of the muscles.
@@ -229,13 +229,16 @@ def prepare(question: SizingQuestion) -> Callable[[Watch], SizingResult]:
 
 
 def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingResult:
-    proposals = [_proposal(proposal, question) for proposal in sizing.proposals]
-    front = front_of(sizing.explored)
+    listed, explored = joint_front(sizing.proposals, sizing.explored)
+    proposals = [
+        _proposal(replace(proposal, front=on), question)
+        for proposal, on in zip(sizing.proposals, listed, strict=True)
+    ]
     return SizingResult(
         proposals=proposals,
         ranking=why_first(sizing.proposals, question.task),
         rejected=[_rejected(item) for item in sizing.rejected],
-        explored=[_explored(trial, on) for trial, on in zip(sizing.explored, front, strict=True)],
+        explored=[_explored(trial, on) for trial, on in zip(sizing.explored, explored, strict=True)],
         combinations=sizing.combinations,
         pruned=sizing.pruned,
         simulated=sizing.simulated,

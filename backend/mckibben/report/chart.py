@@ -62,7 +62,7 @@ def chart(
     *,
     title: str,
     width: float = 720.0,
-    height: float = 330.0,
+    height: float = 270.0,
     left: float | None = None,
     legend: bool | None = None,
     room: float = _LEGEND,

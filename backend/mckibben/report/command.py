@@ -5,23 +5,35 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from mckibben.report.document import code, paragraph
+from mckibben.report.attachment import attachment
+from mckibben.report.document import bullets, code, paragraph
 from mckibben.report.html import Child, Html, html
 
 
 @dataclass(frozen=True)
 class Command:
-    """Command lines, the files they need (name -> text), and remarks on what they do not cover."""
+    """Command lines, the files they need (name -> text), and remarks on what they do not cover.
+
+    ``results`` are files with the complete answers, name -> text.
+    """
 
     lines: Sequence[str]
     files: Mapping[str, str] = field(default_factory=dict)
     notes: Sequence[str] = ()
+    results: Mapping[str, str] = field(default_factory=dict)
 
 
 def command_section(command: Command) -> Html:
-    """Command lines and files, ready to copy."""
+    """Command lines to copy, and the files as attachments."""
     parts: list[Child] = [code("\n".join(command.lines))]
-    for name, text in command.files.items():
-        parts += [paragraph(name, ":"), code(text)]
+    for what, files in (
+        ("Files the commands need, attached to this report", command.files),
+        ("Complete answers with every number, attached to this report", command.results),
+    ):
+        if files:
+            parts += [
+                paragraph(f"{what} (a click in the HTML file saves them):"),
+                bullets(attachment(name, text) for name, text in files.items()),
+            ]
     parts += [paragraph(note, note=True) for note in command.notes]
     return html(parts)

@@ -11,7 +11,7 @@ from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.style import CSS
 
 Tone = Literal["plain", "good", "warn", "bad"]
-_SHORT = 20  # most rows of a table that is kept on one page
+_SHORT = 4  # most rows of a table that is kept on one page
 # Nothing is loaded and no script runs, whatever text a user put in.
 _POLICY = "default-src 'none'; style-src 'unsafe-inline'; base-uri 'none'; form-action 'none'"
 
@@ -88,7 +88,7 @@ def table(
         columns: heads and cell styles.
         rows: of cells.
         caption: above the table.
-        whole: keep a table of up to 20 rows on one page; False if its cells are long.
+        whole: keep a table of up to 4 rows on one page; False if its cells are long.
     """
     kinds = [column.kind for column in columns]
     head = tag("tr", [tag("th", c.title, class_=k, scope="col") for c, k in zip(columns, kinds, strict=True)])

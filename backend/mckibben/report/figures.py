@@ -10,6 +10,7 @@ from mckibben.report.html import Html, html, tag
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SMALLEST, _LARGEST = 1e-3, 1e5  # outside, scientific notation is used
+_LEAST_SHARE = 1e-5
 
 
 class Scale(NamedTuple):
@@ -127,7 +128,9 @@ def with_error(value: float, error: float | None, scale: Scale) -> Html:
 
 
 def percent(share: float | None, digits: int = 2) -> Html:
-    """A share (1 = 100 %) in percent."""
+    """A share (1 = 100 %) in percent; a share that rounding of the computer can make is "< 0.001 %"."""
+    if share is not None and 0.0 < abs(share) < _LEAST_SHARE:
+        return tag("data", "< 0.001\N{NO-BREAK SPACE}%", value=repr(float(share)))
     return figure(share, Scale("%", 0.01), digits)
 
 

@@ -22,7 +22,7 @@ class Panel:
 
 
 def stack(
-    x: Axis, panels: Sequence[Panel], *, height: float = 100.0, left: float = 84.0, room: float = 150.0
+    x: Axis, panels: Sequence[Panel], *, height: float = 84.0, left: float = 84.0, room: float = 150.0
 ) -> Html:
     """The drawings, with numbers on the x axis of the lowest one.
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
@@ -87,7 +88,7 @@ def why_first(ordered: list[Proposal], task: Task) -> str | None:
     if _ties([first, second]) == [0, 0]:
         equal = "both fulfil the task with the same probability"
         if _share(first) != _share(second):
-            equal = f"their probabilities, {_share(first)} and {_share(second)}, cannot be told apart"
+            equal = f"their probabilities, {_share(first)} and {_share(second)}, do not differ significantly"
         return f"{before}: {equal}, and {reason}."
     return f"{before}, because it fulfils the task with {_share(first)} probability, not {_share(second)}."
 
@@ -150,6 +151,26 @@ def front_of(trials: list[Trial]) -> list[bool]:
     no_worse = np.all(table[:, None, :] <= table[None, :, :] * (1.0 + 1e-9), axis=2)
     better = np.any(table[:, None, :] < table[None, :, :] * (1.0 - 1e-9), axis=2)
     return [bool(beaten) for beaten in ~np.any(no_worse & better, axis=0)]
+
+
+def joint_front(proposals: Sequence[Proposal], explored: Sequence[Trial]) -> tuple[list[bool], list[bool]]:
+    """Whether nothing beats a proposal, and whether nothing beats an explored design: one front over both.
+
+    Explored designs whose parts are proposed do not count: the proposal is the same drive, refined. They are
+    on the front where it is.
+    """
+    proposed = [_parts(proposal.trial) for proposal in proposals]
+    others = [trial for trial in explored if _parts(trial) not in proposed]
+    front = front_of([*(proposal.trial for proposal in proposals), *others])
+    listed, rest = front[: len(proposed)], iter(front[len(proposed) :])
+    of_parts = dict(zip(proposed, listed, strict=True))
+    named = [_parts(trial) for trial in explored]
+    return listed, [of_parts[parts] if parts in of_parts else next(rest) for parts in named]
+
+
+def _parts(trial: Trial) -> tuple[str, int, str, str]:
+    group = trial.design.group
+    return group.muscle.id, group.parallel, group.valve.id, group.tube.id
 
 
 _NAMES = {

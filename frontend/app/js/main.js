@@ -1,14 +1,14 @@
 // @ts-check
-// The start: read the link, build the page, then load Plotly.
+// The start: read the address, build the page, then load Plotly.
+import { continueWith, lastWork, readAddress, writeAddress } from "./address.js";
 import { designTab } from "./design-tab.js";
 import { append, h } from "./dom.js";
-import { fromHash, toHash } from "./link.js";
 import { fetchPlotly } from "./plots/library.js";
 import { effect } from "./reactive.js";
 import { loadAll } from "./server/presets.js";
-import { shell } from "./shell.js";
-import { doc, goTo } from "./state.js";
-import { status } from "./store.js";
+import { share, shell } from "./shell.js";
+import { goTo } from "./state.js";
+import { setTheme } from "./plots/theme.js";
 import { redoAndReport, undoAndReport } from "./ui/history.js";
 import { control, listenToKeys, plain, showShortcuts } from "./ui/shortcuts.js";
 import { catalogueView } from "./views/catalogue/index.js";
@@ -31,6 +31,41 @@ const TABS = [
   { id: "catalogue", title: "Catalogue", build: catalogueView, exports: designExports },
 ];
 
+/** The command palette. */
+async function palette() {
+  const { showCommands } = await import("./commands.js");
+  const themes = /** @type {const} */ (["light", "dark", "system"]);
+  const actions = [
+    ...themes.map((theme) => ({ label: `Theme: ${theme}`, kind: "action", run: () => setTheme(theme) })),
+    { label: "Copy a link to this state", kind: "action", run: share },
+    { label: "Keyboard shortcuts and reference", kind: "action", run: showKeys },
+  ];
+  showCommands(TABS, KEYS.filter(({ run }) => run !== palette), actions);
+}
+
+/** Offers the work of last time, beside the content: nothing moves. @param {import("./address.js").Last} last */
+function offerToContinue(last) {
+  const title = TABS.find(({ id }) => id === last.view)?.title ?? "";
+  const when = new Date(last.when).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
+  const close = () => box.remove();
+  const box = h(
+    "aside",
+    { class: "continue", "aria-label": "Last time" },
+    h("span", null, h("b", null, "Continue where you stopped?"), ` ${title}, ${when}`),
+    h("button", {
+      type: "button",
+      class: "primary",
+      onclick: () => {
+        close();
+        continueWith(last);
+      },
+    }, "Continue"),
+    h("button", { type: "button", onclick: close }, "Start fresh"),
+  );
+  document.body.append(box);
+}
+
+const AT_REST_MS = 3000;
 const showKeys = () => showShortcuts(KEYS);
 
 /** @type {import("./ui/shortcuts.js").Shortcut[]} */
@@ -45,6 +80,13 @@ const KEYS = [
   ...TASK_KEYS,
   ...TRANSIENT_KEYS,
   ...COMPARE_KEYS,
+  {
+    keys: "Ctrl K",
+    what: "Go to any view, preset, effect or action",
+    match: control("k"),
+    run: palette,
+    typing: true,
+  },
   { keys: "Ctrl Z", what: "Undo", match: control("z"), run: undoAndReport },
   { keys: "Ctrl Shift Z", what: "Redo", match: control("z", true), run: redoAndReport },
   {
@@ -58,37 +100,9 @@ const KEYS = [
   },
 ];
 
-const LINK_MS = 250;
-
-async function readLink() {
-  try {
-    const linked = await fromHash(location.hash);
-    if (linked) doc.value = linked;
-  } catch (error) {
-    const why = /** @type {Error} */ (error).message;
-    status.value = `The link cannot be read: ${why}. The example design is shown instead.`;
-  }
-}
-
-/** Keeps the address up to date. Browsers allow few changes of it per second, so it waits for a pause. */
-function writeLink() {
-  let timer = 0, written = location.hash;
-  effect(() => {
-    const state = doc.value;
-    clearTimeout(timer);
-    timer = setTimeout(async () => {
-      written = await toHash(state);
-      if (state === doc.peek()) history.replaceState(null, "", written);
-    }, LINK_MS);
-  });
-  addEventListener("hashchange", () => {
-    if (location.hash !== written && location.hash !== "#main") readLink();
-  });
-}
-
-/** An error of the program itself must not leave a blank page. @param {unknown} error */
-function showError(error) {
-  const text = `The page could not be built: ${error instanceof Error ? error.message : error}. `;
+/** An error of the program itself must not leave a blank page. */
+function showError() {
+  const text = "The page could not be built. The console of the browser has the details. ";
   const again = h("a", { href: "/" }, "Start again with the example");
   document.getElementById("app")?.replaceChildren(h("p", { class: "loading", role: "alert" }, text, again));
 }
@@ -102,17 +116,20 @@ function start() {
   effect(show);
   listenToKeys(KEYS);
   listenToDrops();
-  writeLink();
+  const last = lastWork();
+  writeAddress();
+  if (last) offerToContinue(last);
   loadAll();
   requestAnimationFrame(() => setTimeout(fetchPlotly));
+  setTimeout(() => import("./commands.js"), AT_REST_MS); // so that the palette opens before the next key
   performance.mark("usable");
   document.documentElement.dataset.ready = "1";
 }
 
-await readLink();
+await readAddress();
 try {
   start();
 } catch (error) {
-  showError(error);
+  showError();
   throw error;
 }

@@ -4,6 +4,7 @@ import { h, icon } from "./dom.js";
 import { toHash } from "./link.js";
 import { setTheme, themeChoice } from "./plots/theme.js";
 import { apart } from "./reactive.js";
+import { connection, look } from "./server/connection.js";
 import { loadAll } from "./server/presets.js";
 import { doc, edit, future, goTo, past, units, view } from "./state.js";
 import { outage, status } from "./store.js";
@@ -19,7 +20,15 @@ import { menuButton } from "./ui/menu.js";
 /** @type {Record<import("./format.js").System, string>} */
 const SYSTEMS = { si: "SI", bar: "bar · mm", us: "US" };
 
-async function share() {
+/** What the banner says. */
+const WORDS = {
+  gone:
+    "The server does not answer. Is “mckibben serve” still running? The page tries again by itself; what you " +
+    "entered stays. Dimmed plots show the state before.",
+  slow: "The server takes long to answer. Dimmed plots show the state before.",
+};
+
+export async function share() {
   const url = new URL(location.href);
   url.hash = await toHash(doc.peek());
   history.replaceState(null, "", url);
@@ -108,6 +117,14 @@ export function shell(views, { examples, help }) {
         }, v.title)
       ),
     ),
+    menuButton({
+      label: () => [views.find((v) => v.id === view.value)?.title ?? "", icon("down")],
+      visible: true,
+      name: "Views",
+      class: "views-menu",
+      items: () =>
+        views.map((v) => ({ label: v.title, checked: v.id === view.peek(), run: () => goTo(v.id) })),
+    }),
     menuButton({ label: ["Examples", icon("down")], name: "Examples", class: "quiet", items: examples }),
     h("span", { class: "space" }),
     historyButton(() => past.value.at(-1)?.label, "undo", undoAndReport, "Ctrl+Z"),
@@ -147,16 +164,21 @@ export function shell(views, { examples, help }) {
       onclick: help,
     }, icon("help")),
   );
-  const banner = () =>
-    outage.value
+  const banner = () => {
+    const now = connection.value;
+    const text = now === "up" ? outage.value : WORDS[now];
+    return text
       ? h(
         "div",
-        { class: "banner", role: "alert" },
+        { class: `banner ${now}`, role: now === "slow" ? "status" : "alert" },
         icon("warn"),
-        h("span", null, outage.value),
-        h("button", { type: "button", onclick: loadAll }, "Try again"),
+        h("span", null, text),
+        now === "slow"
+          ? null
+          : h("button", { type: "button", onclick: now === "gone" ? look : loadAll }, "Try again"),
       )
       : null;
+  };
   return { bar, main, show, banner, status: h("p", { role: "status", class: "status" }, () => status.value) };
 }
 

@@ -116,7 +116,7 @@ def protocols(rig: Rig, fit_model: FitModel, *, channel: str) -> list[Protocol]:
 
 
 @dataclass(frozen=True)
-class _Run:
+class RigRun:
     """Set points of one run: times, and the values of what the rig prescribes."""
 
     time: np.ndarray
@@ -129,51 +129,51 @@ def _at_length(rig: Rig, fit_model: FitModel) -> Iterator[Protocol]:
     low, span = rig.least, rig.most - rig.least
     rest = float(fit_model.muscle.nominal_length)
 
-    def sweep(share: float, speed: float, turns: Sequence[float]) -> _Run:
+    def sweep(share: float, speed: float, turns: Sequence[float]) -> RigRun:
         points = low + span * np.array(turns)
         pace = max(speed / rest, float(np.sum(np.abs(np.diff(points)))) / _SLOWEST)
         time = np.concatenate([[0.0], np.cumsum(np.abs(np.diff(points)))]) / pace
-        return _Run(time, np.full(len(time), share * rig.pressure), points)
+        return RigRun(time, np.full(len(time), share * rig.pressure), points)
 
-    def ramp(place: float, seconds: float) -> _Run:
+    def ramp(place: float, seconds: float) -> RigRun:
         time = np.array([0.0, seconds, 2.0 * seconds])
         pressure = rig.pressure * np.array([0.0, 1.0, 0.0])
-        return _Run(time, pressure, np.full(3, low + place * span))
+        return RigRun(time, pressure, np.full(3, low + place * span))
 
     loop = [0.0, 1.0, 0.0]
     speeds = [rig.speed, 0.1 * rig.speed, 0.01 * rig.speed]
-    yield _made(
+    yield experiment_of(
         "loops of contraction at three pressures and three speeds two decades apart",
         [sweep(share, speed, loop) for share in (1 / 3, 2 / 3, 1.0) for speed in speeds],
         fit_model,
     )
     nested = [0.0, 1.0, 0.5, 1.0, 0.25, 0.75, 0.25, 1.0, 0.0]
-    yield _made(
+    yield experiment_of(
         "loops of contraction of several amplitudes, one within the other",
         [sweep(share, 0.3 * rig.speed, nested) for share in (0.5, 1.0)],
         fit_model,
     )
-    yield _made(
+    yield experiment_of(
         "pressure ramps up and down from vented at five lengths",
         [ramp(place, 5.0) for place in np.linspace(0.0, 1.0, 5)],
         fit_model,
     )
-    yield _made(
+    yield experiment_of(
         "pressure ramps up and down from vented at one length, at rates two decades apart",
         [ramp(0.3, seconds) for seconds in (1.0, 10.0, 100.0)],
         fit_model,
     )
-    yield _made("a loop of contraction without pressure", [sweep(0.0, rig.speed, loop)], fit_model)
+    yield experiment_of("a loop of contraction without pressure", [sweep(0.0, rig.speed, loop)], fit_model)
     quick = max(span * rest / rig.speed, 0.05)
     holds = [
-        _Run(
+        RigRun(
             np.array([0.0, quick, quick + _HOLD, 2 * quick + _HOLD, 2 * quick + 2 * _HOLD]),
             np.full(5, share * rig.pressure),
             low + span * np.array([0.0, 0.7, 0.7, 0.2, 0.2]),
         )
         for share in (0.5, 1.0)
     ]
-    yield _made("holds of 60 s after a fast contraction and a fast extension", holds, fit_model)
+    yield experiment_of("holds of 60 s after a fast contraction and a fast extension", holds, fit_model)
 
 
 def _under_load(rig: Rig, fit_model: FitModel) -> Iterator[Protocol]:
@@ -181,36 +181,38 @@ def _under_load(rig: Rig, fit_model: FitModel) -> Iterator[Protocol]:
     up_down = [0.0, 1.0, 0.0]
     heaviest = loads[len(loads) - 1]
 
-    def ramps(seconds: Sequence[float], levels: Sequence[float], chosen: Sequence[float]) -> list[_Run]:
+    def ramps(seconds: Sequence[float], levels: Sequence[float], chosen: Sequence[float]) -> list[RigRun]:
         shape = np.array(levels)
         return [
-            _Run(np.linspace(0.0, total, len(shape)), rig.pressure * shape, None, load)
+            RigRun(np.linspace(0.0, total, len(shape)), rig.pressure * shape, None, load)
             for load in chosen
             for total in seconds
         ]
 
     several = f"each of {len(loads)} loads" if len(loads) > 1 else "the load"
-    yield _made(f"slow pressure ramps up and down under {several}", ramps([60.0], up_down, loads), fit_model)
-    yield _made(
+    yield experiment_of(
+        f"slow pressure ramps up and down under {several}", ramps([60.0], up_down, loads), fit_model
+    )
+    yield experiment_of(
         "pressure ramps up and down at rates two decades apart",
         ramps([4.0, 40.0, 400.0], up_down, [heaviest]),
         fit_model,
     )
-    yield _made(
+    yield experiment_of(
         "pressure ramps of several heights, one within the other",
         ramps([120.0], [0.0, 1.0, 0.5, 1.0, 0.25, 0.75, 0.25, 1.0, 0.0], [heaviest]),
         fit_model,
     )
-    hold = _Run(
+    hold = RigRun(
         np.array([0.0, 1.0, 1.0 + _HOLD, 2.0 + _HOLD, 2.0 + 2.0 * _HOLD]),
         rig.pressure * np.array([0.0, 1.0, 1.0, 0.5, 0.5]),
         None,
         heaviest,
     )
-    yield _made("holds of 60 s after fast changes of the pressure", [hold], fit_model)
+    yield experiment_of("holds of 60 s after fast changes of the pressure", [hold], fit_model)
 
 
-def _made(words: str, runs: Sequence[_Run], fit_model: FitModel) -> Protocol:
+def experiment_of(words: str, runs: Sequence[RigRun], fit_model: FitModel) -> Protocol:
     """The experiment of some runs; its rows are dense where something moves and at the begin of holds."""
     parts = [_dense(run.time) for run in runs]
     labels = np.repeat(np.arange(len(runs)), [len(time) for time in parts])

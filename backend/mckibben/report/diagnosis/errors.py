@@ -15,6 +15,7 @@ from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import Axis
 
 _MOST_SENTENCES, _LEAST_SHARE = 3, 0.05  # variables named in sentences: how many, from which share on
+_ROUNDING = 1e-9  # share of the error below which a mean is rounding
 #: Unit of an error that combines several channels.
 TIMES_NOISE = Scale("× noise")
 
@@ -37,7 +38,7 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
             "RMS error with whole groups left out of the fit",
             *(figure(answer.holdout_rmse, scale) for _, answer in columns),
         ],
-        ["Mean of the residual", *(figure(answer.residual_mean, scale) for _, answer in columns)],
+        ["Mean of the residual", *(figure(_mean(answer), scale, 3) for _, answer in columns)],
         [
             f"Noise of the data ({first.noise_how})",
             *(figure(answer.noise_floor, scale) for _, answer in columns),
@@ -82,6 +83,12 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
         reasons = "; ".join(f"{number} {reason}" for reason, number in first.excluded.items())
         parts.append(paragraph(f"Rows left out: {reasons}.", note=True))
     return html(parts)
+
+
+def _mean(answer: ComparisonResult) -> float | None:
+    """Mean of the residual; 0 where only the rounding of the computer keeps it from being 0."""
+    mean = answer.residual_mean
+    return 0.0 if mean is not None and abs(mean) < _ROUNDING * answer.rmse else mean
 
 
 def _rows(answer: ComparisonResult) -> str:

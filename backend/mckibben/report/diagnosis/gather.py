@@ -98,7 +98,7 @@ def report_of(
             catalogue=catalogue,
             comparison=comparison,
             figures=dict(_figures(question, catalogue, preset, known)),
-            command=_command(question, comparison, names, diagnosed=diagnosis is not None),
+            command=_command(question, comparison, names, diagnosis),
             diagnosis=diagnosis,
             proposed=None if diagnosis is None else _proposed(question, studio, diagnosis),
             history=[
@@ -214,7 +214,10 @@ def _proposed(question: ModelQuestion, studio: Studio, diagnosis: DiagnosisResul
 
 
 def _command(
-    question: ModelQuestion, comparison: ComparisonResult, names: Sequence[str], *, diagnosed: bool
+    question: ModelQuestion,
+    comparison: ComparisonResult,
+    names: Sequence[str],
+    diagnosis: DiagnosisResult | None,
 ) -> Command:
     geometry = comparison.geometry
     model = {
@@ -230,7 +233,7 @@ def _command(
     noise = [] if question.noise is None else [f"--noise {question.noise!r}"]
     shared = [*files, f"--drive {_MODEL_FILE}", *_stated_options(common_experiment(question))]
     lines = [" ".join(["mckibben compare", *shared])]
-    if diagnosed:
+    if diagnosis is not None:
         lines.append(" ".join(["mckibben diagnose", *shared, *free, *noise, "--report report.html"]))
     notes = []
     if question.drive is not None:
@@ -242,7 +245,10 @@ def _command(
         notes.append(f"Constants fitted in addition: {', '.join(question.freed)}.")
     if question.validation is not None:
         notes.append("The validation data are not part of the command.")
-    return Command(lines, {_MODEL_FILE: json.dumps(json.loads(to_json(model)), indent=2)}, notes)
+    results = {"comparison.json": to_json(comparison).decode()}
+    if diagnosis is not None:
+        results["diagnosis.json"] = to_json(diagnosis).decode()
+    return Command(lines, {_MODEL_FILE: json.dumps(json.loads(to_json(model)), indent=2)}, notes, results)
 
 
 def _stated_options(experiment: Experiment) -> Iterator[str]:

@@ -73,13 +73,13 @@ def _card(
         Head("Bounds", number=True), Head("Source"),
     ]  # fmt: skip
     if effect is None:
-        return html(heading("Geometry and load"), table(columns, rows))
+        return html(heading("Geometry and load"), table(columns, rows, whole=False))
     title = html(effect.title, " ", mark("added by the diagnosis")) if new else html(effect.title)
     return html(
         heading(title),
         paragraph(effect.cause),
         tag("div", _equation(effect, document), class_="equation"),
-        table(columns, rows) if rows else None,
+        table(columns, rows, whole=False) if rows else None,
     )
 
 

@@ -76,7 +76,7 @@ def _channel(all_series: Sequence[ComparedSeries], answer: ComparisonResult, cha
         legend = f"{words.capitalize()}: dots are measured, lines are the {name}."
     below = chart(
         x, Axis(f"Residual of {words}", scale.unit, zero=True), errors,
-        title=f"Residual of {about}", height=230.0, left=_LEFT, legend=True,
+        title=f"Residual of {about}", height=185.0, left=_LEFT, legend=True,
     )  # fmt: skip
     return html(
         figure_of(overlay, legend),

@@ -1,106 +1,28 @@
-"""The verdict, the steps to it, indistinguishable effects, and what to measure next."""
+"""Effects that were tried, those the data cannot distinguish, and what no effect explains."""
 
 from __future__ import annotations
 
 from mckibben.application.diagnosis_result import DiagnosisResult, Verdict
-from mckibben.identification.diagnose.verdict import Status
-from mckibben.report.bars import Bar, bars
 from mckibben.report.chart import chart
-from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
+from mckibben.report.diagnosis.errors import error_scale
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.document import (
     Head,
-    Tone,
     bullets,
-    callout,
     facts,
     figure_of,
     heading,
     mark,
     paragraph,
     table,
-    tiles,
 )
 from mckibben.report.figures import Scale, figure, percent, plain, variable
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.marks import SECOND, Axis, Dots, Line
 
-_TONES: dict[Status, Tone] = {
-    "adequate": "good",
-    "missing_effects": "warn",
-    "ambiguous": "warn",
-    "unknown_effect": "bad",
-}
 _HELPS = 1.0  # % of the error: candidates that gain less are only counted
-_SAME = 0.98  # ratio to the first error: below, the refitted error gets a tile of its own
 _MOST_TWINS = 4
 _SHOWN = 8  # candidates listed with reasons; further useful ones are only named
-
-
-def verdict_section(material: DiagnosisMaterial) -> Html:
-    """The verdict in one sentence, key figures, and what to measure next."""
-    answer, diagnosis = material.comparison, material.diagnosis
-    scale = error_scale(answer)
-    figures: list[tuple[Child, Child]] = [("RMS error of the model", figure(answer.rmse, scale, 3))]
-    if answer.nrmse_percent is not None and scale != TIMES_NOISE:
-        figures.append(("… of the largest value", percent(answer.nrmse_percent / 100.0, 3)))
-    if diagnosis is None:
-        parts = [callout("Comparison", f"{sentence}.") for sentence in answer.sentences[-1:]]
-        figures.append(("Noise of the data", figure(answer.noise_floor, scale, 3)))
-        return html(parts, tiles(figures))
-    verdict = diagnosis.verdict
-    title, tone = verdict.title, _TONES[verdict.status]
-    best = diagnosis.path[-1].rmse
-    if verdict.effects:
-        figures.append(("With the missing effects", figure(best, scale, 3)))
-    elif best < _SAME * diagnosis.path[0].rmse:
-        figures.append(("With its parameters refitted", figure(best, scale, 3)))
-    figures.append(("Noise of the data", figure(diagnosis.noise_floor.rmse, scale, 3)))
-    parts = [callout(title, verdict.sentence, tone=tone), tiles(figures)]
-    if verdict.next_measurement:
-        parts.append(callout("Next measurement", verdict.next_measurement))
-    return html(parts)
-
-
-def path_section(material: DiagnosisMaterial) -> Html:
-    """The error step by step: earlier models, the given model, and what the diagnosis adds."""
-    scale = error_scale(material.comparison)
-    rows: list[list[Child]] = []
-    drawn: list[Bar] = []
-
-    def add(name: str, rmse: float | None, holdout: float | None, how: str, *, pale: bool = False) -> None:
-        rows.append([name, figure(rmse, scale), figure(holdout, scale), how])
-        if rmse is not None:
-            value, tick = scale.of(rmse), None if holdout is None else scale.of(holdout)
-            drawn.append(Bar(name, value, f"{plain(value, 3)} {scale.unit}".strip(), tick, pale))
-
-    for past in material.history:
-        add(past.label, past.comparison.rmse, past.comparison.holdout_rmse, "an earlier model")
-    answer, diagnosis = material.comparison, material.diagnosis
-    if diagnosis is None:
-        add("this model", answer.rmse, answer.holdout_rmse, "as given")
-    else:
-        for number, step in enumerate(diagnosis.path):
-            if number == 0:
-                add("this model", step.rmse, step.holdout_rmse, "as given")
-            elif step.added is None:
-                add("refitted", step.rmse, step.holdout_rmse, "its parameters fitted", pale=True)
-            else:
-                name = f"+ {material.title_of(step.added)}"
-                how = "kept as a correction" if step.correction else "added by the diagnosis"
-                add(name, step.rmse, step.holdout_rmse, how, pale=True)
-    floor = answer.noise_floor if diagnosis is None else diagnosis.noise_floor.rmse
-    level = None if floor is None else (scale.of(floor), "noise")
-    unit = f" [{scale.unit}]" if scale.unit else ""
-    drawing = bars(drawn, axis=f"RMS error{unit}", title="RMS error of each model", level=level)
-    columns = [
-        Head("Model"), Head("RMS error", number=True),
-        Head("On groups left out of the fit", number=True), Head(""),
-    ]  # fmt: skip
-    return html(
-        figure_of(drawing, "RMS error; the black tick is the error on groups left out of the fit."),
-        table(columns, rows),
-    )
 
 
 def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
@@ -211,7 +133,7 @@ def _unknown(verdict: Verdict) -> Html:
         figure_of(
             chart(
                 Axis(variable_name.capitalize(), scale.unit), Axis("Force", "N"), marks,
-                title="Residual and proposed term", height=240.0,
+                title="Residual and proposed term", height=200.0,
             ),
             "Residual and proposed term.",
         )

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from mckibben.report.command import command_section
+from mckibben.report.diagnosis.answer import answer_section
 from mckibben.report.diagnosis.errors import error_scale, error_table, where_it_fails
 from mckibben.report.diagnosis.experiment import experiment_section
 from mckibben.report.diagnosis.inputs import assumptions_section, data_section, muscle_section
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.diagnosis.model import correlations, model_cards
 from mckibben.report.diagnosis.pictures import pictures
-from mckibben.report.diagnosis.verdict import candidates_section, path_section, verdict_section
+from mckibben.report.diagnosis.verdict import candidates_section
 from mckibben.report.document import Head, Section, bullets, document, heading, table
 from mckibben.report.figures import figure
 from mckibben.report.html import Child, Html, html
@@ -30,23 +31,22 @@ def diagnosis_report(material: DiagnosisMaterial) -> str:
 
 def _sections(material: DiagnosisMaterial) -> Iterator[Section]:
     answer, diagnosis, proposed = material.comparison, material.diagnosis, material.proposed
-    yield Section("Verdict" if diagnosis else "Result", verdict_section(material))
-    yield Section("Data", data_section(material))
-    yield Section("Experiment", experiment_section(material))
-    yield Section("Muscle", muscle_section(material))
-    cards = model_cards(answer.parameters, material, figures=material.figures, terms=answer.model.effects)
-    yield Section("Model", html(cards, correlations(answer, material)))
+    yield Section("Verdict" if diagnosis else "Result", answer_section(material))
     fitted = any(item.fitted for values in answer.parameters.values() for item in values.values())
     name = "fitted model" if fitted else "model as given"
     columns = [(f"the {name}", answer), *([("the proposed model", proposed)] if proposed else [])]
     yield Section("Error", html(error_table(columns), pictures(answer, name)))
     yield Section("Where it fails", where_it_fails(answer))
-    yield Section("Error step by step", path_section(material))
     if diagnosis is not None:
-        yield Section("What is missing", candidates_section(material, diagnosis))
+        yield Section("Effects that were tried", candidates_section(material, diagnosis))
         yield Section("Proposed model" if proposed else "Refitted model", _proposed(material))
+    cards = model_cards(answer.parameters, material, figures=material.figures, terms=answer.model.effects)
+    yield Section("Model as given", html(cards, correlations(answer, material)))
     if material.history:
         yield Section("History", _history(material))
+    yield Section("Data", data_section(material))
+    yield Section("Experiment", experiment_section(material))
+    yield Section("Muscle", muscle_section(material))
     yield Section("Assumptions", assumptions_section(material))
     yield Section("How to reproduce", command_section(material.command))
 

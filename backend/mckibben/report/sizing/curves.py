@@ -15,7 +15,7 @@ from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sizing.words import AMPLE, BAR, MILLIMETRES, NEWTON, PER_MILLIMETRE, SHARE
 
 _FEW_ROWS = 300
-_HEIGHT = 400.0
+_HEIGHT = 330.0
 _ROOM = 0.1  # share of the highest force that a name below a point needs
 
 

@@ -97,7 +97,7 @@ def report_of(
             chosen=chosen,
             catalogue=studio.catalogue,
             hashes={name: hashlib.sha256(text.encode()).hexdigest() for name, text in files.items()},
-            command=_command(files, chosen, proposal),
+            command=_command(files, chosen, proposal, to_json(result).decode()),
         )
     )
 
@@ -134,7 +134,7 @@ def canonical(content: object) -> str:
     return json.dumps(plain, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
 
 
-def _command(files: Mapping[str, str], chosen: Chosen | None, proposal: int) -> Command:
+def _command(files: Mapping[str, str], chosen: Chosen | None, proposal: int, result: str) -> Command:
     rank = f" --proposal {proposal}" if proposal > 1 else ""
     lines = [f"mckibben size {_TASK_FILE}", f"mckibben size {_TASK_FILE} --report report.html{rank}"]
     notes = []
@@ -146,4 +146,4 @@ def _command(files: Mapping[str, str], chosen: Chosen | None, proposal: int) -> 
                 f"Also needs your own presets (--presets): {', '.join(map(shlex.quote, user_presets))}."
             )
     shown = {name: json.dumps(json.loads(text), indent=2, ensure_ascii=False) for name, text in files.items()}
-    return Command(lines, shown, notes)
+    return Command(lines, shown, notes, {"sizing.json": result})

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from mckibben.application.simulate import SimulationResult
 from mckibben.report.document import Head, figure_of, mark, paragraph, table
-from mckibben.report.figures import Scale, figure
+from mckibben.report.figures import Scale, figure, percent
 from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Line, Mark, Rule
 from mckibben.report.sizing.material import Chosen, SizingMaterial
@@ -197,7 +197,9 @@ def _table(chosen: Chosen) -> Html:
 
 
 def _figure(value: float | None, times: int, scale: Scale) -> Html:
-    return figure(None if value is None else value * times, scale, 3 if scale is SHARE else 4)
+    if scale is SHARE:
+        return percent(value, 3)
+    return figure(None if value is None else value * times, scale)
 
 
 def _notes(timing: TimingTable) -> list[str]:

@@ -71,7 +71,7 @@ def _picture(material: SizingMaterial, chosen: Chosen) -> Html:
     return chart(
         Axis("Air per cycle", "l ANR", zero=True), Axis("Time for the stroke", "s", zero=True),
         marks,
-        title="Time over air of the designs that fulfil the task", height=340.0, room=140.0,
+        title="Time over air of the designs that fulfil the task", height=280.0, room=140.0,
     )  # fmt: skip
 
 

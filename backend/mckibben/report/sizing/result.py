@@ -49,6 +49,8 @@ def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
         ),
         tiles(_tiles(chosen, material.operation)),
     ]
+    if chosen.rank == 1 and material.result.ranking:
+        parts.append(paragraph(material.result.ranking))
     remarks = [*proposal.notes, *_crossed(chosen)]
     if material.result.message:
         remarks.append(material.result.message)

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from mckibben.report.bars import Bar, bars
 from mckibben.report.document import Head, bullets, callout, figure_of, heading, mark, paragraph, table
-from mckibben.report.figures import figure, percent, plain
-from mckibben.report.html import Child, Html, html
+from mckibben.report.figures import figure, plain
+from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.sizing.material import Chosen, Margin, SpecimenSpread
 from mckibben.report.sizing.words import NEWTON, SHARE, in_unit, limit_name
 
@@ -21,15 +21,15 @@ def margins_section(chosen: Chosen) -> Html:
         Bar(
             limit_name(margin.name),
             100.0 * min(max(margin.share, 0.0), _LONGEST),
-            f"{plain(100.0 * margin.share, 2)} %",
+            _left(margin),
             strong=margin is nearest,
         )
         for margin in chosen.margins
     ]
     drawing = bars(rows, axis="Margin to the limit [%]", title="Margins to the limits")
     caption = (
-        f"Margins; the nearest limit is {limit_name(nearest.name).lower()}. 0 % is the limit itself; bars "
-        "end at 100 %."
+        f"Margins; the nearest limit is {limit_name(nearest.name).lower()}. 0 % is the limit itself; a full "
+        "bar is 100 % or more."
     )
     columns = [
         Head("Limit"), Head("Required", number=True), Head("This drive", number=True),
@@ -40,7 +40,7 @@ def margins_section(chosen: Chosen) -> Html:
             limit_name(margin.name),
             html("at most " if margin.upper else "at least ", _value(margin, margin.allowed)),
             _value(margin, margin.actual),
-            percent(margin.share, 3),
+            tag("data", _left(margin), value=repr(float(margin.share))),
         ]
         for margin in chosen.margins
     ]
@@ -55,6 +55,11 @@ def margins_section(chosen: Chosen) -> Html:
             )
         )
     return html(parts)
+
+
+def _left(margin: Margin) -> str:
+    """The margin as its bar shows it."""
+    return "> 100 %" if margin.share > _LONGEST else f"{plain(100.0 * margin.share, 2)} %"
 
 
 def _value(margin: Margin, value: float) -> Html:

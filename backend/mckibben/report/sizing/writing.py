@@ -32,14 +32,14 @@ def sizing_report(material: SizingMaterial) -> str:
 def _sections(material: SizingMaterial) -> Iterator[Section]:
     chosen = material.chosen
     yield Section("Result", result_section(material))
-    yield Section("Task", task_section(material))
     if chosen is not None:
+        yield Section("Margins", margins_section(chosen))
         yield Section("Parts list", parts_section(material, chosen))
         yield Section("Curves and operating points", curves_section(material, chosen))
         yield Section("Motion", motion_section(material, chosen))
-        yield Section("Margins", margins_section(chosen))
         yield Section("Uncertainty", uncertainty_section(chosen))
         yield Section("Alternatives", alternatives_section(material, chosen))
+    yield Section("Task", task_section(material))
     yield Section("Rejected parts", rejected_section(material))
     yield Section("Assumptions", assumptions_section(material))
     if chosen is not None:

@@ -1,5 +1,6 @@
 // @ts-check
 // Requests to the server, and the one shape of its errors.
+import { found, lost, watch } from "./connection.js";
 
 export class ApiError extends Error {
   /** @param {string} message @param {{field?: string | null, hint?: string | null, status?: number}} [more]
@@ -21,13 +22,24 @@ export class ApiError extends Error {
 const sentence = (text) =>
   String(text).replace(/^[a-z]/, (c) => c.toUpperCase()).replace(/([^.!?:])$/, "$1.");
 
-/** @param {string} path @param {RequestInit} [init] */
-async function reach(path, init) {
+/** The status of an error that is no answer: the server could not be reached. */
+export const UNREACHED = -1;
+
+/** @param {string} path @param {RequestInit} [init] @param {boolean} [long] whether it may take its time */
+async function reach(path, init, long = true) {
+  const end = long ? () => {} : watch();
   try {
-    return await fetch(path, init);
+    const response = await fetch(path, init);
+    found();
+    return response;
   } catch (error) {
     if (init?.signal?.aborted) throw error;
-    throw new ApiError("The server does not answer. Is “mckibben serve” still running?");
+    lost();
+    throw new ApiError("The server does not answer. Is “mckibben serve” still running?", {
+      status: UNREACHED,
+    });
+  } finally {
+    end();
   }
 }
 
@@ -47,7 +59,7 @@ const errorOf = (body, status) =>
   });
 
 /** @param {string} path @param {RequestInit} [init] */
-const request = async (path, init) => answerOf(await reach(path, init));
+const request = async (path, init) => answerOf(await reach(path, init, false));
 
 /** @param {string} path @param {AbortSignal} [signal] */
 export const get = (path, signal) => request(path, { signal });
@@ -118,7 +130,11 @@ export async function postForEvents(path, body, onEvent, signal) {
     .pipeThrough(new TextDecoderStream()).getReader();
   let rest = "";
   for (;;) {
-    const { done, value } = await reader.read();
+    const { done, value } = await reader.read().catch((error) => {
+      if (signal.aborted) throw error;
+      lost();
+      throw new ApiError("The connection to the server broke off.", { status: UNREACHED });
+    });
     const blocks = (rest + (value ?? "")).split(/\r?\n\r?\n/);
     rest = blocks.pop() ?? "";
     for (const block of blocks) {

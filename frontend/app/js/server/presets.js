@@ -1,7 +1,9 @@
 // @ts-check
 // Loads into the store what the server knows: effects and presets of every kind.
+import { effect } from "../reactive.js";
 import { effects, outage, presets, problems } from "../store.js";
-import { ApiError, get } from "./client.js";
+import { ApiError, get, UNREACHED } from "./client.js";
+import { returned } from "./connection.js";
 
 /** @typedef {import("../types.js").Problem} Problem */
 
@@ -31,12 +33,28 @@ async function loadEffects() {
   problems.value = [...problems.peek(), ...(answer.problems ?? [])];
 }
 
-/** Loads everything at once. A failure shows as a banner instead of being thrown. */
+/** Loads everything at once. A failure shows as a banner instead of being thrown; once the server is back, it is
+ * tried again. */
 export async function loadAll() {
+  const since = returned.peek();
   try {
     outage.value = "";
+    problems.value = [];
     await Promise.all([loadEffects(), ...KINDS.map(loadKind)]);
   } catch (error) {
-    outage.value = error instanceof ApiError ? error.words : String(error);
+    if (!(error instanceof ApiError)) reportError(error);
+    if (!(error instanceof ApiError) || error.status !== UNREACHED) {
+      outage.value = error instanceof ApiError
+        ? error.words
+        : "The catalogue could not be read. Reload the page.";
+      return;
+    }
+    const stop = effect(() => {
+      if (returned.value === since) return;
+      queueMicrotask(() => {
+        stop();
+        loadAll();
+      });
+    });
   }
 }

@@ -2,7 +2,8 @@
 // A question to the server that is asked again whenever its text changes. Only one request is under way at a
 // time, the newest text wins, and requests that are out of date are aborted. All views ask through this.
 import { batch, computed, effect, signal } from "../reactive.js";
-import { ApiError } from "./client.js";
+import { ApiError, UNREACHED } from "./client.js";
+import { returned } from "./connection.js";
 
 /** `idle`: nothing is asked; `asking`: there is no answer to the newest text yet.
  * @typedef {"idle" | "asking" | "answered" | "failed" | "cancelled"} Stage */
@@ -10,6 +11,7 @@ import { ApiError } from "./client.js";
 
 /** How long an out-of-date request may still take [ms]: while a slider moves, answers keep coming. */
 const PATIENCE_MS = 400;
+const FAULT = "The page made a mistake with this answer. Reload it; what you entered is in its address.";
 
 /** Answers by the text of their question; those not used for longest are forgotten. @template A */
 export class Memory {
@@ -41,6 +43,9 @@ export class Memory {
 
 /** @template A */
 export class Question {
+  /** Ends the wait for a server that is gone. */
+  stopWaiting = () => {};
+
   /** @param {(text: string, signal: AbortSignal) => Promise<A>} send @param {Options<A>} [options] */
   constructor(send, { memory, patience = PATIENCE_MS, keeps = true, arrived } = {}) {
     this.send = send;
@@ -191,6 +196,23 @@ export class Question {
     });
   }
 
+  /** Asks once more when the server is back; until then the banner of the page tells that it is gone.
+   * @param {string} text */
+  wait(text) {
+    this.stopWaiting();
+    const since = returned.peek();
+    this.stopWaiting = effect(() => {
+      if (returned.value === since) return;
+      queueMicrotask(() => {
+        this.stopWaiting();
+        if (this.asked.peek() === text && this.stage.peek() === "asking" && !this.running) {
+          this.waiting = text;
+          this.next();
+        }
+      });
+    });
+  }
+
   /** @param {string} text @param {A} answer */
   settle(text, answer) {
     batch(() => {
@@ -204,8 +226,9 @@ export class Question {
   /** @param {string} text @param {unknown} thrown */
   fail(text, thrown) {
     if (!(thrown instanceof ApiError)) reportError(thrown); // a fault of this program, not an answer
+    if (thrown instanceof ApiError && thrown.status === UNREACHED) return this.wait(text);
     batch(() => {
-      this.error.value = thrown instanceof ApiError ? thrown : new ApiError(String(thrown));
+      this.error.value = thrown instanceof ApiError ? thrown : new ApiError(FAULT);
       this.ended.value = { text, stage: "failed" };
     });
   }

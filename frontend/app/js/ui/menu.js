@@ -5,7 +5,8 @@ import { openPopover } from "./dialog.js";
 
 /** @typedef {{label: string, note?: string, run: () => void, checked?: boolean} | {heading: string}} Item */
 
-/** @param {{label: import("../dom.js").Child, name: string, class?: string,
+/** `visible`: its label is also its name for screen readers.
+ * @param {{label: import("../dom.js").Child, name: string, class?: string, visible?: boolean,
  *   items: () => Item[] | Promise<Item[]>}} o */
 export function menuButton(o) {
   const button = h("button", {
@@ -13,7 +14,7 @@ export function menuButton(o) {
     class: o.class ?? "",
     "aria-haspopup": "menu",
     "aria-expanded": "false",
-    "aria-label": o.name,
+    "aria-label": o.visible ? null : o.name,
     title: o.name,
     onclick: async () => {
       const items = await o.items();

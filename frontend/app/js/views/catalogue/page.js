@@ -1,11 +1,12 @@
 // @ts-check
 // The page of the Catalogue view: filter, table, detail, and preset files that could not be read.
 import { h, icon } from "../../dom.js";
-import { computed, effect } from "../../reactive.js";
+import { apart, computed, effect } from "../../reactive.js";
 import { units } from "../../state.js";
-import { presets, problems } from "../../store.js";
+import { effects, presets, problems } from "../../store.js";
 import { scaleOf } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
+import { atlas } from "./atlas/page.js";
 import { KIND_TITLES } from "./columns.js";
 import { detailPanel } from "./detail.js";
 import { filter, partsTable, setFilter } from "./table.js";
@@ -26,8 +27,10 @@ const kindButton = ([id, title]) =>
       onclick: () => setFilter({ kind: id, selected: null, maker: "", sort: "title", descending: false }),
     },
     title,
-    h("small", null, () => String(presets.value[id]?.length ?? "")),
+    h("small", null, () => String((id === EFFECTS ? effects.value : presets.value[id])?.length ?? "")),
   );
+const EFFECTS = "effects";
+const isAtlas = computed(() => kind.value === EFFECTS);
 
 /** @param {"from" | "to"} key @param {string} label */
 const sizeField = (key, label) =>
@@ -62,13 +65,16 @@ function filterCard() {
     h(
       "div",
       { class: "kinds", role: "radiogroup", "aria-label": "Kind of part" },
-      ...Object.entries(KIND_TITLES).map(kindButton),
+      ...[...Object.entries(KIND_TITLES), /** @type {[string, string]} */ ([EFFECTS, "Effects"])].map(
+        kindButton,
+      ),
     ),
-    h("label", { class: "label", for: "maker" }, "Maker"),
+    h("label", { class: "label", for: "maker", hidden: () => isAtlas.value }, "Maker"),
     h(
       "select",
       {
         id: "maker",
+        hidden: () => isAtlas.value,
         onchange: (/** @type {Event} */ e) =>
           setFilter({ maker: /** @type {HTMLSelectElement} */ (e.target).value }),
       },
@@ -77,9 +83,13 @@ function filterCard() {
         ...makers.value.map((m) => h("option", { value: m, selected: m === filter.value.maker }, m)),
       ],
     ),
-    h("p", { class: "label" }, "Inside diameter"),
-    sizeField("from", "from"),
-    sizeField("to", "to"),
+    h(
+      "div",
+      { hidden: () => isAtlas.value },
+      h("p", { class: "label" }, "Inside diameter"),
+      sizeField("from", "from"),
+      sizeField("to", "to"),
+    ),
     h("button", {
       type: "button",
       class: "link",
@@ -116,11 +126,21 @@ function problemCard() {
 }
 
 export function cataloguePage() {
+  const [list, full] = [h("div"), h("div")];
+  let built = false;
+  effect(() => {
+    list.hidden = full.hidden = !isAtlas.value;
+    if (built || !isAtlas.value) return;
+    built = true;
+    const [gallery, detail] = apart(atlas);
+    list.append(gallery);
+    full.append(detail);
+  });
   return h(
     "div",
-    { class: "catalogue" },
+    { class: () => `catalogue${isAtlas.value ? " with-atlas" : ""}` },
     h("div", { class: "column" }, filterCard(), problemCard),
-    h("div", { class: "column" }, partsTable()),
-    h("div", { class: "column" }, detailPanel()),
+    h("div", { class: "column" }, h("div", { hidden: () => isAtlas.value }, partsTable()), list),
+    h("div", { class: "column" }, h("div", { hidden: () => isAtlas.value }, detailPanel()), full),
   );
 }

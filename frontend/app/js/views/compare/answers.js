@@ -1,9 +1,10 @@
 // @ts-check
 // The answers of the server: first the comparison of model and measurement, then the diagnosis.
-import { batch, computed, signal } from "../../reactive.js";
+import { batch, computed, effect, signal } from "../../reactive.js";
 import { doc, edit, look, view } from "../../state.js";
 import { ApiError, fieldMessages, post, postForEvents } from "../../server/client.js";
 import { Memory, Question } from "../../server/question.js";
+import { seen } from "../../muscle/seen.js";
 import { musclesById } from "../../store.js";
 import { keyOf, used } from "./request.js";
 
@@ -208,4 +209,26 @@ export function startComparing() {
   comparisonFirst.follow(() => firstText.value, { active: () => isCompared.value });
   comparisonAhead.follow(() => previewed.value?.text ?? null, { delay: GLANCE_MS, active: isShown });
   diagnosisQuestion.follow(() => fault.value ? null : modelText.value, { active: () => isCompared.value });
+}
+
+/** Tells the atlas what this case sees. */
+export function showToAtlas() {
+  effect(() => {
+    const now = answer.value, found = diagnosis.value;
+    const all = now?.series ?? [];
+    if (!now || !all.length) return void (seen.value = null);
+    const of = (/** @type {(s: import("./types.js").Series) => (number | null)[] | null} */ column) =>
+      all.flatMap((s) => column(s) ?? s.residual.map(() => null));
+    seen.value = {
+      kind: now.kind,
+      quantity: now.predicted,
+      points: {
+        contraction: of((s) => s.contraction),
+        pressure: of((s) => s.x_pressure),
+        time: of((s) => s.time),
+      },
+      residual: of((s) => s.residual),
+      likeness: Object.fromEntries((found?.candidates ?? []).map((c) => [c.effect, c.gain_percent / 100])),
+    };
+  });
 }

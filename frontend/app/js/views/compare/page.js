@@ -3,7 +3,7 @@
 // known and what comes next; under it plots, map and the list of what is missing.
 import { h } from "../../dom.js";
 import { computed, effect } from "../../reactive.js";
-import { answer, compare, fault, files, stage, startComparing } from "./answers.js";
+import { answer, compare, fault, files, showToAtlas, stage, startComparing } from "./answers.js";
 import { boardCard } from "./board/card.js";
 import { ladderCard } from "./ladder.js";
 import { listCard } from "./list/card.js";
@@ -66,6 +66,7 @@ export function comparePage() {
   followSketches();
   followPins();
   fetchMysteries();
+  showToAtlas();
   effect(() => {
     document.documentElement.dataset.diagnosis = stage.value;
   });

@@ -11,7 +11,7 @@ import { plotlyReady } from "../../plots/library.js";
 import { dragLine, linkCursor, writeLabels } from "../../plots/overlay.js";
 import { palette, pressureColour } from "../../plots/theme.js";
 import { menuButton } from "../../ui/menu.js";
-import { curves, fault, faultField, reference, retry } from "./model.js";
+import { curves, curvesAreCurrent, fault, faultField, reference, retry } from "./model.js";
 import { faultNotice, goToField } from "../../ui/fault.js";
 import { forgetRanges } from "../../plots/axes.js";
 import { ACROSS, atFixedLength, OVER, pressureName, shareOf } from "../../muscle/curve-axes.js";
@@ -215,7 +215,7 @@ export function chartColumn() {
   );
   const column = h(
     "div",
-    { class: () => `column centre${fault.value ? " stale" : ""}` },
+    { class: () => `column centre${fault.value || !curvesAreCurrent.value ? " stale" : ""}` },
     stateNote,
     frame(
       force,

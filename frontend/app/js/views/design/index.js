@@ -6,7 +6,7 @@ import { chartColumn } from "./charts.js";
 import { designEffectsCard } from "./effects.js";
 import { errorCard } from "./errors.js";
 import { inverseCard } from "./inverse.js";
-import { fault, startModel } from "./model.js";
+import { curvesAreCurrent, fault, startModel } from "./model.js";
 import { muscleCard } from "./muscle.js";
 import { operationCard } from "./operation.js";
 import { resultCards } from "./results.js";
@@ -20,7 +20,7 @@ export function designView() {
     chartColumn(),
     h(
       "div",
-      { class: () => `column results${fault.value ? " stale" : ""}` },
+      { class: () => `column results${fault.value || !curvesAreCurrent.value ? " stale" : ""}` },
       errorCard(),
       ...verdict,
       inverseCard(),

@@ -19,7 +19,8 @@ import {
   valueAt,
 } from "./model.js";
 import { partsField } from "./parts.js";
-import { RANKING_WHY, RANKINGS, USUAL_RANKING } from "./specs.js";
+import { FIELDS, RANKING_WHY, RANKINGS, USUAL_RANKING } from "./specs.js";
+import { asText } from "./words.js";
 
 /** @typedef {import("../../types.js").TaskArrangement} Arrangement */
 
@@ -91,18 +92,45 @@ export function taskCard() {
         }, label)
       ),
     ),
+    () => neededFields(),
     proposeButton(),
+    h("p", { class: "hint" }, "These are enough for a first answer. All else has a default, below."),
   );
 }
 
-/** @param {string} title @param {import("../../dom.js").Child[]} body */
-const card = (title, ...body) =>
+/** A card that is collapsed; its head tells what the task states in it, so that nothing is hidden.
+ * @param {string} title @param {string[]} paths of its fields @param {import("../../dom.js").Child[]} body */
+const card = (title, paths, ...body) =>
   h(
     "section",
-    { class: "card", "aria-label": title },
-    h("div", { class: "card-head" }, h("h2", null, title)),
-    ...body,
+    { class: "card folded", "aria-label": title },
+    h(
+      "details",
+      { ref: openOnError(paths) },
+      h("summary", null, h("h2", null, title), h("small", null, () => statedWords(paths))),
+      ...body,
+    ),
   );
+
+/** The fields that the task states, in words. @param {string[]} paths */
+function statedWords(paths) {
+  const stated = paths.filter((path) => valueAt(path) !== undefined);
+  return stated.map((path) => {
+    const field = FIELDS[path], value = valueAt(path);
+    if (Array.isArray(value)) return value.length > 2 ? `${value.length} ${nameOf(path)}` : value.join(", ");
+    if (!field || typeof value !== "number") return nameOf(path);
+    const shown = field.quantity ? asText(value, field.quantity) : String(value);
+    return `${field.label.toLowerCase()} ${shown}`;
+  }).join(", ") || usualWords(paths[0]);
+}
+/** The first field of a card that states none. @param {string} path */
+function usualWords(path) {
+  const { label, quantity, usual = null } = FIELDS[path] ?? {};
+  if (!label || !quantity || !usual) return "defaults";
+  return `defaults: ${label.toLowerCase()} ${asText(usual, quantity)} …`;
+}
+/** @param {string} path */
+const nameOf = (path) => path.slice(path.lastIndexOf(".") + 1).replaceAll("_", " ");
 
 /** Fields that are rarely changed, collapsed; an error in one opens them.
  * @param {string} summary @param {string[]} paths @param {import("../../dom.js").Child[]} more */
@@ -118,27 +146,32 @@ const PROFILE = "load.force_over_stroke";
 
 const isPair = computed(() => arrangement.value === "antagonist");
 
-/** The fields of the load for its arrangement. */
-function loadFields() {
+/** What a first answer needs. */
+function neededFields() {
   if (isPair.value) {
     return [
       taskField("load.pair.angle", { needed: true }),
       taskField("load.pair.torque", { needed: true }),
       taskField("load.pair.inertia", { needed: true }),
-      taskField("load.pair.pulley_radius"),
+      taskField("time"),
     ];
   }
   return [
     taskField("load.mass", { needed: true }),
-    taskField("load.force"),
+    taskField("stroke", { needed: true }),
+    taskField("time"),
     arrangement.value === "lever" ? taskField("load.lever_ratio", { needed: true }) : null,
-    folded(
-      "Inclination, spring, counterweight, force over stroke",
-      ["load.inclination", "load.spring", "load.counterweight", PROFILE],
-      profileField(),
-    ),
   ];
 }
+
+const LOAD = ["load.force", "load.inclination", "load.spring", "load.counterweight", PROFILE];
+
+/** The other fields of the load for its arrangement. */
+const loadFields = () =>
+  isPair.value ? [taskField("load.pair.pulley_radius")] : [
+    ...LOAD.filter((path) => path !== PROFILE).map((path) => taskField(path)),
+    profileField(),
+  ];
 
 function rankField() {
   return h(
@@ -167,37 +200,39 @@ function rankField() {
 }
 
 export function taskCards() {
+  const motion = ["supply_pressure", "time_down", "cycle_time", "stiffness", "ambient_temperature"];
+  const space = [
+    "limits.max_length",
+    "limits.max_diameter",
+    "limits.max_parallel",
+    "limits.max_contraction",
+    "limits.force_reserve",
+    "limits.pressure_reserve",
+    "limits.max_impact_energy",
+    "limits.end_fittings",
+    "limits.life",
+  ];
+  const parts = ["catalogue.muscles", "catalogue.valves", "catalogue.tubes", "catalogue.tube_length"];
+  const specimens = [
+    "uncertainty.specimens",
+    "uncertainty.blocked_force",
+    "uncertainty.supply_pressure",
+    "uncertainty.hysteresis",
+    "max_proposals",
+  ];
+  const costs = ["operation.cycles_per_year", "operation.air_price"];
   return [
-    card("Load", () => loadFields()),
     card(
       "Motion and air",
-      () => isPair.value ? null : taskField("stroke", { needed: true }),
-      taskField("time"),
-      taskField("supply_pressure"),
-      folded("Time down, cycle, stiffness, temperature", [
-        "time_down",
-        "cycle_time",
-        "stiffness",
-        "ambient_temperature",
-      ]),
+      [...motion, "speed"],
+      ...motion.map((path) => taskField(path)),
       () => isPair.value ? null : folded("Speed instead of time", ["speed"]),
     ),
-    card(
-      "Space and margins",
-      taskField("limits.max_length"),
-      taskField("limits.max_diameter"),
-      taskField("limits.max_parallel"),
-      folded("Contraction, reserves, impact, fittings, life", [
-        "limits.max_contraction",
-        "limits.force_reserve",
-        "limits.pressure_reserve",
-        "limits.max_impact_energy",
-        "limits.end_fittings",
-        "limits.life",
-      ]),
-    ),
+    card("Other loads", [...LOAD, "load.pair.pulley_radius"], () => loadFields()),
+    card("Space and margins", space, ...space.map((path) => taskField(path))),
     card(
       "Catalogue",
+      parts,
       partsField("muscles", "Muscles", "all with complete data", "Others have limits that are not known."),
       partsField(
         "valves",
@@ -210,15 +245,10 @@ export function taskCards() {
     ),
     card(
       "Uncertainty and ranking",
+      ["rank_by", ...specimens, ...costs],
       rankField(),
-      folded("Specimens, tolerances, number of proposals", [
-        "uncertainty.specimens",
-        "uncertainty.blocked_force",
-        "uncertainty.supply_pressure",
-        "uncertainty.hysteresis",
-        "max_proposals",
-      ]),
-      folded("Cost of the air", ["operation.cycles_per_year", "operation.air_price"]),
+      folded("Specimens, tolerances, number of proposals", specimens),
+      folded("Cost of the air", costs),
     ),
   ];
 }

@@ -1,5 +1,5 @@
 // @ts-check
-// How far a proposal stays from each limit, as one bar each.
+// The margin of a proposal to each limit, as a bar: empty at the limit, full at 100 % or more.
 import { h } from "../../dom.js";
 import { limitName, spare } from "./words.js";
 
@@ -14,7 +14,7 @@ export function marginBars(p) {
         "div",
         { class: name === p.binding ? "binding" : "" },
         h("span", null, limitName(name)),
-        h("span", { class: "bar" }, h("i", { style: `width:${100 / (1 + Math.max(0, left))}%` })),
+        h("span", { class: "bar" }, h("i", { style: `width:${100 * Math.min(1, Math.max(0, left))}%` })),
         h("span", { class: "num" }, `${spare(left)}${name === p.binding ? ", nearest" : ""}`),
       )
     ),

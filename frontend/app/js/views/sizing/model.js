@@ -49,6 +49,29 @@ export function openExample({ title, description, document }) {
 
 const REMEMBERED = 8;
 const searchMemory = /** @type {Memory<Answer>} */ (new Memory(REMEMBERED));
+const KEPT = "mckibben-proposals";
+
+/** The last drives found outlive a reload of the page. */
+function recall() {
+  try {
+    const { version, text, answer } = JSON.parse(sessionStorage.getItem(KEPT) ?? "{}");
+    if (version === 1 && typeof text === "string" && Array.isArray(answer?.proposals)) {
+      searchMemory.set(text, answer);
+    }
+  } catch {
+    // No storage, or a damaged entry: the drives are proposed again on request.
+  }
+}
+
+/** @param {string | null} text @param {Answer} answer */
+function keep(text, answer) {
+  try {
+    sessionStorage.setItem(KEPT, JSON.stringify({ version: 1, text, answer }));
+  } catch {
+    // No storage or no room in it: then the drives last until the page is left.
+  }
+}
+
 /** How much of the search is done, 0 to 1. */
 export const share = signal(0);
 /** The place in the server's queue, in words; empty once the search runs. */
@@ -89,7 +112,9 @@ export const chosen = computed(() => proposals.value[chosenIndex.value] ?? null)
 export const propose = () => search.ask(taskText.peek(), true);
 
 /** @param {Answer} found */
-function showFound({ proposals: [best, ...rest] }) {
+function showFound(found) {
+  const [best, ...rest] = found.proposals;
+  keep(search.answered.peek(), found);
   lookSizing({ selected: 0 });
   status.value = best
     ? `${rest.length + 1} drive${rest.length ? "s" : ""} found; first ${driveWords(best)}.`
@@ -109,6 +134,7 @@ export const { field: faultField, at: messageFor } = fieldMessages(() => fault.v
 
 /** Called once, when the page is built. */
 export function startSizing() {
+  recall();
   effect(() => {
     // Undo shows the drives of a task that was answered before.
     const text = taskText.value;

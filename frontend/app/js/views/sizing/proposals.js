@@ -30,7 +30,6 @@ const HEAD = [
   ["wide roomy", "Impact"],
   ["wide roomy", "Force reserve"],
   ["wide", "Margin"],
-  ["wide text", "Nearest limit"],
   ["", ""],
 ];
 
@@ -98,8 +97,8 @@ function row(p, i) {
         "td",
         { class: p.reservations.length ? "wide doubtful" : "wide", title: p.reservations.join("; ") || null },
         spare(p.margins[p.binding]),
+        h("small", { class: "whole" }, limitName(p.binding)),
       ),
-      h("td", { class: "wide text" }, limitName(p.binding)),
       h(
         "td",
         null,
@@ -203,6 +202,7 @@ export function proposalsCard() {
                   { scope: "col", class: kind },
                   title,
                   title === "Air per cycle" ? h("small", null, "ANR") : null,
+                  title === "Margin" ? h("small", null, "nearest limit") : null,
                 )
                 : h("td", null)
             ),

@@ -15,9 +15,8 @@ export const asText = (si, quantity) => withUnit(si, quantity, units.value);
 /** Whole percent: what is left of a limit, or a probability. @param {number | null | undefined} x */
 export const percent = (x) => x == null ? "–" : `${Math.round(100 * x)}\u00a0%`;
 
-/** The distance from a limit, as a share of the value used. @param {number} margin */
-export const spare = (margin) =>
-  margin > 1 ? `${(1 + margin).toPrecision(2)} × enough` : `${percent(margin)} left`;
+/** The margin to a limit, as long as its bar: a full bar is 100 % or more. @param {number} margin */
+export const spare = (margin) => margin > 1 ? "> 100\u00a0% left" : `${percent(margin)} left`;
 
 /** "2 × DMSP-20, 412 mm"; for an antagonist pair the muscles of both sides are counted. @param {Design} d */
 export function driveWords(d) {

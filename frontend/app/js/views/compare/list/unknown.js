@@ -38,7 +38,9 @@ const where = (text) => text.replace(/^[^:]*: */, "").replace(/ \([^)]*\)/g, "")
 /** In few words, for the strip. @param {Diagnosis} result */
 export const nextMeasurement = (result) => {
   const look = result.verdict.where_to_look;
-  return look ? `Measure ${where(look)} again` : capitalized(plan(result)[0].what);
+  return look
+    ? `Measure ${where(look).replace(/^contraction /, "ε ")} again`
+    : capitalized(plan(result)[0].what);
 };
 
 /** @param {Diagnosis} result */

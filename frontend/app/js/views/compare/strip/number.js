@@ -2,6 +2,7 @@
 // The error as the one big number, which counts to its new value; and the course of all steps beside it.
 import { h, svg } from "../../../dom.js";
 import { computed, effect, signal } from "../../../reactive.js";
+import { brief } from "../../../format.js";
 import { units } from "../../../state.js";
 import { ahead, answer, compare, diagnosis, stale, steps } from "../answers.js";
 import { state } from "../list/state.js";
@@ -107,6 +108,15 @@ const spoken = computed(() => {
   return `Error ${asText(a.rmse)}${times ? `, ${times} times the noise` : ""}`;
 });
 
+/** The error of a length as a share of the measured stroke, in words; empty for other quantities. */
+const ofStroke = computed(() => {
+  const a = answer.value;
+  if (!a || a.unit !== "m" || a.rmse === null) return "";
+  const all = a.series.flatMap((s) => s.measured).filter((v) => v !== null).map(Number);
+  const stroke = Math.max(...all) - Math.min(...all);
+  return stroke > 0 ? ` · ${brief((100 * a.rmse) / stroke)}\u00a0% of stroke` : "";
+});
+
 /** The held-out error of the model. */
 export const heldOut = () =>
   compare.value.holdout ?? diagnosis.value?.baseline.holdout_rmse ?? answer.value?.holdout_rmse ?? null;
@@ -147,7 +157,12 @@ export function errorNumber() {
             : answer.value
             ? "noise not known"
             : "",
-          h("span", { class: "more" }, held === null || check !== null ? "" : ` · held-out ${asText(held)}`),
+          ofStroke.value,
+          h(
+            "span",
+            { class: "more" },
+            held === null || check !== null || ofStroke.value ? "" : ` · held-out ${asText(held)}`,
+          ),
           check === null ? null : h("span", { id: "validation-error" }, ` · check ${asText(check)}`),
         ];
       },

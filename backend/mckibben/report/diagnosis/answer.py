@@ -1,0 +1,145 @@
+"""The answer on the first page: verdict, what is missing, the error of each step, what to measure next."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+from mckibben.application.diagnosis_result import DiagnosisResult, Verdict
+from mckibben.identification.diagnose.verdict import Status
+from mckibben.report.bars import Bar, bars
+from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
+from mckibben.report.diagnosis.material import DiagnosisMaterial
+from mckibben.report.document import Head, Tone, callout, figure_of, paragraph, table, tiles
+from mckibben.report.figures import figure, percent, plain
+from mckibben.report.html import Child, Html, html
+
+_TONES: dict[Status, Tone] = {
+    "adequate": "good",
+    "missing_effects": "warn",
+    "ambiguous": "warn",
+    "unknown_effect": "bad",
+}
+_NEARLY_SURE = 0.99
+_SAME = 0.98  # ratio to the first error: below, the refitted error gets a tile of its own
+
+
+def answer_section(material: DiagnosisMaterial) -> Html:
+    """All that a reader needs who reads no further."""
+    diagnosis = material.diagnosis
+    assumptions = (diagnosis or material.comparison).assumptions
+    parts: list[Child] = [_verdict(material)]
+    if diagnosis is not None and diagnosis.verdict.effects:
+        parts.append(_missing(material, diagnosis))
+    parts.append(_steps(material))
+    if assumptions:
+        parts.append(paragraph(f"Assumed: {'; '.join(assumptions)}."))
+    return html(parts)
+
+
+def _missing(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
+    """The missing effects in the order of their steps."""
+    scale = error_scale(diagnosis)
+    verdict = diagnosis.verdict
+    rows: list[list[Child]] = []
+    for before, step in pairwise(diagnosis.path):
+        name = step.added
+        if name is None or step.correction:
+            continue
+        group = next((group for group in verdict.indistinguishable if name in group), [])
+        others = [material.title_of(other) for other in group if other != name]
+        rows.append(
+            [
+                material.title_of(name),
+                _probability(verdict.probabilities.get(name)),
+                html(figure(before.rmse, scale, 3), " → ", figure(step.rmse, scale, 3)),
+                figure(step.holdout_rmse, scale, 3),
+                ", ".join(others) or "none",
+                _experiment(verdict, name) if others else "–",
+            ]
+        )
+    columns = [
+        Head("Missing"), Head("Probability", number=True), Head("Error", number=True),
+        Head("Held-out", number=True), Head("Indistinguishable from"), Head("What would tell", wide=True),
+    ]  # fmt: skip
+    return table(columns, rows, whole=False)
+
+
+def _experiment(verdict: Verdict, name: str) -> str:
+    """The experiment that would tell this effect from the others of its group."""
+    for split in verdict.next_experiments:
+        if name in split.group:
+            return f"{split.protocol} ({max(split.minutes, 1.0):.0f} min)"
+    found = next((item for item in verdict.experiments if name in item.pair), None)
+    return "not known" if found is None else found.protocol or found.declared or "not known"
+
+
+def _probability(share: float | None) -> Html:
+    if share is None:
+        return html("–")
+    return html("> 99 %") if share > _NEARLY_SURE else percent(share)
+
+
+def _verdict(material: DiagnosisMaterial) -> Html:
+    """The verdict in one sentence, key figures, and what to measure next."""
+    answer, diagnosis = material.comparison, material.diagnosis
+    scale = error_scale(answer)
+    figures: list[tuple[Child, Child]] = [("RMS error of the model", figure(answer.rmse, scale, 3))]
+    if answer.nrmse_percent is not None and scale != TIMES_NOISE:
+        figures.append(("… of the largest value", percent(answer.nrmse_percent / 100.0, 3)))
+    if diagnosis is None:
+        parts = [callout("Comparison", f"{sentence}.") for sentence in answer.sentences[-1:]]
+        figures.append(("Noise of the data", figure(answer.noise_floor, scale, 3)))
+        return html(parts, tiles(figures))
+    verdict = diagnosis.verdict
+    title, tone = verdict.title, _TONES[verdict.status]
+    best = diagnosis.path[-1].rmse
+    if verdict.effects:
+        figures.append(("With the missing effects", figure(best, scale, 3)))
+    elif best < _SAME * diagnosis.path[0].rmse:
+        figures.append(("With its parameters refitted", figure(best, scale, 3)))
+    figures.append(("Noise of the data", figure(diagnosis.noise_floor.rmse, scale, 3)))
+    parts = [callout(title, verdict.sentence, tone=tone), tiles(figures)]
+    if verdict.next_measurement:
+        parts.append(callout("Next measurement", verdict.next_measurement))
+    return html(parts)
+
+
+def _steps(material: DiagnosisMaterial) -> Html:
+    """The error step by step: earlier models, the given model, and what the diagnosis adds."""
+    scale = error_scale(material.comparison)
+    rows: list[list[Child]] = []
+    drawn: list[Bar] = []
+
+    def add(name: str, rmse: float | None, holdout: float | None, how: str, *, pale: bool = False) -> None:
+        rows.append([name, figure(rmse, scale), figure(holdout, scale), how])
+        if rmse is not None:
+            value, tick = scale.of(rmse), None if holdout is None else scale.of(holdout)
+            drawn.append(Bar(name, value, f"{plain(value, 3)} {scale.unit}".strip(), tick, pale))
+
+    for past in material.history:
+        add(past.label, past.comparison.rmse, past.comparison.holdout_rmse, "an earlier model")
+    answer, diagnosis = material.comparison, material.diagnosis
+    if diagnosis is None:
+        add("this model", answer.rmse, answer.holdout_rmse, "as given")
+    else:
+        for number, step in enumerate(diagnosis.path):
+            if number == 0:
+                add("this model", step.rmse, step.holdout_rmse, "as given")
+            elif step.added is None:
+                add("refitted", step.rmse, step.holdout_rmse, "its parameters fitted", pale=True)
+            else:
+                name = f"+ {material.title_of(step.added)}"
+                how = "kept as a correction" if step.correction else "added by the diagnosis"
+                add(name, step.rmse, step.holdout_rmse, how, pale=True)
+    floor = answer.noise_floor if diagnosis is None else diagnosis.noise_floor.rmse
+    level = None if floor is None else (scale.of(floor), "noise")
+    unit = f" [{scale.unit}]" if scale.unit else ""
+    drawing = bars(drawn, axis=f"RMS error{unit}", title="RMS error of each model", level=level)
+    columns = [
+        Head("Model"), Head("RMS error", number=True),
+        Head("On groups left out of the fit", number=True), Head(""),
+    ]  # fmt: skip
+    return html(
+        figure_of(drawing, "RMS error; the black tick is the error on groups left out of the fit."),
+        table(columns, rows),
+    )

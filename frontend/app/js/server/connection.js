@@ -1,0 +1,63 @@
+// @ts-check
+// Whether the server answers. While it does not, one banner says so in every view, and the page tries again by itself.
+import { batch, signal } from "../reactive.js";
+
+/** `slow`: a short request waits for long. @typedef {"up" | "slow" | "gone"} Connection */
+
+const SLOW_MS = 5000, FIRST_MS = 1000, LONGEST_MS = 10_000;
+
+export const connection = signal(/** @type {Connection} */ ("up"));
+/** How often the server has come back, or may have: whoever waits for it asks again. */
+export const returned = signal(0);
+
+let timer = 0, pause = FIRST_MS, waiting = 0;
+
+/** A request got no answer. */
+export function lost() {
+  connection.value = "gone";
+  if (!timer) timer = setTimeout(look, pause);
+}
+
+/** A request was answered. */
+export function found() {
+  clearTimeout(timer);
+  timer = 0;
+  pause = FIRST_MS;
+  if (connection.peek() === "gone") {
+    batch(() => {
+      connection.value = waiting ? "slow" : "up";
+      returned.value++;
+    });
+  }
+}
+
+/** Looks whether the server is there, less and less often. */
+export async function look() {
+  clearTimeout(timer);
+  timer = 0;
+  pause = Math.min(2 * pause, LONGEST_MS);
+  try {
+    const answer = await fetch("/api/health", { cache: "no-store" });
+    if (answer.ok) return found();
+  } catch {
+    // still gone
+  }
+  lost();
+}
+
+/** Watches a short request. @returns {() => void} to be called when it has ended */
+export function watch() {
+  let late = false;
+  const bell = setTimeout(() => {
+    late = true;
+    waiting++;
+    if (connection.peek() === "up") connection.value = "slow";
+  }, SLOW_MS);
+  return () => {
+    clearTimeout(bell);
+    if (!late) return;
+    late = false;
+    waiting--;
+    if (!waiting && connection.peek() === "slow") connection.value = "up";
+  };
+}

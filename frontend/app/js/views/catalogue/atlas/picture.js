@@ -1,0 +1,81 @@
+// @ts-check
+// One picture of the atlas: the residual over what moves, a line for each run, the residual of the case as dots.
+import { h, svg } from "../../../dom.js";
+import { number, plainScale, quantityOf, readable, scaleOf, toShown } from "../../../format.js";
+import { units } from "../../../state.js";
+import { seen } from "../../../muscle/seen.js";
+
+/** @typedef {import("./answers.js").Picture} Picture */
+
+const WIDE = 240, HIGH = 96, EDGE = 5, MOST_DOTS = 250;
+/** @type {Record<string, string>} */
+const NAMES = { contraction: "ε", pressure: "pressure", time: "time", length: "length", load: "load" };
+
+/** @param {string} unit @param {string} name */
+function scale(unit, name) {
+  if (unit === "1") return scaleOf("ratio", units.value);
+  const quantity = quantityOf(unit, name);
+  return quantity ? scaleOf(quantity, units.value) : plainScale(unit);
+}
+/** Three significant figures. @param {number} value */
+const short = (value) => number(Number(value.toPrecision(3)), 6);
+/** @param {number} si @param {import("../../../format.js").Scale} s */
+const shown = (si, s) => `${short(si / s.factor)}\u00a0${s.unit}`;
+
+/** The residual of the case where it was seen in the same kind of test. @param {Picture} p */
+function dots(p) {
+  const now = seen.value, across = now?.points[p.x];
+  if (!now || !across || now.kind !== p.kind || now.quantity !== p.quantity) return [];
+  const every = Math.max(1, Math.ceil(now.residual.length / MOST_DOTS));
+  return now.residual.flatMap((y, i) => {
+    const x = across[i];
+    return y === null || x == null || i % every ? [] : [[x, y]];
+  });
+}
+
+/** @param {Picture} p @param {string} title of the effect */
+export function picture(p, title) {
+  const over = dots(p);
+  const xs = [...p.curves.flatMap((c) => c.x), ...over.map(([x]) => x)];
+  const ys = [...p.curves.flatMap((c) => c.y), ...over.map(([, y]) => y)];
+  const low = Math.min(...xs), wide = Math.max(...xs) - low || 1;
+  const most = Math.max(...ys.map(Math.abs)) || 1;
+  const atX = (/** @type {number} */ x) => EDGE + ((x - low) / wide) * (WIDE - 2 * EDGE);
+  const atY = (/** @type {number} */ y) => HIGH / 2 - (y / most) * (HIGH / 2 - EDGE);
+  const sx = scale(p.x_unit, p.x), sy = scale(p.unit, p.quantity), held = scale(p.held_unit, p.held);
+  const words = `${title}, ${p.kind} test: residual of the ${p.quantity} over ${readable(p.x)}, rms ${
+    shown(p.rms, sy)
+  }`;
+  const lines = p.curves.map((c, i) =>
+    svg("polyline", {
+      class: `run run-${p.curves.length < 2 ? 2 : i % 3}`,
+      points: c.x.map((x, k) => `${atX(x).toFixed(1)},${atY(c.y[k]).toFixed(1)}`).join(" "),
+    })
+  );
+  const drawing = svg(
+    "svg",
+    { viewBox: `0 0 ${WIDE} ${HIGH}`, role: "img", "aria-label": words, class: "signature" },
+    svg("line", { class: "zero", x1: 0, x2: WIDE, y1: HIGH / 2, y2: HIGH / 2 }),
+    ...over.map(([x, y]) => svg("circle", { class: "seen", cx: atX(x), cy: atY(y), r: 1.6 })),
+    ...lines,
+  );
+  const levels = p.curves.map((c) => c.level).filter((level) => level !== null);
+  return h(
+    "figure",
+    { class: "signature-figure" },
+    h("figcaption", null, h("b", null, p.kind), h("span", null, `±\u2009${shown(most, sy)}`)),
+    drawing,
+    h(
+      "small",
+      null,
+      h("span", null, `${NAMES[p.x] ?? readable(p.x)} ${short(toShown(low, sx))} … ${shown(low + wide, sx)}`),
+      levels.length
+        ? h(
+          "span",
+          null,
+          `${readable(p.held)} ${levels.map((v) => short(v / held.factor)).join(", ")} ${held.unit}`,
+        )
+        : null,
+    ),
+  );
+}

@@ -1,0 +1,79 @@
+"""The shell: views in the browser's history, work to continue, the command palette, tabs at 200 % zoom."""
+
+from __future__ import annotations
+
+import re
+
+from playwright.sync_api import Page, expect
+
+from tests.frontend.test_accessibility import violations
+from tests.frontend.views import enter, field, link_of, open_design, run
+
+VIEW = "return (await import('/js/state.js')).doc.peek().view;"
+
+
+def view(page: Page) -> str:
+    """The view that is shown."""
+    return str(run(page, VIEW))
+
+
+def test_back_forward_reload_and_a_fresh_start(page: Page) -> None:
+    open_design(page)
+    page.get_by_role("button", name="Catalogue", exact=True).click()
+    page.get_by_role("button", name="Transient", exact=True).click()
+    page.go_back()
+    expect(page).to_have_title(re.compile("^Catalogue"))
+    page.go_back()
+    expect(page).to_have_title(re.compile("^Design"))
+    enter(page, "Braid angle", "24")
+    page.go_forward()  # the view changes, the work stays
+    expect(page).to_have_title(re.compile("^Catalogue"))
+    page.go_back()
+    expect(field(page, "Braid angle")).to_have_value("24")
+    link_of(page)
+    page.reload()
+    expect(field(page, "Braid angle")).to_have_value("24")
+    page.go_forward()
+    expect(page).to_have_title(re.compile("^Catalogue"))
+
+    other = page.context.new_page()  # a second tab has a history and a state of its own
+    other.goto("/#catalogue")
+    expect(other).to_have_title(re.compile("^Catalogue"))
+    other.goto("about:blank")
+    other.goto("/")
+    offer = other.get_by_role("complementary", name="Last time")
+    expect(offer).to_contain_text("Continue where you stopped?")
+    expect(field(other, "Braid angle")).not_to_have_value("24")
+    assert violations(other) == []
+    offer.get_by_role("button", name="Continue").click()
+    expect(offer).to_have_count(0)
+    expect(field(other, "Braid angle")).to_have_value("24")
+
+
+def test_the_palette_and_the_tabs_of_a_narrow_window(page: Page) -> None:
+    open_design(page)
+    for width in (701, 825, 950):
+        page.set_viewport_size({"width": width, "height": 800})
+        views = page.get_by_role("button", name="Design", exact=True)
+        expect(views).to_have_count(1)  # the tabs are a menu
+        assert run(page, "return document.documentElement.scrollWidth - innerWidth;") <= 0, width
+    views.click()
+    expect(page.get_by_role("menuitemradio")).to_have_count(4)
+    page.get_by_role("menuitemradio", name="Catalogue").click()
+    expect(page).to_have_title(re.compile("^Catalogue"))
+
+    page.keyboard.press("Control+k")
+    palette = page.get_by_role("dialog", name="Go to")
+    assert violations(page) == []
+    for typed, found in (("transi", "Transient"), ("coul", "Coulomb friction"), ("dmsp-40", "Festo DMSP-40")):
+        palette.get_by_role("combobox").fill(typed)
+        expect(palette.get_by_role("option").first).to_contain_text(found)
+    palette.get_by_role("combobox").fill("no such thing")
+    expect(palette.get_by_role("status")).to_contain_text("Nothing has this name")
+    palette.get_by_role("combobox").fill("undo")
+    expect(palette.get_by_role("option", selected=True)).to_contain_text("Undo")
+    palette.get_by_role("combobox").fill("dmsp-40")
+    page.keyboard.press("Enter")
+    expect(palette).to_have_count(0)
+    assert view(page) == "design"
+    expect(page.locator("#preset")).to_have_value("DMSP-40")
