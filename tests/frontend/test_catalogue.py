@@ -9,7 +9,7 @@ from collections.abc import Iterator
 import pytest
 from playwright.sync_api import Page, expect
 
-from tests.frontend.test_accessibility import violations
+from tests.frontend.axe import violations
 from tests.frontend.views import enter, load, open_catalogue, open_design
 from tests.running_server import RunningServer
 

@@ -6,7 +6,7 @@ import re
 
 from playwright.sync_api import Page, expect
 
-from tests.frontend.test_accessibility import violations
+from tests.frontend.axe import violations
 from tests.frontend.views import enter, field, link_of, open_design, run
 
 VIEW = "return (await import('/js/state.js')).doc.peek().view;"
