@@ -127,8 +127,7 @@ def test_sizings(run: Run) -> None:
     Path("task.json").write_text(json.dumps(TASK), "utf-8")
     theirs = printed(run, "size", "task.json")
     mine = mk.size(TASK)
-    # The first search of a process runs its first designs before the engine for many runs is ready.
-    assert differences(mine.to_dict(), theirs, near=1e-9) == []
+    assert differences(mine.to_dict(), theirs) == []
     assert mine.to_frame()["muscle"].tolist() == [item["muscle"] for item in theirs["proposals"]]
     best = mine.proposals[0]
     run_of_best = best.drive.run()

@@ -21,7 +21,6 @@ from mckibben.documents.task import SizingTask
 from mckibben.documents.task_files import named_task, read_task
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.studies.drive_figures import DRIVE_FIGURES
 from mckibben.studies.drive_runs import REFUSED, DriveRuns
@@ -146,7 +145,6 @@ def _task_runs(content_at: Callable[[Array], object], paths: Sequence[str], stud
         return Row(COMPLETED, tuple(_figure(result.proposals, path) for path in paths))
 
     def run(points: Array) -> list[Row]:
-        lane_kernels.awaited()  # a search takes another path without it
         return [row(point) for point in points]
 
     return run

@@ -27,8 +27,10 @@ from mckibben.sizing.task import Task
 
 _THREADS = 2
 _SIDE_BY_SIDE = 192  # designs a thread runs at a time
-# Optimisation of the machine code for runs one by one: pays off for hundreds. In lanes it has its own code.
-_ONE_BY_ONE, _IN_LANES = 1, 0
+_LEVEL = (
+    0  # optimisation of the machine code of runs one by one; most runs are in lanes, which have their own
+)
+_LOOK_EVERY = 0.1  # s; whether to go on, while the kernel of the lanes is compiled (once on a machine)
 
 Item = TypeVar("Item")
 Result = TypeVar("Result")
@@ -45,9 +47,14 @@ class EndedError(Exception):
 class Bench:
     """Runs designs of one task.
 
+    It begins when the kernel of the lanes is ready: what a search proposes never depends on whether it was.
+
     Args:
         task: the task.
         watch: asked between runs whether to go on.
+
+    Raises:
+        EndedError: the watch ends the work before it begins.
     """
 
     def __init__(self, task: Task, watch: Watch) -> None:
@@ -56,7 +63,11 @@ class Bench:
         self.runs = 0
         self._timelines: dict[tuple[object, ...], Timeline] = {}
         self._known: dict[tuple[Group, float, float], Figures] = {}
-        self._level = _ONE_BY_ONE if lane_kernels.ready() is None else _IN_LANES
+        loading = lane_kernels.warm()
+        while loading.is_alive():
+            loading.join(_LOOK_EVERY)
+            self.check_end(0.0)
+        lane_kernels.awaited()
 
     def each(
         self,
@@ -92,14 +103,14 @@ class Bench:
         """Compile the equations of a group in advance, so that no two threads do it at the same time."""
         compiled_drive(
             DriveStructure(group.effects, tube=group.tube.tube is not None, pair=group.duty.pair),
-            self._level,
+            _LEVEL,
         )
 
     def prepared(self, design: Design) -> Prepared:
         """A design ready to run."""
         group = design.group
         drive = group.drive(self.task, design.length, design.pressure)
-        compiled = compiled_drive(drive.structure, self._level)
+        compiled = compiled_drive(drive.structure, _LEVEL)
         table = constants_of(drive)
         parameters = np.array([table[name] for name in compiled.model.parameters])
         return Prepared(design, drive, compiled, parameters, self._timeline(group, drive))
@@ -130,15 +141,7 @@ class Bench:
         """Figures of some runs, side by side."""
         for _ in cases:
             self.count_run()
-        if lane_kernels.ready() is not None:
-            return figures_of_many(cases, self.task.returns)
-        parts = [cases[begin::_THREADS] for begin in range(_THREADS)]
-        found: list[Figures] = [NOTHING] * len(cases)
-        with ThreadPoolExecutor(_THREADS) as pool:
-            done = pool.map(lambda part: figures_of_many(part, self.task.returns), parts)
-            for begin, figures in enumerate(done):
-                found[begin::_THREADS] = figures
-        return found
+        return figures_of_many(cases, self.task.returns)
 
     def run_ahead(self, designs: Sequence[Design], share: tuple[float, float]) -> None:
         """Simulate designs side by side; `run` then has the result of each at once.

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.initial_states import starts_of_many
-from mckibben.simulation.integrate.many import integrate_many, lane_kernels
+from mckibben.simulation.integrate.many import integrate_many
 from mckibben.sizing.prepared import NOTHING, TOLERANCE, Figures, Prepared, figures_of
 
 
@@ -24,8 +23,6 @@ class Case:
 
 def figures_of_many(cases: Sequence[Case], returns: bool) -> list[Figures]:
     """The figures of each run, `NOTHING` for one that never starts or fails; ``returns`` as for `figures`."""
-    if lane_kernels.ready() is None:
-        return [_alone(case, returns) for case in cases]
     found = [NOTHING] * len(cases)
     alike: dict[tuple[object, ...], list[int]] = {}
     for index, case in enumerate(cases):
@@ -41,14 +38,6 @@ def figures_of_many(cases: Sequence[Case], returns: bool) -> list[Figures]:
         for index, figures in zip(indices, _figures([cases[i] for i in indices], returns), strict=True):
             found[index] = figures
     return found
-
-
-def _alone(case: Case, returns: bool) -> Figures:
-    """The figures of a run while the lanes' kernel is not compiled yet."""
-    try:
-        return case.prepared.figures(case.parameters, case.inputs, returns)
-    except InputError:  # nothing holds the load before the run
-        return NOTHING
 
 
 def _figures(cases: list[Case], returns: bool) -> list[Figures]:

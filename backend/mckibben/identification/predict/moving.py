@@ -252,13 +252,20 @@ class TransientPredictor(Predictor):
         return np.column_stack(columns)
 
     def _many_runs(self, fit_model: FitModel, count: int) -> bool:
-        """Whether the runs for derivatives so far would have paid the compilation; counts these."""
-        if count < _FEWEST_TOGETHER or lane_kernels.ready() is None:
+        """Whether the runs for derivatives so far would have paid the compilation; counts these.
+
+        The kernel of the lanes is awaited, so that a fit never depends on whether it was ready.
+        """
+        if count < _FEWEST_TOGETHER:
             return False
+        lane_kernels.warm()
         segments = sum(record.segments for record in self._records)
         runs = self._spent.get(fit_model.effects, 0.0) + count * (len(self._records) + segments / _SEGMENTS)
         self._spent[fit_model.effects] = runs
-        return runs > _PAYS_OFF
+        if runs <= _PAYS_OFF:
+            return False
+        lane_kernels.awaited()
+        return True
 
     def _side_by_side(self, models: Sequence[FitModel]) -> list[np.ndarray | None]:
         """`predict` of models that differ little from the first; None for one that runs another course."""
