@@ -187,6 +187,20 @@ def test_specimens_of_several_lengths_are_diagnosed_together(studio: Studio) -> 
     assert among <= {each.effect for each in alone.not_tried}
 
 
+def test_a_zero_error_that_all_specimens_share_is_an_effect(studio: Studio) -> None:
+    """The same sensor, 5 N off for every length: no matter of mounting, and a new specimen shows it again."""
+    texts = [specimen(length, zero=5.0, walled=False, seed=n) for n, length in enumerate((0.2, 0.4))]
+    result = diagnosed(studio, asked(studio, texts))
+    assert "force_offset" in named(result)
+    offset, *_ = (
+        value["offset"].value if name == "force_offset" else -value["force"].value
+        for name, value in result.parameters.items()
+    )
+    assert offset == pytest.approx(5.0, abs=0.5)
+    assert all(each.left_out_rmse == pytest.approx(each.rmse, rel=0.2) for each in result.specimens)
+    assert "Fitted to the other specimens alone" in result.verdict.sentence
+
+
 def test_each_specimen_is_predicted_as_alone(studio: Studio) -> None:
     texts = [specimen(length, seed=number) for number, length in enumerate((0.2, 0.4))]
     together = compare(asked(studio, texts))

@@ -39,6 +39,8 @@ class Specimen:
         experiment: every value with its origin.
         accuracy: channel -> standard deviation [SI].
         zeros: channel -> standard deviation of a zero error of its own, where there are several specimens.
+        assumed_zeros: channels of these whose deviation is assumed. Such errors make specimens differ; what
+            they have in common is left to the effects.
         document: of the drive, with what the experiment says of it.
     """
 
@@ -48,6 +50,7 @@ class Specimen:
     experiment: Experiment = field(default_factory=dict)
     accuracy: Mapping[str, float] = field(default_factory=dict)
     zeros: Mapping[str, float] = field(default_factory=dict)
+    assumed_zeros: frozenset[str] = frozenset()
     document: DriveDocument | None = None
 
     @property
@@ -111,7 +114,7 @@ class Specimens:
             own = own_muscle(muscle, reference=self.reference, own=specimen.muscle)
             predictor, said, lost = _predictor(specimen, own, share)
             data = SpecimenData(specimen.name, predictor, specimen.muscle)
-            parts.append(zero_errors(data, dict(specimen.zeros)))
+            parts.append(zero_errors(data, specimen.zeros, specimen.assumed_zeros))
             notes += [f"{specimen.name}: {note}" for note in said]
             for reason, rows in lost.items():
                 left_out[reason] = left_out.get(reason, 0) + rows

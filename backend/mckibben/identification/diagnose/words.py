@@ -12,6 +12,7 @@ from mckibben.physics.effect import Effect
 
 _REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned
 _WORTH_TELLING = 0.15  # share of the residual that depends on variables, above which it is mentioned
+_DIFFERENT = 2.0  # left-out specimen over left-out groups above which the specimens differ
 _FEW = 3  # alternatives that are listed without grouping them
 _UNKNOWN_NOISE = (
     "The noise cannot be estimated from these data: state it to know whether the error exceeds it."
@@ -162,6 +163,31 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
             "explain as much, and these data do not test what it would predict elsewhere."
         )
     return " ".join(texts)
+
+
+def left_out_sentence(result: Diagnosis) -> str:
+    """How well the model predicts a specimen that it was not fitted to; empty for a single one."""
+    if not result.left_out:
+        return ""
+    unit, scale = _unit_of(result)
+    worst = max(result.left_out, key=lambda each: each.rmse)
+    if unit == "times the noise":
+        errors = [f"{each.name} to {each.rmse:.3g} {unit}" for each in result.left_out]
+    else:
+        errors = [
+            f"{each.name} to {scale * each.rmse:.3g} {unit} ({100.0 * each.share:.2g} %)"
+            for each in result.left_out
+        ]
+    if len(errors) > _FEW:
+        errors = [f"each of the {len(errors)} to at most {scale * worst.rmse:.3g} {unit}"]
+    text = f"Fitted to the other specimens alone, the model predicts {_joined(errors)}."
+    groups = result.best.holdout_rmse
+    if worst.rmse > _DIFFERENT * max(groups, result.noise or 0.0):
+        text += (
+            f" On left-out groups of the same specimens it errs by {scale * groups:.3g} {unit}: {worst.name} "
+            "differs from the others by more than the model says."
+        )
+    return text
 
 
 def _percent(result: Diagnosis, effect: str) -> str:

@@ -7,7 +7,7 @@ specimen by 1 %.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 
@@ -139,9 +139,19 @@ class SpecimensPredictor(Predictor):
         return max(rest) > 1.01 * min(rest)
 
     @property
+    def specimens(self) -> tuple[SpecimenData, ...]:
+        """The measurements."""
+        return self._specimens
+
+    @property
     def names(self) -> tuple[str, ...]:
         """Name of each specimen."""
         return tuple(each.name for each in self._specimens)
+
+    def without(self, number: int) -> SpecimensPredictor:
+        """The data of all specimens but one, prepared alike; reading errors are to be allowed for again."""
+        left = [each for place, each in enumerate(self._specimens) if place != number]
+        return SpecimensPredictor(left, reference=self._reference)
 
     def _folds(self, parts: Sequence[Predictor]) -> tuple[np.ndarray, ...]:
         """Folds by groups of all specimens; other ways where all specimens have them."""
@@ -222,12 +232,15 @@ class SpecimensPredictor(Predictor):
         return sum(lost for lost, _ in pairs), sum(rows for _, rows in pairs)
 
 
-def zero_errors(specimen: SpecimenData, accuracy: dict[str, float]) -> SpecimenData:
+def zero_errors(
+    specimen: SpecimenData, accuracy: Mapping[str, float], deviations: Collection[str] = ()
+) -> SpecimenData:
     """The specimen with a possible zero error of each of its sensors, within the accuracy.
 
     Args:
         specimen: one of several.
         accuracy: channel -> standard deviation [SI].
+        deviations: channels whose errors are deviations from those of the other specimens.
     """
     predictor = copy(specimen.predictor)
     rows = np.ones(len(predictor.measured), bool)
@@ -237,7 +250,7 @@ def zero_errors(specimen: SpecimenData, accuracy: dict[str, float]) -> SpecimenD
     predictor.reading_errors = (
         *predictor.reading_errors,
         *(
-            ReadingError(channel, "", sigma, units[channel], rows)
+            ReadingError(channel, "", sigma, units[channel], rows, channel in deviations)
             for channel, sigma in accuracy.items()
             if sigma > 0.0 and channel not in taken and channel in seen
         ),
