@@ -10,7 +10,7 @@ import numpy as np
 
 from mckibben.identification.fit.effort import SearchEffort
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
-from mckibben.identification.predict.fit_model import FitModel, free_numbers
+from mckibben.identification.predict.fit_model import FitModel, free_numbers, held_beside
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.effect import Effect
@@ -84,7 +84,12 @@ class Fitter:
         """The model with one more effect, refitted from the present values."""
         off = self.acting(fitted_model, effect)
         freed = fitted_model.freed | {f"{effect.id}.{n}" for n in off if not effect.parameter(n).fitted}
-        started_model = fitted_model.fit_model.adding(effect, _between(effect, off))
+        start = _between(effect, off)
+        for name in held_beside(self.geometry):
+            owner, _, parameter = name.partition(".")
+            if owner == effect.id and parameter in start:
+                start[parameter] = effect.parameter(parameter).default
+        started_model = fitted_model.fit_model.adding(effect, start)
         refitted_model = self.fit(started_model, freed)
         started = started_model.values[effect.id]
         unmoved = all(
@@ -117,7 +122,7 @@ class Fitter:
     def freeing(self, fitted_model: FittedModel, effect: Effect) -> list[FittedModel]:
         """The model with further constants of an effect freed: all, and subsets if all are too many."""
         names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted and not p.reference}
-        names -= fitted_model.freed
+        names -= fitted_model.freed | held_beside(self.geometry)
         names -= self._blind(fitted_model, names)
         if not names:
             return []
