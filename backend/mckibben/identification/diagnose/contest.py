@@ -200,6 +200,7 @@ def _tried(
         off_values={},
         refitted_keys=set(),
         known_gains=WeakKeyDictionary(),
+        known_columns=WeakKeyDictionary(),
         estimate=lambda fitted: noise_of(predictor, fitted.residual, _scaled(stated_noise, scale))[0],
     )
     fitted = own.fit(first, root.freed)

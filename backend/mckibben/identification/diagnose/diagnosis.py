@@ -238,11 +238,12 @@ def _diagnose(
     variables = variables_of(predictor, fit_model)
     before = traits_of(root.residual, variables)
     where = profiles(start.residual, variables, predictor.folds[0])
-    fitted = {effect.id for effect in fitter.promising(root, candidates)[: effort.tried]}
+    # The most promising first: whoever follows the search sees a useful answer at once.
+    promising = fitter.promising(root, candidates)[: effort.tried]
     fitted_singles, guesses = [], []
-    for number, effect in enumerate(sorted(candidates, key=lambda effect: effect.id not in fitted)):
+    for number, effect in enumerate(dict.fromkeys([*promising, *candidates])):
         progress.share = 0.45 * number / max(len(candidates), 1)
-        if effect.id in fitted:
+        if number < len(promising):
             fitted_singles.append((effect, fitter.adding(root, effect)))
             on_candidate(single_addition(fitter, root, effect, fitted_singles[-1][1], before, ()))
         else:

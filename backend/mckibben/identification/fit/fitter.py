@@ -45,6 +45,7 @@ class Fitter:
         off_values: effect id -> result of `acting`.
         refitted_keys: keys of the models that were fitted from a second start.
         known_gains: results of `gains`.
+        known_columns: changes of the prediction that have been computed.
     """
 
     predictor: Predictor
@@ -60,6 +61,9 @@ class Fitter:
     off_values: dict[str, dict[str, float]] = field(default_factory=dict)
     refitted_keys: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
     known_gains: WeakKeyDictionary[FittedModel, dict[str, float]] = field(default_factory=WeakKeyDictionary)
+    known_columns: WeakKeyDictionary[FittedModel, dict[tuple[str, ...], np.ndarray]] = field(
+        default_factory=WeakKeyDictionary
+    )
 
     def fit(
         self, fit_model: FitModel, freed: frozenset[str] = frozenset(), *, again: bool = False
@@ -216,6 +220,13 @@ class Fitter:
         return self._columns(fitted_model, effect, self.acting(fitted_model, effect))
 
     def _columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
+        of_model = self.known_columns.setdefault(fitted_model, {})
+        key = effect.id, *off
+        if key not in of_model:
+            of_model[key] = self._new_columns(fitted_model, effect, off)
+        return of_model[key]
+
+    def _new_columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
         columns = [np.empty((len(fitted_model.residual), 0))]
         for name in off:
             single = effect.off | {name: _between(effect, off)[name]}
