@@ -106,7 +106,7 @@ def absorbed_message(absorbed: Iterable[AbsorbedError], unit: str) -> list[str]:
         return []
     scale, shown_unit = (1e3, "mm") if unit == "m" else (1.0, unit)
     parts = [
-        f"{error.channel}{f' {error.of}' if error.of else ''} {_shown(error)} "
+        f"{error.channel.replace('_', ' ')}{f' {error.of}' if error.of else ''} {_shown(error)} "
         f"({scale * error.rms:.3g} {shown_unit})"
         for error in errors
     ]
@@ -118,5 +118,8 @@ def absorbed_message(absorbed: Iterable[AbsorbedError], unit: str) -> list[str]:
 
 
 def _shown(error: AbsorbedError) -> str:
-    scale, unit = {"m": (1e3, "mm"), "Pa": (1e-2, "mbar")}.get(error.unit, (1.0, error.unit))
+    degree = float(np.degrees(1.0))
+    scale, unit = {"m": (1e3, "mm"), "Pa": (1e-2, "mbar"), "rad": (degree, "°")}.get(
+        error.unit, (1.0, error.unit)
+    )
     return f"{scale * error.value:+.2g} ± {scale * error.stderr:.1g} {unit}"

@@ -13,6 +13,7 @@ from mckibben.physics.effect import Effect
 _REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned
 _WORTH_TELLING = 0.15  # share of the residual that depends on variables, above which it is mentioned
 _DIFFERENT = 2.0  # left-out specimen over left-out groups above which the specimens differ
+_EVEN = 0.5  # probability below which an effect is only perhaps missing
 _FEW = 3  # alternatives that are listed without grouping them
 _UNKNOWN_NOISE = (
     "The noise cannot be estimated from these data: state it to know whether the error exceeds it."
@@ -50,7 +51,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     unit, scale = _unit_of(result)
     before, after = scale * result.start.rmse, scale * result.lean.rmse
     refitted = scale * result.root.rmse
-    names = _joined([f"{titles.get(name, name)} ({_percent(result, name)})" for name in result.added])
+    names = _joined([_likely(result, name, titles) for name in result.added])
     noise = None if result.noise is None else scale * result.noise
     highest = noise if result.noise_interval is None else scale * result.noise_interval.high
     level = ""
@@ -184,15 +185,17 @@ def left_out_sentence(result: Diagnosis) -> str:
     groups = result.best.holdout_rmse
     if worst.rmse > _DIFFERENT * max(groups, result.noise or 0.0):
         text += (
-            f" On left-out groups of the same specimens it errs by {scale * groups:.3g} {unit}: {worst.name} "
-            "differs from the others by more than the model says."
+            f" On left-out groups of the same ones it errs by {scale * groups:.3g} {unit}: they differ by "
+            "more than the model says."
         )
     return text
 
 
-def _percent(result: Diagnosis, effect: str) -> str:
-    """Probability of an effect or its group."""
-    return _share(next((item.probability for item in result.evidence if item.effect == effect), 1.0))
+def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str]) -> str:
+    """Title of an effect with its probability, or that of its group."""
+    probability = next((item.probability for item in result.evidence if item.effect == effect), 1.0)
+    perhaps = "perhaps " if probability < _EVEN else ""
+    return f"{perhaps}{titles.get(effect, effect)} ({_share(probability)})"
 
 
 def _share(probability: float) -> str:

@@ -226,6 +226,14 @@ class SpecimensPredictor(Predictor):
         """That of every specimen."""
         return self._each(lambda part, own: part.input_slope(own, channel), fit_model)
 
+    def _reading_slope(self, fit_model: FitModel, channel: str) -> np.ndarray:
+        """Also that of a dimension that is stated wrong, in proportion to the reference."""
+        if channel not in GEOMETRY:
+            return super()._reading_slope(fit_model, channel)
+        value = fit_model.number(channel)
+        field = Free(channel, value, 0.9 * value, 1.1 * value, "")
+        return -self.linearised(fit_model, [field])[1][:, 0]
+
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
         """Sums over the specimens."""
         pairs = [each.predictor.lost(self._own(fit_model, each)) for each in self._specimens]
@@ -253,6 +261,25 @@ def zero_errors(
             ReadingError(channel, "", sigma, units[channel], rows, channel in deviations)
             for channel, sigma in accuracy.items()
             if sigma > 0.0 and channel not in taken and channel in seen
+        ),
+    )
+    return replace(specimen, predictor=predictor)
+
+
+def own_geometry(specimen: SpecimenData, spread: Mapping[str, float]) -> SpecimenData:
+    """The specimen with possible deviations of its geometry from that of the others, in proportion.
+
+    Args:
+        specimen: one of several.
+        spread: geometry field -> standard deviation between specimens [SI].
+    """
+    predictor = copy(specimen.predictor)
+    rows = np.ones(len(predictor.measured), bool)
+    predictor.reading_errors = (
+        *predictor.reading_errors,
+        *(
+            ReadingError(name, "", sigma, "rad" if name == "braid_angle" else "m", rows, deviation=True)
+            for name, sigma in spread.items()
         ),
     )
     return replace(specimen, predictor=predictor)
