@@ -3235,6 +3235,10 @@ export interface components {
       rmse: number | null;
       /** The same with whole groups left out of the fit. */
       holdout_rmse: number | null;
+      /** Of a diagnosis of several: error of the model fitted to the other specimens alone. */
+      left_out_rmse?: number | null;
+      /** The same in percent of the largest magnitude measured on it. */
+      left_out_percent?: number | null;
       /** Values of its experiment, each with its origin. */
       experiment: { [key: string]: components["schemas"]["ExperimentValue"] };
     };

@@ -26,7 +26,7 @@ from mckibben.measurement.read import read_measurement
 from mckibben.physics.errors import InputError
 from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
-from tests.application.truths import document, plateaus, specimen
+from tests.application.truths import ANGLE, document, plateaus, specimen
 
 SHARP = "length 1 mm, force 0.1 %, pressure 2 mbar"
 
@@ -185,6 +185,38 @@ def test_specimens_of_several_lengths_are_diagnosed_together(studio: Studio) -> 
     assert not among & {each.effect for each in result.not_tried}
     alone = diagnosed(studio, asked(studio, texts[:1]))
     assert among <= {each.effect for each in alone.not_tried}
+
+
+def test_a_zero_error_that_all_specimens_share_is_an_effect(studio: Studio) -> None:
+    """The same sensor, 5 N off for every length: no matter of mounting, and a new specimen shows it again."""
+    texts = [specimen(length, zero=5.0, walled=False, seed=n) for n, length in enumerate((0.2, 0.4))]
+    result = diagnosed(studio, asked(studio, texts))
+    assert "force_offset" in named(result)
+    offset, *_ = (
+        value["offset"].value if name == "force_offset" else -value["force"].value
+        for name, value in result.parameters.items()
+    )
+    assert offset == pytest.approx(5.0, abs=0.5)
+    assert all(each.left_out_rmse == pytest.approx(each.rmse, rel=0.2) for each in result.specimens)
+    assert "Fitted to the other specimens alone" in result.verdict.sentence
+
+
+def test_each_specimen_has_an_angle_of_its_own_where_fits_may_change_it(studio: Studio) -> None:
+    """Braids of two hoses, 0.35 degrees steeper and flatter than stated: a matter of the specimens."""
+    own = (0.006, -0.006)
+    texts = [
+        specimen(length, walled=False, steeper=angle, seed=n)
+        for n, (length, angle) in enumerate(zip((0.2, 0.4), own, strict=True))
+    ]
+    stated = diagnosed(studio, asked(studio, texts))
+    assert stated.verdict.status != "adequate"
+    free = diagnosed(studio, asked(studio, texts, free=["braid_angle"]))
+    assert free.verdict.status == "adequate"
+    found = {each.of: each.value for each in free.absorbed if each.channel == "braid_angle"}
+    # Stated minus true; the muscle of the model keeps the angle of both together.
+    assert found == pytest.approx({"0.csv": -0.006, "1.csv": 0.006}, abs=5e-4)
+    assert free.geometry.braid_angle == pytest.approx(ANGLE, abs=5e-4)
+    assert any("braid angle 0.csv -0.3" in message for message in free.messages)
 
 
 def test_each_specimen_is_predicted_as_alone(studio: Studio) -> None:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import pytest
 
 from mckibben.application.experiment import SaidMeasurement, SaidModel
@@ -45,6 +47,13 @@ def test_load_and_supply_of_the_measurement_are_those_of_the_drive() -> None:
     assert drive.effects == {"prestress": dict(asked.fit_model().values["prestress"])}
     assert drive.muscle.braid_angle == pytest.approx(MUSCLE.braid_angle)
     assert "tube" not in drive.model_fields_set  # it is still not stated
+
+
+def test_a_supply_that_was_fitted_is_that_of_the_drive() -> None:
+    asked = question(trace("load_mass: 8 kg", "supply_pressure: 5 bar"), read_document(LIFT, "the drive"))
+    document = drive_of_model(asked, replace(asked.fit_model(), supply_factor=0.8), STUDIO)
+    assert document is not None
+    assert read_document(document, "the model").supply.pressure == pytest.approx(4e5)
 
 
 def test_a_drive_that_the_file_describes_is_one() -> None:

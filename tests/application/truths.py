@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from math import radians
 
 import numpy as np
@@ -64,6 +65,7 @@ def specimen(
     seed: int = 0,
     said: bool = True,
     walled: bool = True,
+    steeper: float = 0.0,
     levels: Sequence[float] = (2e5, 4e5, 6e5),
 ) -> str:
     """A file of a slow tensile test at held pressures of a muscle of this length with a rubber wall.
@@ -74,9 +76,10 @@ def specimen(
         seed: of the noise.
         said: whether the file says its rest length; the stroke is a displacement.
         walled: whether it has the wall.
+        steeper: its braid angle over that of the document [rad].
         levels: the pressures [Pa].
     """
-    of = muscle(length)
+    of = replace(muscle(length), angle=ANGLE + steeper)
     parts = (*((wall(of),) if walled else ()), *((sensors.zero_error("force", zero),) if zero else ()))
     truth = Truth(of, hidden=parts)
     random = np.random.default_rng(seed)

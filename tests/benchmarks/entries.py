@@ -47,9 +47,11 @@ def doubted(given: tuple[frozenset[str], Case]) -> Line:
     studio = own_studio()
     line = Line(f"{case.name}-{case.seed}", right, len(case.hidden), [], [])
     try:
-        predictor, start, measurement, rebuilt = parts_of(case, studio)
+        predictor, start, measurement, rebuilt, drive = parts_of(case, studio)
         began = time.perf_counter()
-        stated = statements(measurement, start, rebuilt)
+        supply = None if drive is None else float(drive.supply_pressure)
+        elastic = studio.catalogue.values()
+        stated = statements(measurement, start, rebuilt, supply=supply, elastic=elastic)
         result = diagnose(predictor, start, catalogue=studio.catalogue, statements=stated)
         line.seconds = time.perf_counter() - began
     except InputError as error:  # refused with a question
@@ -74,8 +76,8 @@ def doubted(given: tuple[frozenset[str], Case]) -> Line:
     return line
 
 
-def parts_of(case: Case, studio: Any) -> tuple[Any, Any, Any, Any]:
-    """Predictor, start model, measurement, and the predictor of a changed measurement."""
+def parts_of(case: Case, studio: Any) -> tuple[Any, Any, Any, Any, Any]:
+    """Predictor, start model, measurement, the predictor of a changed measurement, and the drive."""
     from mckibben.documents.drive_files import read_document
     from mckibben.documents.drive_reading import drive_of
     from mckibben.identification.diagnose.entries import read_otherwise
@@ -93,7 +95,7 @@ def parts_of(case: Case, studio: Any) -> tuple[Any, Any, Any, Any]:
     def rebuilt(readings: Any) -> Any:
         return predictor_of(read_otherwise(measurement, readings), start.muscle, drive)
 
-    return predictor, start, measurement, rebuilt
+    return predictor, start, measurement, rebuilt, drive
 
 
 def main() -> None:

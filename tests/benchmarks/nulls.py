@@ -78,7 +78,7 @@ def judged(given: tuple[str, str, int]) -> tuple[str, str, int, str, str]:
 
     base, noise, seed = given
     made = case(base, seed)
-    predictor, start, measurement, _ = parts_of(made, own_studio())
+    predictor, start, measurement, _, _ = parts_of(made, own_studio())
     random = np.random.default_rng([seed, sum(map(ord, base + noise))])
     (channel,) = predictor.channels
     name = channel.name
@@ -112,7 +112,10 @@ def judged(given: tuple[str, str, int]) -> tuple[str, str, int, str, str]:
 
     try:
         result = diagnose(
-            again(()), start, catalogue=own_studio().catalogue, statements=statements(changed, start, again)
+            again(()),
+            start,
+            catalogue=own_studio().catalogue,
+            statements=statements(changed, start, again, elastic=own_studio().catalogue.values()),
         )
     except Exception as error:
         return base, noise, seed, "problem", f"{type(error).__name__}: {error}"[:90]
@@ -137,9 +140,23 @@ def main() -> None:
         results.append(line)
         mark = "ok" if line[3] in ("adequate", "skipped") else "--"
         say(f"{mark} {line[0]:30}{line[1]:18}{line[2]}  {line[3]:16}{line[4]}")
-    judged_lines = [line for line in results if line[3] != "skipped"]
-    wrong = sum(line[3] != "adequate" for line in judged_lines)
-    say(f"not adequate: {wrong} of {len(judged_lines)}")
+    lines = [line for line in results if line[3] != "skipped"]
+    for words, part in (
+        ("white noise (wanted 3 %)", [line for line in lines if line[1] == "white"]),
+        ("other noise (wanted 10 %)", [line for line in lines if line[1] != "white"]),
+        ("all", lines),
+    ):
+        wrong = sum(line[3] != "adequate" for line in part)
+        if part:
+            share, bound = wrong / len(part), upper_bound(wrong, len(part))
+            say(f"{words}: not adequate {wrong} of {len(part)}, {share:.1%}, upper 95 % bound {bound:.1%}")
+
+
+def upper_bound(wrong: int, of: int) -> float:
+    """Upper end of the one-sided 95 % interval of a share, after Clopper and Pearson."""
+    from scipy.stats import beta
+
+    return 1.0 if wrong == of else float(beta.ppf(0.95, wrong + 1, of - wrong))
 
 
 if __name__ == "__main__":

@@ -93,11 +93,30 @@ MISTAKES = (
     Mistake("tenth", frozenset({"pressure_in_MPa"}), _column(r"(p\b|pressure)", 0.1)),
     Mistake("kgf", frozenset({"force_in_kgf"}), _column(r"(f\b|force|load)", 1.0 / 9.80665)),
     Mistake("lbf", frozenset({"force_in_lbf"}), _column(r"(f\b|force|load)", 1.0 / 4.4482216)),
+    Mistake("thin-wall", frozenset({"wall_thickness"}), _muscle("wall_thickness", 0.1)),
     Mistake("inch", frozenset({"stroke_in_inch"}), _column(_STROKE, 1.0 / 25.4)),
 )
 
+
+def _supply(factor: float) -> Change:
+    def change(given: Case) -> Case:
+        drive = given.drive or {}
+        number, unit = str(drive["supply"]["pressure"]).split()
+        supply = {"pressure": f"{float(number) * factor:.6g} {unit}"}
+        return replace(given, drive={**drive, "supply": supply})
+
+    return change
+
+
+#: Mistakes of a drive, and the cases in which they are made.
+DRIVE_MISTAKES = (
+    Mistake("high-supply", frozenset({"supply"}), _supply(1.2)),
+    Mistake("low-supply", frozenset({"supply"}), _supply(0.85)),
+)
+DRIVES = ("nothing-steps", "drag-partial", "silencer-steps", "delay-pulses")
+
 #: Cases without a mistake of their own: nothing hidden, then one effect.
-ALONE = ("nothing-isobaric", "nothing-known-wall-isometric", "nothing-thread-form-map")
+ALONE = ("nothing-isobaric", "nothing-known-wall-isometric", "nothing-thread-form-map", "nothing-steps")
 BESIDE = (
     "bladder-yeoh-isobaric", "linear-spring-isobaric", "prestress-isometric", "bladder-ogden-isometric",
     "pressure-zero-isobaric",
@@ -110,11 +129,11 @@ APART = (
 )  # fmt: skip
 
 
-def mistaken(seed: int, names: tuple[str, ...] = (*ALONE, *BESIDE)) -> list[tuple[Mistake, Case]]:
+def mistaken(seed: int, names: tuple[str, ...] = (*ALONE, *BESIDE, *DRIVES)) -> list[tuple[Mistake, Case]]:
     """Every mistake in every case whose file and muscle allow it."""
     found = []
-    for name in names:
-        for mistake in MISTAKES:
+    for name in dict.fromkeys(names):
+        for mistake in DRIVE_MISTAKES if name in DRIVES else MISTAKES:
             try:
                 changed = mistake.change(case(name, seed))
             except (AssertionError, KeyError):

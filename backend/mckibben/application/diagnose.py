@@ -43,6 +43,7 @@ from mckibben.identification.diagnose.verdict import unexplained_share
 from mckibben.identification.diagnose.words import (
     applied_reasons,
     corrections_sentence,
+    left_out_sentence,
     sentence_of,
     title_of,
     where_to_look,
@@ -231,7 +232,7 @@ def _result(
         experiment=with_accepted(common_experiment(question), question.accepted, best.fit_model),
         unread=question.unread,
         assumptions=[assumption.message for assumption in question.assumptions],
-        specimens=specimen_results(question, predictor, best.residual, best),
+        specimens=specimen_results(question, predictor, best.residual, best, diagnosis.left_out),
         absorbed=list(diagnosis.absorbed),
         context=doubtful_entries(diagnosis.context, titles),
         envelope=envelope,
@@ -276,6 +277,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
                 questions_of(diagnosis.context, titles),
                 sentence_of(diagnosis, catalogue),
                 corrections_sentence(diagnosis, titles),
+                left_out_sentence(diagnosis),
             )
             if text
         ),

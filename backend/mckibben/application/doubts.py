@@ -92,7 +92,13 @@ def statements_of(question: ModelQuestion, most_rows: int | None = None) -> Stat
         specimens = _read_otherwise(question.specimens, readings)
         return specimens.predictor(question.start.muscle, most_rows)[0]
 
-    found = statements(question.points.measurement, question.fit_model(), predictor)
+    found = statements(
+        question.points.measurement,
+        question.fit_model(),
+        predictor,
+        supply=None if question.drive is None else float(question.drive.supply_pressure),
+        elastic=question.start.catalogue.values(),
+    )
     settled = {entry.field for entry in question.accepted}
     entries = tuple(entry for entry in found.entries if entry.field not in settled)
     return replace(found, entries=entries, kept=question.kept)
@@ -140,8 +146,7 @@ def with_accepted(experiment: Experiment, accepted: Sequence[StatedEntry], model
             words = f"read {entry.reading.words}"
             changed[entry.field] = ExperimentValue(words, "", "suggested", where)
         elif entry.free is not None:
-            value = model.number(entry.free.name)
-            value += (entry.stated or 0.0) if entry.field == "load" else 0.0
+            value = entry.value(model.number(entry.free.name))
             name = _EXPERIMENT_FIELDS.get(entry.field, entry.field.removeprefix("muscle."))
             changed[name] = ExperimentValue(value, entry.unit, "suggested", where)
     return changed

@@ -348,5 +348,8 @@ def _with_zeros(specimens: Sequence[Specimen]) -> list[Specimen]:
             for channel, accuracy in (_REMOUNTED if remounted else {}).items()
             if channel not in each.accuracy and channel in usual and usual[channel] > 0.0
         }
-        result.append(replace(each, zeros=zeros, experiment={**shown, **each.experiment}))
+        assumed = frozenset(usual.keys() - stated.keys())
+        result.append(
+            replace(each, zeros=zeros, assumed_zeros=assumed, experiment={**shown, **each.experiment})
+        )
     return result

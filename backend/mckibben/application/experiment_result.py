@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from mckibben.application.model_question import ModelQuestion
+from mckibben.identification.diagnose.left_out import LeftOutSpecimen
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.reading_errors import AbsorbedError
@@ -24,6 +25,8 @@ class SpecimenResult:
         rmse: error of the model on it, over the scale of the predictor.
         holdout_rmse: the same with whole groups left out of the fit; None where that is not known.
         experiment: its values with their origins.
+        left_out_rmse: error of the model fitted to the other specimens alone; None for a single one.
+        left_out_percent: the same in percent of the largest magnitude measured on it.
     """
 
     file: str
@@ -31,6 +34,8 @@ class SpecimenResult:
     rmse: float | None
     holdout_rmse: float | None
     experiment: Experiment
+    left_out_rmse: float | None = None
+    left_out_percent: float | None = None
 
 
 def common_experiment(question: ModelQuestion) -> Experiment:
@@ -40,7 +45,11 @@ def common_experiment(question: ModelQuestion) -> Experiment:
 
 
 def specimen_results(
-    question: ModelQuestion, predictor: Predictor, residual: np.ndarray, fitted: FittedModel | None = None
+    question: ModelQuestion,
+    predictor: Predictor,
+    residual: np.ndarray,
+    fitted: FittedModel | None = None,
+    left_out: Sequence[LeftOutSpecimen] = (),
 ) -> list[SpecimenResult]:
     """Each measurement with its error; of one measurement, or of several as one record, the whole.
 
@@ -49,6 +58,7 @@ def specimen_results(
         predictor: the data used.
         residual: measured minus predicted over the scale, shape (values,).
         fitted: the fitted model, for the hold-out error.
+        left_out: the specimens predicted by the model fitted to the others, in the same order.
     """
     labels = question.specimens.labels(predictor)
     apart = len(question.specimens.each) == 1 or question.specimens.several
@@ -77,6 +87,8 @@ def specimen_results(
                 float(np.sqrt(np.mean(residual[rows] ** 2))),
                 left,
                 specimen.experiment,
+                left_out[number].rmse if left_out else None,
+                100.0 * left_out[number].share if left_out and len(predictor.channels) == 1 else None,
             )
         )
     return results
@@ -94,7 +106,7 @@ def absorbed_message(absorbed: Iterable[AbsorbedError], unit: str) -> list[str]:
         return []
     scale, shown_unit = (1e3, "mm") if unit == "m" else (1.0, unit)
     parts = [
-        f"{error.channel}{f' {error.of}' if error.of else ''} {_shown(error)} "
+        f"{error.channel.replace('_', ' ')}{f' {error.of}' if error.of else ''} {_shown(error)} "
         f"({scale * error.rms:.3g} {shown_unit})"
         for error in errors
     ]
@@ -106,5 +118,8 @@ def absorbed_message(absorbed: Iterable[AbsorbedError], unit: str) -> list[str]:
 
 
 def _shown(error: AbsorbedError) -> str:
-    scale, unit = {"m": (1e3, "mm"), "Pa": (1e-2, "mbar")}.get(error.unit, (1.0, error.unit))
+    degree = float(np.degrees(1.0))
+    scale, unit = {"m": (1e3, "mm"), "Pa": (1e-2, "mbar"), "rad": (degree, "°")}.get(
+        error.unit, (1.0, error.unit)
+    )
     return f"{scale * error.value:+.2g} ± {scale * error.stderr:.1g} {unit}"

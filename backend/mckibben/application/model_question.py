@@ -198,9 +198,14 @@ def question_of(
             raise InputError(
                 f"there is no constant '{name}'", field=f"freed.{place}", hint=did_you_mean(name, similar)
             )
-    return ModelQuestion(
+    question = ModelQuestion(
         start, found.specimens, found.validation, free, freed, noise, found.assumptions, found.remarks
     )
+    if not found.specimens.remounted:
+        return question
+    # Each of several muscles has dimensions of its own: two standard deviations within the tolerance.
+    spread = {each.name: 0.5 * (each.upper - each.start) for each in question.free_geometry()}
+    return replace(question, specimens=replace(found.specimens, spread=spread))
 
 
 def with_model(

@@ -24,7 +24,7 @@ from mckibben.version import __version__
 
 #: Condition of a measurement that takes precedence over the drive, and where a drive document has it.
 _CONDITIONS = (
-    ("load_mass", "load", "mass"), ("load_force", "load", "force"), ("supply_pressure", "supply", "pressure")
+    ("load_mass", "load", "mass"), ("load_force", "load", "force"),
 )  # fmt: skip
 
 
@@ -47,8 +47,8 @@ def muscle_document(question: ModelQuestion, muscle: Muscle, studio: Studio) -> 
 def drive_of_model(question: ModelQuestion, model: FitModel, studio: Studio) -> dict[str, object] | None:
     """The drive document of the first transient measurement with a model inside; None where there is none.
 
-    Supply and load are those of the measurement, stops are stated. Its command was measured: it is the
-    document's own, if that has one.
+    Supply (or the fitted one) and load are those of the measurement, stops are stated. Its command was
+    measured: it is the document's own, if that has one.
 
     Args:
         question: the measurements.
@@ -60,7 +60,8 @@ def drive_of_model(question: ModelQuestion, model: FitModel, studio: Studio) -> 
         return None
     drive, conditions = specimen.drive, specimen.points.measurement.conditions
     parts = specimen.document.to_document()
-    parts["supply"] = {"pressure": float(drive.supply_pressure)}
+    stated = float(conditions.get("supply_pressure", drive.supply_pressure))
+    parts["supply"] = {"pressure": model.supply_factor * stated}
     for condition, part, name in _CONDITIONS:
         if condition in conditions:
             own = parts.get(part)

@@ -12,6 +12,7 @@ from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.specimens import (
     SpecimenData,
     SpecimensPredictor,
+    own_geometry,
     own_muscle,
     zero_errors,
 )
@@ -39,6 +40,8 @@ class Specimen:
         experiment: every value with its origin.
         accuracy: channel -> standard deviation [SI].
         zeros: channel -> standard deviation of a zero error of its own, where there are several specimens.
+        assumed_zeros: channels of these whose deviation is assumed. Such errors make specimens differ; what
+            they have in common is left to the effects.
         document: of the drive, with what the experiment says of it.
     """
 
@@ -48,6 +51,7 @@ class Specimen:
     experiment: Experiment = field(default_factory=dict)
     accuracy: Mapping[str, float] = field(default_factory=dict)
     zeros: Mapping[str, float] = field(default_factory=dict)
+    assumed_zeros: frozenset[str] = frozenset()
     document: DriveDocument | None = None
 
     @property
@@ -64,17 +68,24 @@ class Specimens:
         each: at least one.
         reference: muscle of the model to which those of the specimens are in proportion.
         points: all of them as one measurement.
+        spread: geometry field -> standard deviation between the muscles, where fits may change it [SI].
     """
 
     each: tuple[Specimen, ...]
     reference: Muscle
     points: Points
+    spread: Mapping[str, float] = field(default_factory=dict)
 
     @property
     def one_length(self) -> bool:
         """Whether all muscles have the same rest length."""
         lengths = [float(each.muscle.nominal_length) for each in self.each]
         return max(lengths) - min(lengths) <= _SAME * max(lengths)
+
+    @property
+    def remounted(self) -> bool:
+        """Whether they are several muscles, mounted one after the other."""
+        return any(not _same_muscle(specimen, self.each[0]) for specimen in self.each[1:])
 
     @property
     def several(self) -> bool:
@@ -111,7 +122,8 @@ class Specimens:
             own = own_muscle(muscle, reference=self.reference, own=specimen.muscle)
             predictor, said, lost = _predictor(specimen, own, share)
             data = SpecimenData(specimen.name, predictor, specimen.muscle)
-            parts.append(zero_errors(data, dict(specimen.zeros)))
+            data = zero_errors(data, specimen.zeros, specimen.assumed_zeros)
+            parts.append(own_geometry(data, self.spread))
             notes += [f"{specimen.name}: {note}" for note in said]
             for reason, rows in lost.items():
                 left_out[reason] = left_out.get(reason, 0) + rows
@@ -165,13 +177,16 @@ def _predictor(
 
 def _alike(one: Specimen, other: Specimen) -> bool:
     """Whether two specimens are the same muscle in the same drive under the same load."""
-    geometry = all(
-        abs(a - b) <= _SAME * max(abs(a), abs(b)) for a, b in zip(one.muscle, other.muscle, strict=True)
-    )
     mine, theirs = one.points.measurement.conditions, other.points.measurement.conditions
     loads = all(mine.get(name) == theirs.get(name) for name in _LOADS)
     drives = all(
         getattr(one.experiment.get(name), "value", None) == getattr(other.experiment.get(name), "value", None)
         for name in _DRIVE_FIELDS
     )
-    return geometry and loads and drives
+    return _same_muscle(one, other) and loads and drives
+
+
+def _same_muscle(one: Specimen, other: Specimen) -> bool:
+    return all(
+        abs(a - b) <= _SAME * max(abs(a), abs(b)) for a, b in zip(one.muscle, other.muscle, strict=True)
+    )

@@ -47,7 +47,8 @@ def diagnosis(
     def predictor(readings: Sequence[OtherReading]) -> Predictor:
         return predictor_of(read_otherwise(measurement, readings), muscle)
 
-    stated, accepted = statements(measurement, start, predictor).keeping(keep).using(use)
+    elastic = CATALOGUE.values()
+    stated, accepted = statements(measurement, start, predictor, elastic=elastic).keeping(keep).using(use)
     return diagnose(
         predictor(stated.readings),
         start,
@@ -114,6 +115,19 @@ def test_a_thicker_braid_is_a_twin_of_a_stronger_force() -> None:
     result = diagnosis(replace_diameter(MUSCLE, 1.1))
     assert result.added == ("effectiveness",)
     assert "braid_diameter" in {entry.entry.hypothesis for entry in result.context}
+
+
+def test_a_wall_that_no_rubber_fits_is_asked_about() -> None:
+    """A tenth of the wall: the modulus would have to be ten times that of the hidden wall, 4.7 MPa."""
+    result = diagnosis(MUSCLE._replace(wall_thickness=0.18e-3), c10=0.468e6)
+    leading = result.context[0]
+    assert (leading.entry.hypothesis, leading.stands) == ("wall_thickness", True)
+    assert leading.value == pytest.approx(1.8e-3, rel=0.02)  # the usual modulus is the hidden one
+    assert leading.effects == ("bladder_elasticity",)
+    assert "1.8 mm instead of 0.18 mm, of usual rubber," in sentence_of(leading, TITLES)
+    accepted = diagnosis(MUSCLE._replace(wall_thickness=0.18e-3), c10=0.468e6, use=("wall_thickness",))
+    assert accepted.status == "missing_effects"
+    assert accepted.best.fit_model.muscle.wall_thickness == pytest.approx(1.8e-3, rel=0.02)
 
 
 def replace_diameter(muscle: Muscle, factor: float) -> Muscle:

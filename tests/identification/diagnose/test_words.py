@@ -8,11 +8,13 @@ from typing import Any
 
 import pytest
 
+from mckibben.identification.diagnose.left_out import LeftOutSpecimen
 from mckibben.identification.diagnose.verdict import Interval
 from mckibben.identification.diagnose.words import (
     applied_reasons,
     by_mechanism,
     corrections_sentence,
+    left_out_sentence,
     sentence_of,
     title_of,
 )
@@ -168,3 +170,31 @@ def test_many_alternatives_are_grouped_by_family() -> None:
     elastomer = ", ".join(BUILT_IN[name].title for name in names[:3])
     assert text == f"4 others (elastomer: {elastomer}; sensor: {BUILT_IN['force_offset'].title})"
     assert by_mechanism(names[:2], BUILT_IN) == f"{BUILT_IN['creep'].title} or {BUILT_IN['mullins'].title}"
+
+
+def test_an_effect_that_is_less_likely_than_not_is_only_perhaps_missing() -> None:
+    found = result("missing_effects", 20.0, 2.0, "creep", "leak")
+    found.evidence[1].probability = 0.3
+    assert "Missing: Creep (97 %) and perhaps Leak (30 %)." in sentence_of(found, CATALOGUE)
+
+
+def test_specimens_that_were_left_out_are_told_in_newtons_and_percent() -> None:
+    found = result("adequate", 2.0, 2.0)
+    found.best.holdout_rmse = 2.1
+    found.left_out = ()
+    assert left_out_sentence(found) == ""
+    found.left_out = (left_out("short", 2.5, 0.018), left_out("long", 3.0, 0.007))
+    text = left_out_sentence(found)
+    assert text == (
+        "Fitted to the other specimens alone, the model predicts short to 2.5 N (1.8 %) and "
+        "long to 3 N (0.7 %)."
+    )
+    found.left_out = (*found.left_out, left_out("other", 9.0, 0.05), left_out("last", 2.0, 0.01))
+    text = left_out_sentence(found)
+    assert "each of the 4 to at most 9 N" in text
+    assert text.endswith("On left-out groups of the same ones it errs by 2.1 N: they differ by more than the "
+                         "model says.")  # fmt: skip
+
+
+def left_out(name: str, rmse: float, share: float) -> LeftOutSpecimen:
+    return LeftOutSpecimen(name, rmse, share)

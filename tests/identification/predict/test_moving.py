@@ -9,11 +9,13 @@ from functools import partial
 import numpy as np
 import pytest
 
+from mckibben.identification.diagnose.contest import sentence_of
 from mckibben.identification.diagnose.diagnosis import diagnose
+from mckibben.identification.diagnose.entries import statements
 from mckibben.identification.fit.effort import FitEffort
 from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import TransientPredictor, moving, predictor_of
-from mckibben.identification.predict.fit_model import FitModel, free_numbers
+from mckibben.identification.predict.fit_model import SUPPLY, FitModel, free_numbers
 from mckibben.measurement.measurement import Measurement, build
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import signal_from
@@ -279,6 +281,32 @@ def test_a_drive_that_states_no_tube_runs_without_one():
     assert kinked.tube_in_use == tube
     assert kinked.tube_assumption is not None
     assert "4 mm bore and 1 m length are assumed" in kinked.tube_assumption
+
+
+def test_a_supply_that_differs_from_the_stated_one_is_that_of_another_drive():
+    predictor = predictor_of(measured(drive(supply_pressure=4.5e5)), MUSCLE, drive({}))
+    model = replace(fit_model(HIDDEN), supply_factor=0.75)
+    found = predictor.predict(model)
+    for channel, tolerance in zip(predictor.channels, (20.0, 2e-6), strict=True):
+        assert found[channel.rows] == pytest.approx(predictor.measured[channel.rows], abs=tolerance)
+    assert model.with_numbers([SUPPLY], [0.9]).number(SUPPLY) == 0.9
+
+
+def test_a_wrong_supply_is_asked_about_before_the_flow():
+    """4.5 bar instead of 6: less flow and less force, which no single effect of the air explains."""
+    random = {"pressure": 150.0, "displacement": 2e-5}
+    measurement = measured(drive(supply_pressure=4.5e5), noise=random)
+    predictor, start = predictor_of(measurement, MUSCLE, drive({})), fit_model(HIDDEN)
+    known = {name: CATALOGUE[name] for name in (*HIDDEN, "flow_coefficient", "leak", "exhaust_restriction")}
+    stated = statements(measurement, start, lambda _: predictor, supply=6e5)
+    entries = tuple(entry for entry in stated.entries if entry.field in ("supply", "muscle.nominal_length"))
+    result = diagnose(predictor, start, catalogue=known, statements=replace(stated, entries=entries))
+    leading = result.context[0]
+    assert (leading.entry.hypothesis, leading.stands, leading.effects) == ("supply", True, ())
+    assert leading.value == pytest.approx(4.5e5, rel=5e-3)
+    assert sentence_of(leading, {}).startswith("Supply pressure 4.5 bar instead of 6 bar")
+    asked = statements(measurement, start, lambda _: predictor)
+    assert "supply" not in {entry.hypothesis for entry in asked.entries}  # nobody has stated it
 
 
 def test_differences_are_those_of_two_runs():

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -58,6 +60,25 @@ def test_the_minimum_is_that_of_least_squares_with_prior_rows() -> None:
         each.stderr <= deviation * (1.0 + 1e-9)
         for each, deviation in zip(found, joint_deviations, strict=True)
     )
+
+
+def test_deviations_share_no_common_error() -> None:
+    """Least squares over errors that sum to zero, eliminated through a basis of such errors."""
+    errors = [replace(error, deviation=True) for error in errors_of()]
+    columns, measured = columns_of(errors), RANDOM.normal(size=ROWS) * 3.0
+    # A basis of four numbers that sum to zero; the prior e/sigma stays that of the four errors.
+    basis = np.linalg.qr(np.column_stack([np.ones(GROUPS), np.eye(GROUPS)[:, 1:]]))[0][:, 1:]
+    matrix = np.vstack([columns @ basis / NOISE, basis / errors[0].sigma])
+    right = np.concatenate([measured / NOISE, np.zeros(GROUPS)])
+    own, *_ = np.linalg.lstsq(matrix, right, rcond=None)
+    minimum = float(np.sum((right - matrix @ own) ** 2))
+    weights = reading_weights(errors, columns, noise=NOISE, floor=0.0)
+    assert weights is not None
+    left = weights(measured)
+    assert float(left @ left) / NOISE**2 == pytest.approx(minimum)
+    found = absorbed_errors(errors, columns, measured, noise=NOISE, floor=0.0)
+    assert [each.value for each in found] == pytest.approx(basis @ own)
+    assert sum(each.value for each in found) == pytest.approx(0.0, abs=1e-12)
 
 
 def test_the_weighted_residual_is_white_at_the_truth() -> None:

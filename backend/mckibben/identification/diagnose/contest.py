@@ -19,7 +19,7 @@ from mckibben.identification.diagnose.score import AT_FLOOR, LEAST_SCORE, better
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
-from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.fit_model import FitModel, held_beside
 from mckibben.identification.residual.noise import allowing_for_errors, noise_of
 from mckibben.physics.errors import InputError
 
@@ -132,6 +132,10 @@ def contest(
         close = [trial for trial in trials if trial.score(rows, noise) < here - least and not trial.done]
         for trial in close[:_SEARCHED]:
             trials[trials.index(trial)] = _searched(trial)
+    else:
+        for trial in [trial for trial in trials if trial.score(rows, noise) < here - _SURE][:_SEARCHED]:
+            trials[trials.index(trial)] = _lighter(trial)
+    if trials:
         noise = _lowest_noise(noise, trials, best)
         here = score(best, rows=rows, noise=noise)
         trials.sort(key=lambda trial: trial.score(rows, noise))
@@ -196,6 +200,7 @@ def _tried(
         off_values={},
         refitted_keys=set(),
         known_gains=WeakKeyDictionary(),
+        known_columns=WeakKeyDictionary(),
         estimate=lambda fitted: noise_of(predictor, fitted.residual, _scaled(stated_noise, scale))[0],
     )
     fitted = own.fit(first, root.freed)
@@ -217,6 +222,7 @@ def _with_effects(
     if trial.done or (trial.entry.free is None and trial.rmse > root.rmse):
         return trial
     models = [trial.root]
+    best = _with_usual_constants(best, fitter)
     if added:
         models.append(fitter.fit(best.fit_model, best.freed))
         models += [fitter.dropping(best, name) for name in added] if len(added) > 1 else []
@@ -229,6 +235,28 @@ def _with_effects(
     noise = fitter.noise
     leading = min(models, key=lambda model: score(model, rows=rows, noise=noise))
     return replace(trial, best=leading) if better(leading, trial.root, rows=rows, noise=noise) else trial
+
+
+def _with_usual_constants(best: FittedModel, fitter: Fitter) -> FittedModel:
+    """The model with the default values of the constants that act as the entry does."""
+    held = sorted(held_beside(fitter.geometry))
+    values = {effect.id: effect.defaults for effect in best.fit_model.effects}
+    names = [name for name in held if name.partition(".")[0] in values]
+    usual = [values[name.partition(".")[0]][name.partition(".")[2]] for name in names]
+    return replace(best, fit_model=best.fit_model.with_numbers(names, usual)) if names else best
+
+
+def _lighter(trial: _Trial) -> _Trial:
+    """The entry without the effects that it does not need."""
+    fitter, leading = trial.fitter, trial.best
+    start = set(trial.root.fit_model.ids)
+    while True:
+        rows = effective_rows(leading.residual, fitter.predictor.sweeps, fitter.predictor.folds)
+        less = [fitter.dropping(leading, name) for name in leading.fit_model.ids if name not in start]
+        candidate = min(less, key=lambda n: score(n, rows=rows, noise=fitter.noise), default=None)
+        if candidate is None or better(leading, candidate, rows=rows, noise=fitter.noise):
+            return replace(trial, best=leading)
+        leading = candidate
 
 
 def _searched(trial: _Trial) -> _Trial:
@@ -262,9 +290,10 @@ def _evidence(
         number = model.free[place].start
         if model.at_bound[place]:
             return None
-        stated = entry.stated or 0.0
-        value = stated + number if entry.field == "load" else number
+        stated, value = entry.stated or 0.0, entry.value(number)
         stderr = model.standard_errors[place]
+        if stderr is not None:
+            stderr = abs(entry.value(number + stderr) - value)
         if abs(value - stated) < _LEAST_CHANGE * abs(stated):
             return None
     floor = noise or 0.0
@@ -304,6 +333,8 @@ def shown(value: float, unit: str) -> str:
     """A value of an entry with its unit, for sentences."""
     if unit == "rad":
         return f"{np.degrees(value):.1f}°"
+    if unit == "Pa":
+        return f"{1e-5 * value:.3g} bar"
     return f"{1e3 * value:.4g} mm" if unit == "m" else f"{value:.4g} {unit}"
 
 
@@ -316,6 +347,8 @@ def sentence_of(found: WrongEntry, titles: Mapping[str, str]) -> str:
     else:
         assert entry.reading is not None  # noqa: S101 - an entry is one of the two
         what = f"{entry.title[4:].capitalize()} {entry.reading.words}"
+    if entry.free is not None and entry.free.holds:
+        what += ", of usual rubber,"
     also = ", ".join(titles.get(name, name) for name in found.effects)
     share = 100.0 * found.explains
     if not also:

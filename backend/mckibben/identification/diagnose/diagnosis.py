@@ -12,6 +12,7 @@ from mckibben.identification.diagnose.corrections import Correction, refined, wi
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import vented
+from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
 from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, model_weights
 from mckibben.identification.diagnose.reason import traits_of
@@ -37,6 +38,7 @@ from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.reading_errors import AbsorbedError
+from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
 from mckibben.identification.residual.profiles import Profile, profiles, variables_of
 from mckibben.identification.residual.structure import ResidualStructure
@@ -90,6 +92,7 @@ class Diagnosis:
         corrections: effects that lower the error but are not called missing.
         evidence: of each effect of the best model.
         weights: of the models that the search visited.
+        left_out: of several specimens, each predicted by the best model fitted to the others.
     """
 
     predictor: Predictor
@@ -119,6 +122,7 @@ class Diagnosis:
     corrections: tuple[Correction, ...] = ()
     evidence: tuple[Evidence, ...] = ()
     weights: ModelWeights | None = None
+    left_out: tuple[LeftOutSpecimen, ...] = ()
 
     def probability_of(self, effect: str) -> float:
         """Probability that an effect, or one that the data cannot tell from it, is missing."""
@@ -234,11 +238,12 @@ def _diagnose(
     variables = variables_of(predictor, fit_model)
     before = traits_of(root.residual, variables)
     where = profiles(start.residual, variables, predictor.folds[0])
-    fitted = {effect.id for effect in fitter.promising(root, candidates)[: effort.tried]}
+    # The most promising first: whoever follows the search sees a useful answer at once.
+    promising = fitter.promising(root, candidates)[: effort.tried]
     fitted_singles, guesses = [], []
-    for number, effect in enumerate(sorted(candidates, key=lambda effect: effect.id not in fitted)):
+    for number, effect in enumerate(dict.fromkeys([*promising, *candidates])):
         progress.share = 0.45 * number / max(len(candidates), 1)
-        if effect.id in fitted:
+        if number < len(promising):
             fitted_singles.append((effect, fitter.adding(root, effect)))
             on_candidate(single_addition(fitter, root, effect, fitted_singles[-1][1], before, ()))
         else:
@@ -341,6 +346,7 @@ def _diagnose(
         corrections=corrections,
         evidence=tuple(replace(item, beside_unknown=status == "unknown_effect") for item in support),
         weights=weights,
+        left_out=left_out_specimens(predictor, best) if isinstance(predictor, SpecimensPredictor) else (),
     )
 
 

@@ -1,4 +1,4 @@
-"""Statements about a measurement that may be wrong: dimensions, the load, units, signs and zeros of channels.
+"""Statements about a measurement that may be wrong: sizes, load, supply, units, signs and zeros of channels.
 
 Each is a hypothesis with an id. A stated quantity is fitted within a plausible range, together with the
 effects; a channel is read in another way. What lies within the error of a sensor (an offset, a scale) is an
@@ -12,11 +12,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.identification.predict.fit_model import LOAD, FitModel
+from mckibben.identification.predict.fit_model import LOAD, SUPPLY, FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.measurement.measurement import STROKES, Measurement
 from mckibben.measurement.rescaled import rescaled
+from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import NEUTRAL_ANGLE
 
@@ -27,6 +28,7 @@ _PSI, _POUND, _INCH = 6894.757, 4.4482216, 25.4
 # Plausible sizes: pressure [Pa], force [N], stroke over the nominal length, duration [s].
 _PRESSURES, _FORCES, _STROKES, _DURATIONS = (2e4, 1.6e6), (1.0, 2e4), (0.005, 0.5), (0.02, 1e5)
 _ANGLE = np.radians(10.0)
+_SUPPLIES, _WALLS = (0.4, 2.5), (0.08, 12.5)  # over the stated value
 # A priori odds of a mistake against none, and of the rarer ones.
 _USUAL, _RARE = 0.2, 0.1
 
@@ -64,6 +66,13 @@ class StatedEntry:
     free: Free | None
     reading: OtherReading | None
     prior: float
+
+    def value(self, number: float) -> float:
+        """The value of a quantity [SI] from the number of the fit."""
+        stated = self.stated or 0.0
+        if self.free is not None and self.free.name == LOAD:
+            return stated + number
+        return stated * number if self.free is not None and self.free.name == SUPPLY else number
 
 
 @dataclass(frozen=True)
@@ -150,7 +159,12 @@ def read_otherwise(measurement: Measurement, readings: Iterable[OtherReading]) -
 
 
 def statements(
-    measurement: Measurement, fit_model: FitModel, predictor: Callable[[Sequence[OtherReading]], Predictor]
+    measurement: Measurement,
+    fit_model: FitModel,
+    predictor: Callable[[Sequence[OtherReading]], Predictor],
+    *,
+    supply: float | None = None,
+    elastic: Iterable[Effect] = (),
 ) -> Statements:
     """Everything stated about a measurement that may be wrong.
 
@@ -158,8 +172,16 @@ def statements(
         measurement: the data; of several files all together.
         fit_model: the start model, with the stated muscle.
         predictor: the data with some channels read in other ways.
+        supply: stated supply pressure of a drive whose command was measured [Pa].
+        elastic: effects whose force is in proportion to the wall, where that is stated.
     """
-    return Statements((*_quantities(measurement, fit_model), *_readings(measurement, fit_model)), predictor)
+    entries = (
+        *_quantities(measurement, fit_model),
+        *_of_supply(measurement, supply),
+        *_of_wall(fit_model, elastic),
+        *_readings(measurement, fit_model),
+    )
+    return Statements(entries, predictor)
 
 
 def _quantities(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedEntry]:
@@ -187,6 +209,29 @@ def _quantities(measurement: Measurement, fit_model: FitModel) -> Iterator[State
         if force > 0.0:
             more = Free(LOAD, 0.0, -0.8 * force, 4.0 * force, "N", off=0.0, usual=0.1 * force)
             yield StatedEntry("load", "load", "the load", force, "N", more, None, _USUAL)
+
+
+def _of_supply(measurement: Measurement, supply: float | None) -> Iterator[StatedEntry]:
+    if supply is None or not supply > 0.0 or "command" not in measurement.columns:
+        return
+    low, high = _SUPPLIES
+    free = Free(SUPPLY, 1.0, low, high, "1", off=1.0, usual=0.05)
+    yield StatedEntry("supply", "supply", "the supply pressure", supply, "Pa", free, None, _USUAL)
+
+
+def _of_wall(fit_model: FitModel, elastic: Iterable[Effect]) -> Iterator[StatedEntry]:
+    """A stated wall: only its product with a modulus shows, so moduli keep their values beside it."""
+    wall = fit_model.muscle.wall_thickness
+    effects = [effect for effect in elastic if "wall_thickness" in effect.needs]
+    if not wall or "wall_thickness" in fit_model.assumed or not effects:
+        return
+    held = {f"{effect.id}.{p.name}" for effect in effects for p in effect.parameters if p.unit == "Pa"}
+    high = min(_WALLS[1] * wall, 0.25 * fit_model.muscle.braid_diameter)
+    entry = _quantity(
+        "wall_thickness", "wall_thickness", "the wall thickness", wall, _WALLS[0] * wall, high, "m", _RARE
+    )
+    assert entry.free is not None  # noqa: S101 - it is a quantity
+    yield replace(entry, free=replace(entry.free, holds=frozenset(held)))
 
 
 def _quantity(

@@ -60,6 +60,9 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
             ),
         )
         whole = with_further_constants(fitter, leader)
+        if whole.implausible > best.implausible:
+            # Constants that were freed while an effect was still missing may have no place beside it.
+            whole = _plausible(fitter, whole, root)
         beam, leader = [whole if fitted_model is leader else fitted_model for fitted_model in beam], whole
         idle += 1
         fitter.update_noise(leader)
@@ -124,6 +127,22 @@ def lean(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> Fitted
         ):
             return fitted_model
         fitted_model = candidate
+
+
+def _plausible(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> FittedModel:
+    """The model with freed constants fixed again until no more of them are implausible than without them."""
+    whole = fitted_model
+    while fitted_model.implausible:
+        rows = _rows(fitter, fitted_model)
+        reduced = [
+            fitter.holding(fitted_model, name, _fixed_value(name, fitted_model, root))
+            for name in sorted(fitted_model.freed - root.freed)
+        ]
+        reduced = [other for other in reduced if other.free]
+        if not reduced:
+            return whole
+        fitted_model = min(reduced, key=lambda n: (n.implausible, score(n, rows=rows, noise=fitter.noise)))
+    return fitted_model
 
 
 def _fixed_value(name: str, fitted_model: FittedModel, root: FittedModel) -> float:

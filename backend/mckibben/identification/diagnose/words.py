@@ -12,6 +12,8 @@ from mckibben.physics.effect import Effect
 
 _REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned
 _WORTH_TELLING = 0.15  # share of the residual that depends on variables, above which it is mentioned
+_DIFFERENT = 2.0  # left-out specimen over left-out groups above which the specimens differ
+_EVEN = 0.5  # probability below which an effect is only perhaps missing
 _FEW = 3  # alternatives that are listed without grouping them
 _UNKNOWN_NOISE = (
     "The noise cannot be estimated from these data: state it to know whether the error exceeds it."
@@ -49,7 +51,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     unit, scale = _unit_of(result)
     before, after = scale * result.start.rmse, scale * result.lean.rmse
     refitted = scale * result.root.rmse
-    names = _joined([f"{titles.get(name, name)} ({_percent(result, name)})" for name in result.added])
+    names = _joined([_likely(result, name, titles) for name in result.added])
     noise = None if result.noise is None else scale * result.noise
     highest = noise if result.noise_interval is None else scale * result.noise_interval.high
     level = ""
@@ -164,9 +166,36 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
     return " ".join(texts)
 
 
-def _percent(result: Diagnosis, effect: str) -> str:
-    """Probability of an effect or its group."""
-    return _share(next((item.probability for item in result.evidence if item.effect == effect), 1.0))
+def left_out_sentence(result: Diagnosis) -> str:
+    """How well the model predicts a specimen that it was not fitted to; empty for a single one."""
+    if not result.left_out:
+        return ""
+    unit, scale = _unit_of(result)
+    worst = max(result.left_out, key=lambda each: each.rmse)
+    if unit == "times the noise":
+        errors = [f"{each.name} to {each.rmse:.3g} {unit}" for each in result.left_out]
+    else:
+        errors = [
+            f"{each.name} to {scale * each.rmse:.3g} {unit} ({100.0 * each.share:.2g} %)"
+            for each in result.left_out
+        ]
+    if len(errors) > _FEW:
+        errors = [f"each of the {len(errors)} to at most {scale * worst.rmse:.3g} {unit}"]
+    text = f"Fitted to the other specimens alone, the model predicts {_joined(errors)}."
+    groups = result.best.holdout_rmse
+    if worst.rmse > _DIFFERENT * max(groups, result.noise or 0.0):
+        text += (
+            f" On left-out groups of the same ones it errs by {scale * groups:.3g} {unit}: they differ by "
+            "more than the model says."
+        )
+    return text
+
+
+def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str]) -> str:
+    """Title of an effect with its probability, or that of its group."""
+    probability = next((item.probability for item in result.evidence if item.effect == effect), 1.0)
+    perhaps = "perhaps " if probability < _EVEN else ""
+    return f"{perhaps}{titles.get(effect, effect)} ({_share(probability)})"
 
 
 def _share(probability: float) -> str:

@@ -10,7 +10,7 @@ import numpy as np
 
 from mckibben.identification.fit.effort import SearchEffort
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
-from mckibben.identification.predict.fit_model import FitModel, free_numbers
+from mckibben.identification.predict.fit_model import FitModel, free_numbers, held_beside
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.effect import Effect
@@ -45,6 +45,7 @@ class Fitter:
         off_values: effect id -> result of `acting`.
         refitted_keys: keys of the models that were fitted from a second start.
         known_gains: results of `gains`.
+        known_columns: changes of the prediction that have been computed.
     """
 
     predictor: Predictor
@@ -60,6 +61,9 @@ class Fitter:
     off_values: dict[str, dict[str, float]] = field(default_factory=dict)
     refitted_keys: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
     known_gains: WeakKeyDictionary[FittedModel, dict[str, float]] = field(default_factory=WeakKeyDictionary)
+    known_columns: WeakKeyDictionary[FittedModel, dict[tuple[str, ...], np.ndarray]] = field(
+        default_factory=WeakKeyDictionary
+    )
 
     def fit(
         self, fit_model: FitModel, freed: frozenset[str] = frozenset(), *, again: bool = False
@@ -84,7 +88,12 @@ class Fitter:
         """The model with one more effect, refitted from the present values."""
         off = self.acting(fitted_model, effect)
         freed = fitted_model.freed | {f"{effect.id}.{n}" for n in off if not effect.parameter(n).fitted}
-        started_model = fitted_model.fit_model.adding(effect, _between(effect, off))
+        start = _between(effect, off)
+        for name in held_beside(self.geometry):
+            owner, _, parameter = name.partition(".")
+            if owner == effect.id and parameter in start:
+                start[parameter] = effect.parameter(parameter).default
+        started_model = fitted_model.fit_model.adding(effect, start)
         refitted_model = self.fit(started_model, freed)
         started = started_model.values[effect.id]
         unmoved = all(
@@ -117,7 +126,7 @@ class Fitter:
     def freeing(self, fitted_model: FittedModel, effect: Effect) -> list[FittedModel]:
         """The model with further constants of an effect freed: all, and subsets if all are too many."""
         names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted and not p.reference}
-        names -= fitted_model.freed
+        names -= fitted_model.freed | held_beside(self.geometry)
         names -= self._blind(fitted_model, names)
         if not names:
             return []
@@ -211,6 +220,13 @@ class Fitter:
         return self._columns(fitted_model, effect, self.acting(fitted_model, effect))
 
     def _columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
+        of_model = self.known_columns.setdefault(fitted_model, {})
+        key = effect.id, *off
+        if key not in of_model:
+            of_model[key] = self._new_columns(fitted_model, effect, off)
+        return of_model[key]
+
+    def _new_columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
         columns = [np.empty((len(fitted_model.residual), 0))]
         for name in off:
             single = effect.off | {name: _between(effect, off)[name]}

@@ -15,6 +15,8 @@ from mckibben.physics.parameter import Parameter
 
 #: Name of the unknown load of a measurement [N].
 LOAD = "load_force"
+#: Name of the supply pressure over the stated one [-].
+SUPPLY = "supply_factor"
 
 _UNITS = {name: "rad" if name == "braid_angle" else "m" for name in GEOMETRY} | {LOAD: "N"}
 # Tolerance of a geometry field when none is stated: angle in rad, others as a share of the value.
@@ -26,7 +28,7 @@ _DEFAULT_SHARE = 0.10
 class FitModel:
     """A muscle, its effects and their values, some of which a fit may change.
 
-    Values are named "effect.parameter", by the field of the muscle, or `LOAD`.
+    Values are named "effect.parameter", by the field of the muscle, `LOAD` or `SUPPLY`.
 
     Attributes:
         muscle: geometry, SI.
@@ -34,6 +36,7 @@ class FitModel:
         values: effect id -> parameter -> value, SI; complete.
         load: the unknown load of a measurement [N].
         assumed: fields of the muscle that an effect needs and that are not stated; they hold a typical value.
+        supply_factor: supply pressure of a drive over the stated one [-].
     """
 
     muscle: Muscle
@@ -41,6 +44,7 @@ class FitModel:
     values: Mapping[str, Mapping[str, float]] = ()  # type: ignore[assignment]
     load: float = 0.0
     assumed: frozenset[str] = frozenset()
+    supply_factor: float = 1.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", {name: dict(inner) for name, inner in dict(self.values).items()})
@@ -49,6 +53,8 @@ class FitModel:
         """The value with this name."""
         if name == LOAD:
             return self.load
+        if name == SUPPLY:
+            return self.supply_factor
         if name in GEOMETRY:
             return float(getattr(self.muscle, name))
         effect, parameter = name.split(".")
@@ -58,17 +64,19 @@ class FitModel:
         """The same model with some values replaced."""
         values = {effect: dict(inner) for effect, inner in self.values.items()}
         geometry: dict[str, float] = {}
-        load = self.load
+        load, supply = self.load, self.supply_factor
         for name, number in zip(names, numbers, strict=True):
             if name == LOAD:
                 load = float(number)
+            elif name == SUPPLY:
+                supply = float(number)
             elif name in GEOMETRY:
                 geometry[name] = float(number)
             else:
                 effect, parameter = name.split(".")
                 values[effect][parameter] = float(number)
         muscle = self.muscle._replace(**geometry) if geometry else self.muscle
-        return replace(self, muscle=muscle, values=values, load=load)
+        return replace(self, muscle=muscle, values=values, load=load, supply_factor=supply)
 
     def adding(self, effect: Effect, values: Mapping[str, float] | None = None) -> FitModel:
         """The model with one more effect, at its defaults unless values are given.
@@ -114,20 +122,27 @@ def free_numbers(
 
     Args:
         fit_model: the model; its values are the starts.
-        geometry: geometry fields with their bounds (`free_geometry`).
+        geometry: geometry fields with their bounds (`free_geometry`), or `SUPPLY`.
         freed: names of constants that are free in addition to those declared as fitted.
         load: the unknown load with its bounds.
     """
+    geometry = tuple(geometry)
+    held = held_beside(geometry)
     of_effects = [
         _free(effect.id, p, fit_model.values[effect.id][p.name])
         for effect in fit_model.effects
         for p in effect.parameters
-        if p.fitted or f"{effect.id}.{p.name}" in freed
+        if (p.fitted or f"{effect.id}.{p.name}" in freed) and f"{effect.id}.{p.name}" not in held
     ]
     others = [Free(f.name, fit_model.number(f.name), f.lower, f.upper, f.unit) for f in geometry]
     if load is not None:
         others.append(Free(LOAD, fit_model.load, load.lower, load.upper, load.unit))
     return (*of_effects, *others)
+
+
+def held_beside(free: Iterable[Free]) -> frozenset[str]:
+    """The constants that keep their values beside these parameters."""
+    return frozenset().union(*(each.holds for each in free))
 
 
 def _free(effect: str, p: Parameter, value: float) -> Free:

@@ -9,7 +9,8 @@ from dataclasses import dataclass
 class Free:
     """A free parameter: name, start, bounds, SI unit, the value at which it has no effect, a usual change.
 
-    ``natural``: its bounds are those of its definition, such as 0 and 1 of a share.
+    ``natural``: its bounds are those of its definition, such as 0 and 1 of a share. ``holds``: constants of
+    effects that act exactly as it does, and so keep their values beside it.
     """
 
     name: str
@@ -20,6 +21,7 @@ class Free:
     off: float | None = None
     usual: float | None = None
     natural: bool = False
+    holds: frozenset[str] = frozenset()
 
     @property
     def typical(self) -> float:

@@ -212,10 +212,9 @@ class TransientPredictor(Predictor):
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """The channels of all records, stacked; far from the measurement after a run has stopped early."""
-        model = _static_model(fit_model)
         parts: list[list[np.ndarray]] = [[] for _ in self.channels]
         for record in self._records:
-            readings = self._run(replace(record.drive, model=model), record)
+            readings = self._run(_drive_with(fit_model, record), record)
             for part, channel in zip(parts, self.channels, strict=True):
                 values = readings.get(channel.name, np.empty(0))
                 lost = np.full(len(record.rows) - len(values), np.nan)
@@ -272,7 +271,7 @@ class TransientPredictor(Predictor):
         parts: list[list[list[np.ndarray]]] = [[[] for _ in self.channels] for _ in models]
         lost: set[int] = set()
         for record in self._records:
-            drives = [replace(record.drive, model=_static_model(model)) for model in models]
+            drives = [_drive_with(model, record) for model in models]
             for number, readings in enumerate(neighbours(drives, grid=record.time)):
                 if readings is None:
                     lost.add(number)
@@ -306,8 +305,11 @@ class TransientPredictor(Predictor):
         return {name: results[output] for name, output in _READINGS.items() if output in results}
 
 
-def _static_model(fit_model: FitModel) -> StaticModel:
-    return StaticModel.of(fit_model.muscle, Model(fit_model.effects).effects, fit_model.values)
+def _drive_with(fit_model: FitModel, record: Record) -> Drive:
+    """The drive of a record with the model's muscle, effects and supply."""
+    model = StaticModel.of(fit_model.muscle, Model(fit_model.effects).effects, fit_model.values)
+    supply = fit_model.supply_factor * record.drive.supply_pressure
+    return replace(record.drive, model=model, supply_pressure=supply)
 
 
 def _fast(effect: Effect) -> bool:

@@ -18,6 +18,10 @@ An error of more than its accuracy stays in it.
 
 What the other sensors may be wrong by, a, is common to the m rows of an error and does not average out over
 them. So for the error j, :math:`s_j^2 = s^2 + m_j a^2`.
+
+Zero errors of specimens that are mounted one after the other on the same rig are deviations from each other:
+what they have in common is an effect, the zero error of the sensor. They sum to zero, so their columns are
+taken minus the mean of the columns, :math:`N (I - 11^T/n)`.
 """
 
 from __future__ import annotations
@@ -40,6 +44,8 @@ class ReadingError:
         sigma: its standard deviation, the accuracy [SI].
         unit: of the channel.
         rows: mask of the values that it concerns, shape (values,).
+        deviation: whether it is a deviation from those of the same channel of other specimens; all of them
+            sum to zero.
     """
 
     channel: str
@@ -47,6 +53,7 @@ class ReadingError:
     sigma: float
     unit: str
     rows: np.ndarray
+    deviation: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -97,7 +104,8 @@ def reading_weights(
         floor: what the other sensors may be wrong by, in the same unit.
     """
     sigmas, deviations = _deviations(errors, noise=noise, floor=floor)
-    basis, size, _ = np.linalg.svd(columns * (sigmas / deviations), full_matrices=False)
+    moved = columns @ _about_their_mean(errors)
+    basis, size, _ = np.linalg.svd(moved * (sigmas / deviations), full_matrices=False)
     kept = size > _NOTHING
     if not np.any(kept):
         return None
@@ -110,6 +118,15 @@ def _deviations(
     """Standard deviation of each error, and of the residual as it counts for this error."""
     rows = np.array([np.count_nonzero(error.rows) for error in errors])
     return np.array([error.sigma for error in errors]), np.sqrt(noise**2 + rows * floor**2)
+
+
+def _about_their_mean(errors: Sequence[ReadingError]) -> np.ndarray:
+    """The matrix that takes the mean of each channel from its deviations; other errors stay as they are."""
+    matrix = np.eye(len(errors))
+    for channel in {error.channel for error in errors if error.deviation}:
+        own = [n for n, error in enumerate(errors) if error.deviation and error.channel == channel]
+        matrix[np.ix_(own, own)] -= 1.0 / len(own)
+    return matrix
 
 
 def absorbed_errors(
@@ -131,10 +148,12 @@ def absorbed_errors(
     if not errors:
         return []
     sigmas, deviation_of = _deviations(errors, noise=noise, floor=floor)
-    scaled = columns * (sigmas / deviation_of)
+    about = _about_their_mean(errors)
+    scaled = (columns @ about) * (sigmas / deviation_of)
     covariance = np.linalg.inv(np.eye(len(errors)) + scaled.T @ scaled)
-    values = sigmas * (covariance @ ((scaled.T @ residual) / deviation_of))
-    deviations = sigmas * np.sqrt(np.diag(covariance))
+    values = about @ (sigmas * (covariance @ ((scaled.T @ residual) / deviation_of)))
+    ways = about * sigmas
+    deviations = np.sqrt(np.diag(ways @ covariance @ ways.T))
     return [
         AbsorbedError(
             error.channel, error.of, float(value), float(deviation), error.sigma, error.unit,

@@ -7,7 +7,7 @@ specimen by 1 %.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Collection, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass, replace
 
@@ -139,9 +139,19 @@ class SpecimensPredictor(Predictor):
         return max(rest) > 1.01 * min(rest)
 
     @property
+    def specimens(self) -> tuple[SpecimenData, ...]:
+        """The measurements."""
+        return self._specimens
+
+    @property
     def names(self) -> tuple[str, ...]:
         """Name of each specimen."""
         return tuple(each.name for each in self._specimens)
+
+    def without(self, number: int) -> SpecimensPredictor:
+        """The data of all specimens but one, prepared alike; reading errors are to be allowed for again."""
+        left = [each for place, each in enumerate(self._specimens) if place != number]
+        return SpecimensPredictor(left, reference=self._reference)
 
     def _folds(self, parts: Sequence[Predictor]) -> tuple[np.ndarray, ...]:
         """Folds by groups of all specimens; other ways where all specimens have them."""
@@ -216,18 +226,29 @@ class SpecimensPredictor(Predictor):
         """That of every specimen."""
         return self._each(lambda part, own: part.input_slope(own, channel), fit_model)
 
+    def _reading_slope(self, fit_model: FitModel, channel: str) -> np.ndarray:
+        """Also that of a dimension that is stated wrong, in proportion to the reference."""
+        if channel not in GEOMETRY:
+            return super()._reading_slope(fit_model, channel)
+        value = fit_model.number(channel)
+        field = Free(channel, value, 0.9 * value, 1.1 * value, "")
+        return -self.linearised(fit_model, [field])[1][:, 0]
+
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
         """Sums over the specimens."""
         pairs = [each.predictor.lost(self._own(fit_model, each)) for each in self._specimens]
         return sum(lost for lost, _ in pairs), sum(rows for _, rows in pairs)
 
 
-def zero_errors(specimen: SpecimenData, accuracy: dict[str, float]) -> SpecimenData:
+def zero_errors(
+    specimen: SpecimenData, accuracy: Mapping[str, float], deviations: Collection[str] = ()
+) -> SpecimenData:
     """The specimen with a possible zero error of each of its sensors, within the accuracy.
 
     Args:
         specimen: one of several.
         accuracy: channel -> standard deviation [SI].
+        deviations: channels whose errors are deviations from those of the other specimens.
     """
     predictor = copy(specimen.predictor)
     rows = np.ones(len(predictor.measured), bool)
@@ -237,9 +258,28 @@ def zero_errors(specimen: SpecimenData, accuracy: dict[str, float]) -> SpecimenD
     predictor.reading_errors = (
         *predictor.reading_errors,
         *(
-            ReadingError(channel, "", sigma, units[channel], rows)
+            ReadingError(channel, "", sigma, units[channel], rows, channel in deviations)
             for channel, sigma in accuracy.items()
             if sigma > 0.0 and channel not in taken and channel in seen
+        ),
+    )
+    return replace(specimen, predictor=predictor)
+
+
+def own_geometry(specimen: SpecimenData, spread: Mapping[str, float]) -> SpecimenData:
+    """The specimen with possible deviations of its geometry from that of the others, in proportion.
+
+    Args:
+        specimen: one of several.
+        spread: geometry field -> standard deviation between specimens [SI].
+    """
+    predictor = copy(specimen.predictor)
+    rows = np.ones(len(predictor.measured), bool)
+    predictor.reading_errors = (
+        *predictor.reading_errors,
+        *(
+            ReadingError(name, "", sigma, "rad" if name == "braid_angle" else "m", rows, deviation=True)
+            for name, sigma in spread.items()
         ),
     )
     return replace(specimen, predictor=predictor)

@@ -36,6 +36,9 @@ def _specimen(specimen: SpecimenResult, material: DiagnosisMaterial, *, named: b
     if named and specimen.rmse is not None:
         scale = error_scale(material.comparison)
         parts.append(paragraph("RMS error on it: ", figure(specimen.rmse, scale, 3), "."))
+        if specimen.left_out_rmse is not None:
+            error = figure(specimen.left_out_rmse, scale, 3)
+            parts.append(paragraph("The same when fitted to the other specimens alone: ", error, "."))
     parts.append(table([Head("Experiment"), Head("Value", number=True), Head("Who says it")], rows))
     return html(parts)
 

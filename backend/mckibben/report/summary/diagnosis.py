@@ -22,6 +22,7 @@ def summary_of(result: DiagnosisResult) -> Summary:
         *result.assumptions,
         *experiment_tables(result.specimens),
         path_table(result),
+        *specimen_tables(result),
         candidate_table(result),
         *parameter_tables(result.parameters),
         result.verdict.sentence,
@@ -51,6 +52,18 @@ def path_table(result: DiagnosisResult) -> Table:
     rows.append(["noise floor", _error(result, result.noise_floor.rmse), result.noise_floor.how])
     title = f"Error of the predicted {result.predicted} ({result.kind}, {rows_of(result)})"
     return Table(title, ["after adding", "RMS error", "left-out groups"], rows)
+
+
+def specimen_tables(result: DiagnosisResult) -> list[Table]:
+    """The error of the best model on each of several specimens, also where it was not fitted to it."""
+    if not any(each.left_out_rmse is not None for each in result.specimens):
+        return []
+    rows = [
+        [each.file, *(_error(result, value) for value in (each.rmse, each.holdout_rmse, each.left_out_rmse))]
+        for each in result.specimens
+    ]
+    columns = ["specimen", "RMS error", "left-out groups", "left out itself"]
+    return [Table("Error of the best model on each specimen", columns, rows)]
 
 
 def _step_name(number: int, step: PathPoint) -> str:

@@ -119,6 +119,13 @@ class Specimen(Strict):
     rows_used: int = Field(description="Number of rows used.")
     rmse: float | None = Field(description="Error of the model on it; of the best model in a diagnosis.")
     holdout_rmse: float | None = Field(description="The same with whole groups left out of the fit.")
+    left_out_rmse: float | None = Field(
+        default=None,
+        description="Of a diagnosis of several: error of the model fitted to the other specimens alone.",
+    )
+    left_out_percent: float | None = Field(
+        default=None, description="The same in percent of the largest magnitude measured on it."
+    )
     experiment: dict[str, ExperimentValue] = Field(
         description="Values of its experiment, each with its origin."
     )
