@@ -207,7 +207,7 @@ def test_a_file_that_is_no_measurement_says_so(page: Page, page_guard: PageGuard
 
 def test_dropped_anywhere(page: Page, sweeps: FilePayload) -> None:
     page.goto("/")
-    expect(page.locator("#preset option", has_text="DMSP-20")).to_be_attached()
+    expect(page.locator('#preset option[value="DMSP-20"]')).to_be_attached()
     drop(page, {**sweeps, "name": "dropped.csv"})
     use(page)
     expect(page.locator(".file")).to_contain_text("dropped.csv")

@@ -323,7 +323,7 @@ def test_inverse_questions(page: Page) -> None:
 def no_presets_left(server: RunningServer) -> Iterator[None]:
     """The server is shared by all tests: what one saves is gone before the next."""
     yield
-    for path in server.presets.rglob("DMSP-20-mine.json"):
+    for path in server.presets.rglob("DMSP-20-*.json"):
         path.unlink()
 
 

@@ -43,7 +43,7 @@ def test_from_a_dropped_file_to_the_first_comparison(page: Page) -> None:
     """A new user with a file of a laboratory: at most five actions, none of which is taken back."""
     page.route("**/api/diagnoses", lambda route: None)
     page.goto("/")
-    expect(page.locator("#preset option", has_text="DMSP-20")).to_be_attached()
+    expect(page.locator('#preset option[value="DMSP-20"]')).to_be_attached()
     content = (CORPUS / "lab_de.csv").read_bytes()
     drop(page, {"name": "lab_de.csv", "mimeType": "text/csv", "buffer": content})
     actions = 1

@@ -56,6 +56,9 @@ STUDY = {
 #: Every route of the interface: (method, path of the description) -> (path, what is sent).
 REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("POST", "/api/curves"): ("/api/curves", {"json": {"muscle": MINE}}),
+    ("POST", "/api/signatures"): (
+        "/api/signatures", {"json": {"muscle": MINE, "effect": "coulomb_friction"}},
+    ),
     ("POST", "/api/simulations"): ("/api/simulations", {"json": {"drive": DRIVE, "points": 11}}),
     ("POST", "/api/linearisations"): ("/api/linearisations", {"json": {"drive": DRIVE}}),
     ("POST", "/api/inverse"): (

@@ -22,7 +22,7 @@ _NUMBER = r"[0-9]+(?:[.,][0-9]+)?"
 _QUANTITY = re.compile(rf"(?<![\w.,])({_NUMBER})\s*([^\W\d_]+)(?![\w.,]*\d)")
 _SENTENCES = re.compile(r"[;|]|[.!](?=\s|$)")
 _LARGE = 0.9  # of the largest load
-_G = float(convert([1.0], "kgf", "N")[0])  # m/s2
+_G = 9.80665  # m/s2, standard gravity
 
 
 class Hanger(NamedTuple):
