@@ -218,7 +218,7 @@ def _placed_units(names: str, units: str) -> list[str] | None:
     A unit belongs to the name whose end or middle is nearest; the first column may have none.
     """
     heads = list(re.finditer(r"\S+(?:\s[\[(]\S+)?", names.expandtabs()))
-    found = list(re.finditer(r"\S+", units.expandtabs()))
+    found = list(re.finditer(r"\([^()]*\)|\[[^\[\]]*\]|\S+", units.expandtabs()))
     if not found or len(found) > len(heads) or any(unit_of(word[0]) is None for word in found):
         return None
     cells = [""] * len(heads)

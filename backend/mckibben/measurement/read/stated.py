@@ -299,7 +299,7 @@ def in_known_words(notes: Iterable[Note]) -> list[Note]:
             if reference is not None and any(channel_of_word(word) == "pressure" for word in words):
                 renamed.append(note._replace(key="pressure", value="absolute" if reference else "gauge"))
                 continue
-            unit = head.unit or (quantity.unit if quantity else None)
+            unit = head.unit or (quantity.unit if quantity else None) or _unit_at_the_end(note.key)
             known = (
                 _key_of(_Quantity(words, "", unit)) if quantity or not isinstance(note.value, str) else None
             )
@@ -316,6 +316,13 @@ def in_known_words(notes: Iterable[Note]) -> list[Note]:
             note = _in_millimetres(note)
         renamed.append(note)
     return renamed
+
+
+def _unit_at_the_end(key: str) -> str | None:
+    """The unit of a pressure, a length or a load behind the last mark of a name: ``barometer_Pa``."""
+    name, _, last = key.strip().rpartition("_")
+    unit = unit_of(last) if name else None
+    return unit.unit if unit and dimension_of(unit.unit) == "a pressure" else None
 
 
 def notes_of_code(note: Note) -> list[Note]:
