@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mckibben.measurement.question import Question
+from mckibben.measurement.read.air import AIR
 from mckibben.measurement.read.conditions import CONDITION_UNITS, Constant, Note, condition_value, key_of
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, is_numeric
@@ -78,7 +79,7 @@ def _constants(source: RawTable, meaning: Meaning) -> list[Constant]:
         except InputError:
             continue
         notes = [note for value in values[: _MOST_VALUES + 1] if (note := _condition(name, float(value)))]
-        if notes and len(values) <= _MOST_VALUES:
+        if notes and (len(values) <= _MOST_VALUES or notes[0].key == AIR):
             found.append(Constant(index, notes[0].key, tuple(str(note.value) for note in notes)))
     return found
 

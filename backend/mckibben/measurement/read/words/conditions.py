@@ -83,6 +83,12 @@ REMARKS = {
         "el": "ατμοσφαιρική", "uk": "атмосферний барометричний", "bg": "атмосферно",
         "hr": "atmosferski okoline", "sl": "atmosferski",
     },
+    "barometer": {
+        "en": "baro barometer barometric patm pamb", "de": "luftdruck barometer", "fr": "baromètre",
+        "it": "barometro", "es": "barómetro", "pt": "barômetro", "pl": "barometr", "cs": "barometrický barometr",
+        "ru": "барометр", "ja": "大気圧 気圧計", "zh": "大气压 气压计", "ko": "대기압", "sv": "lufttryck",
+        "da": "lufttryk", "fi": "ilmanpaine", "hu": "légnyomás", "nl": "luchtdruk barometer",
+    },
     "sample": {
         "en": "specimen sample dut", "de": "probe prüfling prüfgegenstand", "fr": "éprouvette",
         "it": "provino campione", "es": "probeta muestra", "pt": "amostra provete", "pl": "próbka",
