@@ -1,4 +1,4 @@
-"""The pressure of the surrounding air, which an absolute pressure contains: its unit, one value or one per row."""
+"""The pressure of the surrounding air, which an absolute pressure contains: its unit, a value or one per row."""
 
 from __future__ import annotations
 
@@ -66,9 +66,7 @@ def air_of_rows(table: CellTable, column: Constant) -> NDArray[np.float64]:
     return convert(table.numbers[column.place], unit, "Pa")
 
 
-def air_questions(
-    conditions: Mapping[str, float | str], used: Mapping[str, HeaderColumn]
-) -> list[Question]:
+def air_questions(conditions: Mapping[str, float | str], used: Mapping[str, HeaderColumn]) -> list[Question]:
     """A question where the air that a file states cannot be: an absolute pressure would be read wrong."""
     said = conditions.get(AIR)
     column = used.get("pressure")
@@ -81,7 +79,7 @@ def air_questions(
             "pressure of the surrounding air",
             f"the pressure of the surrounding air is read as {said:.6g} Pa, which cannot be, and column "
             f"'{column.header}' is absolute; what was it",
-            f'correct it in the file, or say how much it was above {ATMOSPHERE / 100.0:g} hPa: '
+            f"correct it in the file, or say how much it was above {ATMOSPHERE / 100.0:g} hPa: "
             '--experiment "pressure_zero=-60 hPa"',
             column.header,
         )

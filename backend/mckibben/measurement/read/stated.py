@@ -306,7 +306,9 @@ def in_known_words(notes: Iterable[Note]) -> list[Note]:
                 continue
             unit = head.unit or (quantity.unit if quantity else None) or _unit_at_the_end(note.key)
             known = (
-                _key_of(_Quantity(words, str(note.value), unit)) if quantity or not isinstance(note.value, str) else None
+                _key_of(_Quantity(words, str(note.value), unit))
+                if quantity or not isinstance(note.value, str)
+                else None
             )
             if known is None and words and words[0] in _SAMPLES and isinstance(note.value, str):
                 renamed += [note._replace(key="sample"), *notes_of_code(note)]
@@ -320,7 +322,9 @@ def in_known_words(notes: Iterable[Note]) -> list[Note]:
         if key == "nominal_length" and unit is None:
             note = _in_millimetres(note)
         if key == AIR and unit is None and (shown := unit_of_air(note.value)) is not None:
-            note = note._replace(value=f"{note.value} {shown}", where=f"{note.where}, no unit: read as {shown}")
+            note = note._replace(
+                value=f"{note.value} {shown}", where=f"{note.where}, no unit: read as {shown}"
+            )
         renamed.append(note)
     return renamed
 
