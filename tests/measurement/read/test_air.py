@@ -1,4 +1,4 @@
-"""The surrounding air that an absolute pressure contains: one value, one per run, one per row, an impossible one."""
+"""The air that an absolute pressure contains: one value, one of each run or row, an impossible one."""
 
 from __future__ import annotations
 
@@ -64,6 +64,6 @@ def test_a_barometer_in_a_column_counts_row_by_row() -> None:
 
 def test_an_impossible_barometer_is_asked_about_and_answered() -> None:
     text = f"# rest length 300 mm\n# ambient_pressure: 300 kPa\n{HEAD}{ABSOLUTE}".encode()
-    with pytest.raises(InputError, match="surrounding air.*cannot be.*pressure_zero"):
+    with pytest.raises(InputError, match=r"surrounding air.*cannot be.*pressure_zero"):
         read_measurement(text, "a.csv")
     read_measurement(text, "a.csv", Correction(conditions={"pressure_zero": AIR - 101_325.0}))

@@ -1,4 +1,4 @@
-"""Loggers name their channels above the table: a row for each, a column for each, labels before rows; pages."""
+"""Loggers name their channels above the table, in rows, columns or behind labels; pages; messages."""
 
 from __future__ import annotations
 
@@ -52,8 +52,9 @@ def test_a_logger_in_shift_jis_beside_english_names() -> None:
 
 
 def test_pages_with_units_in_brackets_below_the_names() -> None:
-    head = "{}PAGE {}\r\nREST LENGTH 300 MM\r\nSTROKE IS SHORTENING\r\n\r\n  TIME  PRESSURE   FORCE  STROKE   TEMP\r\n"
-    units = " (SEC)     (BAR)     (N)    (MM)  (DEG F)\r\n\r\n"
+    head = "{}PAGE {}\r\nREST LENGTH 300 MM\r\nSTROKE IS SHORTENING\r\n\r\n"
+    names = "  TIME  PRESSURE   FORCE  STROKE   TEMP\r\n"
+    units = names + " (SEC)     (BAR)     (N)    (MM)  (DEG F)\r\n\r\n"
     lines = [f"{t:6.1f} {p:9.2f} {f:7.1f} {s:7.2f} {68.0:6.1f}\r\n"
              for t, p, f, s in zip(TIME, PRESSURE, FORCE, STROKE, strict=True)]  # fmt: skip
     text = "".join([head.format("", 1), units, *lines[:25], head.format("\f", 2), units, *lines[25:]])
@@ -64,7 +65,8 @@ def test_pages_with_units_in_brackets_below_the_names() -> None:
 
 def test_messages_printed_one_after_the_other() -> None:
     text = "".join(
-        f'header: \n  stamp: \n    secs: {1716200000 + int(t)}\n    nsecs: {int(1e9 * (t % 1)):9d}\n  frame_id: "a"\n'
+        f"header: \n  stamp: \n    secs: {1716200000 + int(t)}\n    nsecs: {int(1e9 * (t % 1)):9d}\n"
+        '  frame_id: "a"\n'
         f"pressure_bar: {p}\nforce_N: {f}\nstroke_mm: {s}\nenabled: True\n---\n"
         for t, p, f, s in zip(TIME, PRESSURE, FORCE, STROKE, strict=True)
     )
@@ -81,6 +83,7 @@ def test_the_mass_of_the_load_in_every_row_is_a_condition() -> None:
 
 
 def test_rows_of_two_lists_of_different_keys_stay_a_question() -> None:
+    points = "[[0, 1], [1, 2], [2, 3]]"
+    text = f'{{"point": ["stroke_mm", "force_N"], "a": {points}, "b": {points}}}'
     with pytest.raises(InputError):
-        points = "[[0, 1], [1, 2], [2, 3]]"
-        read(f'{{"point": ["stroke_mm", "force_N"], "a": {points}, "b": {points}}}', "a.json")
+        read(text, "a.json")

@@ -1,4 +1,4 @@
-"""The pressure of the surrounding air, which an absolute pressure contains: its unit, a value or one per row."""
+"""The surrounding air, which an absolute pressure contains: its unit, one value or one per row."""
 
 from __future__ import annotations
 

@@ -24,11 +24,8 @@ def listed_above(grid: Grid, index: int) -> dict[str, str]:
     names and to name two channels, one of them perhaps by its unit only; a word beside the name that is no
     channel's says nothing. What a row says of absolute or gauge goes with it.
     """
-    unknown = {
-        taken_apart(name).name: name
-        for name in texts_of(grid.cells(index))
-        if name and not names_channel(name)
-    }
+    head = texts_of(grid.cells(index))
+    unknown = {taken_apart(name).name: name for name in head if name and not names_channel(name)}
     unknown.pop("", None)
     return _by_rows(grid, index, unknown) or _by_columns(grid, index, unknown)
 
@@ -85,7 +82,7 @@ def _named(said: Mapping[str, str]) -> int:
 
 
 def _with_reference(cells: Sequence[str]) -> str:
-    """What a list calls a channel, and whether its pressure is absolute or gauge where another cell says so."""
+    """What a list calls a channel, and whether another cell says that its pressure is absolute or gauge."""
     mark = next((c for c in cells[1:] if reference_among(words_of(c)) is not None), "")
     return cells[0] if reference_among(words_of(cells[0])) is not None or not mark else f"{cells[0]} {mark}"
 

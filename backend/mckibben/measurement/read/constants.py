@@ -51,7 +51,7 @@ def with_constants(source: RawTable, meaning: Meaning) -> Meaning:
 
 
 def _without_hung_mass(source: RawTable, meaning: Meaning) -> Meaning:
-    """The meaning without a force that is the mass of the load, the same in all rows: a condition of the test."""
+    """The meaning without a force that is the mass of the load, the same in all rows: a condition."""
     for column in meaning.columns:
         if column.use != "force" or column.origin != "file" or key_of(column.header)[0] != "load_mass":
             continue

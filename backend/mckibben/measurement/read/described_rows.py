@@ -84,7 +84,7 @@ def _names_channels(value: Sequence[Any]) -> bool:
 
 
 def _with_heads(document: Any, heads: Sequence[str], names: list[Any]) -> dict[str, Any] | None:
-    """The document with its rows of as many numbers as records; None = it has none, or several of other names.
+    """The document with its rows of as many numbers as records; None = it has none, or of several names.
 
     Rows of several runs stand under the same key of each.
     """

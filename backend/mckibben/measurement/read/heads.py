@@ -96,7 +96,7 @@ def _completed(names: Sequence[str], other: Sequence[str]) -> list[str]:
     """
     channels = {recognise(name).channel for name in names if name}
     full = sum(map(bool, other)) >= sum(map(bool, names)) > 1
-    # A row of its own for the columns that a list of channels, "Tag,,,PIC-1,WT-1", leaves out: "Date,Time,ms".
+    # A row of its own, "Date,Time,ms", for the columns that a list of channels, "Tag,,,P1,F1", leaves out.
     beside = sum(map(bool, other)) > 1 and not any(
         name and cell for name, cell in list(zip(names, other, strict=False))[1:]
     )

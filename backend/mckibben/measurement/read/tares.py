@@ -200,8 +200,8 @@ def zero_questions(
     return [
         Question(
             "zero of force",
-            f"column '{column.header}' is read by the sensitivity of its load cell, and neither the file nor a "
-            f"reading (all from {smallest:.4g} N on) says what it shows without pull",
+            f"column '{column.header}' is read by the sensitivity of its load cell, and neither the file "
+            f"nor a reading (all from {smallest:.4g} N on) says what it shows without pull",
             '--experiment "force_zero=0 N"',
             column.header,
         )

@@ -85,7 +85,7 @@ REMARKS = {
     },
     "barometer": {
         "en": "baro barometer barometric patm pamb", "de": "luftdruck barometer", "fr": "baromètre",
-        "it": "barometro", "es": "barómetro", "pt": "barômetro", "pl": "barometr", "cs": "barometrický barometr",
+        "it": "barometro", "es": "barómetro", "pt": "barômetro", "pl": "barometr", "cs": "barometrický",
         "ru": "барометр", "ja": "大気圧 気圧計", "zh": "大气压 气压计", "ko": "대기압", "sv": "lufttryck",
         "da": "lufttryk", "fi": "ilmanpaine", "hu": "légnyomás", "nl": "luchtdruk barometer",
     },
