@@ -67,3 +67,8 @@ def test_an_impossible_barometer_is_asked_about_and_answered() -> None:
     with pytest.raises(InputError, match=r"surrounding air.*cannot be.*pressure_zero"):
         read_measurement(text, "a.csv")
     read_measurement(text, "a.csv", Correction(conditions={"pressure_zero": AIR - 101_325.0}))
+
+
+def test_two_barometers_are_asked_about() -> None:
+    with pytest.raises(InputError, match=r"surrounding air is stated as 953.1 hPa and as 972 hPa"):
+        read(f"# rest length 300 mm\n# barometer at start: 953.1 hPa\n# barometer at end: 972 hPa\n{HEAD}{ABSOLUTE}")

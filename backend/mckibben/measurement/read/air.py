@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from math import isclose
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.cells import CellTable
-from mckibben.measurement.read.conditions import ATMOSPHERE, Constant
+from mckibben.measurement.read.conditions import ATMOSPHERE, Constant, Note, condition_value
 from mckibben.measurement.read.header import HeaderColumn
 from mckibben.physics.units import convert
 
+_SAME = 1e-3  # relative; values that differ by less are the same one, rounded
 AIR = "ambient_pressure"
 _POSSIBLE = (5e4, 1.1e5)  # Pa; of the air where people work
 #: Unit -> what a barometer shows in it, from 2000 m above the sea to a high at the sea; none overlap.
@@ -66,21 +68,34 @@ def air_of_rows(table: CellTable, column: Constant) -> NDArray[np.float64]:
     return convert(table.numbers[column.place], unit, "Pa")
 
 
-def air_questions(conditions: Mapping[str, float | str], used: Mapping[str, HeaderColumn]) -> list[Question]:
-    """A question where the air that a file states cannot be: an absolute pressure would be read wrong."""
+def air_questions(
+    conditions: Mapping[str, float | str], used: Mapping[str, HeaderColumn], notes: Sequence[Note]
+) -> list[Question]:
+    """A question where the air that a file states cannot be, or is stated twice: a pressure would be wrong.
+
+    Only an absolute pressure needs it; the zero of that pressure, by the user, is an answer.
+    """
     said = conditions.get(AIR)
     column = used.get("pressure")
-    if column is None or not column.absolute or not isinstance(said, float) or is_possible(said):
+    if column is None or not column.absolute or not isinstance(said, float) or "pressure_zero" in conditions:
         return []
-    if "pressure_zero" in conditions:
+    stated = list(dict.fromkeys(str(note.value) for note in notes if note.key == AIR))
+    values = [condition_value(AIR, value, where=AIR, field=AIR) for value in stated]
+    twice = any(isinstance(v, float) and not isclose(v, said, rel_tol=_SAME) for v in values)
+    if is_possible(said) and not twice:
         return []
+    what = (
+        f"is stated as {' and as '.join(stated[:3])}, which one counts"
+        if twice
+        else f"is read as {said:.6g} Pa, which cannot be, what was it"
+    )
+    air = said if is_possible(said) else ATMOSPHERE
     return [
         Question(
             "pressure of the surrounding air",
-            f"the pressure of the surrounding air is read as {said:.6g} Pa, which cannot be, and column "
-            f"'{column.header}' is absolute; what was it",
-            f"correct it in the file, or say how much it was above {ATMOSPHERE / 100.0:g} hPa: "
-            '--experiment "pressure_zero=-60 hPa"',
+            f"column '{column.header}' is absolute, and the pressure of the surrounding air {what}",
+            f"leave one value in the file, or say how much it was above {air / 100.0:g} hPa: "
+            '--experiment "pressure_zero=-6 hPa"',
             column.header,
         )
     ]

@@ -172,7 +172,7 @@ def assemble(
         messages.append(f"{left_out.rows} rows left out: {reason} (first: {left_out.first})")
     questions = questions_of(_evidence(source, meaning, reading, by_use, columns, correction))
     tare += zero_questions(columns, by_use, source.unzeroed, conditions) if not tare else []
-    tare += air_questions(conditions, by_use)
+    tare += air_questions(conditions, by_use, source.notes)
     weighed = {*correction.conditions, *(column.key for column in meaning.constants)}
     questions += tare
     questions += condition_questions(source.rest, source.notes, conditions, columns, weighed)
