@@ -76,8 +76,18 @@ def test_volts_by_formulas() -> None:
 
 def test_a_bridge_by_its_sensitivity_in_two_lines() -> None:
     remarks = "# load cell: rated load 2000 N\n# load cell: sensitivity 2.0 mV/V\n"
-    text = f"{REST}{remarks}t [s],p [bar],load cell [mV/V],s [mm]\n"
+    text = f"{REST}{remarks}# bridge balanced before the test\nt [s],p [bar],load cell [mV/V],s [mm]\n"
     assert_is_the_test(read(text + table(TIME, PRESSURE, FORCE / 1000.0, STROKE)))
+
+
+def test_the_zero_of_a_bridge_that_nothing_shows_is_asked_about() -> None:
+    text = f"{REST}# load cell 2 mV/V, rated load 2000 N\nt [s],p [bar],load cell [mV/V],s [mm]\n"
+    with pytest.raises(InputError, match=r"load cell.*without pull.*force_zero"):
+        read(text + table(TIME, PRESSURE, FORCE / 1000.0, STROKE))
+    slack = read(
+        text + table(TIME, PRESSURE, (FORCE - FORCE.min()) / 1000.0, STROKE)
+    )  # comes down to nothing
+    assert slack.columns["force"].max() == pytest.approx(FORCE.max() - FORCE.min())
 
 
 def test_per_cent_of_full_scale() -> None:

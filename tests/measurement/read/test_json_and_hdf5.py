@@ -27,6 +27,13 @@ JSON = {
         "meta": {"L0": "300 mm"}, "columns": ["p_bar", "force_N", "stroke_mm"],
         "data": [list(row.values()) for row in ROWS],
     },
+    "points of runs whose names stand once": {
+        "rest_length_mm": 300, "point": ["stroke_mm", "force_N"],
+        "runs": [
+            {"p_bar": p, "points": [list(pair) for pair in zip(stroke, force, strict=True)]}
+            for p, (force, stroke) in BY_PRESSURE.items()
+        ],
+    },
     "signals": {
         "rest_length": {"value": 300, "unit": "mm"},
         "signals": [

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mckibben.measurement.kind import FORCE_KINDS
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES, Measurement, StatedValue, build
 from mckibben.measurement.question import Question
+from mckibben.measurement.read.air import air_questions, column_of_air
 from mckibben.measurement.read.cells import CellTable, Skip
 from mckibben.measurement.read.channels import ChannelReading, read_channels
 from mckibben.measurement.read.checks import questions_of
@@ -29,7 +30,7 @@ from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.signs import FORCE_SIGN, STROKE_SIGN
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import KIND_SAID, REFERENCE_OF
-from mckibben.measurement.read.tares import notes_of_tares, subtract_tare
+from mckibben.measurement.read.tares import notes_of_tares, subtract_tare, zero_questions
 from mckibben.physics.errors import InputError
 
 _FEWEST_TO_TURN = 3  # rows
@@ -77,15 +78,17 @@ def conditions_of(
     return conditions
 
 
-def rows_of(source: RawTable, columns: list[HeaderColumn], *, skip: bool) -> CellTable:
-    """The rows of the columns that are used."""
-    numeric = [c.place for c in columns if c.use not in TEXT_COLUMNS]
+def rows_of(
+    source: RawTable, columns: list[HeaderColumn], *, skip: bool, beside: Sequence[int] = ()
+) -> CellTable:
+    """The rows of the columns that are used; ``beside``: other columns of numbers that are needed."""
+    numeric = [*(c.place for c in columns if c.use not in TEXT_COLUMNS), *beside]
     text = [c.place for c in columns if c.use in TEXT_COLUMNS]
     return source.read(numeric, text, skip)
 
 
 def rows_of_needed(
-    source: RawTable, columns: list[HeaderColumn], *, skip: bool
+    source: RawTable, columns: list[HeaderColumn], *, skip: bool, beside: Sequence[int] = ()
 ) -> tuple[CellTable, list[HeaderColumn], list[str]]:
     """(rows, columns that are read, what was left out): a column that no row needs costs none.
 
@@ -93,7 +96,7 @@ def rows_of_needed(
     """
     optional = _optional(columns)
     try:
-        table = rows_of(source, columns, skip=skip)
+        table = rows_of(source, columns, skip=skip, beside=beside)
         if not optional or not table.skipped:
             return table, columns, []
     except InputError:
@@ -112,7 +115,7 @@ def rows_of_needed(
         if lost > 0:
             columns = without
             said.append(f"{source.noun} '{column.header}' is not used: it holds no number in {lost} rows")
-    return rows_of(source, columns, skip=skip), columns, said
+    return rows_of(source, columns, skip=skip, beside=beside), columns, said
 
 
 def _optional(columns: list[HeaderColumn]) -> list[HeaderColumn]:
@@ -146,11 +149,14 @@ def assemble(
     conditions = conditions_of(source, meaning, correction, messages)
     messages += meaning.messages
     skip = correction.skip_bad_rows or str(conditions.get("bad_rows", "")).lower() == "skip"
-    table, used, said = rows_of_needed(source, meaning.columns, skip=skip)
+    air = column_of_air(meaning.constants, meaning.columns, conditions)
+    table, used, said = rows_of_needed(
+        source, meaning.columns, skip=skip, beside=() if air is None else (air.place,)
+    )
     messages += said
     ignored = [*meaning.ignored, *(c.header for c in meaning.columns if c not in used)]
     reading = ChannelReading(
-        source.place, source.noun, table, conditions, messages, ignored, skip, source.clocks, source.rest
+        source.place, source.noun, table, conditions, messages, ignored, skip, source.clocks, source.rest, air
     )
     columns, by_use, slack = read_channels(used, reading)
     slack = _oldest_first(columns, by_use, slack, source, messages)
@@ -165,6 +171,8 @@ def assemble(
     for reason, left_out in skipped.items():
         messages.append(f"{left_out.rows} rows left out: {reason} (first: {left_out.first})")
     questions = questions_of(_evidence(source, meaning, reading, by_use, columns, correction))
+    tare += zero_questions(columns, by_use, source.unzeroed, conditions) if not tare else []
+    tare += air_questions(conditions, by_use, source.notes)
     weighed = {*correction.conditions, *(column.key for column in meaning.constants)}
     questions += tare
     questions += condition_questions(source.rest, source.notes, conditions, columns, weighed)

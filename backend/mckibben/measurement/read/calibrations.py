@@ -41,6 +41,7 @@ _SPANNED = re.compile(
 _BRIDGED = re.compile(rf"({_NUMBER})\s*(?:mV\s*/\s*V)")
 _OF_HEAD = re.compile(rf"%\s*(?:of|von|de|di|van|av|FS)?\s*[=:]?\s*({_NUMBER})\s*([^\W\d_]+[2²]?)")
 _RANGES, _ZEROS = word_set(words.RANGE), word_set(words.ZERO)
+_BALANCED = word_set(words.BALANCED)
 _ANY_SIGNAL = word_set(words.SIGNAL)
 _SAME = 1e-6
 _SCALED = ("pressure", "force", "length", "displacement", "extension")
@@ -206,7 +207,14 @@ def _by_sensitivity(name: str, texts: Texts) -> Iterator[Scale]:
         return
     ((high, unit, text, where),) = spans.values()
     slope = high / rated.pop()
-    yield Scale(slope, -slope * next(iter(zero), 0.0), BRIDGE, unit, name, f"'{text}'", where)
+    zeroed = bool(zero) or any(_is_balanced(text) for text, _ in texts)
+    yield Scale(slope, -slope * next(iter(zero), 0.0), BRIDGE, unit, name, f"'{text}'", where, zeroed)
+
+
+def _is_balanced(text: str) -> bool:
+    """Whether a text says that a force or a bridge was set to zero before the test."""
+    said = words_of(text)
+    return bool(set(said) & _BALANCED) and not {*map(channel_of_word, said)} & {"pressure", "displacement"}
 
 
 def _by_range(name: str, texts: Texts) -> Iterator[Scale]:

@@ -11,8 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
+from mckibben.measurement.read.air import AIR, Air, air_of_rows, ambient_of
 from mckibben.measurement.read.cells import CellTable, Labels, no_rows
-from mckibben.measurement.read.conditions import ATMOSPHERE
+from mckibben.measurement.read.conditions import Constant
 from mckibben.measurement.read.correction import SAMPLE, SLACK
 from mckibben.measurement.read.directions import direction_of
 from mckibben.measurement.read.head_text import channel_number
@@ -31,7 +32,6 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
 LARGEST = 1e100  # no physical value is; keeps sums and ranges of a column finite
-_AIR = (5e4, 1.1e5)  # Pa; of the air where people work
 _NO_NUMBER = (9e36, 1.1e38)  # what instruments send for "overflow" and "no number"
 _SENTINELS = (-9999.0, -999.0, -99999.0, -999.25, -9999.99, 9999.0, 99999.0, 999999.0)
 _FAR = 3.0  # times all other numbers of the column
@@ -54,12 +54,12 @@ class ChannelReading:
     skip: bool = False
     clocks: frozenset[int] = frozenset()
     texts: Sequence[tuple[str, str]] = ()
+    air: Constant | None = None
 
     @property
-    def ambient(self) -> float:
-        """Pressure of the surrounding air [Pa]: that of the file where it states a possible one."""
-        said = self.conditions.get("ambient_pressure")
-        return said if isinstance(said, float) and _AIR[0] <= said <= _AIR[1] else ATMOSPHERE
+    def ambient(self) -> Air:
+        """Pressure of the surrounding air [Pa]: one per row where a column holds it, else one for all."""
+        return ambient_of(self.conditions) if self.air is None else air_of_rows(self.table, self.air)
 
     def drop(self, column: HeaderColumn, why: str) -> None:
         """Do not use a column."""
@@ -238,11 +238,13 @@ def _values(column: HeaderColumn, reading: ChannelReading) -> _Values:
 
 def _say_reference(column: HeaderColumn, reading: ChannelReading) -> None:
     label = f"{reading.noun} '{column.header}'"
-    if column.absolute:
-        stated = (
-            "ambient_pressure" in reading.conditions
-            and reading.ambient == reading.conditions["ambient_pressure"]
+    if column.absolute and reading.air is not None:
+        reading.messages.append(
+            f"{label} is absolute pressure: that of the surrounding air is subtracted row by row, "
+            f"{', '.join(reading.air.values[:2])} ..."
         )
+    elif column.absolute:
+        stated = AIR in reading.conditions and reading.ambient == reading.conditions[AIR]
         whose = "the surrounding air that the file states" if stated else "the standard atmosphere"
         reading.messages.append(f"{label} is absolute pressure: {reading.ambient:.0f} Pa subtracted, {whose}")
     elif column.absolute is None:

@@ -8,6 +8,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from mckibben.measurement.question import Question
+from mckibben.measurement.read.air import AIR
 from mckibben.measurement.read.conditions import CONDITION_UNITS, Constant, Note, condition_value, key_of
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, is_numeric
@@ -26,6 +27,7 @@ _SINGLE = {"nominal_length": ("rest length", "--rest-length"), "load_mass": ("lo
 
 def with_constants(source: RawTable, meaning: Meaning) -> Meaning:
     """The meaning with the columns that hold conditions; those of one value are no longer ignored."""
+    meaning = _without_hung_mass(source, meaning)
     found = _constants(source, meaning)
     found, loads = _loads_apart(source, meaning, found)
     if loads is not None:
@@ -46,6 +48,24 @@ def with_constants(source: RawTable, meaning: Meaning) -> Meaning:
         ignored=[header for header in meaning.ignored if header not in headers],
         reasons={**meaning.reasons, **held},
     )
+
+
+def _without_hung_mass(source: RawTable, meaning: Meaning) -> Meaning:
+    """The meaning without a force that is the mass of the load, the same in all rows: a condition."""
+    for column in meaning.columns:
+        if column.use != "force" or column.origin != "file" or key_of(column.header)[0] != "load_mass":
+            continue
+        try:
+            values = source.read([column.place], [], True).numbers[column.place]
+        except InputError:
+            continue
+        if len(values) and (values == values[0]).all():
+            weighed = f"{source.noun} '{column.header}' is a mass"
+            return meaning._replace(
+                columns=[c for c in meaning.columns if c is not column],
+                messages=[message for message in meaning.messages if not message.startswith(weighed)],
+            )
+    return meaning
 
 
 def _loads_apart(
@@ -78,7 +98,7 @@ def _constants(source: RawTable, meaning: Meaning) -> list[Constant]:
         except InputError:
             continue
         notes = [note for value in values[: _MOST_VALUES + 1] if (note := _condition(name, float(value)))]
-        if notes and len(values) <= _MOST_VALUES:
+        if notes and (len(values) <= _MOST_VALUES or notes[0].key == AIR):
             found.append(Constant(index, notes[0].key, tuple(str(note.value) for note in notes)))
     return found
 

@@ -80,6 +80,7 @@ def with_derived(source: RawTable, scales: Mapping[str, str] = MappingProxyType(
         [*source.units, *[None] * (len(source.headers) - len(source.units))],
     )
     said: list[str] = []
+    unzeroed: set[int] = set()
     pair = _seconds_and_parts(source)
     if pair is not None:
         whole, part, share = pair
@@ -103,6 +104,7 @@ def with_derived(source: RawTable, scales: Mapping[str, str] = MappingProxyType(
             else _scale(source, columns[index].place, headers[index], units[index])
         )
         if scale is not None:
+            unzeroed |= set() if scale.zeroed else {index}
             columns[index] = replace(column, factor=scale.factor, offset=scale.offset)
             said.append(
                 f"{source.noun} '{headers[index]}' is read by its scale, {scale.text} ({scale.where})"
@@ -114,7 +116,10 @@ def with_derived(source: RawTable, scales: Mapping[str, str] = MappingProxyType(
     if not said:
         return source
     messages = [*source.messages, *said]
-    return replace(_mapped(source, columns), headers=headers, units=tuple(units), messages=messages)
+    return replace(
+        _mapped(source, columns), headers=headers, units=tuple(units), messages=messages,
+        unzeroed=frozenset(unzeroed),
+    )  # fmt: skip
 
 
 def _counted(

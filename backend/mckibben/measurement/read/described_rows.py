@@ -48,23 +48,63 @@ def with_described_rows(document: Any) -> Any:
     lists = list(_lists(document, 0))
     described = [found for found in lists if _is_described(found)]
     if len(described) != 1:
-        return document
+        return document if described else _with_named_points(document, lists)
     (channels,) = described
     width = len(channels)
     renamed = _with_described_names(document, lists, channels)
     if renamed is not None:
         return renamed
-    tables = [rows for rows in lists if (table := _rows(rows, width)) is not None and table]
-    if len(tables) != 1:
-        return document
     heads = [_head(channel) for channel in channels]
     if len(set(heads)) != width or not any(recognise(head).channel for head in heads):
         return document
-    (rows,) = tables
-    records = [dict(zip(heads, row, strict=True)) for row in _rows(rows, width) or []]
     signs = {f"sign {number}": text for number, c in enumerate(channels) if (text := _sign(c))}
-    joined = _replaced(document, rows, records, channels)
+    joined = _with_heads(document, heads, channels)
     return {**joined, **signs} if isinstance(joined, dict) else document
+
+
+def _with_named_points(document: Any, lists: Sequence[list[Any]]) -> Any:
+    """The document with the rows of several runs as records under the one list of names further out.
+
+    ``{"point": ["shortening_mm", "force_N"], "runs": [{"p_bar": 2, "points": [[0, 570], ...]}, ...]}``; the
+    names are the only list of texts that name two channels, and no other rows have as many numbers.
+    """
+    named = [found for found in lists if _names_channels(found)]
+    if len(named) != 1 or not isinstance(document, dict):
+        return document
+    (names,) = named
+    heads = [str(name).strip() for name in names]
+    return _with_heads(document, heads, names) or document
+
+
+def _names_channels(value: Sequence[Any]) -> bool:
+    """Whether a list holds the different names of columns, two channels among them."""
+    if len(value) < 2 or not all(isinstance(name, str) for name in value) or len(set(value)) < len(value):
+        return False
+    return len({channel for name in value if (channel := recognise(name).channel)}) > 1
+
+
+def _with_heads(document: Any, heads: Sequence[str], names: list[Any]) -> dict[str, Any] | None:
+    """The document with its rows of as many numbers as records; None = it has none, or of several names.
+
+    Rows of several runs stand under the same key of each.
+    """
+    keys: set[str] = set()
+
+    def joined(value: Any, key: str, depth: int) -> Any:
+        if depth > _DEEPEST:
+            return value
+        if isinstance(value, dict):
+            return {k: joined(item, k, depth + 1) for k, item in value.items() if item is not names}
+        if not isinstance(value, list):
+            return value
+        table = _rows(value, len(heads))
+        if table:
+            keys.add(key)
+            return [dict(zip(heads, row, strict=True)) for row in table]
+        return [joined(v, key, depth + 1) for v in value] if value and isinstance(value[0], dict) else value
+
+    result = joined(document, "", 0)
+    return result if len(keys) == 1 and isinstance(result, dict) else None
 
 
 def _with_described_names(document: Any, lists: Sequence[list[Any]], channels: list[Any]) -> Any:

@@ -23,6 +23,7 @@ _KNOWN = frozenset(
 _SIGN_INSIDE = re.compile(r"[^\W\d_][³¥¯¹¿£\x80-\x9f][^\W\d_]|[^\W\d_][\x80-\x9f]|[\x80-\x9f][^\W\d_]")
 _RARE = re.compile("[ðþýÐÞÝ]")  # of Iceland in Latin-1, of Turkey in Windows-1254
 _MANY_ACCENTS = re.compile("[\u00c0-\u017f]{4,}")  # a word in other letters, taken for Latin ones
+_SEVERAL = 3  # words
 _CYRILLIC = re.compile("[\u0400-\u04ff]+")
 
 
@@ -55,8 +56,10 @@ def decoded_otherwise(data: bytes) -> tuple[str, str]:
             pass
     scores = {codec: _score(head.decode(codec, "replace")) for codec in _ALPHABETS}
     best = max(scores, key=lambda codec: scores[codec])  # the first of the best
-    if paired and (scores[best] <= 0 or best == "cp1251"):
-        codec = max(paired, key=lambda codec: paired[codec])
+    codec = max(paired, key=lambda codec: paired[codec], default="")
+    # Names of quantities in English, as loggers write them too, speak for no alphabet.
+    own = max(_score(head.decode(one, "replace"), ascii_too=False) for one in _ALPHABETS)
+    if paired and (scores[best] <= 0 or best == "cp1251" or (own <= 0 and paired[codec] >= _SEVERAL)):
         return data.decode(codec), candidates[codec]
     return data.decode(best, "replace"), _ALPHABETS[best]
 
@@ -73,8 +76,8 @@ def _known_words(text: str, *, ascii_too: bool = True) -> int:
     return found
 
 
-def _score(text: str) -> int:
+def _score(text: str, *, ascii_too: bool = True) -> int:
     """How well a text reads: known words count for it, letters and signs where none stand against it."""
     against = len(_SIGN_INSIDE.findall(text)) + len(_RARE.findall(text)) + len(_MANY_ACCENTS.findall(text))
     mixed = sum(1 for run in _CYRILLIC.findall(text) if not (run[1:].islower() or run.isupper()))
-    return 3 * _known_words(text) - against - 2 * mixed
+    return 3 * _known_words(text, ascii_too=ascii_too) - against - 2 * mixed

@@ -16,6 +16,8 @@ from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, kind_of
 BLANKS = " "
 SEPARATORS = ("\t", ";", ",", "|", BLANKS)
 _RULE = re.compile(r"[|:\-=+\s]*[-=]{2,}[|:\-=+\s]*")
+#: A word, with what stands in brackets behind it or alone: "(DEG F)", "Pressure(bar abs)".
+_BRACKETED = re.compile(r"(?:[^\s\[\](){}]*(?:\([^()]*\)|\[[^\[\]]*\]))+[^\s\[\]()]*|\S+")
 _SAMPLE = 600  # lines from which the separator is told
 
 
@@ -124,10 +126,11 @@ def column_letters(column: int) -> str:
 def split_line(line: str, separator: str) -> list[str]:
     """The cells of a line without blanks around them; quotes that do not match are kept."""
     if separator == BLANKS:
-        line = re.sub(r"\s+(?=[\[(])", "", line)
+        # A bracket belongs to the word before it, but not to another bracket some blanks away.
+        line = re.sub(r"(?<![\])\s])\s+(?=[\[(])|(?<=[\])])[ ](?=[\[(])", "", line)
         if line.count('"') > 1:
             return [cell.strip('"').strip() for cell in re.findall(r'"[^"]*"\S*|\S+', line)]
-        return line.split()
+        return _BRACKETED.findall(line) if "(" in line or "[" in line else line.split()
     if separator == "|":  # tables of notebooks have one at either end, and a line of dashes below the head
         line = line.strip()
         if _RULE.fullmatch(line):

@@ -5,18 +5,18 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 
+from mckibben.measurement.read.channel_lists import listed_above
 from mckibben.measurement.read.column_lists import listed_columns
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
 from mckibben.measurement.read.head_text import CHANNEL_NUMBER
 from mckibben.measurement.read.held import held_quantities
 from mckibben.measurement.read.locate import Run, TableHead, names_channel, texts_of
-from mckibben.measurement.read.recognise import BY_UNIT, recognise
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
-from mckibben.measurement.read.vocabulary import UNIT_WORDS, reference_among, words_of
+from mckibben.measurement.read.vocabulary import UNIT_WORDS, words_of
 
 _HEAD_ROWS = 8  # most rows of a head
-_LISTED_WITHIN = 200  # rows above a head in which its channels may be listed
 _UNITS_WITHIN = 40  # rows above a head in which its units may stand
 
 
@@ -38,7 +38,7 @@ def head_of(grid: Grid, run: Run, *, after: int = -1, at: int | None = None) -> 
     if not rows:
         return TableHead([""] * run.width, [None] * run.width, None, None, ())
     texts = {index: texts_of(grid.cells(index)) for index in rows}
-    lists = {index: _listed_above(grid, index) for index in rows}
+    lists = {index: listed_above(grid, index) for index in rows}
     named = at if at is not None else _row_of_names(texts, rows, run, lists)
     said = lists[named]
     above = texts[named]
@@ -96,12 +96,17 @@ def _completed(names: Sequence[str], other: Sequence[str]) -> list[str]:
     """
     channels = {recognise(name).channel for name in names if name}
     full = sum(map(bool, other)) >= sum(map(bool, names)) > 1
+    # A row of its own, "Date,Time,ms", for the columns that a list of channels, "Tag,,,P1,F1", leaves out.
+    beside = sum(map(bool, other)) > 1 and not any(
+        name and cell for name, cell in list(zip(names, other, strict=False))[1:]
+    )
     numbered = all(CHANNEL_NUMBER.fullmatch(cell) or names_channel(cell) for cell in other[1:] if cell)
     result = []
     for column, (name, cell) in enumerate(zip(names, other, strict=False)):
-        label = full and column == 0 and not names_channel(name) and recognise(name).unit is None
-        label = label and recognise(cell).channel == "time" and "time" not in channels and numbered
-        if (not name or label) and names_channel(cell):
+        label = column == 0 and not names_channel(name) and recognise(name).unit is None
+        label = label and recognise(cell).channel == "time" and "time" not in channels
+        label = label and ((full and numbered) or beside)
+        if (not name or label) and (names_channel(cell) or (beside and unit_of(cell) is not None)):
             name = cell
         elif full and names_channel(name) and CHANNEL_NUMBER.fullmatch(cell) and list(names).count(name) == 1:
             name = f"{cell} {name}"
@@ -155,38 +160,6 @@ def _without_row_names(grid: Grid, run: Run, names: Sequence[str]) -> bool:
     )
 
 
-def _listed_above(grid: Grid, index: int) -> dict[str, str]:
-    """The names of a row behind which the file says above what they are: ``CH1`` and ``CH1,Pressure,DC,10V``.
-
-    A list of channels has such a row for two of the names, and names two channels, one of them perhaps by its
-    unit only (``CH1,P muscle,...,kPa``); a word beside the name that is no channel's says nothing. What a row
-    says of absolute or gauge goes with it.
-    """
-    unknown = {name for name in texts_of(grid.cells(index)) if name and not names_channel(name)}
-    said: dict[str, str] = {}
-    sure: set[str] = set()
-    for above in range(max(0, index - _LISTED_WITHIN), index):
-        cells = [cell for cell in texts_of(grid.cells(above)) if cell]
-        if len(cells) < 2 or cells[0] not in unknown or cells[0] in sure:
-            continue
-        units = [cell for cell in cells[2:] if (unit := unit_of(cell)) and dimension_of(unit.unit)]
-        plain = names_channel(cells[1])
-        if not plain and not any(recognise(cells[1], u).channel and _lettered(cells[1], u) for u in units):
-            continue
-        mark = next((c for c in cells[2:] if reference_among(words_of(c)) is not None), "")
-        said[cells[0]] = cells[1] if reference_among(words_of(cells[1])) is not None or not mark else (
-            f"{cells[1]} {mark}"
-        )  # fmt: skip
-        if plain:
-            sure.add(cells[0])
-    return said if len(said) > 1 and sure else {}
-
-
-def _lettered(name: str, unit: str) -> bool:
-    """Whether a name says a channel by itself or by a letter that fits the unit, not by the unit alone."""
-    return recognise(name, unit).penalty < BY_UNIT
-
-
 def _continued(grid: Grid, named: int, index: int, names: Sequence[str]) -> list[str] | None:
     """Names that go on in another line of fixed width, "MUSCLE" over "LENGTH"; None = they do not.
 
@@ -218,7 +191,7 @@ def _placed_units(names: str, units: str) -> list[str] | None:
     A unit belongs to the name whose end or middle is nearest; the first column may have none.
     """
     heads = list(re.finditer(r"\S+(?:\s[\[(]\S+)?", names.expandtabs()))
-    found = list(re.finditer(r"\S+", units.expandtabs()))
+    found = list(re.finditer(r"\([^()]*\)|\[[^\[\]]*\]|\S+", units.expandtabs()))
     if not found or len(found) > len(heads) or any(unit_of(word[0]) is None for word in found):
         return None
     cells = [""] * len(heads)

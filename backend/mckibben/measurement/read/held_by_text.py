@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
-from mckibben.measurement.read.conditions import ATMOSPHERE
+from mckibben.measurement.read.air import ambient_of
 from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.header import HeaderColumn
 from mckibben.measurement.read.held import HeldQuantity, held_pressure, held_quantities
@@ -164,6 +164,4 @@ def _pascal(said: HeldQuantity, conditions: Mapping[str, float | str]) -> float:
     absolute = said.absolute
     if absolute is None:
         absolute = str(conditions.get("pressure", "")).lower().startswith("abs")
-    ambient = conditions.get("ambient_pressure")
-    air = ambient if isinstance(ambient, float) else ATMOSPHERE
-    return float(convert([said.value], said.unit, "Pa")[0]) - (air if absolute else 0.0)
+    return float(convert([said.value], said.unit, "Pa")[0]) - (ambient_of(conditions) if absolute else 0.0)

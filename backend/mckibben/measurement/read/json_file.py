@@ -320,7 +320,7 @@ def _head(head: str, units: Mapping[str, str]) -> str:
 
 def _cell(value: Any) -> Cell:
     if value is None or isinstance(value, (str, int, float)):
-        return None if isinstance(value, bool) else value
+        return int(value) if isinstance(value, bool) else value
     return str(value)[:80]
 
 

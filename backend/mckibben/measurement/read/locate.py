@@ -235,6 +235,10 @@ def with_broken_rows(grid: Grid, run: Run, head: TableHead) -> None:
     top = max(
         (row for row in (head.row, head.units_at) if row is not None and row < run.first), default=run.first
     )
+    for index in range(top + 1, run.first):  # rows of settings may stand between the rows of a head
+        kinds = [kind_of(cell) for cell in grid.cells(index)]
+        if kinds.count(TEXT) > 1 and NUMBER not in kinds and CLOCK not in kinds:
+            top = index
     above = [i for i in range(top + 1, run.first) if _is_broken(grid, i)] if head.row is not None else []
     last = run.last
     while last < len(grid) and (cells := [c for c in grid.cells(last) if kind_of(c) != GAP]):

@@ -15,11 +15,14 @@ from mckibben.measurement.read.mat import choose
 from mckibben.measurement.read.script_file import vectors_of_script
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.xml_file import is_html, is_xml, open_xml
-from mckibben.measurement.read.yaml_file import YamlError, document_of_yaml
+from mckibben.measurement.read.yaml_file import YamlError, document_of_yaml, documents_of_yaml
 from mckibben.physics.errors import InputError
 
 _LONGEST = 30_000_000  # characters
 _LONGEST_SLOW = 8_000_000  # of web pages and YAML
+#: Messages printed one after the other, as ``rostopic echo`` does.
+_DOCUMENT_ENDS = re.compile(r"(?m)^---[ \t]*$")
+_FEWEST_DOCUMENTS = 3
 _SCRIPTS = re.compile(
     r"(?m)^[ \t]*[A-Za-z_][^\n=<:]{0,60}(?:=|<-|:=)[ \t]*[A-Za-z_.]*[ \t]*[\[({]+\s*[-+.0-9]"
 )
@@ -41,6 +44,10 @@ def other_text(text: str, name: str, correction: Correction) -> tuple[str, RawTa
         return (text, open_xml(text, name, correction)) if is_xml(text) else (text, None)
     if is_latex(text):
         return text_of_latex(text), None
+    if len(_DOCUMENT_ENDS.findall(text)) >= _FEWEST_DOCUMENTS and len(text) <= _LONGEST_SLOW:
+        records = documents_of_yaml(text)
+        if records is not None:
+            return text, open_document(records, name, correction)
     suffix = PurePath(name).suffix.lower()
     if suffix in (".yaml", ".yml"):
         _check_length(text, name, "YAML text")

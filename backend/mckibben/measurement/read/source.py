@@ -42,6 +42,7 @@ class RawTable:
         choices: other tables of the file that could be meant: (option that picks it, what it is).
         raw: the first rows as they stand in the file; None where the format has no rows.
         tables: the tables that the user may pick by name, and whether each is read.
+        unzeroed: columns read by a scale of which the file does not say at which reading the value is 0.
     """
 
     place: str
@@ -61,6 +62,7 @@ class RawTable:
     choices: tuple[tuple[str, str], ...] = ()
     raw: RawRows | None = None
     tables: tuple[tuple[str, bool], ...] = ()
+    unzeroed: frozenset[int] = frozenset()
 
 
 def array_source(

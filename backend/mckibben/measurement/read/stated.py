@@ -8,6 +8,7 @@ from functools import cache
 from pathlib import PurePath
 from typing import NamedTuple
 
+from mckibben.measurement.read.air import AIR, unit_of_air
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
 from mckibben.measurement.read.head_text import channel_number, taken_apart
 from mckibben.measurement.read.signs import signs_of
@@ -64,6 +65,7 @@ _POSITIONS = word_set(POSITION)
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
+_BAROMETERS = REMARK_WORDS["barometer"]
 _SAMPLES, _DATES, _AMBIENT = REMARK_WORDS["sample"], REMARK_WORDS["date"], REMARK_WORDS["ambient"]
 _REST_LENGTHS = re.compile(
     "|".join([r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)",
@@ -142,7 +144,8 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
     for quantity in (*_quantities(text), *_glued(text)):
         key = _key_of(quantity)
         if key is not None:
-            yield key, f"{quantity.value} {quantity.unit}" if quantity.unit else quantity.value
+            unit = quantity.unit or (unit_of_air(quantity.value) if key == AIR else None)
+            yield key, f"{quantity.value} {unit}" if unit else quantity.value
     if words and words[0] in _SAMPLES:
         value = re.sub(r"^\s*[^\s:;=,]+\s*(?:label|name|nr\.?|no\.?|id)?\s*[:;=,]?\s*", "", text).strip()
         if value and not re.match(
@@ -224,7 +227,9 @@ def _key_of(quantity: _Quantity) -> str | None:
     joined = "".join(quantity.words)
     measured = dimension_of(quantity.unit) if quantity.unit else ""
     if measured == "a pressure" and has_word(quantity.words, _AMBIENT):
-        return "ambient_pressure"
+        return AIR
+    if quantity.unit is None and unit_of_air(quantity.value) and has_word(quantity.words, _BAROMETERS):
+        return AIR  # "barometer 1013"
     if words & LOADLESS:
         return None
     if measured == "a length" and has_word(quantity.words[-3:], _POSITIONS):
@@ -299,9 +304,11 @@ def in_known_words(notes: Iterable[Note]) -> list[Note]:
             if reference is not None and any(channel_of_word(word) == "pressure" for word in words):
                 renamed.append(note._replace(key="pressure", value="absolute" if reference else "gauge"))
                 continue
-            unit = head.unit or (quantity.unit if quantity else None)
+            unit = head.unit or (quantity.unit if quantity else None) or _unit_at_the_end(note.key)
             known = (
-                _key_of(_Quantity(words, "", unit)) if quantity or not isinstance(note.value, str) else None
+                _key_of(_Quantity(words, str(note.value), unit))
+                if quantity or not isinstance(note.value, str)
+                else None
             )
             if known is None and words and words[0] in _SAMPLES and isinstance(note.value, str):
                 renamed += [note._replace(key="sample"), *notes_of_code(note)]
@@ -314,8 +321,19 @@ def in_known_words(notes: Iterable[Note]) -> list[Note]:
             unit = None
         if key == "nominal_length" and unit is None:
             note = _in_millimetres(note)
+        if key == AIR and unit is None and (shown := unit_of_air(note.value)) is not None:
+            note = note._replace(
+                value=f"{note.value} {shown}", where=f"{note.where}, no unit: read as {shown}"
+            )
         renamed.append(note)
     return renamed
+
+
+def _unit_at_the_end(key: str) -> str | None:
+    """The unit of a pressure, a length or a load behind the last mark of a name: ``barometer_Pa``."""
+    name, _, last = key.strip().rpartition("_")
+    unit = unit_of(last) if name else None
+    return unit.unit if unit and dimension_of(unit.unit) == "a pressure" else None
 
 
 def notes_of_code(note: Note) -> list[Note]:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Container, Iterable, Mapping
 from typing import NamedTuple
 
 import numpy as np
@@ -26,6 +26,7 @@ _OTHERS = frozenset(("pressure", "length", "displacement", "contraction", "time"
 #: A tare without unit is the only number of its sentence, at the end.
 _BARE = re.compile(rf"^[^0-9]*[:=\s]\s*({_NUMBER})\s*$")
 _NEAR = 40  # characters
+_NOTHING = 0.01  # of the largest reading
 _LARGE = 0.5  # of the largest reading; a tare is no measurement
 
 
@@ -177,6 +178,31 @@ def subtract_tare(
             f"'{column.header}' contain it; what do they show without pull",
             f'--experiment "force_zero={first.value:.4g} N", or --experiment "force_zero=0 N" where it is '
             "subtracted already",
+            column.header,
+        )
+    ]
+
+
+def zero_questions(
+    columns: Mapping[str, Array], by_use: Mapping[str, HeaderColumn], unzeroed: Container[int],
+    conditions: Mapping[str, float | str],
+) -> list[Question]:  # fmt: skip
+    """A question where a bridge is read by its sensitivity alone, and no reading shows its zero.
+
+    A force that comes down to nothing shows it: a muscle does not push.
+    """
+    force, column = columns.get("force"), by_use.get("force")
+    if force is None or column is None or not len(force) or column.place not in unzeroed:
+        return []
+    smallest, largest = float(np.min(np.abs(force))), float(np.max(np.abs(force)))
+    if "force_zero" in conditions or smallest <= _NOTHING * largest:
+        return []
+    return [
+        Question(
+            "zero of force",
+            f"column '{column.header}' is read by the sensitivity of its load cell, and neither the file "
+            f"nor a reading (all from {smallest:.4g} N on) says what it shows without pull",
+            '--experiment "force_zero=0 N"',
             column.header,
         )
     ]

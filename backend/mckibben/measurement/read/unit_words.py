@@ -21,6 +21,7 @@ _MEANINGS = frozenset({
     "an angle", "a power",
 })  # fmt: skip
 _CLOCK = re.compile(r"(?i)h{1,2}\s*:\s*m{1,2}(\s*:\s*s{1,2})?([.,:]\s*(m|ms|f|s|z|0)+)?|clock|iso ?8601")
+_DEGREES = re.compile(r"(?i)(?:deg(?:rees?)?\.?|°|º)\s*([CF])")
 _COUNTS = word_set("count counts cts digit digits lsb bit bits raw adc inc")
 #: On its own in a head it is a reference as well, "Innendruck (Ü)".
 _OVERPRESSURE = {"ü": False, "ue": False, "r": False, "a": True, "g": False}
@@ -76,6 +77,8 @@ def unit_of(text: str) -> UnitText | None:
         return UnitText(BRIDGE)
     if _FULL_SCALES.fullmatch(bare):
         return UnitText(FULL_SCALE)
+    if degrees := _DEGREES.fullmatch(bare):
+        return UnitText(f"deg{degrees[1].upper()}")
     plain, absolute = split_mark(bare)
     if absolute is None:
         plain, absolute = _reference_in(bare)

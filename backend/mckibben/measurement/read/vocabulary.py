@@ -103,7 +103,7 @@ LESS_WANTED = {
 }
 #: Words for a running number, a remark: columns of these names are no channel.
 NO_CHANNEL = {word: reason for reason, texts in words.NO_CHANNELS.items() for word in all_words(texts)}
-#: Remark -> its words: "at rest", "load", "supply", "ambient", "sample", "date".
+#: Remark -> its words: "at rest", "load", "supply", "ambient", "barometer", "sample", "date".
 REMARK_WORDS = {what: frozenset(all_words(texts)) for what, texts in words.REMARKS.items()}
 #: Words with which an attribute or field says that it holds units.
 UNIT_WORDS = REMARK_WORDS["unit"]

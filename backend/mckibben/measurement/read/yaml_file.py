@@ -51,6 +51,28 @@ def document_of_yaml(text: str) -> tuple[Any, list[str]]:
     return document, comments
 
 
+def documents_of_yaml(text: str) -> list[dict[str, Any]] | None:
+    """The objects of a text of several documents, each ended by ``---``; None = it is no such text.
+
+    The last one may be cut off where the recording was stopped.
+    """
+    parts = [part for part in re.split(r"(?m)^---[ \t]*$", text) if part.strip()]
+    found: list[dict[str, Any]] = []
+    for number, part in enumerate(parts, start=1):
+        try:
+            document, _ = document_of_yaml(part)
+        except YamlError:
+            if number == len(parts) and number > 1:
+                break
+            return None
+        if not isinstance(document, dict):
+            return None
+        found.append(document)
+    if len(found) > 1 and found[-1].keys() != found[-2].keys():
+        found.pop()
+    return found
+
+
 def _without_comment(line: str) -> tuple[str, str]:
     quoted = ""
     for position, character in enumerate(line):

@@ -29,3 +29,8 @@ SIGNAL = (
     "u v x adc raw count counts reading readings voltage volt volts signal spannung code digit digits output "
     "mv ma tension tensione tensao uout vout i"
 )
+#: A sensor was set to zero before the test.
+BALANCED = (
+    "balanced nulled zeroed tared autozero autozeroed rezeroed abgeglichen genullt nullabgleich tariert "
+    "tarata azzerato azzerata tarado zerado genuld nollad nollstalld"
+)

@@ -30,7 +30,7 @@ REMARKS = {
     "rest length": {
         "de": "ruhelänge anfangslänge nennlänge ausgangslänge einspannlänge probenlänge",
         "nl": "rustlengte beginlengte uitgangslengte", "sv": "vilolängd ursprungslängd",
-        "ja": "自然長 初期長 自由長 基準長 初期長さ 自然長さ",
+        "ja": "自然長 初期長 自由長 基準長 初期長さ 自然長さ 無加圧長 無加圧時長さ 非加圧長",
         "zh": "初始长度 原长 自由长度 自然长度 自然长 初始长 原始长度 静息长度 静止长度",
         "ko": "초기길이 자연길이 자유길이 자유장 자연장 초기장", "da": "hvilelængde startlængde",
         "no": "hvilelengde startlengde", "fi": "lepopituus alkupituus", "hu": "nyugalmihossz",
@@ -82,6 +82,12 @@ REMARKS = {
         "fi": "ilmanpaine ympäristö", "hu": "légköri légnyomás környezeti", "ro": "atmosferică",
         "el": "ατμοσφαιρική", "uk": "атмосферний барометричний", "bg": "атмосферно",
         "hr": "atmosferski okoline", "sl": "atmosferski",
+    },
+    "barometer": {
+        "en": "baro barometer barometric patm pamb", "de": "luftdruck barometer", "fr": "baromètre",
+        "it": "barometro", "es": "barómetro", "pt": "barômetro", "pl": "barometr", "cs": "barometrický",
+        "ru": "барометр", "ja": "大気圧 気圧計", "zh": "大气压 气压计", "ko": "대기압", "sv": "lufttryck",
+        "da": "lufttryk", "fi": "ilmanpaine", "hu": "légnyomás", "nl": "luchtdruk barometer",
     },
     "sample": {
         "en": "specimen sample dut", "de": "probe prüfling prüfgegenstand", "fr": "éprouvette",
