@@ -71,4 +71,9 @@ def test_an_impossible_barometer_is_asked_about_and_answered() -> None:
 
 def test_two_barometers_are_asked_about() -> None:
     with pytest.raises(InputError, match=r"surrounding air is stated as 953.1 hPa and as 972 hPa"):
-        read(f"# rest length 300 mm\n# barometer at start: 953.1 hPa\n# barometer at end: 972 hPa\n{HEAD}{ABSOLUTE}")
+        read(f"# L0: 300 mm\n# barometer at start: 953.1 hPa\n# barometer at end: 972 hPa\n{HEAD}{ABSOLUTE}")
+
+
+def test_a_reference_behind_a_comma_in_the_unit() -> None:
+    head = "Time [s]\tPressure [bar, gauge]\tForce [N]\tStroke [mm]\n"
+    assert_is_the_test(read(f"# L0: 300 mm\n{head}" + table(TIME, PRESSURE, FORCE, STROKE, separator="\t")))

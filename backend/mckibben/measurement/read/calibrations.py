@@ -211,6 +211,11 @@ def _by_sensitivity(name: str, texts: Texts) -> Iterator[Scale]:
     yield Scale(slope, -slope * next(iter(zero), 0.0), BRIDGE, unit, name, f"'{text}'", where, zeroed)
 
 
+def says_zero_of_bridge(texts: Texts) -> bool:
+    """Whether a text speaks of the reading of a load cell without load, or says that it was set to zero."""
+    return any(_is_balanced(text) or set(words_of(text)) & _ZEROS for text, _ in texts)
+
+
 def _is_balanced(text: str) -> bool:
     """Whether a text says that a force or a bridge was set to zero before the test."""
     said = words_of(text)

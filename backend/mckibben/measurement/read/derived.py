@@ -11,7 +11,7 @@ from types import MappingProxyType
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.read.calibrations import calibration_of, is_raw_share
+from mckibben.measurement.read.calibrations import calibration_of, is_raw_share, says_zero_of_bridge
 from mckibben.measurement.read.cells import CellTable
 from mckibben.measurement.read.counters import time_of_count, valve_states_of
 from mckibben.measurement.read.head_text import CHANNEL_NUMBER, taken_apart
@@ -104,7 +104,8 @@ def with_derived(source: RawTable, scales: Mapping[str, str] = MappingProxyType(
             else _scale(source, columns[index].place, headers[index], units[index])
         )
         if scale is not None:
-            unzeroed |= set() if scale.zeroed else {index}
+            bare = scale.raw == BRIDGE and not scale.offset and not says_zero_of_bridge(source.rest)
+            unzeroed |= {index} if bare or not scale.zeroed else set()
             columns[index] = replace(column, factor=scale.factor, offset=scale.offset)
             said.append(
                 f"{source.noun} '{headers[index]}' is read by its scale, {scale.text} ({scale.where})"

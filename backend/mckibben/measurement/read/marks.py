@@ -12,7 +12,7 @@ _MARKS = {
 MARK_WORDS = {word: mark for word, mark in _MARKS.items() if len(word) > 1}
 _MARKED_UNIT = re.compile(
     r"(?i)(?<![a-z])([mkh]?(?:bar|pa)|psi)"
-    r"(?:[\s_]*\((a|abs|absolute|g|gauge|rel)\)|(a|g)(?![a-z])|[\s_]+(abs|absolute|gauge|rel)(?![a-z]))"
+    r"(?:[\s_]*\((a|abs|absolute|g|gauge|rel)\)|(a|g)(?![a-z])|[\s_,;]+(abs|absolute|gauge|rel)(?![a-z]))"
 )
 
 
