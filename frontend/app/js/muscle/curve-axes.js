@@ -52,14 +52,19 @@ export function pressureName({ system }, p) {
   return `${number(toShown(p, s), 2)} ${s.unit}`;
 }
 
-/** What is shown over the pressure. @type {Record<Over, {title: string, quantity: Quantity}>} */
+/** What is shown over the pressure: title, and a shorter one of the axis where it has one.
+ * @type {Record<Over, {title: string, axis?: string, quantity: Quantity}>} */
 export const OVER = {
   contraction: { title: "Contraction", quantity: "ratio" },
   length: { title: "Length", quantity: "length" },
   diameter: { title: "Braid diameter", quantity: "length" },
   outer_diameter: { title: "Outer diameter", quantity: "length" },
-  outer_diameter_at_fixed_length: { title: "Outer diameter at fixed length", quantity: "length" },
-  force: { title: "Force at fixed length", quantity: "force" },
+  outer_diameter_at_fixed_length: {
+    title: "Outer diameter at fixed length",
+    axis: "Outer diameter",
+    quantity: "length",
+  },
+  force: { title: "Force at fixed length", axis: "Force", quantity: "force" },
 };
 
 /** Whether both ends are held, instead of a load that hangs. @param {Over} over */

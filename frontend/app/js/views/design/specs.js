@@ -69,7 +69,7 @@ export function volumeSpec(v, p) {
 /** @param {View} v @param {Palette} p @returns {Spec} */
 export function overPressureSpec(v, p) {
   const { curves, over, system } = v;
-  const { title, quantity } = OVER[over];
+  const { title, axis, quantity } = OVER[over];
   const o = curves.over_pressure;
   const branch = (/** @type {"filling" | "venting"} */ way) => {
     if (over === "force") return o?.force_at_fixed_length?.[way] ?? [];
@@ -97,7 +97,7 @@ export function overPressureSpec(v, p) {
       range: steadyX(`${v.place}over${system}`, first, last),
     },
     y: {
-      title: axisTitle(title, quantity, system),
+      title: axisTitle(axis ?? title, quantity, system),
       range: steadyRange(`${v.place}over${over}${system}`, low, high),
     },
     zones,
