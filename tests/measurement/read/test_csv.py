@@ -589,6 +589,16 @@ def reads_or_refuses(data):
         assert np.isfinite(values).all()
 
 
+def test_a_unit_of_another_quantity_names_file_and_row():
+    with pytest.raises(InputError, match=r"^a\.csv, row 2, column '.*': the unit 'u' is a mass"):
+        read_csv(b"sep=;\nforce_clipped,u\n2,a\n2,5,kg\n0,1\nbar,t", "a.csv")
+
+
+def test_an_impossible_load_in_a_column_names_file_and_column():
+    with pytest.raises(InputError, match=r"^a\.csv, column 'load_kN'.*'-1 kN' is negative"):
+        read_csv(b"force_clipped,temperature_C,F,load_kN,kappa\n2,2,5,-1,-1,2\n,kg,t,3.5,", "a.csv")
+
+
 @settings(deadline=None)
 @given(st.binary(max_size=400))
 def test_any_bytes(data):

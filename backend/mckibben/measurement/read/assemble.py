@@ -65,7 +65,13 @@ def conditions_of(
     source: RawTable, meaning: Meaning, correction: Correction, messages: list[str]
 ) -> dict[str, float | str]:
     """Conditions of the file, the user's over them."""
-    conditions = read_conditions(notes_with_constants(source, meaning, messages), messages)
+    try:
+        conditions = read_conditions(notes_with_constants(source, meaning, messages), messages)
+    except InputError as error:
+        if error.message.startswith(source.place):
+            raise
+        message = f"{source.place}, {error.message}"  # of a column: its place is the column alone
+        raise InputError(message, field=error.field, hint=error.hint, code=error.code) from error
     numbers = {channel_number(header) for header in source.headers}
     for key in [key for key in conditions if key.startswith(REFERENCE_OF)]:
         if key.removeprefix(REFERENCE_OF) not in numbers:  # the columns have no such numbers

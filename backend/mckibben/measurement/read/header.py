@@ -150,7 +150,7 @@ def map_headers(
                     column = _column(index, text, f"{where}, {noun} '{header}'", noun, said)
                 if column is None and not (said and recognise(name, apart[index]).unit is None):
                     other: list[str] = []
-                    column = _in_other_words(index, name, apart[index], reasons, other)
+                    column = _in_other_words(index, name, apart[index], reasons, other, f"{where}, {noun}")
                     said = said if column is None else other
                 if column is None and said:
                     reasons[index] = said[-1].partition(" is not used: ")[2] or reasons.get(index, "")
@@ -206,9 +206,9 @@ def _with(header: str, unit: str | None) -> str:
 
 
 def _in_other_words(
-    index: int, header: str, unit: str | None, reasons: dict[int, str], messages: list[str]
+    index: int, header: str, unit: str | None, reasons: dict[int, str], messages: list[str], where: str
 ) -> HeaderColumn | None:
-    """The column of a header that is not written the plain way."""
+    """The column of a header that is not written the plain way; ``where`` it stands, for a refusal."""
     if not (header or unit) or len(header) > _MAX_HEADER:
         return None
     known = recognise(header, unit)
@@ -219,7 +219,7 @@ def _in_other_words(
     column = column._replace(extends=known.extends)
     if known.unit in (None, CLOCK):
         return column
-    return _with_unit(column, "", header, "column", messages)
+    return _with_unit(column, "", f"{where} '{header}'", "column", messages)
 
 
 def _is_unit(header: str) -> bool:
@@ -273,7 +273,7 @@ def _chosen(index: int, header: str, choice: Choice | None, apart: str | None) -
             guess = _column(index, _with(header, apart), header, "column", [])
         except InputError:
             guess = None
-        guess = guess or _in_other_words(index, header, apart, {}, [])
+        guess = guess or _in_other_words(index, header, apart, {}, [], "column")
         if guess is None and (known := recognise(header, apart)).unit is not None:
             guess = HeaderColumn(index, header, choice.channel, known.unit, known.absolute)
         if (
