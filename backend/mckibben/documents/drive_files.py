@@ -6,7 +6,7 @@ from pathlib import Path
 
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.located import located
-from mckibben.documents.problems import first_problem
+from mckibben.documents.problems import validated
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets import DrivePreset
@@ -37,15 +37,7 @@ def read_document(document: object, subject: str) -> DriveDocument:
     Raises:
         InputError: the document is not valid; ``field`` is the path in it.
     """
-    from pydantic import ValidationError
-
-    try:
-        return DriveDocument.model_validate(document)
-    except ValidationError as error:
-        problem = first_problem(error.errors(), DriveDocument, document, subject)
-        raise InputError(
-            problem.message, field=problem.field, hint=problem.hint, code=problem.code
-        ) from error
+    return validated(DriveDocument, document, subject)
 
 
 def named_document(name: str, studio: Studio) -> DriveDocument:

@@ -6,9 +6,9 @@ import re
 import types
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Annotated, Any, Union, get_args, get_origin
+from typing import Annotated, Any, TypeVar, Union, get_args, get_origin
 
-from pydantic import BaseModel
+from pydantic import BaseModel, ValidationError
 
 from mckibben.physics.errors import InputError, did_you_mean
 
@@ -41,6 +41,7 @@ _MUST_BE = {
     "model_type": "must be an object",
     "model_attributes_type": "must be an object",
 }
+Model = TypeVar("Model", bound=BaseModel)
 _PLACES = ("body", "query", "path", "header", "cookie")
 
 
@@ -172,3 +173,23 @@ def first_problem(
     # A misspelt field explains a missing one, so it is reported first.
     ordered = sorted(errors, key=lambda error: error["type"] != "extra_forbidden")
     return _problem(ordered[0], model, body, subject)
+
+
+def validated(model: type[Model], document: object, subject: str) -> Model:
+    """A document from JSON as a model.
+
+    Args:
+        model: what it must be.
+        document: parsed JSON.
+        subject: name of the document in messages.
+
+    Raises:
+        InputError: what is wrong with it; ``field`` is the path in the document.
+    """
+    try:
+        return model.model_validate(document)
+    except ValidationError as error:
+        problem = first_problem(error.errors(), model, document, subject)
+        raise InputError(
+            problem.message, field=problem.field, hint=problem.hint, code=problem.code
+        ) from error

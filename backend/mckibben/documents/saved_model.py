@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.muscle import EffectsInput, MuscleInput
-from mckibben.documents.problems import first_problem
+from mckibben.documents.problems import validated
 from mckibben.documents.strict import Strict
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY
@@ -167,14 +167,6 @@ def read_saved_model(document: object, subject: str) -> SavedModel:
     Raises:
         InputError: the document is not valid; ``field`` is the path in it.
     """
-    from pydantic import ValidationError
-
     if not isinstance(document, dict) or document.get("kind") != "model":
         raise InputError(f'{subject} is no saved model: it has no "kind": "model"', hint=_HINT)
-    try:
-        return SavedModel.model_validate(document)
-    except ValidationError as error:
-        problem = first_problem(error.errors(), SavedModel, document, subject)
-        raise InputError(
-            problem.message, field=problem.field, hint=problem.hint, code=problem.code
-        ) from error
+    return validated(SavedModel, document, subject)

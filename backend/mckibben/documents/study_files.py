@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from mckibben.documents.located import located
-from mckibben.documents.problems import first_problem
+from mckibben.documents.problems import validated
 from mckibben.documents.study import StudyDocument
 from mckibben.physics.errors import InputError
 from mckibben.presets.reading import BadDocumentError, read_file
@@ -18,15 +18,7 @@ def read_study(document: object) -> StudyDocument:
     Raises:
         InputError: what is wrong, with ``field`` the path in the document.
     """
-    from pydantic import ValidationError
-
-    try:
-        return StudyDocument.model_validate(document)
-    except ValidationError as error:
-        problem = first_problem(error.errors(), StudyDocument, document, "the study")
-        raise InputError(
-            problem.message, field=problem.field, hint=problem.hint, code=problem.code
-        ) from error
+    return validated(StudyDocument, document, "the study")
 
 
 def read_study_file(path: Path) -> StudyDocument:

@@ -37,17 +37,9 @@ def read_task(document: object) -> SizingTask:
     Raises:
         InputError: what is wrong, with ``field`` the path in the document.
     """
-    from pydantic import ValidationError
+    from mckibben.documents.problems import validated
 
-    from mckibben.documents.problems import first_problem
-
-    try:
-        return SizingTask.model_validate(document)
-    except ValidationError as error:
-        problem = first_problem(error.errors(), SizingTask, document, "the task")
-        raise InputError(
-            problem.message, field=problem.field, hint=problem.hint, code=problem.code
-        ) from error
+    return validated(SizingTask, document, "the task")
 
 
 def named_task(name: str, studio: Studio) -> SizingTask:
