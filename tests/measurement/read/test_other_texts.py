@@ -216,3 +216,11 @@ def test_numbers_kept_with_a_scale() -> None:
         {"name": "shortening", "unit": "mm", "data": STROKE.tolist()},
     ]
     assert_is_the_test(read(json.dumps({"rest_length": "300 mm", "channels": channels}), "a.json"))
+
+
+def test_thousands_of_remarks_are_not_all_searched() -> None:
+    remarks = "".join(f"# run {number} was quiet\n" for number in range(3000))
+    rows = "".join(f"{p},{10 * k},{100 - k}\n" for p in (1, 2) for k in range(5))
+    found = read(f"# rest length 300 mm\n{remarks}p [bar],x [mm],F [N]\n{rows}")
+    assert found.conditions["nominal_length"] == pytest.approx(0.3)
+    assert any("first 2000 of 3001 remarks" in message for message in found.messages)

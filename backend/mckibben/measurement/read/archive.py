@@ -6,6 +6,8 @@ import io
 import math
 import zipfile
 import zlib
+from collections.abc import Callable
+from contextlib import suppress
 from pathlib import PurePosixPath
 from typing import Any
 from xml.etree.ElementTree import Element, ParseError, XMLParser
@@ -26,13 +28,26 @@ _TEXTS = (".csv", ".txt", ".tsv", ".dat", ".asc", ".prn", ".log", ".md", ".lvm")
 _TABLES = (".xlsx", ".mat", ".h5", ".hdf5", ".json", ".tdms", ".xml", ".yaml", ".yml", ".jsonl", ".npz")
 _MOST_REPEATED = 1000  # rows or columns of one kind
 _MOST_CELLS = 4_000_000
+_DIGITS = 10  # of a number of repetitions
 _LONGEST_OFFICE = 40_000_000  # bytes
 _OFFICE = "{urn:oasis:names:tc:opendocument:xmlns:office:1.0}"
 _TABLE = "{urn:oasis:names:tc:opendocument:xmlns:table:1.0}"
 
 
-def open_archive(data: bytes, name: str, correction: Correction | None = None) -> RawTable | None:
+#: How a file of an archive is opened: content, name, correction.
+OpenPart = Callable[[bytes, str, Correction | None], RawTable]
+
+
+def open_archive(
+    data: bytes, name: str, correction: Correction | None, open_part: OpenPart
+) -> RawTable | None:
     """The table of an archive that is no Excel workbook; None = it is one, or holds nothing that is read.
+
+    Args:
+        data: the archive.
+        name: of the file.
+        correction: what the user says of it.
+        open_part: opens a file of the archive.
 
     Raises:
         InputError: damaged, protected, packed beyond measure, or without a table.
@@ -55,7 +70,7 @@ def open_archive(data: bytes, name: str, correction: Correction | None = None) -
             if not wanted:
                 return None
             _check(parts, name, len(data))
-            return _of_parts(archive, wanted, name, correction)
+            return _of_parts(archive, wanted, name, correction, open_part)
     except (zipfile.BadZipFile, EOFError, NotImplementedError, OSError, zlib.error) as error:
         raise _refused(name, "the archive is damaged, it cannot be unpacked", "pack it again") from error
 
@@ -80,11 +95,13 @@ def _check(parts: list[zipfile.ZipInfo], name: str, size: int) -> None:
 
 
 def _of_parts(
-    archive: zipfile.ZipFile, parts: list[zipfile.ZipInfo], name: str, correction: Correction | None
+    archive: zipfile.ZipFile,
+    parts: list[zipfile.ZipInfo],
+    name: str,
+    correction: Correction | None,
+    open_part: OpenPart,
 ) -> RawTable:
     """One file of an archive, or several texts as blocks under their names."""
-    from mckibben.measurement.read.formats import open_inner
-
     tables = [p for p in parts if PurePosixPath(p.filename).suffix.lower() in _TABLES]
     texts = [p for p in parts if p not in tables]
     if tables and (len(tables) > 1 or any(PurePosixPath(p.filename).suffix.lower() == ".csv" for p in texts)):
@@ -92,14 +109,14 @@ def _of_parts(
         raise _refused(name, f"the archive holds several tables, {shown}", "send one of them, or texts only")
     if tables or len(texts) == 1:
         (part,) = tables or texts
-        source = open_inner(archive.read(part), f"{name}/{PurePosixPath(part.filename).name}", correction)
+        source = open_part(archive.read(part), f"{name}/{PurePosixPath(part.filename).name}", correction)
         source.messages.append(f"'{part.filename}' in the archive is read")
         return source
     pieces = [(PurePosixPath(p.filename).stem, _decoded(archive.read(p))) for p in texts]
     numbered = [(stem, text) for stem, text in pieces if sum(c.isdigit() for c in text) > len(text) / 5]
     remarks = [text for stem, text in pieces if (stem, text) not in numbered]
     whole = "\n".join([*remarks, *(f"\n# {stem.replace('_', ' ')}\n{text}" for stem, text in numbered)])
-    source = open_inner(whole.encode(), f"{name}.txt", correction)
+    source = open_part(whole.encode(), f"{name}.txt", correction)
     shown = ", ".join(part.filename for part in texts[:6])
     source.messages.append(f"the texts of the archive are read one below the other: {shown[:200]}")
     return source
@@ -146,7 +163,7 @@ def _array_of(content: bytes) -> np.ndarray:
     version = np.lib.format.read_magic(stream)
     read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
     shape, _, kind = read(stream)
-    if kind.hasobject or math.prod(shape) * kind.itemsize > len(content):
+    if kind.hasobject or math.prod(shape) * max(kind.itemsize, 1) > len(content):
         raise ValueError("objects, or fewer bytes than its head says")
     return np.load(io.BytesIO(content), allow_pickle=False)
 
@@ -186,11 +203,14 @@ def _rows_of(table: Element, left: list[int]) -> list[tuple[int, tuple[Cell, ...
     for row in table.iter(f"{_TABLE}table-row"):
         cells: list[Cell] = []
         for cell in row:
-            again = min(int(cell.get(f"{_TABLE}number-columns-repeated") or 1), _MOST_REPEATED)
+            again = min(_times(cell.get(f"{_TABLE}number-columns-repeated")), _MOST_REPEATED)
+            if len(cells) + again > left[0]:
+                left[0] = -1
+                return rows
             cells += [_cell(cell)] * again
         while cells and cells[-1] in (None, ""):
             cells.pop()
-        times = int(row.get(f"{_TABLE}number-rows-repeated") or 1)
+        times = _times(row.get(f"{_TABLE}number-rows-repeated"))
         left[0] -= len(cells) * min(times, _MOST_REPEATED)
         if left[0] < 0:
             return rows
@@ -200,11 +220,17 @@ def _rows_of(table: Element, left: list[int]) -> list[tuple[int, tuple[Cell, ...
     return rows
 
 
+def _times(text: str | None) -> int:
+    """How often a cell or row is repeated; once where that is no number."""
+    return int(text) if text is not None and text.isdecimal() and len(text) < _DIGITS else 1
+
+
 def _cell(cell: Element) -> Cell:
     """A number, or the text that is shown."""
     kind = cell.get(f"{_OFFICE}value-type")
     if kind in ("float", "percentage", "currency"):
-        return float(cell.get(f"{_OFFICE}value") or "nan")
+        with suppress(ValueError):  # no number: what is shown then
+            return float(cell.get(f"{_OFFICE}value") or "nan")
     if kind == "date":
         return cell.get(f"{_OFFICE}date-value")
     text = " ".join("".join(paragraph.itertext()) for paragraph in cell if paragraph.tag.endswith("}p"))

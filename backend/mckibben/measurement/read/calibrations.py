@@ -84,8 +84,7 @@ def calibration_of(header: str, unit: str | None, heads: Sequence[tuple[str, str
         found = list(_by_sensitivity(head.name, texts))
     if not found and share:
         found = [*_of_head(header, head.name), *_by_range(head.name, texts)]
-    distinct = [s for i, s in enumerate(found) if not any(_equal(s, other) for other in found[:i])]
-    return distinct[0] if len(distinct) == 1 else None
+    return found[0] if found and all(_equal(found[0], other) for other in found) else None
 
 
 def _of_position(name: str, unit: str, texts: Texts) -> Scale | None:

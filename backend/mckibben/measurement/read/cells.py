@@ -17,7 +17,7 @@ from mckibben.physics.errors import InputError
 
 Cell = str | float | int | bool | datetime | timedelta | None
 
-_POINT = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_POINT = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _COMMA = re.compile(r"[+-]?(?:[0-9]+,[0-9]*|,[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _MARKERS = {text: reason for reason, texts in MARKERS.items() for text in texts}
 _SIGNS = re.compile(r"([-+*#?<>.–—_])\1+")  # "--", "+++++++", "####"

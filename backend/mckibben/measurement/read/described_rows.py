@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import Any
 
+from mckibben.measurement.read.limits import MAX_COLUMNS
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.unit_words import reference_of, unit_of
 from mckibben.measurement.read.vocabulary import SIGN_WORDS, folded, has_word, words_of
@@ -78,7 +79,11 @@ def _with_named_points(document: Any, lists: Sequence[list[Any]]) -> Any:
 
 def _names_channels(value: Sequence[Any]) -> bool:
     """Whether a list holds the different names of columns, two channels among them."""
-    if len(value) < 2 or not all(isinstance(name, str) for name in value) or len(set(value)) < len(value):
+    if (
+        not 2 <= len(value) <= MAX_COLUMNS
+        or not all(isinstance(name, str) for name in value)
+        or len(set(value)) < len(value)
+    ):
         return False
     return len({channel for name in value if (channel := recognise(name).channel)}) > 1
 
@@ -137,7 +142,9 @@ def _lists(value: Any, depth: int) -> Iterator[list[Any]]:
 
 def _is_described(value: Sequence[Any]) -> bool:
     """Whether a list holds a description of a channel each: texts, a name among them, no list of readings."""
-    if len(value) < 2 or not all(isinstance(one, dict) and _named(one, _NAMES) for one in value):
+    if not 2 <= len(value) <= MAX_COLUMNS or not all(
+        isinstance(one, dict) and _named(one, _NAMES) for one in value
+    ):
         return False
     plain = not any(isinstance(item, (list, dict)) for one in value for item in one.values())
     return plain and any(_named(one, _UNITS) for one in value)

@@ -10,6 +10,7 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.csv import open_csv
 from mckibben.measurement.read.derived import with_derived
 from mckibben.measurement.read.legend import told_units
+from mckibben.measurement.read.limits import MAX_REMARKS
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
@@ -41,7 +42,18 @@ def open_source(data: bytes, name: str, correction: Correction | None = None) ->
     """
     chosen = {} if correction is None else correction.columns
     scales = {name: choice.scale for name, choice in chosen.items() if choice is not None and choice.scale}
-    return with_derived(_with_told_units(_opened(data, name, correction)), scales)
+    source = _with_first_remarks(_opened(data, name, correction))
+    return with_derived(_with_told_units(source), scales)
+
+
+def _with_first_remarks(source: RawTable) -> RawTable:
+    """The table with as many remarks as are searched: each one takes about a millisecond."""
+    if len(source.rest) <= MAX_REMARKS:
+        return source
+    said = (
+        f"only the first {MAX_REMARKS} of {len(source.rest)} remarks are searched for conditions of the test"
+    )
+    return replace(source, rest=source.rest[:MAX_REMARKS], messages=[*source.messages, said])
 
 
 def _with_told_units(source: RawTable) -> RawTable:
@@ -54,7 +66,7 @@ def _with_told_units(source: RawTable) -> RawTable:
     return replace(source, units=tuple(units), messages=[*source.messages, *said])
 
 
-def open_inner(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
+def _open_inner(data: bytes, name: str, correction: Correction | None) -> RawTable:
     """The table of a file that was packed in another one; an archive in an archive is not read.
 
     Raises:
@@ -81,13 +93,13 @@ def _opened(data: bytes, name: str, correction: Correction | None = None) -> Raw
         from mckibben.measurement.read.archive import open_archive
         from mckibben.measurement.read.xlsx import open_xlsx
 
-        found = open_archive(data, name, correction)
+        found = open_archive(data, name, correction, _open_inner)
         return open_xlsx(data, name, correction) if found is None else found
     if data.startswith(b"\x1f\x8b"):
         from mckibben.measurement.read.archive import unpacked_gzip
 
         inner, name_inside = unpacked_gzip(data, name)
-        source = open_inner(inner, name_inside, correction)
+        source = _open_inner(inner, name_inside, correction)
         source.messages.append(f"the file is gzip-compressed: '{name_inside}' in it is read")
         return source
     if data.startswith(b"SQLite format 3\0"):

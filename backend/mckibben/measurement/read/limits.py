@@ -18,6 +18,7 @@ MAX_COLUMNS = 1000
 MAX_ROW_LENGTH = 200_000  # characters of a row of a text
 MAX_VARIABLES = 2000
 MAX_BLOCKS = 1000  # of readings, one below the other
+MAX_REMARKS = 2000  # texts around a table that are searched for what they say of the test
 WORD = 64  # bytes that a short text takes
 _PIECE = 1_000_000  # bytes
 _SPLIT = "split the file, or keep every second row"

@@ -11,7 +11,7 @@ import numpy as np
 from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 
-_NUMBER = r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[Nn]a[Nn]|NA"
+_NUMBER = r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?|[Nn]a[Nn]|NA"
 _ASSIGNED = re.compile(
     r"(?m)^[ \t]*(?:(?:const|var|let|static|double|float|real)\s+)*(?P<name>[A-Za-z_][\w.]*)"
     r"(?:\s*\[[0-9]*\])?[ \t]*(?:=|<-|:=|:)[ \t]*"

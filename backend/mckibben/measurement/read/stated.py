@@ -5,12 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from functools import cache
+from itertools import islice
 from pathlib import PurePath
 from typing import NamedTuple
 
 from mckibben.measurement.read.air import AIR, unit_of_air
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
 from mckibben.measurement.read.head_text import channel_number, taken_apart
+from mckibben.measurement.read.limits import MAX_REMARKS
 from mckibben.measurement.read.signs import signs_of
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.vocabulary import (
@@ -92,12 +94,12 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
     """The conditions that free texts state, the first word for each; the file's name comes last.
 
     Args:
-        rest: texts that belong to no table, and where they stand.
+        rest: texts that belong to no table, and where they stand; the first `MAX_REMARKS` are searched.
         name: of the file.
     """
     found: dict[str, Note] = {}
     coded: list[tuple[str, str]] = []
-    for text, where in rest:
+    for text, where in islice(rest, MAX_REMARKS):
         for key, value in _of_text(text):
             note = Note(where, key, value)
             found.setdefault(key, _in_millimetres(note) if key == "nominal_length" else note)

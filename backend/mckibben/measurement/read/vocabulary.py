@@ -6,6 +6,7 @@ import re
 import unicodedata
 from collections.abc import Mapping, Sequence
 from functools import lru_cache
+from typing import NamedTuple
 
 from mckibben.measurement.read import words
 
@@ -50,21 +51,36 @@ def is_unparted(word: str) -> bool:
 
 def has_word(text_words: list[str], known: frozenset[str]) -> bool:
     """Whether one of the words is known; long ones also as beginnings, unparted ones wherever they stand."""
-    return any(
-        word in known
-        or any(is_part(word, stem) for stem in known if len(stem) >= _STEM or is_unparted(stem))
-        or any(_is_form(word, stem) for stem in known)
-        for word in text_words
+    patterns = _patterns(known)
+    return any(word in known or _matches(word, patterns) for word in text_words)
+
+
+class _Patterns(NamedTuple):
+    """What is known, sorted by how it may stand in a word: a file may have thousands of remarks."""
+
+    beginnings: tuple[str, ...]
+    anywhere: tuple[str, ...]
+    forms: tuple[str, ...]  # of long words that end with a vowel, without it
+
+
+@lru_cache(maxsize=1024)
+def _patterns(known: frozenset[str]) -> _Patterns:
+    return _Patterns(
+        tuple(stem for stem in known if len(stem) >= _STEM and not is_unparted(stem)),
+        tuple(stem for stem in known if len(stem) > 1 and is_unparted(stem)),
+        tuple(word[:-1] for word in known if len(word) >= _STEM_OF_FORMS and word[-1] in _ENDINGS),
     )
 
 
-def _is_form(word: str, known: str) -> bool:
-    """Whether a word is another form of a long one that ends with a vowel: "poczatkowej" of "poczatkowa"."""
+def _matches(word: str, patterns: _Patterns) -> bool:
+    """Whether a known word stands in this one, or this one is another form of it ("poczatkowej")."""
     return (
-        len(known) >= _STEM_OF_FORMS
-        and known[-1] in _ENDINGS
-        and word.startswith(known[:-1])
-        and len(word) <= len(known) + 2
+        word.startswith(patterns.beginnings)
+        or any(stem in word for stem in patterns.anywhere)
+        or (
+            word.startswith(patterns.forms)
+            and any(word.startswith(form) and len(word) <= len(form) + 3 for form in patterns.forms)
+        )
     )
 
 

@@ -17,7 +17,7 @@ from mckibben.physics.errors import InputError
 
 _MOST_ELEMENTS = 1_000_000
 _DEEPEST = 40
-_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _LIST = re.compile(rf"\s*{_NUMBER.pattern}(?:[\s,;]+{_NUMBER.pattern})+\s*")
 _VALUE = "value"  # the text of an element beside its attributes
 

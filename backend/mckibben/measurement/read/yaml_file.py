@@ -6,7 +6,7 @@ import json
 import re
 from typing import Any
 
-_NUMBER = re.compile(r"[+-]?(?:[0-9]+\.?[0-9]*|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
+_NUMBER = re.compile(r"[+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?")
 _KEY = re.compile(r"""(?P<key>"[^"]*"|'[^']*'|[^\s\[\]{},#:"'][^:#]*?)\s*:(?:\s+(?P<value>.*))?""")
 _DEEPEST = 40
 _LONGEST_FLOW = 20_000  # characters of lists in lists that are no JSON
