@@ -184,6 +184,18 @@ def _(rng: np.random.Generator, seed: int) -> Case:
     return case_of("jammed-braid-isobaric", seed, truth, record, "isobaric", rng)
 
 
+@BOOK.recipe("heat-of-work-isobaric")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed), rng)
+    effects, known = known_wall(m)
+    heat = elastomer.working_heat(m, elastomer.neo_hooke(C10), 0.3, 60.0)
+    truth = Truth(m, known=known, hidden=(heat,))
+    # Six loops at one pressure and then at another, without a rest.
+    turns = (1.0, 0.0) * 6
+    record = isobaric(truth, levels=(6e5, 4e5), speeds=(0.05 * m.nominal,), turns=turns, rows=260)
+    return case_of("heat-of-work-isobaric", seed, truth, record, "isobaric", rng, effects=effects)
+
+
 @BOOK.recipe("softening-isobaric")
 def _(rng: np.random.Generator, seed: int) -> Case:
     m = made(size(seed, 1), rng)

@@ -142,6 +142,31 @@ def warming(muscle: Muscle, energy: Energy, first: float, second: float) -> Hidd
 
 
 @njit
+def _warmth(speed: Array, time: Array, wall: float, braid: float) -> Array:
+    """Warmth of the wall over that of the braid around it, both heated by the motion; steps of the record."""
+    inner, outer = 0.0, 0.0
+    out = np.zeros(len(time))
+    for row in range(1, len(time)):
+        step = time[row] - time[row - 1]
+        inner += step * (speed[row] - (inner - outer)) / wall
+        outer += step * ((inner - outer) - 0.5 * outer) / braid
+        out[row] = inner
+    return out
+
+
+def working_heat(muscle: Muscle, energy: Energy, loss: float, seconds: float) -> Hidden:
+    """Work warms wall and braid in turn; the wall softens in proportion, E = E0/(1 + loss * warmth)."""
+    slope = stored(muscle, energy).derivative()
+
+    def lost(record: Record) -> Array:
+        speed = np.abs(record.velocity()) / (0.05 * muscle.nominal)
+        warm = _warmth(speed, record.time, seconds, 8.0 * seconds)
+        return np.asarray(slope(record.length)) * (1.0 / (1.0 + loss * warm) - 1.0)
+
+    return Hidden("heat of work", accept("self_heating"), memory=lost)
+
+
+@njit
 def _arms(length: Array, time: Array, times: Array, weights: Array) -> Array:
     extension = np.zeros(len(times))
     out = np.zeros(len(time))

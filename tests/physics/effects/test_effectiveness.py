@@ -17,7 +17,7 @@ MUSCLE = Muscle(0.1, 0.01, radians(25.0))
 
 
 def force(factor: float, threshold: float, length: object, pressure: object) -> np.ndarray:
-    values = {"effectiveness": {"factor": factor, "threshold": threshold}}
+    values = {"effectiveness": EFFECT.defaults | {"factor": factor, "threshold": threshold}}
     return Model([EFFECT]).evaluate(muscle=MUSCLE, values=values, length=length, pressure=pressure).force
 
 
@@ -34,3 +34,12 @@ def test_threshold_form() -> None:
     area = ideal.area(braid=MUSCLE.braid, length=0.1)
     assert got == pytest.approx(0.9 * np.maximum(pressures - 1e5, 0.0) * area, abs=1e-9)
     assert (got >= 0.0).all()
+
+
+def test_a_loss_that_fades_with_pressure() -> None:
+    """E (1 - s exp(-P/Ps)) of the ideal force: 1 - s at P = 0+, 1 - s/e at Ps, all of E far beyond."""
+    values = {"effectiveness": EFFECT.defaults | {"factor": 0.9, "fading_loss": 0.4, "decay_pressure": 5e4}}
+    pressures = np.array([1.0, 5e4, 3e6])
+    got = Model([EFFECT]).evaluate(muscle=MUSCLE, values=values, length=0.1, pressure=pressures).force
+    ideal_force = pressures * ideal.area(braid=MUSCLE.braid, length=0.1)
+    assert got / ideal_force == pytest.approx(0.9 * np.array([0.6, 1.0 - 0.4 * 0.36787944, 1.0]), rel=3e-5)

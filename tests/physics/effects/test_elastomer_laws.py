@@ -77,9 +77,20 @@ def test_stretch_pulls_and_contraction_pushes() -> None:
     assert tension(0.31) > 0.0 > tension(0.29)
 
 
+@pytest.mark.parametrize("exponent", [0.5, 1.6, 2.0])
+def test_the_tension_of_a_spring_grows_with_the_power_of_the_stroke(exponent: float) -> None:
+    """At 10 % of 300 mm stiffness times stroke; at 20 % 2^m times that; odd about the nominal length."""
+    effect = CATALOGUE["linear_elasticity"]
+    values = {"linear_elasticity": effect.defaults | {"stiffness": 1000.0, "exponent": exponent}}
+    lengths = np.array([0.3, 0.27, 0.24, 0.33])
+    got = Model([effect]).evaluate(muscle=MUSCLE, values=values, length=lengths, pressure=0.0).force
+    assert got == pytest.approx([0.0, -30.0, -30.0 * 2.0**exponent, 30.0], rel=1e-9, abs=1e-12)
+
+
 def test_linear_elasticity_stores_half_k_x_squared() -> None:
-    model = Model([CATALOGUE["linear_elasticity"]])
-    values = {"linear_elasticity": {"stiffness": 3000.0}}
+    effect = CATALOGUE["linear_elasticity"]
+    values = {"linear_elasticity": effect.defaults | {"stiffness": 3000.0}}
+    model = Model([effect])
 
     def force(length: float) -> float:
         return float(model.evaluate(muscle=MUSCLE, values=values, length=length, pressure=0.0).force)

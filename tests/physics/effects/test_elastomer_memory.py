@@ -11,6 +11,7 @@ from tests.physics.contract_states import MUSCLE
 
 CREEP = default_catalogue()["creep"]
 MULLINS = default_catalogue()["mullins"]
+SELF_HEATING = default_catalogue()["self_heating"]
 PRESSURE_CREEP = default_catalogue()["pressure_creep"]
 
 
@@ -140,3 +141,22 @@ def test_virgin_curve_beyond_the_largest_contraction() -> None:
     assert (np.diff(factor[1:]) >= 0.0).all()
     new = MULLINS.call("elastomer_factor", {"muscle": MUSCLE, "length": lengths}, values)
     assert np.array_equal(new, np.ones(6))
+
+
+def test_work_warms_the_wall_and_rest_cools_it() -> None:
+    """Twice the reference speed: w = 2 (1 - exp(-t/tau)), then it decays with the same time."""
+    values = SELF_HEATING.defaults | {"softening": 0.2, "time": 60.0}
+    rate = 0.1 * MUSCLE.nominal_length
+    time = np.linspace(0.0, 240.0, 4801)
+    states = run(
+        SELF_HEATING,
+        lambda t: {"muscle": MUSCLE, "velocity": np.where((t < 120.0), np.sign(np.sin(t)) * rate, 0.0)},
+        time,
+        values,
+    )
+    warmth = np.asarray(states["warmth"])
+    assert np.interp([60.0, 120.0, 180.0], time, warmth) == pytest.approx(
+        2.0 * np.array([1.0 - np.exp(-1.0), 1.0 - np.exp(-2.0), (1.0 - np.exp(-2.0)) * np.exp(-1.0)]),
+        rel=0.01,
+    )
+    assert SELF_HEATING.call("elastomer_factor", {}, {**values, "warmth": 2.0}) == pytest.approx(np.exp(-0.4))

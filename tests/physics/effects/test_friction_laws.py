@@ -66,6 +66,13 @@ def test_pressure_friction_grows_with_pressure() -> None:
     assert width == pytest.approx([0.0, 0.0, 8.0, 40.0], abs=1e-9)
 
 
+def test_friction_of_hertzian_contacts_grows_with_a_power_of_the_pressure() -> None:
+    """Stated at 3 bar: 4 N/bar there; eight times the pressure gives four times the friction at q = 2/3."""
+    own = {"area": 4e-5, "exponent": 2.0 / 3.0}
+    width = loop_width("pressure_friction", own, length=0.28, pressure=np.array([-2e4, 0.0, 3e5, 24e5]))
+    assert width == pytest.approx([0.0, 0.0, 24.0, 96.0], abs=1e-9)
+
+
 def test_contact_area_is_the_cylinder_at_rest_and_smallest_at_45_degrees() -> None:
     """Half the loop over f P is S; f(0) = f_s."""
     lengths = MUSCLE.braid.thread_length * np.cos(np.radians(np.linspace(24.0, 60.0, 721)))

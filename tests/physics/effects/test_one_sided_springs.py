@@ -36,8 +36,9 @@ def test_braid_stiffening_is_a_continuous_spring_that_only_pulls() -> None:
 def test_1000_newton_on_the_paper_s_stretched_muscle() -> None:
     """Size 10, 247 mm, 6 bar, 20 mm stretch: 495.9 N of the ideal muscle, the rest of a 25.2 kN/m spring."""
     muscle = Muscle(0.247, 0.01, radians(25.0))
-    values = {"braid_stiffening": {"stiffness": 25.2e3, "onset": 0.0}}
-    model = Model([CATALOGUE["braid_stiffening"]])
+    effect = CATALOGUE["braid_stiffening"]
+    values = {"braid_stiffening": effect.defaults | {"stiffness": 25.2e3, "onset": 0.0}}
+    model = Model([effect])
     got = model.evaluate(muscle=muscle, values=values, length=0.267, pressure=6e5).force
     assert float(got) == pytest.approx(1000.0, abs=0.5)
 
@@ -70,6 +71,14 @@ def test_braid_lock_stiffens_with_the_power_of_the_way(exponent: float) -> None:
     assert got == pytest.approx([0.0, 0.0, -300.0, -300.0 * 2.0**exponent], rel=1e-9)
     near = force("braid_lock", values, lock - np.geomspace(1e-12, 1e-2, 300))
     assert (np.diff(near) <= 0.0).all(), "no step where the law begins"
+
+
+@pytest.mark.parametrize("exponent", [1.0, 2.0, 5.0])
+def test_taut_threads_pull_with_the_power_of_the_way(exponent: float) -> None:
+    """1 % of 300 mm beyond the onset the force is stiffness times way; at twice the way 2^m times that."""
+    values = {"stiffness": 1e5, "onset": -0.01, "exponent": exponent}
+    got = force("braid_stiffening", values, 0.303 + np.array([-0.01, 0.0, 0.003, 0.006]))
+    assert got == pytest.approx([0.0, 0.0, 300.0, 300.0 * 2.0**exponent], rel=1e-9)
 
 
 def test_no_force_below_the_threshold_pressure() -> None:

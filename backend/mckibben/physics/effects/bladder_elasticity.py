@@ -4,11 +4,13 @@ With :math:`\lambda_z = L/L_0`, the braid ties the hoop stretch to the axial one
 :math:`\lambda_\theta^2 = 1 + \cot^2\theta_0\,(1-\lambda_z^2)`, and incompressibility gives
 :math:`\lambda_r = 1/(\lambda_z\lambda_\theta)`. The energy of the wall volume :math:`\pi D_b H L_0` is
 
-.. math:: w = C_{10}\left[(I_1-3) + y\,(I_1-3)^2\right] + C_{01}\,(I_2-3)
+.. math:: w = C_{10}\left[J + y\,J^2 + y^2 J^3\right] + C_{01}\,(I_2-3), \qquad J = I_1-3
 
-neo-Hookean for y = 0 and :math:`C_{01}=0`, Mooney-Rivlin for y = 0, Yeoh's of second order for
-:math:`C_{01}=0`. Because the hoop stretch dominates, the tension falls steeply over the first 5 % of
-contraction and then saturates, whatever the pressure; with a stiffening wall (y > 0) it falls further.
+neo-Hookean for y = 0 and :math:`C_{01}=0`, Mooney-Rivlin for y = 0, Yeoh's of third order for
+:math:`C_{01}=0`. To second order in J it is Fung's exponential with 2y and Gent's logarithm with
+:math:`J_m = 1/(2y)`; it lies between their third terms, :math:`\tfrac23 y^2J^3` and :math:`\tfrac43 y^2J^3`.
+Because the hoop stretch dominates, the tension falls steeply over the first 5 % of contraction and then
+saturates, whatever the pressure; with a stiffening wall (y > 0) it falls further.
 """
 
 from mckibben.physics import ops
@@ -21,14 +23,15 @@ from mckibben.physics.parameter import Parameter, Source
 def energy(
     *, length: Value, muscle: Muscle, shear_modulus: Value, mooney_constant: Value, stiffening: Value
 ) -> Value:
-    """Stored energy V_b {C10 [(I1-3) + y (I1-3)^2] + C01 (I2-3)} of the wall [J]; 0 at the nominal length."""
+    """Stored energy V_b {C10 [J + y J^2 + y^2 J^3] + C01 (I2-3)} of the wall [J]; 0 at the nominal length."""
     axial = (length / muscle.nominal_length) ** 2
     hoop = 1.0 + (1.0 - axial) / ops.tan(muscle.braid_angle) ** 2
     radial = 1.0 / (axial * hoop)
     wall_volume = ops.pi * muscle.braid_diameter * muscle.wall_thickness * muscle.nominal_length
     first = axial + hoop + radial - 3.0
     second = 1.0 / axial + 1.0 / hoop + 1.0 / radial - 3.0
-    return wall_volume * (shear_modulus * (first + stiffening * first**2) + mooney_constant * second)
+    stiffer = first * (1.0 + stiffening * first * (1.0 + stiffening * first))
+    return wall_volume * (shear_modulus * stiffer + mooney_constant * second)
 
 
 def elastomer(
@@ -56,7 +59,7 @@ EFFECT = Effect(
     cause="The elastomer wall is stretched around the muscle when the braid makes it thicker. Its energy "
     "comes from the gas, so the muscle pulls less the more it is contracted.",
     equation=r"F_{bl} = \frac{\pi D_b H L_0}{L_0}\,\frac{d}{d\lambda_z}"
-    r"\left[C_{10}\{(I_1-3)+y(I_1-3)^2\} + C_{01}(I_2-3)\right],\quad "
+    r"\left[C_{10}\{J+yJ^2+y^2J^3\} + C_{01}(I_2-3)\right],\quad J = I_1-3,\quad "
     r"\lambda_\theta^2 = 1+\cot^2\theta_0\,(1-\lambda_z^2)",
     parameters=(
         Parameter(
@@ -90,7 +93,7 @@ EFFECT = Effect(
             "1",
             default=0.0,
             lower=0.0,
-            upper=0.2,
+            upper=0.5,
             source=Source("Yeoh's C20/C10; Gent's 1/(2 J_m): 0.005 of gum, 0.1 of highly filled rubber", "M"),
             description="Excess of the energy at large strain; 0 is a neo-Hookean wall, larger when polymer "
             "chains approach their limit of extension.",

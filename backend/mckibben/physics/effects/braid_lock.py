@@ -71,7 +71,7 @@ EFFECT = Effect(
             "1",
             default=1.0,
             lower=1.0,
-            upper=3.0,
+            upper=8.0,
             source=Source("1.5 for round strands in Hertzian contact, more where they touch one by one", "E"),
             description="Exponent of the force over the travel beyond the lock; 1 is a linear spring.",
             fitted=False,

@@ -10,11 +10,11 @@ smaller for brittle contacts. Because z is a share, the force is exactly zero fo
 close.
 """
 
-from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
+from mckibben.physics.presliding import build_up
 
 
 def friction(*, presliding: Value, force: Value) -> Value:
@@ -26,18 +26,8 @@ def rates(
     *, velocity: Value, muscle: Muscle, presliding: Value, break_strain: Value, exponent: Value
 ) -> tuple[Value]:
     """dz/dt [1/s]: v (1 - z sgn v)^i/x_b; exactly 0 at rest."""
-    longer, shorter = ops.positive_part(velocity), ops.positive_part(-velocity)
-    lengthening = longer * (1.0 - presliding) * _power(1.0 - presliding, exponent)
-    shortening = shorter * (1.0 + presliding) * _power(1.0 + presliding, exponent)
-    return ((lengthening - shortening) / (break_strain * muscle.nominal_length),)
-
-
-def _power(left: Value, exponent: Value) -> Value:
-    """left^(i - 1), rounded where its slope would be infinite; 1 for i = 1."""
-    return ops.exp(0.5 * (exponent - 1.0) * ops.log(left**2 + _ROUNDING**2))
-
-
-_ROUNDING = 1e-3  # share of full friction
+    rising = build_up(rate=velocity, share=presliding, exponent=exponent)
+    return (rising / (break_strain * muscle.nominal_length),)
 
 
 _DAHL = Source("Dahl, Aerospace Corp. TOR-0158(3107-18)-1 (1968); AIAA J. 14 (1976) 1675", "M")

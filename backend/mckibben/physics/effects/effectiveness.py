@@ -3,7 +3,9 @@ r"""Effectiveness: all losses lumped into one factor, optionally with a pressure
 :math:`F = E\,(1 - P_0/P)_+\,F_\text{ideal}`: a constant factor when :math:`P_0 = 0`, the threshold form
 otherwise. It scales the force without touching the volume, so it stores no energy and dissipates none: it
 is a correction, not a mechanism. A constant factor does not change the largest contraction of the ideal
-model.
+model. Where the loss fades with pressure instead of ending at one,
+
+.. math:: F = E\,\bigl(1 - P_0/P\bigr)_+\bigl(1 - s_0 e^{-P/P_s}\bigr)\,F_\text{ideal}
 """
 
 from mckibben.physics import ops
@@ -15,9 +17,13 @@ from mckibben.physics.parameter import Parameter, Source
 _LEAST_PRESSURE = 1.0
 
 
-def force_factor(*, pressure: Value, factor: Value, threshold: Value) -> Value:
-    """E max(1 - P0/P, 0) [-]."""
-    return factor * ops.positive_part(1.0 - threshold / ops.maximum(pressure, _LEAST_PRESSURE))
+def force_factor(
+    *, pressure: Value, factor: Value, threshold: Value, fading_loss: Value, decay_pressure: Value
+) -> Value:
+    """E max(1 - P0/P, 0) (1 - s0 exp(-P/Ps)) [-]."""
+    above = ops.positive_part(pressure)
+    faded = 1.0 - fading_loss * ops.exp(-above / decay_pressure)
+    return factor * ops.positive_part(1.0 - threshold / ops.maximum(pressure, _LEAST_PRESSURE)) * faded
 
 
 _COLBRUNN = Source("Colbrunn, Nelson & Quinn, IEEE/RSJ IROS (2001)", "M")
@@ -32,7 +38,7 @@ EFFECT = Effect(
     type="static",
     cause="Ends, bladder and braid take up part of the work of the gas. While the single causes are unknown, "
     "their sum is described by the ratio of real to ideal force.",
-    equation=r"F = E\,\max\left(1-\frac{P_0}{P},\,0\right) F_{ideal}",
+    equation=r"F = E\,\max\left(1-\frac{P_0}{P},\,0\right)\left(1-s_0 e^{-P/P_s}\right) F_{ideal}",
     parameters=(
         Parameter(
             "factor",
@@ -55,6 +61,30 @@ EFFECT = Effect(
             source=Source("5-120 kPa over all sizes", "E"),
             description="Gauge pressure below which the muscle does not pull; 0 is a constant factor.",
             off=0.0,
+            fitted=False,
+        ),
+        Parameter(
+            "fading_loss",
+            "s_0",
+            "1",
+            default=0.0,
+            lower=0.0,
+            upper=1.0,
+            source=Source("0 for a constant factor, 1 where the force only sets in with pressure", "E"),
+            description="Share of the force lost besides at very low pressure; it fades with pressure.",
+            off=0.0,
+            fitted=False,
+            natural=True,
+        ),
+        Parameter(
+            "decay_pressure",
+            "P_s",
+            "Pa",
+            default=1.0e5,
+            lower=2.0e4,
+            upper=1.0e6,
+            source=Source("bladders seat on the braid within 0.2-2 bar", "E"),
+            description="Pressure over which the additional loss fades to 37 %.",
             fitted=False,
         ),
     ),
@@ -98,6 +128,16 @@ EFFECT = Effect(
             1e-7,
             _CLOSED_FORM,
             {"factor": 0.9, "threshold": 1e5},
+            _SIZE_10,
+            _BLOCKED,
+        ),
+        Example(
+            "force",
+            # 0.9 (1 - 0.5 exp(-2)) 386.31316
+            324.155034,
+            1e-7,
+            _CLOSED_FORM,
+            {"factor": 0.9, "fading_loss": 0.5, "decay_pressure": 3e5},
             _SIZE_10,
             _BLOCKED,
         ),

@@ -1,9 +1,11 @@
-r"""Maxwell slip: four spring-slider cells of equal force that break loose one after the other.
+r"""Maxwell slip: four spring-slider cells that break loose one after the other.
 
-Cell i carries :math:`F_c/4` and slides after :math:`x_i = \varepsilon_b L_0\,\rho^{\,i-4}`, so the last one
-after :math:`\varepsilon_b L_0`. With the deflection :math:`z_i` of a cell as a share of its limit
+Cell i carries the share :math:`w_i` of the force and slides after
+:math:`x_i = \varepsilon_b L_0\,\rho^{\,i-4}`, so the last one after :math:`\varepsilon_b L_0`. The shares are
+equal at the balance :math:`\sigma = 1`; above it the late cells carry more, below it the early ones. With the
+deflection :math:`z_i` of a cell as a share of its limit
 
-.. math:: F = \frac{F_c}{4}\sum_{i=1}^4 z_i, \qquad
+.. math:: F = F_c\sum_{i=1}^4 w_i z_i, \qquad w_i = \frac{\sigma^i}{\sum_k \sigma^k}, \qquad
    \dot z_i = \frac{\dot L}{x_i}\bigl[1 - s(z_i \operatorname{sgn}\dot L)\bigr]
 
 The saturation s is 0 up to 0.9 of the limit and a smooth step from there to 1 at the limit. So a cell is
@@ -20,9 +22,12 @@ _CELLS = 4
 _BAND = 0.1  # share of a cell's limit over which it goes from elastic to sliding
 
 
-def friction(*, cell_1: Value, cell_2: Value, cell_3: Value, cell_4: Value, force: Value) -> Value:
-    """F_c times the mean of the cells [N], within +-F_c."""
-    return force * 0.25 * (cell_1 + cell_2 + cell_3 + cell_4)
+def friction(
+    *, cell_1: Value, cell_2: Value, cell_3: Value, cell_4: Value, force: Value, balance: Value
+) -> Value:
+    """F_c times the weighted mean of the cells [N], within +-F_c."""
+    weighted = cell_1 + balance * (cell_2 + balance * (cell_3 + balance * cell_4))
+    return force * weighted / (1.0 + balance * (1.0 + balance * (1.0 + balance)))
 
 
 def _saturation(share: Value) -> Value:
@@ -62,7 +67,7 @@ EFFECT = Effect(
     type="hysteretic",
     cause="The crossings of the braid do not all slide at once: some slip early, some late. The friction "
     "depends on earlier reversals, so small loops close within large ones.",
-    equation=r"F_{h} = \frac{F_c}{4}\sum_i z_i,\quad \dot z_i = \frac{\dot L}{x_i}"
+    equation=r"F_{h} = F_c\frac{\sum_i \sigma^i z_i}{\sum_i \sigma^i},\quad \dot z_i = \frac{\dot L}{x_i}"
     r"\left[1-s(z_i\operatorname{sgn}\dot L)\right],\quad x_i = \varepsilon_b L_0\,\rho^{\,i-4}",
     parameters=(
         Parameter(
@@ -98,6 +103,11 @@ EFFECT = Effect(
             description="Ratio of the travel limits of successive cells.",
             fitted=False,
         ),
+        Parameter(
+            *("balance", r"\sigma", "1", 1.0, 0.3, 3.0, Source("1 = equal cells", "E")),
+            description="Ratio of the forces of successive cells: above 1 the late ones carry more.",
+            fitted=False,
+        ),
     ),
     slots={"friction": friction, "rates": rates},
     states=tuple(
@@ -131,6 +141,11 @@ EFFECT = Effect(
             _DEFINITION,
             {"force": 10.0},
             {},
+            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25},
+        ),
+        Example(
+            # 10 N (1 + 2 0.5 - 4 0.25 - 8 0.25)/15
+            *("slot:friction", -0.6666666666666666, 1e-12, _DEFINITION, {"force": 10.0, "balance": 2.0}, {}),
             {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25},
         ),
         Example(

@@ -1,14 +1,26 @@
-r"""Coulomb friction in proportion to pressure: the gas presses the threads together."""
+r"""Friction that grows with pressure: the gas presses the threads together.
+
+.. math:: F = \mu_P\,P\,(P/P_r)^{q-1}\operatorname{sgn}\dot L, \quad P_r = 3\,\text{bar}
+
+With q = 1 it is Coulomb friction in proportion to pressure. Contacts that grow with their load have q < 1.
+"""
 
 from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
+#: Pressure at which the area is stated [Pa].
+REFERENCE_PRESSURE = 3e5
+# Share of it below which the friction is linear: the derivative by q has a logarithm, singular at 0.
+_LEAST_SHARE = 1e-6
 
-def friction(*, direction: Value, pressure: Value, area: Value) -> Value:
-    """mu_P P sgn(dL/dt) [N]; 0 at rest and at or below atmospheric pressure."""
-    return area * ops.positive_part(pressure) * direction
+
+def friction(*, direction: Value, pressure: Value, area: Value, exponent: Value) -> Value:
+    """mu_P P (P/P_r)^(q-1) sgn(dL/dt) [N]; 0 at rest and at or below atmospheric pressure."""
+    above = ops.positive_part(pressure)
+    share = ops.maximum(above / REFERENCE_PRESSURE, _LEAST_SHARE)
+    return area * above * share ** (exponent - 1.0) * direction
 
 
 _RANGE = Source("0.2-30 N/bar over the sizes, 2-6 N/bar for size 20", "E")
@@ -21,7 +33,7 @@ EFFECT = Effect(
     type="static",
     cause="The gas presses the threads onto each other and the bladder onto the threads. Their friction "
     "therefore grows with pressure, and so does the width of the force loop.",
-    equation=r"F_{fr} = \mu_P\,P\,\operatorname{sgn}\dot L",
+    equation=r"F_{fr} = \mu_P\,P\left(\frac{P}{P_r}\right)^{q-1}\operatorname{sgn}\dot L",
     parameters=(
         Parameter(
             "area",
@@ -31,8 +43,19 @@ EFFECT = Effect(
             lower=0.0,
             upper=5.0e-4,
             source=_RANGE,
-            description="Half the width of the force loop per pressure; 1 N/bar is 10 mm2.",
+            description="Half the width of the force loop per pressure, at 3 bar; 1 N/bar is 10 mm2.",
             off=0.0,
+        ),
+        Parameter(
+            "exponent",
+            "q",
+            "1",
+            default=1.0,
+            lower=0.5,
+            upper=1.5,
+            source=Source("2/3 for a Hertzian contact, 1 for rough surfaces (Bowden & Tabor)", "M"),
+            description="Exponent of the friction over pressure; 1 is in proportion.",
+            fitted=False,
         ),
     ),
     slots={"friction": friction},

@@ -1,7 +1,7 @@
 r"""Hysteresis driven by pressure: the force on filling is lower than on venting, even at constant length.
 
 .. math:: F = -F_p\,\bigl(1 - a + a\,A(L)_+/A(L_0)\bigr)\left(\frac{P_+}{P_r}\right)^{q} z,
-   \qquad \dot z = \frac{\dot P - |\dot P|\,z}{P_b}, \qquad P_r = 3\ \mathrm{bar}
+   \qquad \dot z = \frac{\dot P}{P_b}(1 - z\operatorname{sgn}\dot P)^i, \qquad P_r = 3\ \mathrm{bar}
 
 Friction that follows the length alone has exactly no loop at constant length; real muscles show one, because
 threads micro-slip when the pressure strains them and presses them together. Where it is the pressure that
@@ -15,6 +15,7 @@ from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVari
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
+from mckibben.physics.presliding import build_up
 
 _REFERENCE = 3e5  # Pa
 _VENTED = 1e3  # Pa; rounds the power where its slope would be infinite
@@ -38,9 +39,9 @@ def friction(
     return -force * (1.0 - along_area + along_area * relative) * pressed * filling
 
 
-def rates(*, pressure_rate: Value, filling: Value, break_pressure: Value) -> tuple[Value]:
-    """dz/dt [1/s]: (dP/dt - |dP/dt| z)/P_b; exactly 0 at constant pressure."""
-    return ((pressure_rate - ops.absolute(pressure_rate) * filling) / break_pressure,)
+def rates(*, pressure_rate: Value, filling: Value, break_pressure: Value, exponent: Value) -> tuple[Value]:
+    """dz/dt [1/s]: dP/dt (1 - z sgn dP/dt)^i/P_b; exactly 0 at constant pressure."""
+    return (build_up(rate=pressure_rate, share=filling, exponent=exponent) / break_pressure,)
 
 
 _LOOP = Source(
@@ -57,7 +58,8 @@ EFFECT = Effect(
     type="hysteretic",
     cause="The pressure strains the threads and presses them together, so that they slip a little even at "
     "constant length. The force on filling is then lower than on venting at the same pressure.",
-    equation=r"F_{h} = -F_p\,(1-a+a\,A_+/A_0)\,(P_+/P_r)^q\,z,\quad \dot z = \frac{\dot P-|\dot P|\,z}{P_b}",
+    equation=r"F_{h} = -F_p\,(1-a+a\,A_+/A_0)\,(P_+/P_r)^q\,z,\quad "
+    r"\dot z = \frac{\dot P}{P_b}(1-z\operatorname{sgn}\dot P)^i",
     parameters=(
         Parameter(
             "force",
@@ -79,6 +81,11 @@ EFFECT = Effect(
             upper=3.0e5,
             source=_WAY,
             description="Change of pressure over which the loop opens after a reversal.",
+            fitted=False,
+        ),
+        Parameter(
+            *("exponent", "i", "1", 1.0, 0.5, 3.0, Source("1 for one kind of contact, more for many", "E")),
+            description="Dahl's exponent: how slowly the loop reaches its full width.",
             fitted=False,
         ),
         Parameter(
@@ -147,22 +154,14 @@ EFFECT = Effect(
         ),
         Example(
             # -3 N ((0.75^2 + 0.01^2)/3^2)^(1/4), the second term from the rounding
-            "slot:friction",
-            -1.5000666622226833,
-            1e-9,
-            _DEFINITION,
+            *("slot:friction", -1.5000666622226833, 1e-9, _DEFINITION),
             {"force": 5.0, "pressure_power": 0.5},
             _SIZE_20,
             {"filling": 0.6, "length": 0.3, "pressure": 7.5e4},
         ),
         Example(
-            "slot:rates",
             # (-1e5 - 1e5 * 0.5) Pa/s / 0.3 bar
-            -5.0,
-            1e-12,
-            _DEFINITION,
-            {"break_pressure": 3e4},
-            {},
+            *("slot:rates", -5.0, 1e-12, _DEFINITION, {"break_pressure": 3e4}, {}),
             {"pressure_rate": -1e5, "filling": 0.5},
         ),
     ),

@@ -3,6 +3,9 @@ r"""Threshold pressure: the gas must first widen the bladder until it touches th
 A thin tube of modulus E, wall H and inner radius :math:`r_i` reaches a braid of radius :math:`r_b` at
 :math:`P_{th} \approx E H (r_b-r_i)/r_i^2`. The work of the gas below contact is not modelled, so the law is
 lumped: force and gas work balance only while the pressure stays above the threshold.
+
+A bladder that touches at one place before another widens the contact over a range :math:`s P_{th}` of
+pressures; the loss is then :math:`P_{th}(1-e^{-P/(sP_{th})})`, at most P, which is sharp for s = 0.
 """
 
 from mckibben.physics import ops
@@ -10,11 +13,15 @@ from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
+_SHARP = 1e-3  # least softness, where exp() is 0 above a thousandth of the threshold
 
-def pressure(*, pressure: Value, threshold: Value) -> Value:
-    """max(P - P_th, 0) [Pa]; without a threshold P itself."""
+
+def pressure(*, pressure: Value, threshold: Value, softness: Value) -> Value:
+    """max(P - P_th (1 - exp(-P/(s P_th))), 0) [Pa]; without a threshold P itself."""
+    above = ops.positive_part(pressure)
+    span = ops.maximum(softness, _SHARP) * ops.maximum(threshold, 1.0)
     # Written as P minus a loss, so that a threshold of 0 leaves negative gauge pressures unchanged.
-    return pressure - ops.minimum(threshold, ops.positive_part(pressure))
+    return pressure - ops.minimum(threshold * (1.0 - ops.exp(-above / span)), above)
 
 
 _TUBE = Source("E H (r_b - r_i)/r_i^2 of latex, 1 MPa, 1 mm, 5 to 6 mm", "D")
@@ -27,7 +34,7 @@ EFFECT = Effect(
     type="static",
     cause="The bladder is narrower than the braid and must first be inflated until it touches it. Below that "
     "pressure there is no force, and above it the effective pressure is lower by this amount.",
-    equation=r"P_{eff} = \max(P-P_{th},\,0)",
+    equation=r"P_{eff} = \max\left(P-P_{th}\left(1-e^{-P/(sP_{th})}\right),\,0\right)",
     parameters=(
         Parameter(
             "threshold",
@@ -39,6 +46,12 @@ EFFECT = Effect(
             source=_TUBE,
             description="Gauge pressure at which the bladder touches the braid.",
             off=0.0,
+        ),
+        Parameter(
+            *("softness", "s", "1", 0.0, 0.0, 2.0, Source("0 = touches everywhere at once", "E")),
+            description="Range of pressures over which it comes to touch, as a share of the threshold.",
+            fitted=False,
+            natural=True,
         ),
     ),
     slots={"pressure": pressure},
