@@ -3,12 +3,13 @@
     python -m tests.benchmarks.lanes
 
 The reference lift and the preset propneu-20: sets with conductances, mass, pressure and effects times 0.7 to
-1.4, 4001 rows. Scalar kernel and lanes take turns; the tables give the least processor time of some rounds,
-which other work on the machine disturbs least. All columns are written in parts of `PART` sets, by both. The
-tolerance is the largest at which 99 % of the strokes are within 1e-5 m of a run at 1e-9.
+1.4, 4001 rows. One by one each set is a lane, the others idle. Both take turns; the tables give the least
+processor time of some rounds, which other work on the machine disturbs least. All columns are written in
+parts of `PART` sets, by both. The tolerance is the largest at which 99 % of the strokes are within 1e-5 m of
+a run at 1e-9.
 
-Beside it the cost of a start, how long a structure takes until it can run, and a whole sizing with and
-without lanes.
+Beside it the cost of a start, how long a structure takes until it can run when its code is not kept on the
+disk, and a whole sizing with and without runs side by side.
 """
 
 from __future__ import annotations
@@ -27,14 +28,18 @@ from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
+from mckibben.physics.errors import InputError
 from mckibben.resources import presets_folder
 from mckibben.simulation.drive.initial_state import start_of
 from mckibben.simulation.drive.initial_states import starts_of_many
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import parameters_of, segments_of
-from mckibben.simulation.integrate.engine import compiled_drive, integrate, kernel
+from mckibben.simulation.integrate import machine_code
+from mckibben.simulation.integrate.engine import compiled_drive, integrate
 from mckibben.simulation.integrate.many import integrate_many, lane_kernels
-from mckibben.sizing import batch, side_by_side, size
+from mckibben.sizing import batch, size
+from mckibben.sizing.prepared import NOTHING, Figures
+from mckibben.sizing.side_by_side import Case
 from tests.benchmarks.engine import say
 from tests.benchmarks.lift import DOCUMENT, WITH_SPOOL
 from tests.benchmarks.sizing import TASK
@@ -149,25 +154,33 @@ def costs(name: str, sets: Sets) -> None:
     """Starts, and how long a structure takes until it can run."""
     drive, compiled, rows = sets.drive, sets.compiled, sets.parameters
     build, outputs = compiled_drive.__wrapped__, range(compiled.width)
-    used = least_times({
+    works = {
         "start": lambda: starts_of_many(drive, compiled, rows, sets.before),
         "alone": lambda: [start_of(drive, compiled, row, sets.before) for row in rows[:100]],
-        "scalar": lambda: build(drive.structure, 0),
-        "lanes": lambda: build(drive.structure, 0).lanes.step,
-        "columns": lambda: (ready := build(drive.structure, 0).lanes).step and ready.outputs(outputs),
-    }, 3)  # fmt: skip
+        "scalar": lambda: build(drive.structure),
+        "lanes": lambda: build(drive.structure).lanes.step,
+        "columns": lambda: (ready := build(drive.structure).lanes).step and ready.outputs(outputs),
+    }
+    with patch.object(machine_code, "kept", lambda _: None), patch.object(machine_code, "keep"):
+        used = least_times(works, 3)
     say(
         f"\n{name}, {compiled.size} states: a start {used['start'] / SETS * 1e6:.1f} us in lanes, "
-        f"{used['alone'] / 100 * 1e6:.0f} us alone; ready to run one by one after {used['scalar'] * 1e3:.0f} "
-        f"ms, in lanes {used['lanes'] * 1e3:.0f} ms, with all columns {used['columns'] * 1e3:.0f} ms"
+        f"{used['alone'] / 100 * 1e6:.0f} us alone; ready to run under LSODA after "
+        f"{used['scalar'] * 1e3:.0f} ms, in lanes {used['lanes'] * 1e3:.0f} ms, with all columns "
+        f"{used['columns'] * 1e3:.0f} ms"
     )
 
 
-class _NeverReady:
-    """In place of the lanes' kernel: then runs go one by one."""
+def _alone(cases: Sequence[Case], returns: bool) -> list[Figures]:
+    """In place of `figures_of_many`: each case a run of its own."""
 
-    def ready(self) -> None:
-        """Not ready."""
+    def figures(case: Case) -> Figures:
+        try:
+            return case.prepared.figures(case.parameters, case.inputs, returns)
+        except InputError:  # nothing holds the load before the run
+            return NOTHING
+
+    return [figures(case) for case in cases]
 
 
 def sizing(studio: Studio) -> None:
@@ -176,8 +189,7 @@ def sizing(studio: Studio) -> None:
     task, catalogue = task_of(document), catalogue_of(document, studio)
 
     def one_by_one() -> None:
-        never = _NeverReady()
-        with patch.object(batch, "lane_kernels", never), patch.object(side_by_side, "lane_kernels", never):
+        with patch.object(batch, "figures_of_many", _alone):
             size(task, catalogue)
 
     one_by_one()  # compiles
@@ -193,7 +205,6 @@ def sizing(studio: Studio) -> None:
 
 def main() -> int:
     """Measure everything and print it."""
-    kernel.awaited()
     say(f"{lane_kernels.awaited().lanes} lanes, {SETS} sets, {ROWS} rows")
     studio = Studio(presets=presets_folder())
     drives = {

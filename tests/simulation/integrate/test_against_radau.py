@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import os
+
 import numpy as np
 import pytest
 
@@ -16,15 +18,19 @@ from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import dead_times, simulate
 from tests.simulation.event_radau import EventRadau, strokes
 
-# The controlled runs do not drift apart: over their whole 6 s they stay as near as over half.
-HORIZON = 3.0
+# Seconds of the controlled runs, which do not drift apart: over their whole 6 s (`MCKIBBEN_HORIZON=6`) they
+# stay as near as over a part.
+HORIZON = float(os.environ.get("MCKIBBEN_HORIZON", "1.5"))
 STUDIO = Studio(presets=presets_folder())
 SCENARIOS = {
     preset.id: drive_of(preset_document(preset.id, STUDIO), STUDIO).drive
     for preset in STUDIO.library.list("drives")
 }
 FREE = {name: drive for name, drive in SCENARIOS.items() if drive.controller is None}
-CONTROLLED = {name: drive for name, drive in SCENARIOS.items() if drive.controller is not None}
+#: The control of angle and stiffness is examined in tests/simulation/drive/test_joint.py.
+CONTROLLED = {
+    name: drive for name, drive in SCENARIOS.items() if drive.controller is not None and name != "joint-20"
+}
 
 
 @pytest.mark.parametrize("scenario", sorted(FREE))

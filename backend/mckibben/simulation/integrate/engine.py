@@ -1,26 +1,26 @@
 """From a drive's equations to a run: machine code for the rates and the exact Jacobian, then an integrator.
 
-The integrator is the Rodas4 kernel once numba has it ready (compiled once per installation, in the
-background, then cached on disk); until then the same compiled functions run under scipy's LSODA.
+The integrator is the Rodas4 kernel of `mckibben.simulation.integrate.lane_kernel` once numba has it ready
+(compiled once per installation, in the background, then cached on disk), for one run as for many; until then
+the same equations run under scipy's LSODA.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable
-from typing import NamedTuple
-
 import numpy as np
 
-from mckibben.simulation.integrate.background import Background
+from mckibben.simulation.integrate.alone import Alone
+from mckibben.simulation.integrate.lane_room import lane_kernels as kernel
 from mckibben.simulation.integrate.lsoda import by_lsoda
 from mckibben.simulation.integrate.problem import (
     EVENT_WIDTH,
     FIRST_STEP,
+    MAX_STEPS,
     MOST_EVENTS,
     SLOWEST_REBOUND,
     Problem,
     Solution,
-    switching_of,
+    outcome_of,
 )
 from mckibben.simulation.integrate.system import (
     CompiledDrive,
@@ -47,27 +47,8 @@ __all__ = [
     "integrate",
     "kernel",
     "outcome_of",
-    "switching_of",
 ]
 
-MAX_STEPS = 400_000
-
-
-class Kernels(NamedTuple):
-    """The kernels of `mckibben.simulation.integrate.kernels`: a free run, and one under a controller."""
-
-    free: Callable[..., int]
-    sampled: Callable[..., int]
-
-
-def _load_kernels() -> Kernels:
-    # numba: 0.6 s cached, 5 s the first time ever
-    from mckibben.simulation.integrate.kernels import rodas4, rodas4_sampled
-
-    return Kernels(rodas4, rodas4_sampled)
-
-
-kernel = Background(_load_kernels, "rodas-kernel")
 _FEW_SEGMENTS = 20  # LSODA needs less for them than the 0.6 s that loading the kernel takes
 
 
@@ -111,10 +92,12 @@ def integrate(
         switches: at ``times[0]``; default 0.
         restitution: share of the speed that an impact on an end stop leaves, in the opposite direction.
     """
-    kernels = kernel.ready() if engine == "auto" else None
-    if engine == "rodas":
-        kernels = kernel.awaited()
     began = np.zeros(len(drive.model.switches)) if switches is None else np.array(switches, dtype=float)
+    if engine == "rodas" or (engine == "auto" and kernel.ready() is not None):
+        alone = Alone(drive, parameters=parameters, tolerance=tolerance, restitution=restitution)
+        return alone.run(
+            start=start, switches=began, times=times, inputs=inputs, grid=grid, first_step=first_step
+        )
     problem = Problem(
         drive=drive,
         constants=drive.codes.constants(parameters),
@@ -127,42 +110,4 @@ def integrate(
         grid=grid,
         tolerance=tolerance,
     )
-    if kernels is None:
-        return by_lsoda(problem, watch or Watch())
-    rows, events = problem.empty_rows(), np.zeros((MOST_EVENTS, EVENT_WIDTH))
-    counts, step = np.zeros(4, np.int64), np.array([first_step])
-    status = kernels.free(
-        *drive.codes.given,
-        drive.moved,
-        problem.switching,
-        problem.constants,
-        problem.state,
-        problem.switches,
-        times,
-        inputs,
-        step,
-        grid,
-        tolerance,
-        problem.absolute,
-        rows,
-        events,
-        counts,
-        MAX_STEPS,
-    )
-    steps, rejected, written, happened = (int(count) for count in counts)
-    return Solution(
-        rows[:written],
-        problem.state,
-        problem.switches,
-        events[:happened],
-        outcome_of(status),
-        steps,
-        rejected,
-        "rodas",
-        float(step[0]),
-    )
-
-
-def outcome_of(status: int) -> Outcome:
-    """The outcome that corresponds to a status of the kernel."""
-    return {0: Outcome.COMPLETED, 2: Outcome.STUCK}.get(int(status), Outcome.DIVERGED)
+    return by_lsoda(problem, watch or Watch())

@@ -1,7 +1,6 @@
 """What the kernel knows of each lane: rows of lanes in one array, and how a step changes them.
 
-A condition is a row of ones and zeros. The rules are those of
-`mckibben.simulation.integrate.rodas.advance`.
+A condition is a row of ones and zeros.
 """
 
 from __future__ import annotations
@@ -14,6 +13,7 @@ from mckibben.simulation.integrate.lane_type import (
     load,
     magnitude,
     positive_bits,
+    replaced,
     root_estimate,
     smaller,
     splat,
@@ -79,9 +79,9 @@ def judge(at: int, together: bool, control: np.ndarray) -> int:
     store(at, FACTOR, factor)
     store(at, ACCEPTED, accepted)
     store(at, WANTED_NEXT, where_positive(rejected, shorter, load(at, WANTED)))
-    store(at, FAILED, where_positive(rejected, splat(1.0), load(at, FAILED)))
-    store(at, CUT, where_positive(rejected, splat(0.0), load(at, CUT)))
-    store(at, LANDING, where_positive(rejected, splat(-1.0), load(at, LANDING)))
+    store(at, FAILED, replaced(rejected, splat(1.0), load(at, FAILED)))
+    store(at, CUT, replaced(rejected, splat(0.0), load(at, CUT)))
+    store(at, LANDING, replaced(rejected, splat(-1.0), load(at, LANDING)))
     store(at, REJECTED, load(at, REJECTED) + rejected)
     short = LEAST_STEP * larger(splat(1.0), magnitude(t)) - shorter
     return positive_bits(where_positive(short, rejected, splat(0.0)))
@@ -97,9 +97,9 @@ def commit(at: int) -> int:
     grown = where_positive(whole, larger(grown, wanted), grown)
     grown = where_positive(load(at, CUT), load(at, UNCUT), grown)
     store(at, WANTED, where_positive(accepted, grown, load(at, WANTED_NEXT)))
-    store(at, INSTANT, where_positive(accepted, load(at, REACHED), load(at, INSTANT)))
-    store(at, FAILED, where_positive(accepted, zero, failed))
-    store(at, CUT, where_positive(accepted, zero, load(at, CUT)))
+    store(at, INSTANT, replaced(accepted, load(at, REACHED), load(at, INSTANT)))
+    store(at, FAILED, replaced(accepted, zero, failed))
+    store(at, CUT, replaced(accepted, zero, load(at, CUT)))
     store(at, TAKEN, load(at, TAKEN) + accepted)
     landed = where_positive(load(at, LANDING) + 1.0, one, last)
     return positive_bits(where_positive(accepted, landed, zero))

@@ -1,19 +1,37 @@
-"""Rodas4 for many parameter sets: every lane runs a set of its own and takes the next one when it has ended.
+"""Rodas4 for one or many parameter sets: every lane runs a set and takes the next one when it has ended.
 
-Lanes share nothing but the instructions: each has its own instant, step, segment, switches and error. The
-logic of a lane is that of `mckibben.simulation.integrate.rodas.advance`.
+Lanes share nothing but the instructions: each has its own instant, step, segment, switches and error. A run
+alone is one lane, the others idle: a kernel of width 1 would take a third longer, because the outputs of a
+run's rows are computed in lanes.
+
+It holds no physics, so numba compiles it once per installation, whatever is simulated. A model is passed as
+the addresses of functions of states, constants, inputs and switches: ``rates``, ``jacobian`` (-> rates,
+nonzero entries of the Jacobian, derivatives by time, guards), ``outputs`` and ``guards``; and the linear
+systems as ``factorise`` and ``solve``. Inputs are constant within a segment; switching instants are segment
+ends, so no step crosses a jump. One state is the clock: it is known in advance and not part of the linear
+systems.
+
+A switch is 0 or 1. It changes where its guard falls below zero: the step is then repeated up to that instant,
+so no step crosses such a change either. A switch that is an end stop also takes the speed, or turns it round
+with a coefficient of restitution.
+
+Method: Rodas4 of Hairer & Wanner, Solving Ordinary Differential Equations II, section IV.7: six stages, order
+4 with an embedded order 3, L-stable, dense output of order 3.
 """
 
 from __future__ import annotations
 
+from enum import IntEnum
 from typing import Any
 
 import numpy as np
 from numba import njit
 
+from mckibben.simulation.command import pid
 from mckibben.simulation.integrate import (
     coefficients,
     lane_control,
+    lane_controller,
     lane_events,
     lane_rows,
     lane_step,
@@ -41,6 +59,7 @@ from mckibben.simulation.integrate.lane_control import (
     commit,
     judge,
 )
+from mckibben.simulation.integrate.lane_controller import LOOP, next_segment
 from mckibben.simulation.integrate.lane_events import change, confirm, locate, settle, suspicious
 from mckibben.simulation.integrate.lane_rows import (
     OWNER,
@@ -50,15 +69,25 @@ from mckibben.simulation.integrate.lane_rows import (
     write_rows,
 )
 from mckibben.simulation.integrate.lane_step import attempt
-from mckibben.simulation.integrate.lane_type import LANES, load, positive_bits, splat, store, where_positive
+from mckibben.simulation.integrate.lane_type import (
+    LANES,
+    load,
+    positive_bits,
+    replaced,
+    splat,
+    store,
+    where_positive,
+)
 from mckibben.simulation.integrate.stamp import stamped_with
 from mckibben.simulation.integrate.switching import call
 
 _ALL = (1 << LANES) - 1
 _stamped = stamped_with(
+    pid,
     coefficients,
     switching,
     lane_control,
+    lane_controller,
     lane_events,
     lane_rows,
     lane_step,
@@ -66,6 +95,15 @@ _stamped = stamped_with(
     lane_writer,
     also=LANES,
 )
+
+
+class Status(IntEnum):
+    """How a run of the kernel ended."""
+
+    COMPLETED = 0
+    STEP_TOO_SMALL = 1
+    TOO_MANY_STEPS = 2
+    NOT_FINITE = 3
 
 
 @njit(error_model="numpy")
@@ -84,8 +122,8 @@ def _enter(lane: int, clock: int, numbers: np.ndarray, control: np.ndarray, give
 
 @njit(error_model="numpy")
 def _begin(
-    lane: int, q: int, first_step: float, clock: int, numbers: np.ndarray, control: np.ndarray, given: Any,
-    lanes: Any,
+    lane: int, q: int, first_step: np.ndarray, clock: int, numbers: np.ndarray, control: np.ndarray,
+    given: Any, lanes: Any,
 ) -> None:  # fmt: skip
     """Give a lane a set."""
     constants, starts, switches, _, _, grids = given
@@ -100,7 +138,7 @@ def _begin(
     numbers[:, lane] = 0
     numbers[OWNER, lane] = q
     control[:, lane] = 0.0
-    control[ACTIVE, lane], control[LANDING, lane], control[WANTED, lane] = 1.0, -1.0, first_step
+    control[ACTIVE, lane], control[LANDING, lane], control[WANTED, lane] = 1.0, -1.0, first_step[q]
     control[NEXT_ROW, lane] = grids[q % grids.shape[0], 0]
     _enter(lane, clock, numbers, control, given, lanes)
 
@@ -109,9 +147,9 @@ _ROWS = "float64[:,::1]"
 _TABLE = "float64[:,:,::1]"
 _SIGNATURE = (
     "void(UniTuple(int64,5),int64,uint64[::1],int64,int64,int64,UniTuple(int64,2),UniTuple(float64[::1],4),"
-    f"{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},float64,{_ROWS},float64,float64[::1],"
+    f"{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},float64[::1],{_ROWS},float64,float64[::1],"
     f"UniTuple(int64[::1],4),{_TABLE},{_ROWS},{_TABLE},int64[:,::1],int64[::1],int64,boolean,"
-    f"Tuple((UniTuple({_ROWS},7),UniTuple({_ROWS},2),{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},"
+    f"int64,{LOOP},Tuple((UniTuple({_ROWS},7),UniTuple({_ROWS},2),{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},"
     f"Tuple((float64[::1],float64[::1],{_ROWS},{_ROWS},float64[::1],float64[::1])),"
     "Tuple((int64[:,::1],int64[::1])))))"
 )
@@ -134,7 +172,7 @@ def rodas4_lanes(
     switches: np.ndarray,
     times: np.ndarray,
     inputs: np.ndarray,
-    first_step: float,
+    first_step: np.ndarray,
     grids: np.ndarray,
     rtol: float,
     atol: np.ndarray,
@@ -146,6 +184,8 @@ def rodas4_lanes(
     statuses: np.ndarray,
     max_steps: int,
     together: bool,
+    measured: int,
+    loop: Any,
     arrays: Any,
 ) -> None:
     """Run the sets; arrays of several sets have them first, those marked * may have a single one for all.
@@ -154,28 +194,43 @@ def rodas4_lanes(
         functions: addresses of ``rates``, ``jacobian``, ``factorise``, ``solve`` and ``outputs`` (0: none) on
             rows of lanes.
         guards: address of the guards of one set.
-        timed, entries, positions, clock, moved: see `mckibben.simulation.integrate.kernels.rodas4`.
-        switching_: ``switching`` of `rodas4` without the stops.
-        stops: stroke of the end stop of each switch.
+        timed: rates that depend on time.
+        entries, positions: numbers of entries of the Jacobian and of positions of
+            `mckibben.simulation.integrate.elimination.Plan`.
+        clock: number of the state that is time.
+        moved: numbers of the states stroke and speed, which end stops act on; -1 without stops.
+        switching_: of each switch the least guard; the coefficient of restitution, the speed [m/s] and the
+            height [m] below which the load does not rebound, and the stiffness of guards of lengths [N/m]; of
+            each switch the number of the length that follows (-1: none); and the numbers of the states that
+            guards depend on.
+        stops: of each set the stroke of the end stop of each switch (NaN: none).
         constants, starts: of each set.
         switches: at the start, overwritten with the end.
         times*, inputs*: segment boundaries and inputs, shapes (sets, segments + 1), (sets, segments, inputs).
+        first_step: first step to try, of each set; overwritten with the next step to try.
         grids*: instants of the rows, then at least LANES times infinity.
         columns: states to be kept; the column of each in ``out`` or -1; switches to be kept; columns of the
             outputs.
+        rtol, atol: error per step: weighted root mean square below 1; ``atol`` has one entry per state.
         out: shape (sets, columns, room for the rows and LANES - 1 more).
         ends: states at the end.
-        events, counts: of each set, see `rodas4`.
-        statuses: of each set, see `mckibben.simulation.integrate.kernels.Status`.
+        events: of each set, rows (instant, number of the switch, its new value, speed and acceleration just
+            before); further events are counted, not written.
+        counts: of each set accepted steps, rejected steps, grid rows written and events.
+        statuses: of each set a `Status`.
         max_steps: of a set.
         together: the sets run in groups of LANES; those of a group take the steps of its first.
+        measured: address of the outputs of one set under a sampled controller, which writes times and inputs
+            as it goes; 0 without one.
+        loop: see `mckibben.simulation.integrate.lane_controller.next_segment`.
         arrays: room of `attempt`, twice the Jacobian, arguments, arguments of rows, dense output, arguments
             by lane, windows of rows, arrays for one lane, and
             whole numbers of lanes and the table of `mckibben.simulation.integrate.lane_rows`.
     """
-    timed, stops, constants, starts, switches, times, inputs, grids, atol, out, ends = (
+    timed, stops, constants, starts, switches, times, inputs, grids, atol, out, ends, first_step = (
         borrowed(timed), borrowed(stops), borrowed(constants), borrowed(starts), borrowed(switches),
         borrowed(times), borrowed(inputs), borrowed(grids), borrowed(atol), borrowed(out), borrowed(ends),
+        borrowed(first_step),
     )  # fmt: skip
     events, counts, statuses = borrowed(events), borrowed(counts), borrowed(statuses)
     room, (whole, following), packed, row_packed, dense, own, windows, of_lane, (numbers, table) = arrays
@@ -223,11 +278,18 @@ def rodas4_lanes(
     ], np.int64)  # fmt: skip
     for entry in range(filled.shape[0]):
         table[entry] = filled[entry]
+    controlled, fixed = measured != 0, n + constants.shape[1]
+    if controlled:
+        for i in range(n):
+            loop[8][i] = starts[0, i]
+        next_segment(measured, times[0, 0], 0, fixed, times, inputs, loop)
     for lane in range(LANES if sets > 0 else 0):
         # Idle lanes need sound numbers as well.
         _begin(lane, min(lane, sets - 1), first_step, clock, numbers, control, given, lanes)
         if lane >= sets:
             control[ACTIVE, lane] = control[FRESH, lane] = 0.0
+            for i in range(whole.shape[0]):
+                whole[i, lane] = 0.0
     upcoming = active = min(LANES, sets)
     while active > 0:
         if positive_bits(load(at, FRESH)):
@@ -267,9 +329,9 @@ def rodas4_lanes(
         elif accepted:
             mask, at_whole, at_following = load(at, ACCEPTED), whole.ctypes.data, following.ctypes.data
             for i in range(n):
-                store(at_state, i, where_positive(mask, load(at_trial, i), load(at_state, i)))
+                store(at_state, i, replaced(mask, load(at_trial, i), load(at_state, i)))
             for i in range(whole.shape[0]):
-                store(at_whole, i, where_positive(mask, load(at_following, i), load(at_whole, i)))
+                store(at_whole, i, replaced(mask, load(at_following, i), load(at_whole, i)))
         landed = commit(at)
         for lane in range(LANES if landed else 0):
             if not (landed >> lane) & 1:
@@ -282,7 +344,13 @@ def rodas4_lanes(
                 control[LANDING, lane], control[FRESH, lane] = -1.0, 1.0
             if control[LAST, lane] > 0.0:
                 numbers[SEGMENT, lane] += 1
-                if numbers[SEGMENT, lane] < segments:
+                more = numbers[SEGMENT, lane] < segments
+                if controlled:
+                    for i in range(n):
+                        loop[8][i] = state[i, lane]
+                    at_end = control[INSTANT, lane]
+                    more = next_segment(measured, at_end, numbers[SEGMENT, lane], fixed, times, inputs, loop)
+                if more:
                     _enter(lane, clock, numbers, control, given, lanes)
                 else:
                     over |= 1 << lane
@@ -299,6 +367,7 @@ def rodas4_lanes(
             counts[q, 0], counts[q, 1] = control[TAKEN, lane], control[REJECTED, lane]
             counts[q, 2] = numbers[ROW, lane]
             complete(lane, table)
+            first_step[q] = control[WANTED, lane]
             for i in range(n):
                 ends[q, i] = state[i, lane]
                 if statuses[q] == 0 and not np.isfinite(state[i, lane]):

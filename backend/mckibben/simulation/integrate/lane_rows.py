@@ -23,8 +23,8 @@ from mckibben.simulation.integrate.lane_type import (
     positive_bits,
     splat,
     store,
+    store_any,
     stream,
-    where_positive,
 )
 from mckibben.simulation.integrate.switching import call
 
@@ -65,13 +65,6 @@ def _by_lane(address: int, rows: int) -> Any:
     return carray(pointer_at(address), (rows, LANES), np.float64)
 
 
-@njit(inline="always")
-def _window(table: np.ndarray, lane: int, c: int) -> int:
-    """Address of the rows of kept value c in the window of a lane."""
-    columns = table[KEPT] + table[KEPT_SWITCHES]
-    return table[AT_WINDOWS] + _COLUMN * (lane * columns + c)
-
-
 @njit(error_model="numpy")
 def write_rows(crossing: int, table: np.ndarray) -> None:
     """Write the rows in the accepted steps of some lanes."""
@@ -90,21 +83,17 @@ def write_rows(crossing: int, table: np.ndarray) -> None:
         finished = False
         while not finished:
             first = numbers[ROW, lane] - numbers[DONE, lane]
-            # Aligned blocks: of the first one the rows up to t are there already, of the last one the rows
-            # behind the step are written again later.
-            place, beyond = first - first % LANES, 0
+            # Of the last block the rows behind the step are written again later.
+            place, beyond = first, 0
             at_instants = at_grid + 8 * numbers[DONE, lane]
             while beyond == 0 and place < WINDOW:  # the grid ends with infinity
                 at, instants = at_window + 8 * place, load_any(at_instants + 8 * place)
-                since = instants - t
-                s = since * over
-                mine = since if place < first else splat(1.0)
+                s = (instants - t) * over
                 for c in range(count):
-                    store(at, 0, where_positive(mine, row_of(dense, c, lane, s), load(at, 0)))
+                    store_any(at, row_of(dense, c, lane, s))
                     at += _COLUMN
                 for c in range(switches):
-                    value = splat(packed[first_switch + kept_switches[c], lane])
-                    store(at, 0, where_positive(mine, value, load(at, 0)))
+                    store_any(at, splat(packed[first_switch + kept_switches[c], lane]))
                     at += _COLUMN
                 beyond = positive_bits(instants - reached)
                 place += first_bit(beyond) if beyond else LANES
@@ -127,11 +116,12 @@ def complete(lane: int, table: np.ndarray) -> None:
     kept, column_of = _integers(table[AT_KEPT], count), _integers(table[AT_COLUMN_OF], count)
     at_grid = table[AT_GRIDS] + q * table[GRID_STEP] + 8 * done
     column = 8 * table[ROOM]
+    at_window = table[AT_WINDOWS] + _COLUMN * lane * (count + switches)
     at_out = table[AT_OUT] + column * table[COLUMNS] * q + 8 * done
     for c in range(count):
         if column_of[c] < 0:
             continue
-        at_from, at_to = _window(table, lane, c), at_out + column * column_of[c]
+        at_from, at_to = at_window + _COLUMN * c, at_out + column * column_of[c]
         if kept[c] == clock:
             at_from = at_grid
         for row in range(0, rows, LANES):
@@ -165,12 +155,14 @@ def complete(lane: int, table: np.ndarray) -> None:
             for i in range(many):
                 store(at_packed, n + fixed + i, splat(inputs[piece * many + i]))
             filled = piece
+        at_from = at_window + 8 * row
         for c in range(count):
-            store(at_packed, kept[c], load_any(_window(table, lane, c) + 8 * row))
+            store(at_packed, kept[c], load_any(at_from))
+            at_from += _COLUMN
         store(at_packed, clock, load_any(at_grid + 8 * row))
         for c in range(switches):
-            at_from = _window(table, lane, count + c) + 8 * row
             store(at_packed, first_switch + kept_switches[c], load_any(at_from))
+            at_from += _COLUMN
         call(table[AT_FUNCTION], at_values + 8 * row * wanted, at_packed)
     # Column by column: memory takes neighbours faster.
     for c in range(wanted):

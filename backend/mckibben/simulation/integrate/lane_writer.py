@@ -48,6 +48,11 @@ def has_quotients(lanes: int) -> bool:
     return lanes == 8 and lanes_of_machine() == 8
 
 
+def has_blend(lanes: int) -> bool:
+    """Whether rows of this many lanes are registers of AVX, which has a blending instruction."""
+    return lanes == 4 and lanes_of_machine() == 4
+
+
 def lane_writer(lanes: int) -> type[LaneWriter]:
     """A writer for rows of this many lanes."""
     kind = {"real": f"<{lanes} x double>", "truth": f"<{lanes} x i1>", "lanes": lanes}

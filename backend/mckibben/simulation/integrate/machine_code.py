@@ -10,12 +10,16 @@ from __future__ import annotations
 import ctypes
 import ctypes.util
 import struct
-from collections.abc import Callable, Mapping, Sequence
+import sys
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from functools import cache
 from typing import Any
 
 import numpy as np
 import symengine as se
+
+from mckibben.simulation.kept_code import keep, kept
 
 # Function of symengine -> function for LLVM to call; those without a dot are from the C library.
 _FUNCTIONS = {
@@ -27,6 +31,8 @@ _LIBRARY = ("sin", "cos", "log", "exp", "pow", "tan", "asin", "acos", "atan", "s
 _COMPARISONS = {"StrictLessThan": "olt", "LessThan": "ole", "Equality": "oeq", "Unequality": "une"}
 # Largest integer exponent that is expanded into multiplications.
 _MOST_FACTORS = 32
+# Calls within calls while an expression is written; a typed term of 38 nested functions needs a thousand.
+_DEEPEST = 5000
 # Exponents of reciprocals.
 _RECIPROCALS = (se.Integer(-1), se.Rational(-1, 2))
 
@@ -87,18 +93,39 @@ def texts_of(
     wanted = [se.sympify(result) for _, results in functions.values() for result in results]
     shared, reduced = se.cse(wanted)
     left, texts, declared = iter(reduced), [], set()
-    for name, (arguments, results) in functions.items():
-        writer = writer_of(arguments, dict(shared))
-        texts.append(writer.function(name, [next(left) for _ in results]))
-        declared |= writer.declared
+    with _nested():
+        for name, (arguments, results) in functions.items():
+            writer = writer_of(arguments, dict(shared))
+            texts.append(writer.function(name, [next(left) for _ in results]))
+            declared |= writer.declared
     return [*texts, *sorted(declared)]
+
+
+@contextmanager
+def _nested() -> Iterator[None]:
+    """Allow writers to follow expressions that are nested as deeply as typed terms may be."""
+    usual = sys.getrecursionlimit()
+    sys.setrecursionlimit(max(usual, _DEEPEST))
+    try:
+        yield
+    finally:
+        sys.setrecursionlimit(usual)
 
 
 def engine_of(texts: Sequence[str], level: int, features: str = "") -> Any:
     """The compiled code of texts, for this machine; ``features`` are added to those of its processor."""
+    import llvmlite
     import llvmlite.binding as llvm
 
-    engine = llvm.create_mcjit_compiler(llvm.parse_assembly("\n".join(texts)), _host(level, features))
+    text, target = "\n".join(texts), _host(level, features)
+    key = f"{llvmlite.__version__} {target.triple} {level} {features}\n{text}".encode()
+    code = kept(key)
+    if code is not None:
+        engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target)
+        engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    else:
+        engine = llvm.create_mcjit_compiler(llvm.parse_assembly(text), target)
+        engine.set_object_cache(notify_func=lambda _, made: keep(key, made))
     engine.finalize_object()
     return engine
 

@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import accumulate
-from typing import Any, NamedTuple
 
 import numpy as np
 
-from mckibben.simulation.integrate.background import Background
-from mckibben.simulation.integrate.engine import MAX_STEPS, CompiledDrive, kernel, outcome_of
-from mckibben.simulation.integrate.lane_code import aligned
-from mckibben.simulation.integrate.problem import EVENT_WIDTH, FIRST_STEP, MOST_EVENTS, bounce_of
+from mckibben.simulation.integrate.lane_room import Columns, LaneKernels, columns_of, lane_kernels
+from mckibben.simulation.integrate.problem import (
+    EVENT_WIDTH,
+    FIRST_STEP,
+    MAX_STEPS,
+    MOST_EVENTS,
+    bounce_of,
+    outcome_of,
+)
 from mckibben.simulation.integrate.recycled import recycled
+from mckibben.simulation.integrate.system import CompiledDrive
 from mckibben.simulation.outcome import Outcome
 
 
@@ -54,34 +58,6 @@ class ManySolutions:
             for outcome, events in zip(self.outcomes, self.events, strict=True)
         ]
         return np.array(same, bool) & (self.written == self.written[0])
-
-
-class LaneKernels(NamedTuple):
-    """The kernel of `mckibben.simulation.integrate.lane_kernel`, sizes of its arrays, and repeated calls."""
-
-    run: Callable[..., None]
-    call_blocks: Callable[[int, np.ndarray, np.ndarray], None]
-    find_roots: Callable[..., None]
-    lanes: int
-    window: int
-    numbers: int
-    entries: int
-    control: int
-
-
-def _load() -> LaneKernels:
-    # numba: 1 s cached, 20 s the first time ever; one after the other, what every run needs first.
-    kernel.awaited()
-    from mckibben.simulation.integrate.lane_control import CONTROL_ROWS
-    from mckibben.simulation.integrate.lane_kernel import rodas4_lanes
-    from mckibben.simulation.integrate.lane_rows import ENTRIES, NUMBERS, WINDOW
-    from mckibben.simulation.integrate.lane_type import LANES
-    from mckibben.simulation.integrate.repeated import call_blocks, find_roots
-
-    return LaneKernels(rodas4_lanes, call_blocks, find_roots, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS)
-
-
-lane_kernels = Background(_load, "lane-kernels")
 
 
 def constants_of_many(drive: CompiledDrive, parameters: np.ndarray) -> np.ndarray:
@@ -152,7 +128,7 @@ def integrate_many(
     if together and sets:
         order = _groups(sets, kernels.lanes)
         given = given.picked(order)
-    chosen = _Columns(drive, columns)
+    chosen = columns_of(drive, columns)
     done = _run(
         drive, kernels, given, chosen, tolerance, (restitution, first_step), max_steps, together=together
     )
@@ -201,37 +177,6 @@ class _Given:
         return _Given(self.parameters[order], self.starts[order], self.switches[order], *shared)
 
 
-class _Columns:
-    """Which states, switches and outputs have to be written, and where."""
-
-    def __init__(self, drive: CompiledDrive, names: Sequence[str] | None) -> None:
-        states = [state.name for state in drive.model.states]
-        outputs = list(drive.model.output_names)
-        names = [*states, *outputs] if names is None else list(names)
-        unknown = [name for name in names if name not in states and name not in outputs]
-        if unknown:
-            raise ValueError(
-                f"there is no state or output {unknown[0]}; there are {', '.join([*states, *outputs])}"
-            )
-        self.count = len(names)
-        place = {states.index(name): column for column, name in enumerate(names) if name in states}
-        wanted = [(column, outputs.index(name)) for column, name in enumerate(names) if name not in states]
-        self.address, needs, first_switch = 0, np.zeros(0, np.int64), drive.codes.outputs.size
-        if wanted:
-            code, needs = drive.lanes.outputs([index for _, index in wanted])
-            self.address, first_switch = code.address, code.size - len(drive.model.switches)
-        kept = sorted({*place, *needs[needs < drive.size].tolist()})
-        self.kept = np.array(kept, np.int64)
-        self.column_of = np.array([place.get(state, -1) for state in kept], np.int64)
-        self.kept_switches = needs[needs >= first_switch] - first_switch
-        self.outputs = np.array([column for column, _ in wanted], np.int64)
-
-    @property
-    def given(self) -> tuple[np.ndarray, ...]:
-        """``columns`` of the kernel."""
-        return self.kept, self.column_of, self.kept_switches, self.outputs
-
-
 def _of_sets(array: np.ndarray, dimensions: int) -> np.ndarray:
     """An array with the sets as its first dimension."""
     array = np.ascontiguousarray(array, dtype=float)
@@ -249,57 +194,52 @@ def _run(
     drive: CompiledDrive,
     kernels: LaneKernels,
     given: _Given,
-    chosen: _Columns,
+    chosen: Columns,
     tolerance: float,
     options: tuple[float, float],
     max_steps: int,
     *,
     together: bool,
 ) -> ManySolutions:
-    codes, lanes, n = drive.codes, kernels.lanes, drive.size
+    lanes, n = kernels.lanes, drive.size
     sets, rows, kinds = len(given.parameters), given.grid.shape[1], given.switches.shape[1]
     constants = constants_of_many(drive, given.parameters)
     stops = np.full((sets, kinds), np.nan)
     for index, place in enumerate(drive.stop_places):
         if place is not None:
             stops[:, index] = given.parameters[:, place]
-    step = drive.lanes.step
     room = (rows + 2 * lanes - 1) // lanes * lanes
     padded = np.full((len(given.grid), rows + 2 * lanes), np.inf)
     padded[:, :rows] = given.grid
     out = recycled(sets, chosen.count, room)
     ends, counts, statuses = np.empty((sets, n)), np.zeros((sets, 4), np.int64), np.zeros(sets, np.int64)
     events = np.empty((sets, MOST_EVENTS, EVENT_WIDTH))
-    functions = [step[name].address for name in ("rates", "jacobian", "factorise", "solve")]
-    kernels.run(
-        (*functions, chosen.address),
-        codes.guards.address,
-        np.ascontiguousarray(codes.timed, np.uint64),
-        len(codes.entries),
-        codes.plan.size,
-        codes.clock,
-        drive.moved,
-        (drive.least, bounce_of(options[0]), drive.follows, drive.watched),
-        stops,
-        constants,
-        given.starts,
-        given.switches,
-        given.times,
-        given.inputs,
-        options[1],
-        padded,
-        tolerance,
-        tolerance * drive.scales,
-        chosen.given,
-        out,
-        ends,
-        events,
-        counts,
-        statuses,
-        max_steps,
-        together,
-        _arrays(drive, step["jacobian"].width, chosen, kernels),
-    )
+    with chosen.room(kernels) as arrays:
+        kernels.run(
+            *chosen.model,
+            (drive.least, bounce_of(options[0]), drive.follows, drive.watched),
+            stops,
+            constants,
+            given.starts,
+            given.switches,
+            given.times,
+            given.inputs,
+            np.full(sets, options[1]),
+            padded,
+            tolerance,
+            tolerance * drive.scales,
+            chosen.given,
+            out,
+            ends,
+            events,
+            counts,
+            statuses,
+            max_steps,
+            together,
+            0,
+            kernels.no_loop,
+            arrays,
+        )
     table = out[:, :, :rows].transpose(0, 2, 1)
     for index in np.flatnonzero(counts[:, 2] < rows):
         table[index, counts[index, 2] :] = np.nan
@@ -314,36 +254,6 @@ def _run(
         tuple(map(outcome_of, statuses.tolist())) if statuses.any() else (Outcome.COMPLETED,) * sets,
         counts[:, 0],
         counts[:, 1],
-    )
-
-
-def _arrays(drive: CompiledDrive, entries: int, chosen: _Columns, kernels: LaneKernels) -> tuple[Any, ...]:
-    """``arrays`` of the kernel."""
-    lanes = kernels.lanes
-    n, kinds = drive.size, len(drive.model.switches)
-    arguments = drive.codes.rates.size
-    widest = max(n, len(chosen.outputs) * (kernels.window // lanes))
-    kept = len(chosen.kept) + len(chosen.kept_switches)
-    sizes = [n, n, 6 * n, n, drive.codes.plan.size, widest, kernels.control]
-    sizes += [entries, entries, arguments, arguments, 4 * max(len(chosen.kept), 1)]
-    sizes.append(kept * (lanes + kernels.window))
-    whole = aligned(sum(sizes), lanes)  # one array: each takes some microseconds
-    parts = [whole[end - size : end] for size, end in zip(sizes, accumulate(sizes), strict=True)]
-    return (
-        tuple(parts[:7]),
-        tuple(parts[7:9]),
-        *parts[9:12],
-        np.zeros((lanes, arguments)),
-        parts[12].reshape(lanes, kept, lanes + kernels.window),
-        (
-            np.zeros(n),
-            np.zeros(n),
-            np.zeros((2, n)),
-            np.zeros((2, kinds)),
-            np.zeros(kinds + 1),
-            np.zeros(kinds),
-        ),
-        (np.zeros((kernels.numbers, lanes), np.int64), np.zeros(kernels.entries, np.int64)),
     )
 
 

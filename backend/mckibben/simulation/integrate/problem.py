@@ -15,6 +15,7 @@ SLOWEST_REBOUND = 1e-3  # m/s; an impact that would leave less leaves the load a
 LOWEST_REBOUND = 1e-7  # m; a lower one would be a matter of rounding, and leaves the load at rest too
 MOST_EVENTS = 256  # events of a run that are kept
 EVENT_WIDTH = 5  # see `Solution.events`
+MAX_STEPS = 400_000  # accepted and rejected steps of a run
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -45,23 +46,9 @@ class Problem:
     tolerance: float
 
     @property
-    def switching(self) -> tuple[np.ndarray, ...]:
-        """The argument of the kernel."""
-        return switching_of(self.drive, self.stops, self.restitution)
-
-    @property
     def absolute(self) -> np.ndarray:
         """Absolute error per step of each state."""
         return self.tolerance * self.drive.scales
-
-    def empty_rows(self) -> np.ndarray:
-        """Rows to write."""
-        return np.empty((len(self.grid), self.drive.size + self.drive.width))
-
-
-def switching_of(drive: CompiledDrive, stops: np.ndarray, restitution: float) -> tuple[np.ndarray, ...]:
-    """``switching`` of `mckibben.simulation.integrate.kernels.rodas4`."""
-    return drive.least, stops, bounce_of(restitution), drive.follows, drive.watched
 
 
 def bounce_of(restitution: float) -> np.ndarray:
@@ -91,3 +78,8 @@ class Solution:
     rejected: int
     engine: str
     next_step: float = FIRST_STEP
+
+
+def outcome_of(status: int) -> Outcome:
+    """The outcome that corresponds to a status of the kernel."""
+    return {0: Outcome.COMPLETED, 2: Outcome.STUCK}.get(int(status), Outcome.DIVERGED)

@@ -1,8 +1,9 @@
-"""Where within a step a switch changes, and what happens there: the event rules of the kernels.
+"""Where within a step a switch changes, and what happens there: the event rules of the kernel.
 
 They hold no physics: guards are a compiled function, end stops and lengths that follow are given by
-``switching``, see `mckibben.simulation.integrate.kernels.rodas4`. A step is known by its start and end and by
-the coefficients ``dense`` of the dense output between them.
+``switching``: ``switching_`` of `mckibben.simulation.integrate.lane_kernel.rodas4_lanes` with the stops after
+its first entry. A step is known by its start and end and by the coefficients ``dense`` of the dense output
+between them.
 """
 
 from __future__ import annotations
@@ -13,8 +14,6 @@ import numpy as np
 from llvmlite import ir
 from numba import njit, types
 from numba.extending import intrinsic
-
-from mckibben.simulation.integrate.coefficients import DENSE_2, DENSE_3
 
 
 def _call_at(_typing: Any, _address: Any, _out: Any, _inputs: Any) -> Any:
@@ -37,16 +36,6 @@ call: Any = intrinsic(_call_at)
 def _interpolated(i: int, s: float, start: np.ndarray, end: np.ndarray, dense: np.ndarray) -> float:
     """A state at the share s of a step."""
     return start[i] * (1.0 - s) + s * (end[i] + (1.0 - s) * (dense[0, i] + s * dense[1, i]))
-
-
-@njit(inline="always", error_model="numpy")
-def write_dense(dense: np.ndarray, u: np.ndarray) -> None:
-    """Coefficients of the dense output of each state, shape (2, states), from the stages of a step."""
-    for i in range(dense.shape[1]):
-        dense[0, i] = dense[1, i] = 0.0
-        for j in range(5):
-            dense[0, i] += DENSE_2[j] * u[i, j]
-            dense[1, i] += DENSE_3[j] * u[i, j]
 
 
 @njit(inline="always", error_model="numpy")
@@ -131,17 +120,6 @@ def _turning(i: int, start: np.ndarray, end: np.ndarray, dense: np.ndarray) -> f
             low = middle
             break
     return low
-
-
-@njit(inline="always", error_model="numpy")
-def may_change(
-    ends: np.ndarray, first_guard: int, least: np.ndarray, speed: int, start: np.ndarray, end: np.ndarray
-) -> bool:
-    """Whether a switch may change within a step: a guard is violated at its end, or the load turns round."""
-    for k in range(least.shape[0]):
-        if ends[first_guard + k] < -least[k]:
-            return True
-    return speed >= 0 and start[speed] * end[speed] < 0.0
 
 
 @njit(inline="always", error_model="numpy")

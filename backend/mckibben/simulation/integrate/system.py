@@ -50,17 +50,6 @@ class Codes:
     plan: Plan
     clock: int
 
-    @cached_property
-    def given(self) -> tuple[Any, ...]:
-        """The first arguments of the kernel."""
-        functions = (self.rates, self.jacobian, self.outputs, self.guards)
-        addresses = tuple(function.address for function in functions)
-        plan = self.plan
-        lists = (plan.places, self.timed, plan.diagonal, plan.pivots, plan.lower, plan.updates, plan.rows)
-        # Unsigned: numba then does not look for negative positions.
-        positions = tuple(np.ascontiguousarray(part, np.uint64) for part in (*lists, plan.terms))
-        return addresses, positions, plan.size, self.clock
-
 
 @dataclass(frozen=True)
 class CompiledDrive:
@@ -82,6 +71,11 @@ class CompiledDrive:
     def lanes(self) -> LaneCodes:
         """The functions on rows of lanes; compiled when first used."""
         return LaneCodes(self.functions, self.codes.plan)
+
+    @cached_property
+    def columns(self) -> dict[tuple[str, ...] | None, Any]:
+        """What `mckibben.simulation.integrate.lane_room.columns_of` has found."""
+        return {}
 
     @property
     def width(self) -> int:
