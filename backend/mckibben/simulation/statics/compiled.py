@@ -17,6 +17,7 @@ from mckibben.physics.custom import blamed_on_the_term
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import State
 from mckibben.physics.muscle import GEOMETRY, Muscle
+from mckibben.simulation.statics.kept_structures import kept_or_compiled
 from mckibben.simulation.statics.symbolic import INPUTS, symbolic_state
 
 # Exact derivatives after the fields of State, as (field, input).
@@ -58,18 +59,22 @@ class CompiledState:
         quick: bool = False,
     ) -> None:
         symbolic = symbolic_state(effects, memory=memory)
-        fields = symbolic.fields
         self.constants = tuple(symbolic.constants)
-        outputs = [*fields, *(symbolic.by(field, name) for field, name in DERIVATIVES)]
-        named = {**symbolic.constants, **symbolic.states}
-        for name in gradient:
-            chosen = (fields.force, fields.tension, fields.length, fields.compliance)
-            outputs += [output.diff(named[name]) for output in chosen]
         self.inputs = (*INPUTS, *symbolic.states)
         symbols = [
             *symbolic.inputs.values(), *symbolic.states.values(), *symbolic.constants.values()
         ]  # fmt: skip
-        self._function = se.Lambdify(symbols, outputs, backend="llvm", cse=True, opt_level=0 if quick else 3)
+
+        def build() -> Any:
+            fields = symbolic.fields
+            outputs = [*fields, *(symbolic.by(field, name) for field, name in DERIVATIVES)]
+            named = {**symbolic.constants, **symbolic.states}
+            for name in gradient:
+                chosen = (fields.force, fields.tension, fields.length, fields.compliance)
+                outputs += [output.diff(named[name]) for output in chosen]
+            return se.Lambdify(symbols, outputs, backend="llvm", cse=True, opt_level=0 if quick else 3)
+
+        self._function = kept_or_compiled(effects, (tuple(gradient), memory, quick), build)
         self._width = len(symbols)
         self.compliant = symbolic.model.has("compliance")
 
@@ -102,7 +107,7 @@ class CompiledState:
 def compiled_state(
     effects: tuple[Effect, ...], gradient: tuple[str, ...] = (), *, memory: bool = False, quick: bool = False
 ) -> CompiledState:
-    """The compiled structure, built once (10 to 30 ms) and kept.
+    """The compiled structure, built once on a machine (10 to 50 ms) and kept.
 
     Raises:
         InputError: a typed term among the effects cannot be compiled.
