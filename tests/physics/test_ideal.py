@@ -192,3 +192,23 @@ def test_no_energy_is_created_on_a_closed_path() -> None:
     pneumatic = np.mean(volume(braid=BRAID, length=length) * pressure_rate)
     assert mechanical == pytest.approx(pneumatic, rel=1e-12)
     assert abs(mechanical) > 0.01, "a path that encloses something"
+
+
+def test_stiffness_from_the_force_is_the_tangent_of_the_ideal_muscle() -> None:
+    """Equation (20): with the force of the ideal muscle at any pressure it is (19)."""
+    for diameter, angle, length0, contraction, pressure in random_muscles():
+        braid = braid_from_diameter(diameter=diameter, braid_angle=angle, length=length0)
+        length = length0 * (1.0 - contraction)
+        force = ideal.force(braid=braid, pressure=pressure, length=length)
+        expected = ideal.stiffness(braid=braid, pressure=pressure, length=length)
+        got = ideal.stiffness_from_force(braid=braid, force=force, length=length)
+        assert got == pytest.approx(expected, rel=1e-9)
+
+
+def test_secant_stiffness_is_the_mean_of_the_tangent_from_the_shortest_length() -> None:
+    """Equation (25): the tangent of the ideal muscle is linear in L, so its mean is that of the two ends."""
+    force = ideal.force(braid=BRAID, pressure=P, length=L0)
+    secant = ideal.stiffness_secant(force=force, length=L0, shortest=SHORTEST)
+    ends = [ideal.stiffness(braid=BRAID, pressure=P, length=length) for length in (SHORTEST, L0)]
+    assert secant == pytest.approx(sum(ends) / 2.0, rel=1e-12)
+    assert secant == pytest.approx(10643.3, abs=0.1)  # (8283.44 + 13003.11)/2, physics of the tables above

@@ -205,6 +205,46 @@ def test_diameters_over_pressure_at_a_fixed_length(shared_client: TestClient) ->
     assert outer[0] < outer[-1]
 
 
+def test_the_stiffness_by_the_other_equations_of_the_paper(shared_client: TestClient) -> None:
+    plain = curves(shared_client, PAPER, pressures=["3 bar", "6 bar"])
+    assert (plain["stiffness_from_force"], plain["stiffness_secant"]) == (None, None)
+    answer = curves(shared_client, PAPER, pressures=["3 bar", "6 bar"], further_stiffness=True)
+    assert {name: answer[name] for name in plain if "stiffness_" not in name} == {
+        name: plain[name] for name in plain if "stiffness_" not in name
+    }
+    # (20) of the ideal muscle is (19); its last column is the length without force, where it is the limit.
+    for ours, tangent in zip(answer["stiffness_from_force"], answer["stiffness"], strict=True):
+        assert ours[:-1] == pytest.approx(tangent[:-1], rel=1e-9)
+    # (25) by hand: force over the way to b/sqrt(3).
+    shortest = answer["geometry"]["thread_length"] / math.sqrt(3.0)
+    for force, ours in zip(answer["force"], answer["stiffness_secant"], strict=True):
+        lengths = answer["length"][:-1]
+        by_hand = [f / (length - shortest) for f, length in zip(force[:-1], lengths, strict=True)]
+        assert ours[:-1] == pytest.approx(by_hand, rel=1e-6)
+
+
+def test_the_secant_of_a_real_muscle_begins_where_it_has_no_force(shared_client: TestClient) -> None:
+    options = {"pressures": ["6 bar"], "further_stiffness": True, "unclipped": True, "contraction_to": "35 %"}
+    answer = curves(shared_client, {"preset": "DMSP-20"}, **options)
+    free = 0.3 * (1.0 - answer["characteristics"][0]["free_contraction"])
+    columns = zip(answer["length"], answer["force"][0], answer["stiffness_secant"][0], strict=True)
+    for length, force, secant in columns:
+        assert secant == pytest.approx(force / (length - free), rel=1e-6)
+    # The straight line of (20) has no value where only an ideal muscle has no force.
+    ideal_shortest = answer["geometry"]["thread_length"] / math.sqrt(3.0)
+    at = {
+        "pressures": ["6 bar"],
+        "further_stiffness": True,
+        "unclipped": True,
+        "contraction_from": 1.0 - ideal_shortest / 0.3,
+        "contraction_to": 0.4,
+    }
+    there = curves(shared_client, {"preset": "DMSP-20"}, **at)
+    assert there["stiffness_from_force"][0][0] is None
+    ideal = curves(shared_client, {"preset": "DMSP-20"}, effects={}, **at)
+    assert ideal["stiffness_from_force"][0][0] == pytest.approx(ideal["stiffness"][0][0], rel=1e-12)
+
+
 def test_friction_separates_filling_from_venting(shared_client: TestClient) -> None:
     effects = {"coulomb_friction": {}}
     over = curves(shared_client, {"preset": "DMSP-20"}, effects=effects, load=300, fixed_length=0.28)[

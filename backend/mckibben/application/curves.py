@@ -35,6 +35,7 @@ from mckibben.simulation.statics.characteristics import (
     characteristics,
     diameters_at_length,
     force_at_length,
+    further_stiffness,
     held_contractions,
     ideal_contraction,
     lock_forces,
@@ -64,6 +65,7 @@ class CurvesQuestion:
         load: constant load for the operating points [N]; None without them.
         fixed_length: length at which the force is shown over the pressure [m]; None without it.
         conditions: direction of motion, temperature, volume behind a closed valve.
+        further_stiffness: whether to answer the stiffness by its other definitions too.
     """
 
     start: StartModel
@@ -75,6 +77,7 @@ class CurvesQuestion:
     load: float | None = None
     fixed_length: float | None = None
     conditions: Conditions = field(default_factory=Conditions)
+    further_stiffness: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,6 +148,10 @@ class CurvesResult:
         pressure: gauge pressures of the rows, shape (P,).
         length, contraction: of the columns, shape (N,).
         force, stiffness, stiffness_closed: shape (P, N).
+        stiffness_from_force: of the ideal muscle that pulls with this force at this length,
+            6 L F/(3 L² - b²), equation (20) of the source paper; None unless asked for.
+        stiffness_secant: of the straight line from the length without force, F/(L - L_min), equation (25);
+            None unless asked for.
         braid_angle, volume, diameter, outer_diameter: shape (N,); at the highest pressure if the pressure
             stretches the braid.
         interval: where new readings of the force are expected, of a model that was fitted; else None.
@@ -159,6 +166,8 @@ class CurvesResult:
     force: Array
     stiffness: Array
     stiffness_closed: Array
+    stiffness_from_force: Array | None
+    stiffness_secant: Array | None
     volume: Array
     diameter: Array
     outer_diameter: Array
@@ -225,6 +234,9 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         )
 
     columns = curves_of(model)
+    further = None
+    if question.further_stiffness:
+        further = further_stiffness(model, columns, pressures, length, under_load.free)
     points: list[OperatingPoint] = []
     crossed = [flag for p in question.pressures for flag in model.limits.flags(pressure=p)]
     if question.load is not None:
@@ -241,6 +253,8 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         force=columns.force,
         stiffness=columns.stiffness,
         stiffness_closed=columns.stiffness_closed,
+        stiffness_from_force=further and further.from_force,
+        stiffness_secant=further and further.secant,
         volume=columns.volume[top],
         diameter=columns.diameter[top],
         outer_diameter=columns.outer_diameter[top],

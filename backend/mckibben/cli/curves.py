@@ -16,6 +16,7 @@ def run(
     *,
     model: ModelOptions,
     pressure: str | None,
+    stiffness: bool,
     as_json: bool,
 ) -> None:
     """Print the curves.
@@ -24,7 +25,7 @@ def run(
         InputError: an option cannot be used.
     """
     start = start_model(studio, model)
-    question = CurvesQuestion(start)
+    question = CurvesQuestion(start, further_stiffness=stiffness)
     if pressure is not None:
         question = replace(question, pressures=pressures_of(pressure.split(","), "--pressure"))
     result = curves(question, studio)

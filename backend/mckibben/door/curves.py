@@ -74,6 +74,25 @@ class Curves(Result):
         return read_only(self._result.stiffness_closed)
 
     @property
+    def stiffness_from_force(self) -> FloatArray | None:
+        """Stiffness of the ideal muscle with this force, 6 L F/(3 L² - b²) [N/m], shape (P, N).
+
+        Equation (20) of the source paper. NaN at the length at which the ideal muscle has no force and this
+        one has; None unless `Model.curves` was asked for it.
+        """
+        found = self._result.stiffness_from_force
+        return None if found is None else read_only(found)
+
+    @property
+    def stiffness_secant(self) -> FloatArray | None:
+        """Stiffness of the straight line from the length without force, F/(L - L_min) [N/m], shape (P, N).
+
+        Equation (25) of the source paper; None unless `Model.curves` was asked for it.
+        """
+        found = self._result.stiffness_secant
+        return None if found is None else read_only(found)
+
+    @property
     def volume(self) -> FloatArray:
         """Volume of the muscle [m³], shape (N,)."""
         return read_only(self._result.volume)
@@ -112,9 +131,13 @@ class Curves(Result):
         """One row for each pressure and length, SI.
 
         Columns: pressure_Pa, contraction, length_m, force_N, stiffness_N/m, stiffness_closed_N/m, volume_m3,
-        diameter_m.
+        diameter_m; where they were asked for also stiffness_from_force_N/m and stiffness_secant_N/m.
         """
         result = self._result
+        further = {
+            "stiffness_from_force_N/m": result.stiffness_from_force,
+            "stiffness_secant_N/m": result.stiffness_secant,
+        }
         pressures, lengths = len(result.pressure), len(result.length)
         return frame_of(
             {
@@ -126,6 +149,7 @@ class Curves(Result):
                 "stiffness_closed_N/m": result.stiffness_closed.ravel(),
                 "volume_m3": np.tile(result.volume, pressures),
                 "diameter_m": np.tile(result.diameter, pressures),
+                **{name: values.ravel() for name, values in further.items() if values is not None},
             }
         )
 

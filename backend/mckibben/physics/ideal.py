@@ -36,6 +36,28 @@ def stiffness(*, braid: Braid, pressure: Value, length: Value) -> Value:
     return 3.0 * length * pressure / (2.0 * ops.pi * braid.turns**2)
 
 
+def stiffness_from_force(*, braid: Braid, force: Value, length: Value) -> Value:
+    """Stiffness at constant pressure of the ideal muscle that pulls with a force, 6 L F/(3 L^2 - b^2) [N/m].
+
+    Equation (20) of the source paper: the pressure of `stiffness` is replaced by that which the force needs
+    at this length. Undefined (0/0) at `zero_force_length`; the limit there is `stiffness`.
+    """
+    return 6.0 * length * force / (3.0 * length**2 - braid.thread_length**2)
+
+
+def stiffness_secant(*, force: Value, length: Value, shortest: Value, shortest_force: Value = 0.0) -> Value:
+    """Stiffness of the straight line from the shortest length, (F - F_min)/(L - L_min) [N/m].
+
+    Equation (25) of the source paper, its "linear stiffness"; undefined (0/0) at the shortest length, where
+    its limit is the tangent dF/dL.
+
+    Args:
+        force, length: of the muscle [N], [m].
+        shortest, shortest_force: L_min and F_min, the length without force and the force there: 0.
+    """
+    return (force - shortest_force) / (length - shortest)
+
+
 def stiffness_closed(
     *,
     braid: Braid,

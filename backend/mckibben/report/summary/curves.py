@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mckibben.application.curves import CurvesResult
 from mckibben.report.summary.parts import Summary, Table, figure
@@ -44,6 +45,7 @@ def summary_of(result: CurvesResult, muscle: str) -> Summary:
             for name, item in zip(bars, result.characteristics, strict=True)
         ],
     )
+    stiffness = _stiffness(result, muscle, chosen)
     sure = []
     if result.interval is not None:
         half = float(np.nanmedian(result.interval.high - result.force))
@@ -51,4 +53,31 @@ def summary_of(result: CurvesResult, muscle: str) -> Summary:
             f"{100.0 * result.interval.share:.0f} % of new readings lie within about ±{half:.3g} N "
             "of a curve, where the model was measured"
         )
-    return [force, per_pressure, *sure, *(notice.message for notice in result.flags)]
+    return [force, per_pressure, *stiffness, *sure, *(notice.message for notice in result.flags)]
+
+
+def _stiffness(result: CurvesResult, muscle: str, chosen: NDArray[np.intp]) -> list[Table]:
+    """The stiffness by all its definitions at the highest pressure, where it was asked for."""
+    if result.stiffness_from_force is None or result.stiffness_secant is None:
+        return []
+    top = int(np.argmax(result.pressure))
+    columns = {
+        "dF/dL": result.stiffness,
+        "valve closed": result.stiffness_closed,
+        "of the force (20)": result.stiffness_from_force,
+        "secant (25)": result.stiffness_secant,
+    }
+    return [
+        Table(
+            f"Stiffness of {muscle} at {result.pressure[top] / 1e5:g} bar [N/mm]",
+            ["contraction", "length", *columns],
+            [
+                [
+                    f"{result.contraction[index] * 100:.1f} %",
+                    f"{result.length[index] * 1e3:.1f} mm",
+                    *(figure(rows[top][index] * 1e-3) for rows in columns.values()),
+                ]
+                for index in chosen
+            ],
+        )
+    ]

@@ -24,6 +24,7 @@ def curves_question(body: CurvesRequest, studio: Studio) -> CurvesQuestion:
         contraction_to=body.contraction_to,
         load=body.load,
         fixed_length=body.fixed_length,
+        further_stiffness=body.further_stiffness,
         conditions=Conditions(
             direction=body.direction,
             temperature=body.temperature,

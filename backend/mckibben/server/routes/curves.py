@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
 from fastapi.concurrency import run_in_threadpool
 
 from mckibben.application.curves import curves
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
-from mckibben.server.context import StudioDep
+from mckibben.server.context import StoreDep, StudioDep
+from mckibben.server.long_work import contained, whole
 from mckibben.server.questions.curves import curves_question
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.curves import CurvesAnswer, CurvesRequest
@@ -19,10 +20,12 @@ router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRout
 @router.post(
     "",
     response_model=CurvesAnswer,
-    responses=errors(400, 413, 415, 422),
+    responses=errors(400, 413, 415, 422, 429),
     openapi_extra=request_examples.worked("curves"),
 )
-async def compute_curves(body: CurvesRequest, studio: StudioDep) -> JsonAnswer:
+async def compute_curves(
+    body: CurvesRequest, request: Request, studio: StudioDep, store: StoreDep
+) -> JsonAnswer:
     """Force, stiffness, volume and diameter over the length for each pressure, and their limits."""
 
     def answer() -> JsonAnswer:
@@ -31,4 +34,6 @@ async def compute_curves(body: CurvesRequest, studio: StudioDep) -> JsonAnswer:
     if studio.is_built_in(body.muscle.preset, body.effects or ()):
         # On the event loop: such an answer takes about as long as the change of thread would.
         return answer()
+    if contained(request, body):
+        return JsonAnswer(await whole(request, "computation of curves", body, studio, store))
     return await run_in_threadpool(answer)

@@ -39,6 +39,9 @@ class CurvesOptions(Strict):
     )
     load: Load | None = Field(None, description="Constant load, for the operating points.")
     fixed_length: Length | None = Field(None, description="Fixed length, for force over pressure.")
+    further_stiffness: bool = Field(
+        False, description="Also the stiffness that the force implies, and the secant stiffness."
+    )
 
 
 class CurvesRequest(CurvesOptions):
@@ -171,6 +174,15 @@ class CurvesAnswer(Strict):
     force: Rows = si_field("N", "Tension; 0 where the muscle would have to push, unless unclipped.")
     stiffness: Rows = si_field("N/m", "dF/dL at constant pressure.")
     stiffness_closed: Rows = si_field("N/m", "dF/dL at constant gas mass.")
+    stiffness_from_force: Rows | None = si_field(
+        "N/m",
+        "Stiffness of the ideal muscle with this force at this length, 6 L F/(3 L² - b²); null unless asked "
+        "for, and where it has no value.",
+    )
+    stiffness_secant: Rows | None = si_field(
+        "N/m",
+        "Stiffness of the straight line from the length without force, F/(L - L_min); null unless asked for.",
+    )
     volume: Series = si_field("m3", "Enclosed volume at the highest pressure.")
     diameter: Series = si_field("m", "Braid diameter at the highest pressure.")
     outer_diameter: Series = si_field("m", "Outer diameter of the wall, at constant wall volume.")

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from mckibben.physics import ideal
 from mckibben.simulation.statics.inverse import contraction_at
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
-from mckibben.simulation.statics.model import StaticModel
+from mckibben.simulation.statics.model import Curves, StaticModel
 
 Array = NDArray[np.float64]
 
@@ -22,6 +22,7 @@ _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(16)
 # The first column is the nominal length, the others cover the range of each pressure.
 _COLUMNS = np.concatenate([[0.0], (_NODES + 1.0) / 2.0])
 FILLING, VENTING = -1.0, 1.0  # sign of dL/dt
+_SAME_LENGTH = 1e-7  # lengths nearer than this share of the nominal length are one
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +97,13 @@ class ForceBranches:
 
     filling: Array
     venting: Array
+
+
+class FurtherStiffness(NamedTuple):
+    """Stiffness of curves by other definitions than the tangent [N/m], shape (P, N)."""
+
+    from_force: Array
+    secant: Array
 
 
 class HeldContractions(NamedTuple):
@@ -276,6 +284,40 @@ def diameters_at_length(
         np.broadcast_to(there[name], np.shape(grid)).copy() for name in ("diameter", "outer_diameter")
     )
     return diameter, outer
+
+
+def further_stiffness(
+    model: StaticModel, curves: Curves, pressures: Array, length: Array, free: Array
+) -> FurtherStiffness:
+    """The stiffness that the force implies and the secant from the length without force, of curves.
+
+    Args:
+        model: the muscle.
+        curves: its curves, shape (P, N).
+        pressures: gauge pressures of the rows [Pa].
+        length: lengths of the columns [m].
+        free: contraction without load at each pressure; NaN when out of reach.
+
+    Returns:
+        Both of shape (P, N). NaN where they have no value: with a force at the length at which an ideal
+        muscle has none; at a pressure at which the muscle has no length without force. 0 where a clipped
+        curve is slack.
+    """
+    braid, rest = model.muscle.braid, model.muscle.nominal_length
+    shortest = float(ideal.zero_force_length(braid=braid))
+    lengths = np.broadcast_to(length, curves.force.shape)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        from_force = ideal.stiffness_from_force(braid=braid, force=curves.force, length=lengths)
+        without = (rest * (1.0 - free))[:, None]
+        secant = ideal.stiffness_secant(force=curves.force, length=lengths, shortest=without)
+    # Both are 0/0 there; of the ideal muscle, and of the secant of any, the limit is the tangent.
+    largest = ideal.lock_force(braid=braid, pressure=pressures)[:, None]
+    at_shortest = np.abs(lengths - shortest) < _SAME_LENGTH * rest
+    limit = np.where(np.abs(curves.force) <= 10.0 * _SAME_LENGTH * largest, curves.stiffness, np.nan)
+    at_free = np.abs(lengths - without) < _SAME_LENGTH * rest
+    return FurtherStiffness(
+        np.where(at_shortest, limit, from_force), np.where(at_free, curves.stiffness, secant)
+    )
 
 
 def ideal_contraction(model: StaticModel) -> float:

@@ -14,13 +14,14 @@ import { menuButton } from "../../ui/menu.js";
 import { curves, curvesAreCurrent, fault, faultField, reference, retry } from "./model.js";
 import { faultNotice, goToField } from "../../ui/fault.js";
 import { forgetRanges } from "../../plots/axes.js";
-import { ACROSS, atFixedLength, OVER, pressureName, shareOf } from "../../muscle/curve-axes.js";
+import { ACROSS, atFixedLength, OVER, pressureName, shareOf, STIFFNESS } from "../../muscle/curve-axes.js";
 import { cursor, readout } from "./readout.js";
 
 /** @typedef {import("../../muscle/curve-axes.js").View} View */
 
 const across = computed(() => design.value.across);
 const overWhat = computed(() => design.value.over);
+const definition = computed(() => design.value.stiffness);
 
 /** What is drawn. It follows the answers and the display, not the inputs: new inputs with old curves would be
  * wrong.
@@ -32,6 +33,7 @@ const viewNow = () => {
     curves: answer,
     across: across.value,
     over: overWhat.value,
+    definition: definition.value,
     system: units.value,
     reference: reference.value,
   };
@@ -110,10 +112,11 @@ const dashLegend = (solid, dashed, coloured) =>
 
 /** @template {string} T
  * @param {string} label @param {[T, string][]} options @param {() => T} get
- * @param {(value: T) => void} set */
-const choice = (label, options, get, set) =>
+ * @param {(value: T) => void} set @param {() => string | null} [explained] what the chosen one means */
+const choice = (label, options, get, set, explained) =>
   h("select", {
     "aria-label": label,
+    title: explained ?? null,
     class: "small",
     onchange: (/** @type {Event} */ e) =>
       set(/** @type {T} */ (/** @type {HTMLSelectElement} */ (e.target).value)),
@@ -180,6 +183,7 @@ const picture = computed(() => {
     range,
     across.value,
     overWhat.value,
+    definition.value,
     reference.value?.id,
   ]);
 });
@@ -213,6 +217,9 @@ export function chartColumn() {
   const overOptions = /** @type {[import("../../types.js").Over, string][]} */ (
     Object.entries(OVER).map(([key, { title }]) => [key, title])
   );
+  const stiffnessOptions = /** @type {[import("../../types.js").StiffnessOf, string][]} */ (
+    Object.entries(STIFFNESS).map(([key, { title }]) => [key, title])
+  );
   const column = h(
     "div",
     { class: () => `column centre${fault.value || !curvesAreCurrent.value ? " stale" : ""}` },
@@ -228,7 +235,20 @@ export function chartColumn() {
       () => (legendKey.value, pressureLegend()),
     ),
     h("div", { class: "readout", "aria-live": "off" }, () => readout(viewNow())),
-    frame(stiffness, dashLegend("open valve", "closed valve")),
+    frame(
+      stiffness,
+      choice(
+        "Definition of the stiffness",
+        stiffnessOptions,
+        () => definition.value,
+        (value) => editDesign({ stiffness: value }, "definition of the stiffness"),
+        () => STIFFNESS[definition.value].text,
+      ),
+      () =>
+        definition.value === "tangent"
+          ? dashLegend("valve open", "closed")
+          : dashLegend(STIFFNESS[definition.value].title, "tangent"),
+    ),
     frame(volume, dashLegend("volume", "diameter", true)),
     frame(
       over,

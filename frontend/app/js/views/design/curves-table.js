@@ -12,6 +12,8 @@ export function curvesTable() {
   const unit = (/** @type {import("../../format.js").Quantity} */ q) => scaleOf(q, system).unit;
   const write = (/** @type {number | null} */ v, /** @type {import("../../format.js").Quantity} */ q) =>
     v == null ? null : toShown(v, scaleOf(q, system));
+  const further = /** @type {const} */ (["stiffness_from_force", "stiffness_secant"])
+    .filter((name) => answer?.[name]);
   const rows = answer?.pressure.flatMap((p, k) =>
     answer.contraction.map((c, i) => [
       write(p, "pressure"),
@@ -21,6 +23,7 @@ export function curvesTable() {
       write(answer.force[k][i], "force"),
       write(answer.stiffness[k][i], "stiffness"),
       write(answer.stiffness_closed[k][i], "stiffness"),
+      ...further.map((name) => write(answer[name]?.[k][i] ?? null, "stiffness")),
       write(answer.volume[i], "volume"),
       write(answer.diameter[i], "length"),
     ])
@@ -34,6 +37,7 @@ export function curvesTable() {
       { title: "force", unit: unit("force") },
       { title: "stiffness", unit: unit("stiffness") },
       { title: "stiffness_closed", unit: unit("stiffness") },
+      ...further.map((title) => ({ title, unit: unit("stiffness") })),
       { title: "volume", unit: unit("volume") },
       { title: "diameter", unit: unit("length") },
     ],

@@ -36,6 +36,7 @@ const curvesRequest = (d) => ({
   contraction_to: d.range?.[1] ?? null,
   load: d.load,
   fixed_length: d.fixed_length,
+  further_stiffness: d.stiffness !== "tangent",
 });
 
 const curvesQuestion = new Question(

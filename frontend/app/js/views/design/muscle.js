@@ -10,6 +10,7 @@ import { quantityField, subscript } from "../../ui/field.js";
 import { unverifiedBadge } from "../../ui/sources.js";
 import { curves, FORM_KEYS, geometryValue, inForm, messageFor, presetValue } from "./model.js";
 import { muscle, preset, usePreset } from "../../muscle/preset.js";
+import { orderCodeField } from "./order-code.js";
 
 /** @typedef {import("../../types.js").Form} Form */
 /** @typedef {{label: string, symbol: string, quantity: import("../../format.js").Quantity,
@@ -180,6 +181,7 @@ export function muscleCard() {
     h("div", { class: "card-head" }, h("h2", null, "Muscle"), () => unverifiedBadge(preset.value)),
     presetSelect(),
     h("p", { class: "error" }, () => messageFor("preset") ?? ""),
+    orderCodeField(),
     h(
       "div",
       { class: "segments", role: "radiogroup", "aria-label": "Form of the geometry" },

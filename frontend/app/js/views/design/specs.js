@@ -16,20 +16,26 @@ export { forceSpec } from "../../muscle/force-plot.js";
 /** @param {View} v @param {Palette} p @returns {Spec} */
 export function stiffnessSpec(v, p) {
   const x = xAxis(v, "stiffness");
-  const traces = [
-    ...curveFamily(v, p, "stiffness", "stiffness"),
-    ...curveFamily(v, p, "stiffness_closed", "stiffness", "dash"),
-  ];
+  // Another definition is compared with the tangent; the tangent with that of a closed valve.
+  const other = v.definition && v.definition !== "tangent"
+    ? /** @type {const} */ (`stiffness_${v.definition}`)
+    : null;
+  const traces = other && v.curves[other]
+    ? [...curveFamily(v, p, other, "stiffness"), ...curveFamily(v, p, "stiffness", "stiffness", "dash")]
+    : [
+      ...curveFamily(v, p, "stiffness", "stiffness"),
+      ...curveFamily(v, p, "stiffness_closed", "stiffness", "dash"),
+    ];
   const [low, high] = extent(traces.map((t) => t.y));
   return {
     x,
     y: {
       title: axisTitle("Stiffness", "stiffness", v.system),
-      range: steadyRange(`${v.place}stiffness${v.system}`, Math.min(0, low), high),
+      range: steadyRange(`${v.place}stiffness${other ?? ""}${v.system}`, Math.min(0, low), high),
     },
     zones: limitZones(v, x.range),
     traces,
-    revision: `${v.across}${v.system}`,
+    revision: `${v.across}${other ?? ""}${v.system}`,
   };
 }
 
