@@ -16,6 +16,8 @@ import numpy as np
 import pytest
 
 from mckibben import cli
+from mckibben.documents.start_model import StatedMuscle
+from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.errors import InputError
@@ -251,6 +253,21 @@ def test_smallest_muscle_reaches_its_catalogue_force(library: PresetLibrary) -> 
     assert blocked == pytest.approx(preset.limits.max_force.si("N"), rel=0.02)
 
 
+def test_the_muscle_of_another_maker_follows_its_published_formula() -> None:
+    """F = pi r0^2 P [a (1 - k e)^2 - b], a = 3/tan^2 20 deg, b = 1/sin^2 20 deg, k = 1.25, r0 = 8.5 mm."""
+    studio = Studio(presets=PRESETS)
+    model = studio.static_model(studio.start_model(StatedMuscle("LAAS-17"), None))
+    a, b = 3.0 / math.tan(math.radians(20.0)) ** 2, 1.0 / math.sin(math.radians(20.0)) ** 2
+    contraction = np.array([0.0, 0.08, 0.16, 0.24])
+    expected = math.pi * 0.0085**2 * 4e5 * (a * (1.0 - 1.25 * contraction) ** 2 - b)
+    got = model.force(length=0.185 * (1.0 - contraction), pressure=np.full(4, 4e5))
+    assert got == pytest.approx(expected, rel=1e-6)
+    free = (1.0 - math.sqrt(b / a)) / 1.25  # where the formula gives no force
+    assert model.force(length=0.185 * (1.0 - free), pressure=4e5, clipped=False) == pytest.approx(
+        0.0, abs=1e-6
+    )
+
+
 # --- the data
 
 
@@ -381,6 +398,7 @@ def drop(path: str) -> Callable[[dict[str, Any]], None]:
 
 QUANTITY = {"value": 1, "unit": "mm", "source": "test", "grade": "user"}
 EFFECTS = {
+    "contraction_factor": {p.name: p for p in default_catalogue()["contraction_factor"].parameters},
     "bladder_elasticity": {
         "shear_modulus": Parameter(
             "shear_modulus",
@@ -662,7 +680,8 @@ def test_a_saved_muscle_is_there_and_comes_back(own: PresetLibrary, tmp_path: Pa
     assert saved.origin == "user"
     assert saved.public()["origin"] == "user"
     assert own.get("muscles", "MY-muscle").to_document() == saved.to_document()
-    assert [path.name for path in (tmp_path / "user" / "muscles").iterdir()] == ["my-muscle.json"]
+    kept = {path.name for path in (tmp_path / "user" / "muscles").iterdir()}
+    assert kept - {".lock"} == {"my-muscle.json"}
     again = PresetLibrary(PRESETS, tmp_path / "user")
     assert again.muscle("my-muscle").to_document() == saved.to_document()
     own.save_muscle(own_muscle(title="Mine, second try"))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pytest
 
+from mckibben.application.order_code import ordered_muscle
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
@@ -46,6 +47,30 @@ def test_the_part_that_is_not_understood_is_named(text: str, part: str) -> None:
         order_code(text, KNOWN)
     assert text in refused.value.message
     assert refused.value.hint
+
+
+def test_the_meanings_are_those_of_the_type_code() -> None:
+    code = order_code("MAS-10-N-100-AA-MCFK-ER", KNOWN)
+    assert code is not None
+    membrane, connection, other = code.meanings
+    assert "chloroprene" in membrane
+    assert "one side" in connection
+    assert "force limiter" in connection
+    assert "changes nothing" in other
+
+
+def test_the_use_case_says_what_each_part_means_and_where_one_is_not_understood() -> None:
+    studio = Studio(presets=presets_folder())
+    found = ordered_muscle(" mas-10-N-100-AA-MCFK ", studio)
+    assert (found.preset, found.nominal_length) == ("MAS-10", 0.1)
+    assert [part.text for part in found.parts] == ["MAS", "10", "100N", "AA", "MCFK"]
+    for text, field in (
+        ("XYZ-20-300N", "code.0"), ("DMSP-21-300N", "code.1"), ("DMSP-20-300X-RM", "code.2"),
+        ("MAS-10-N-10O-AA", "code.3"), ("DMSP-20-300N-RM-C1", "code.4"), ("DMSP-20", "code"), ("", "code.0"),
+    ):  # fmt: skip
+        with pytest.raises(InputError) as refused:
+            ordered_muscle(text, studio)
+        assert refused.value.field == field, text
 
 
 def test_a_muscle_is_found_by_its_code_with_the_length_of_the_code() -> None:

@@ -15,6 +15,10 @@ from mckibben.physics.errors import InputError, did_you_mean
 _LENGTH = re.compile(r"(?P<behind>\d+)N|N(?P<before>\d+)", re.IGNORECASE)
 _ORDERED = {"DMSP": "{preset}-{length}N", "MAS": "{preset}-N-{length}"}
 _FURTHER = re.compile(r"[A-Z]{1,6}", re.IGNORECASE)
+_CONNECTIONS = re.compile(r"M(?P<sides>[OC])F?(?P<limiter>[OK]?)")
+_SIDES = {"O": "connections on both sides", "C": "connection on one side, the other is closed"}
+_LIMITERS = {"O": "no force limiter", "K": "force limiter, whose lower force limit is not known"}
+_ALONE = {"AA": "membrane of chloroprene", **_LIMITERS}
 _EXAMPLE = "e.g. DMSP-20-300N-RM-CM or MAS-10-N-100-AA-MCFK"
 
 
@@ -32,6 +36,11 @@ class OrderCode:
     length: float
     further: tuple[str, ...]
 
+    @property
+    def meanings(self) -> tuple[str, ...]:
+        """What each of ``further`` says, by the type code of the maker's manual."""
+        return tuple(_meaning(part) for part in self.further)
+
 
 def order_code(text: str, known: Collection[str]) -> OrderCode | None:
     """The parts of an order code; None for a text that does not begin like one of these muscles.
@@ -41,7 +50,7 @@ def order_code(text: str, known: Collection[str]) -> OrderCode | None:
         known: ids of muscle presets, "DMSP-20".
 
     Raises:
-        InputError: a part is not understood; names it.
+        InputError: a part is not understood; names it. Field "code.2": its place between the hyphens.
     """
     series, *parts = text.strip().split("-")
     ids = {preset.upper(): preset for preset in known}
@@ -53,21 +62,36 @@ def order_code(text: str, known: Collection[str]) -> OrderCode | None:
         sizes = ", ".join(sorted((size for size in made if size.isdigit()), key=int))
         raise InputError(
             f"'{parts[0]}' in the order code {text} is no inside diameter of the {series.upper()} series",
+            field="code.1",
             hint=did_you_mean(f"{series}-{parts[0]}", known) or f"{sizes} mm",
         )
-    rest = parts[1:]
+    rest, place = parts[1:], 2
     if rest[0].upper() == "N" and len(rest) > 1:  # MAS-10-N-100
+        place = 3
         rest = [f"N{rest[1]}", *rest[2:]]
     found = _LENGTH.fullmatch(rest[0])
     length = int(found["behind"] or found["before"]) if found else 0
     if not length:
         raise InputError(
-            f"'{rest[0]}' in the order code {text} is no nominal length in mm", hint=f"300N; {_EXAMPLE}"
+            f"'{rest[0]}' in the order code {text} is no nominal length in mm",
+            field=f"code.{place}",
+            hint=f"300N; {_EXAMPLE}",
         )
-    for part in rest[1:]:
+    for number, part in enumerate(rest[1:], place + 1):
         if _FURTHER.fullmatch(part) is None:
-            raise InputError(f"'{part}' in the order code {text} is not understood", hint=_EXAMPLE)
+            raise InputError(
+                f"'{part}' in the order code {text} is not understood", field=f"code.{number}", hint=_EXAMPLE
+            )
     return OrderCode(preset, length * 1e-3, tuple(part.upper() for part in rest[1:]))
+
+
+def _meaning(part: str) -> str:
+    if part in _ALONE:
+        return _ALONE[part]
+    found = _CONNECTIONS.fullmatch(part)
+    if found is None:
+        return "membrane, connection or accessory: it changes nothing of the model"
+    return "; ".join(filter(None, [_SIDES[found["sides"]], _LIMITERS.get(found["limiter"])]))
 
 
 def begin_of_order_code(*, preset: str, length: float) -> str | None:

@@ -223,10 +223,19 @@ class _Part(_WithEffects):
 
 
 class RegulatorPart(PresetModel):
-    """Figures of a pressure regulator: full-scale gauge pressure and time constant."""
+    """Figures of a pressure regulator."""
 
     range: Quantity = Field(description="Gauge pressure at full command.")
-    time: Quantity = Field(description="Time constant of the regulated pressure.")
+    time: Quantity = Field(description="Time constant with which it follows its set point.")
+    damping: Quantity | None = Field(
+        default=None, description="Damping ratio of a lag of second order; null: first order."
+    )
+    band: Quantity | None = Field(
+        default=None, description="Pressure error at which an orifice is fully open."
+    )
+    dead_band: Quantity | None = Field(
+        default=None, description="Width of the pressure error in which both orifices are closed."
+    )
 
 
 class ValvePreset(_Part):

@@ -1,0 +1,69 @@
+"""The use case: an order code in, the preset, length and meaning of its parts out."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from mckibben.documents.studio import Studio
+from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.presets.order_code import order_code
+
+
+@dataclass(frozen=True, slots=True)
+class CodePart:
+    """A part of an order code as it is written, and what it means."""
+
+    text: str
+    meaning: str
+
+
+@dataclass(frozen=True, slots=True)
+class OrderedMuscle:
+    """What an order code says.
+
+    Attributes:
+        code: as it was given.
+        preset: id of its muscle preset.
+        nominal_length: [m].
+        parts: what each part of it means.
+    """
+
+    code: str
+    preset: str
+    nominal_length: float
+    parts: tuple[CodePart, ...]
+
+
+def ordered_muscle(text: str, studio: Studio) -> OrderedMuscle:
+    """The muscle that an order code names.
+
+    Raises:
+        InputError: a part is not understood; the field names its place between the hyphens, "code.2".
+    """
+    text = text.strip()
+    presets = {preset.id: preset for preset in studio.library.list("muscles")}
+    code = order_code(text, presets)
+    if code is None:
+        series, _, rest = text.partition("-")
+        known = {preset.partition("-")[0] for preset in presets}
+        if series.upper() in known:
+            missing = "nominal length" if rest else "inside diameter and nominal length"
+            raise InputError(
+                f"the order code {text} ends before its {missing}",
+                field="code",
+                hint="e.g. DMSP-20-300N-RM-CM or MAS-10-N-100-AA-MCFK",
+            )
+        raise InputError(
+            f"'{series}' in the order code {text} is no series of muscles",
+            field="code.0",
+            hint=did_you_mean(series, known),
+        )
+    series, size = code.preset.split("-", 1)
+    length = f"{code.length * 1e3:.4g} mm"
+    parts = (
+        CodePart(series, f"series: {presets[code.preset].title}"),
+        CodePart(size, f"inside diameter {size} mm"),
+        CodePart(f"{code.length * 1e3:.0f}N", f"nominal length {length}"),
+        *(CodePart(*each) for each in zip(code.further, code.meanings, strict=True)),
+    )
+    return OrderedMuscle(text, code.preset, code.length, parts)
