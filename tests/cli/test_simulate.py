@@ -115,3 +115,12 @@ def test_a_trace_that_cannot_be_written(run: Run) -> None:
     code, _, err = run("simulate", write("lift.json", EXAMPLE), "--out", "no/folder/trace.csv")
     assert code == 2
     assert "--out no/folder/trace.csv" in err
+
+
+def test_a_joint_prints_its_stiffness(run: Run) -> None:
+    code, out, _ = run("simulate", "joint-20")
+    assert code == 0
+    table = out.split("Joint\n")[-1]
+    assert "rms error of the stiffness" in table
+    (at_end,) = [line for line in table.splitlines() if "stiffness at the end" in line]
+    assert float(at_end.split()[-2]) == pytest.approx(22.0, rel=0.02)

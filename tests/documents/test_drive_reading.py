@@ -134,8 +134,8 @@ def test_effects_of_the_presets_hold_only_when_the_document_names_none(
     read: Callable[..., AnnotatedDrive],
 ) -> None:
     with_presets = read(effects=None)
-    assert set(with_presets.start.effects) >= {"bladder_elasticity", "prestress", "valve_delay"}
-    assert with_presets.start.effects["valve_delay"] == {"opening_time": 0.005, "closing_time": 0.0075}
+    assert set(with_presets.start.effects) >= {"bladder_elasticity", "prestress", "spool_lag"}
+    assert with_presets.start.effects["spool_lag"] == {"time": pytest.approx(1.386e-3), "damping": 0.8}
     assert set(read().start.effects) == {"bladder_elasticity", "viscous_damping"}
     assert read(effects={}).start.effects == {}
 

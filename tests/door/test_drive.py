@@ -140,3 +140,10 @@ def test_tasks_are_documents_files_and_presets(tmp_path: Path) -> None:
         mk.size("lift-20k")
     with pytest.raises(mk.Problem, match="stroke"):
         mk.size({**task, "stroke": "40 kg"})
+
+
+def test_a_joint_is_run_and_its_both_set_points_are_reached() -> None:
+    run = mk.Drive.preset("joint-20").run()
+    joint = run.to_dict()["joint"]
+    assert joint["stiffness"][-1] == pytest.approx(22.0, rel=0.02)
+    assert joint["stiffness_error"] < 1.0

@@ -30,6 +30,16 @@ CONSTANTS = {
     "exhaust_ratio": 0.35,
     "regulator_range": 6e5,
     "regulator_time": 0.02,
+    "regulator_damping": 0.7,
+    "regulator_band": 3e4,
+    "regulator_dead_band": 600.0,
+    "filling_restriction": 6e-9,
+    "filling_restriction_ratio": 0.25,
+    "venting_restriction": 1.0,
+    "venting_restriction_ratio": 0.25,
+    "quick_exhaust_conductance": 3e-8,
+    "quick_exhaust_ratio": 0.35,
+    "quick_exhaust_band": 1e4,
     "tube_volume": 1.2e-5,
     "tube_conductance": 1.2e-8,
     "tube_ratio": 0.3,
@@ -130,7 +140,8 @@ def test_every_effect_alone_gives_finite_equations_that_vanish_when_off(effect: 
     ("tube", "regulator", "pair"), [(True, False, False), (False, True, False), (True, False, True)]
 )
 def test_all_effects_at_once_give_a_finite_jacobian(tube: bool, regulator: bool, pair: bool) -> None:
-    model = DriveModel(DriveStructure(tuple(EFFECTS), tube=tube, regulator=regulator, pair=pair))
+    on_muscle = {"flow_control": True, "quick_exhaust": tube}
+    model = DriveModel(DriveStructure(tuple(EFFECTS), tube=tube, regulator=regulator, pair=pair, **on_muscle))
     assert len(model.rates) == len(model.states)
     expressions = [*model.rates, *model.outputs, *jacobian(model)]
     free = set().union(*(expression.free_symbols for expression in expressions))

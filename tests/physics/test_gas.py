@@ -32,6 +32,33 @@ def test_flow_function_is_continuous_where_it_changes_form():
         assert below == pytest.approx(above, abs=1e-6)
 
 
+@pytest.mark.parametrize("ratios", [(0.3, 0.3), (0.2, 0.45), (0.45, 0.2), (0.5, 0.5), (0.0, 0.3)])
+@pytest.mark.parametrize("first", [0.05, 0.29, 0.31, 0.6, 1.0, 2.0, 10.0])
+def test_two_restrictions_in_series_are_nearly_one(first: float, ratios: tuple[float, float]) -> None:
+    one, other = ratios
+    conductance, ratio = gas.in_series(first=first, first_ratio=one, second=1.0, second_ratio=other)
+
+    def psi(r: float, b: float) -> float:
+        return 1.0 if r <= b else (1.0 - ((r - b) / (1.0 - b)) ** 2) ** 0.5
+
+    def through_both(r: float) -> float:
+        low, high = r, 1.0  # the pressure between both, by bisection
+        for _ in range(60):
+            x = 0.5 * (low + high)
+            low, high = (x, high) if first * psi(x, one) > x * psi(r / x, other) else (low, x)
+        return first * psi(low, one)
+
+    for r, tolerance in ((0.001, 1e-6), (0.2, 0.015), (0.5, 0.015), (0.8, 0.015), (0.99, 1e-3)):
+        assert float(conductance) * psi(r, float(ratio)) == pytest.approx(through_both(r), rel=tolerance)
+
+
+def test_nothing_flows_through_a_closed_restriction_in_series():
+    for first, second in ((0.0, 1e-8), (1e-8, 0.0), (0.0, 0.0)):
+        found = gas.in_series(first=first, first_ratio=0.3, second=second, second_ratio=0.3)
+        assert float(found[0]) == 0.0
+        assert np.isfinite(found[1])
+
+
 def test_worked_example_of_a_data_sheet():
     # SMC: C = 2 l/(s bar), b = 0.3, 0.4 to 0.3 MPa gauge at 20 degC: 600 * 2 * 0.5 * 0.7 = 420 l/min ANR.
     volume_flow = flow(5e5, 4e5, c=2e-8) / gas.ANR_DENSITY * 6e4

@@ -118,3 +118,23 @@ def test_derivative_of_a_constant() -> None:
 def test_derivative_is_elementwise() -> None:
     points = np.array([[1.0, 2.0], [3.0, 4.0]])
     assert ops.derivative(lambda x: x**2, points) == pytest.approx(2.0 * points)
+
+
+def test_a_derivative_does_not_show_how_many_were_taken_before() -> None:
+    """The order of terms, and with it the last digits of a run, follows from the names of symbols."""
+
+    def seen() -> list[str]:
+        names: list[str] = []
+
+        def outer(x: ops.Value) -> ops.Value:
+            names.append(str(x))
+            inner = ops.derivative(lambda u: (names.append(str(u)), u**2 * x)[1], x + 1.0)
+            return inner * x
+
+        # d/dx 2 (x + 1) x^2 = 6 x^2 + 4 x: the inner symbol is not taken for the outer one
+        assert evaluate(ops.derivative(outer, X), 0.5) == pytest.approx(3.5, rel=1e-14)
+        return names
+
+    first = seen()
+    assert len(set(first)) == 2
+    assert seen() == first

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import math
 import threading
 import time
 from collections.abc import Callable
@@ -401,3 +402,26 @@ def test_a_pair_that_cannot_be_is_refused_at_its_field(
     answer = shared_client.post("/api/simulations", json={"drive": drive})
     assert answer.status_code == 422
     assert answer.json()["error"]["field"] == field
+
+
+def test_a_joint_has_two_set_points_and_both_muscles_in_the_answer(shared_client: TestClient) -> None:
+    drive = {
+        "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
+        "supply": {"pressure": "6 bar"},
+        "valve": {"preset": "VPPM-6"},
+        "load": {"mass": "4 kg", "arrangement": "antagonist", "pulley_radius": "30 mm"},
+        "controller": {
+            "kp": 2.5, "ki": 15, "kd": 0.03, "sample_time": "2 ms", "angle": "8 deg",
+            "stiffness": {"reference": "22 N*m/rad"},
+        },
+        "start_pressure": "3 bar",
+        "duration": "2 s",
+    }  # fmt: skip
+    joint = post(shared_client, "/api/simulations", {"drive": drive, "points": 51}).json()["joint"]
+    assert joint["angle_reference"] == pytest.approx([math.radians(8.0)] * 51)
+    assert joint["stiffness"][-1] == pytest.approx(22.0, rel=0.02)
+    assert math.degrees(joint["angle"][-1]) == pytest.approx(8.0, abs=0.5)
+    for name in ("mass_flow", "supply_flow", "exhaust_flow", "diameter", "command"):
+        assert len(joint[f"counter_{name}"]) == 51
+    refused = post(shared_client, "/api/simulations", {"drive": {**drive, "load": {"mass": "4 kg"}}})
+    assert_error(refused, 422, field="drive.controller.angle")

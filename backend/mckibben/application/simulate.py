@@ -10,6 +10,7 @@ import numpy as np
 from mckibben.application.curves import EffectSettings
 from mckibben.application.drive_run import measured_interval, run_drive, use_of_run
 from mckibben.application.envelope import use_notices
+from mckibben.application.joint_motion import JointMotion, joint_of
 from mckibben.application.muscle_summary import (
     GeometrySummary,
     MakerLimits,
@@ -27,7 +28,6 @@ from mckibben.application.operating_limits import (
 )
 from mckibben.application.prediction_interval import Interval
 from mckibben.documents.drive_reading import AnnotatedDrive
-from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
 from mckibben.simulation.drive.transient import Run
@@ -80,24 +80,6 @@ class SensorReadings:
     pressure: Array
     force: Array
     position: Array
-
-
-@dataclass(frozen=True, slots=True)
-class JointMotion:
-    """The pulley of an antagonist pair, and its second muscle.
-
-    Attributes:
-        angle: from the middle [rad]; positive in the direction of the first muscle.
-        torque: of both muscles [N m].
-        stiffness: at constant pressures [N m/rad].
-        counter_force, counter_pressure: of the second muscle [N], [Pa].
-    """
-
-    angle: Array
-    torque: Array
-    stiffness: Array
-    counter_force: Array
-    counter_pressure: Array
 
 
 @dataclass(frozen=True, slots=True)
@@ -273,7 +255,7 @@ def result_of(
         ),
         gas=drive.gas_closure,
         readings=_readings(run, rows),
-        joint=_joint(run, rows),
+        joint=joint_of(run, rows),
         interval=interval,
         choked=choked_of(run),
         timing=table,
@@ -324,33 +306,6 @@ def _readings(run: Run, rows: Array) -> SensorReadings | None:
         pressure=run.outputs["pressure_reading"][rows],
         force=run.outputs["force_reading"][rows],
         position=run.outputs["stroke_reading"][rows] / run.drive.load.lever_ratio,
-    )
-
-
-def _joint(run: Run, rows: Array) -> JointMotion | None:
-    """Angle, torque and stiffness of a pair's pulley; the stiffness at constant pressures."""
-    drive = run.drive
-    if drive.pulley_radius is None:
-        return None
-    radius, rest = drive.pulley_radius, drive.muscle.nominal_length
-    stroke = run.states["stroke"][rows]
-    pressures = [
-        run.states[name][rows] - drive.ambient_pressure for name in ("pressure", f"pressure{COUNTER}")
-    ]
-    middle = rest * (1.0 - drive.precontraction)
-    stiffness = np.zeros(len(rows))
-    for sense, pressure in zip((1.0, -1.0), pressures, strict=True):
-        seen = drive.model.outputs(
-            length=middle - sense * stroke, pressure=pressure, temperature=drive.temperature
-        )
-        stiffness += np.where(seen["tension"] > 0.0, seen["tension_by_length"], 0.0)
-    counter = run.outputs[f"force{COUNTER}"][rows]
-    return JointMotion(
-        angle=stroke / radius,
-        torque=radius * (run.outputs["force"][rows] - counter),
-        stiffness=radius**2 * stiffness,
-        counter_force=counter,
-        counter_pressure=pressures[1],
     )
 
 

@@ -18,18 +18,30 @@ from pydantic.json_schema import JsonSchemaValue
 from pydantic_core import CoreSchema, core_schema
 
 from mckibben.documents.ambient import with_gauge_pressures
+from mckibben.documents.drive_air import (
+    FlowControlInput,
+    PwmInput,
+    QuickExhaustInput,
+    RegulatorInput,
+    SupplyInput,
+    TubeInput,
+    ValveInput,
+)
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.quantity import (
     Contraction,
-    Diameter,
-    Length,
-    PositivePressure,
     Pressure,
     QuantityField,
     Temperature,
     Volume,
 )
-from mckibben.documents.signals import Command, ForceOverTime, Reference
+from mckibben.documents.signals import (
+    AngleOverTime,
+    Command,
+    ForceOverTime,
+    Reference,
+    StiffnessOverTime,
+)
 from mckibben.documents.strict import Id, Strict
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
@@ -38,9 +50,6 @@ from mckibben.simulation.drive.parts import WALL_HEAT_TRANSFER
 LONGEST = 600.0  # s, of a run
 
 Mass = Annotated[float, QuantityField("kg", "10 kg", at_least=0.0, at_most=1e5)]
-Conductance = Annotated[float, QuantityField("m^3/(s*Pa)", "1.2 l/(s*bar)", at_least=0.0, at_most=1e-5)]
-Flow = Annotated[float, QuantityField("m^3/s", "350 l/min", above=0.0, at_most=10.0)]
-Ratio = Annotated[float, QuantityField("1", "0.3", at_least=0.0, at_most=0.99)]
 Inclination = Annotated[float, QuantityField("rad", "90 deg", at_least=-1.5707963268, at_most=1.5707963268)]
 Stiffness = Annotated[float, QuantityField("N/m", "500 N/m", at_least=0.0, at_most=1e9)]
 LeverRatio = Annotated[float, QuantityField("1", "0.5", above=1e-3, at_most=1e3)]
@@ -50,7 +59,6 @@ HeatTransfer = Annotated[float, QuantityField("W/(m^2*K)", "100 W/(m^2*K)", at_l
 Restitution = Annotated[float, QuantityField("1", "0.3", at_least=0.0, at_most=0.9)]
 Position = Annotated[float, QuantityField("m", "20 mm", at_least=-10.0, at_most=10.0)]
 Duration = Annotated[float, QuantityField("s", "4 s", above=0.0, at_most=LONGEST)]
-LagTime = Annotated[float, QuantityField("s", "50 ms", above=1e-5, at_most=100.0)]
 Ambient = Annotated[
     float, QuantityField("Pa", "1013.25 hPa", at_least=1e4, at_most=1e6, reference="absolute")
 ]
@@ -71,53 +79,7 @@ IntegralGain = Annotated[Any, AsGiven("1/(m*s)", "100 1/(m*s)")]
 DerivativeGain = Annotated[Any, AsGiven("s/m", "0.1 s/m")]
 Time = Annotated[Any, AsGiven("s", "5 ms")]
 Share = Annotated[Any, AsGiven("1", "100 %")]
-
-
-class SupplyInput(Strict):
-    """The compressed-air supply."""
-
-    pressure: PositivePressure = Field(600e3, description="Gauge pressure before the valve.")
-
-
-class ValveInput(Strict):
-    """A valve preset, or flow values for filling and venting; values override those of the preset."""
-
-    preset: Id | None = Field(
-        None, description="Id of a valve or regulator preset; null: the flow values are stated."
-    )
-    sonic_conductance: Conductance | None = Field(None, description="Conductance of filling, ISO 6358.")
-    exhaust_conductance: Conductance | None = Field(
-        None, description="Conductance of venting. Default: that of filling."
-    )
-    critical_pressure_ratio: Ratio | None = Field(
-        None, description="Critical pressure ratio b of filling. Default: that of the preset, else 0.3."
-    )
-    exhaust_critical_pressure_ratio: Ratio | None = Field(
-        None, description="Critical pressure ratio of venting. Default: that of filling."
-    )
-    nominal_flow: Flow | None = Field(
-        None,
-        description="Standard nominal flow (6 to 5 bar gauge, normal litres) instead of a conductance.",
-    )
-
-
-class RegulatorInput(Strict):
-    """Makes the valve a pressure regulator; a regulator preset has its own values."""
-
-    range: PositivePressure | None = Field(None, description="Gauge pressure at full command.")
-    time: LagTime | None = Field(None, description="Time constant of the regulated pressure.")
-
-
-class TubeInput(Strict):
-    """The tube between valve and muscle."""
-
-    preset: Id | None = Field(None, description="Id of a tube preset; null: diameter and length are stated.")
-    inside_diameter: Diameter | None = Field(
-        default=None, description="Bore of the tube. Default: that of the preset."
-    )
-    length: Length | None = Field(
-        None, description="Length of the tube. Default: that for which the preset is specified."
-    )
+Rate = Annotated[Any, AsGiven("1/s", "2 1/s")]
 
 
 class LoadInput(Strict):
@@ -145,6 +107,24 @@ class LoadInput(Strict):
     )
 
 
+class StiffnessControlInput(Strict):
+    """Second set point of a controlled antagonist joint: its stiffness, by the command that both muscles
+    have in common. It is estimated from the angle and both pressures with the static model of the muscles;
+    its error counts as the mean pressure that is missing, a share of the full one.
+    """
+
+    reference: StiffnessOverTime = Field(
+        description="Desired stiffness of the joint at constant pressures: a constant, or a signal of time.",
+        examples=["20 N*m/rad"],
+    )
+    kp: Share | None = Field(
+        None, description="Proportional gain. Default: 2 for a valve, 0 for a regulator.", examples=[2.0]
+    )
+    ki: Rate | None = Field(
+        None, description="Integral gain, 1/s. Default: 0 for a valve, 0.5 for a regulator.", examples=[2.0]
+    )
+
+
 class ControllerInput(Strict):
     """A sampled PID controller of the load's position. Gains without a unit are in percent of full command
     per mm (and s).
@@ -161,9 +141,21 @@ class ControllerInput(Strict):
         None, description="Lowest command. Default -1 for a valve, 0 for a regulator."
     )
     output_max: Share | None = Field(None, description="Highest command. Default 1.")
-    reference: Reference = Field(
-        description="Desired position, as a signal of time.",
+    reference: Reference | None = Field(
+        None,
+        description="Desired position, as a signal of time; a joint may state the angle instead.",
         examples=[{"shape": "triangle", "amplitude": "20 mm", "period": "1 s"}],
+    )
+    angle: AngleOverTime | None = Field(
+        None,
+        description="Desired angle of an antagonist joint instead of the position: a constant, or a signal "
+        "of time.",
+        examples=["10 deg"],
+    )
+    stiffness: StiffnessControlInput | None = Field(
+        None,
+        description="Second set point, of an antagonist joint only. The controller then gives half of the "
+        "difference of both commands, between -0.5 and 0.5 of a regulator.",
     )
 
 
@@ -230,6 +222,17 @@ class DriveDocument(Strict):
         None,
         description="Default: the valve is on the muscle, but a diagnosis tries a typical tube (4 mm, "
         "1 m) as an explanation. null: there is no tube, and a diagnosis tries none.",
+    )
+    flow_control: FlowControlInput | None = Field(
+        None, description="A one-way flow control valve on the muscle; null: there is none."
+    )
+    quick_exhaust: QuickExhaustInput | None = Field(
+        None, description="A quick exhaust valve on the muscle; null: there is none."
+    )
+    pwm: PwmInput | None = Field(
+        None,
+        description="Pulse-width modulation: the valves switch, and the command is their duty ratio; "
+        "null: the valve opens as far as it is commanded.",
     )
     fittings: list[Id] = Field(
         default_factory=list, max_length=20, description="Fitting presets; they add their port volumes."

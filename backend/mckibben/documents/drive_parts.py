@@ -3,15 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from math import pi, radians
+from math import inf, pi, radians
 
-from mckibben.documents.drive import LoadInput, RegulatorInput, TubeInput, ValveInput
+from mckibben.documents.drive import LoadInput
+from mckibben.documents.drive_air import (
+    FlowControlInput,
+    PwmInput,
+    QuickExhaustInput,
+    RegulatorInput,
+    TubeInput,
+    ValveInput,
+)
 from mckibben.physics import gas
 from mckibben.physics.errors import InputError
 from mckibben.presets import FittingPreset, TubePreset, ValvePreset
 from mckibben.presets.quantity import quantities
+from mckibben.simulation.command.pwm import PulseWidth
 from mckibben.simulation.command.signals import signal_from
-from mckibben.simulation.drive.parts import Load, Regulator, Tube, Valve
+from mckibben.simulation.drive.parts import FlowControl, Load, QuickExhaust, Regulator, Tube, Valve
 
 Part = ValvePreset | TubePreset | FittingPreset
 
@@ -80,21 +89,41 @@ def valve_of(valve: ValveInput, preset: ValvePreset | None) -> Valve:
     return Valve(fill, exhaust, ratio, exhaust_ratio)
 
 
+_BAND = 0.05  # of the range, where an orifice of a regulator is fully open; an estimate
+
+
 def regulator_of(regulator: RegulatorInput | None, preset: ValvePreset | None) -> Regulator | None:
-    """Range and time constant of the regulator; None for a plain valve."""
-    preset_regulator = None if preset is None else preset.regulator
-    if regulator is None and preset_regulator is None:
+    """The regulator, stated values before those of the preset; None for a plain valve."""
+    of_preset = None if preset is None else preset.regulator
+    if regulator is None and of_preset is None:
         return None
+
+    def value(name: str, unit: str) -> float | None:
+        own = None if of_preset is None else getattr(of_preset, name)
+        return _first(getattr(regulator, name, None), None if own is None else own.si(unit))
+
     values: dict[str, float] = {}
     for name, unit, example in (("range", "Pa", "6 bar"), ("time", "s", "50 ms")):
-        of_preset = None if preset_regulator is None else getattr(preset_regulator, name).si(unit)
-        value = _first(None if regulator is None else getattr(regulator, name), of_preset)
-        if value is None:
+        found = value(name, unit)
+        if found is None:
             raise InputError(
                 f"regulator.{name} is missing", field=f"regulator.{name}", hint=f"e.g. '{example}'"
             )
-        values[name] = value
-    return Regulator(**values)
+        values[name] = found
+    band, dead_band = value("band", "Pa"), value("dead_band", "Pa")
+    if dead_band is not None and dead_band >= values["range"]:
+        most = values["range"] / 1e5
+        raise InputError(
+            f"a dead band of {dead_band / 1e5:.3g} bar is not below the range of {most:.3g} bar",
+            field="regulator.dead_band",
+            hint="e.g. '6 mbar'",
+        )
+    return Regulator(
+        **values,
+        damping=value("damping", "1"),
+        band=_BAND * values["range"] if band is None else band,
+        dead_band=dead_band or 0.0,
+    )
 
 
 #: Assumed tube where an effect needs one and none is stated: 1 m of a common size.
@@ -119,6 +148,77 @@ def tube_of(tube: TubeInput | None, preset: TubePreset | None) -> Tube | None:
             hint="omit the tube, or check the units",
         )
     return Tube(inside, length)
+
+
+def flow_control_of(given: FlowControlInput | None) -> FlowControl | None:
+    """Its restrictions while filling and while venting; None without one."""
+    if given is None:
+        return None
+    ratio = _DEFAULT_RATIO if given.critical_pressure_ratio is None else given.critical_pressure_ratio
+    free = inf if given.free_conductance is None else given.free_conductance
+    if free < given.sonic_conductance:
+        raise InputError(
+            f"the free direction passes less ({free * 1e8:.4g} l/(s*bar)) than the throttled one "
+            f"({given.sonic_conductance * 1e8:.4g} l/(s*bar))",
+            field="flow_control.free_conductance",
+            hint="the conductance of the check valve, or leave it out",
+        )
+    throttled = given.sonic_conductance
+    ways = (throttled, free) if given.meter == "in" else (free, throttled)
+    return FlowControl(*ways, ratio, ratio)
+
+
+def quick_exhaust_of(
+    given: QuickExhaustInput | None, *, tube: Tube | None, control: FlowControl | None
+) -> QuickExhaust | None:
+    """The quick exhaust valve; None without one.
+
+    Raises:
+        InputError: there is no tube whose pressure could open it, or the flow control throttles what does
+            not pass it any more.
+    """
+    if given is None:
+        return None
+    if tube is None:
+        raise InputError(
+            "a quick exhaust valve opens when the pressure in the tube falls below that in the muscle, but "
+            "there is no tube",
+            field="quick_exhaust",
+            hint='state the tube, e.g. {"preset": "PUN-H-6x1", "length": "1 m"}',
+        )
+    if control is not None and control.exhaust_conductance < control.fill_conductance:
+        raise InputError(
+            "no air flows back through the flow control: the muscle vents through its quick exhaust valve",
+            field="flow_control.meter",
+            hint='"in", or leave one of the two out',
+        )
+    values = {"critical_ratio": given.critical_pressure_ratio, "band": given.band}
+    return QuickExhaust(
+        given.sonic_conductance, **{name: value for name, value in values.items() if value is not None}
+    )
+
+
+def pwm_of(given: PwmInput | None, *, regulated: bool) -> PulseWidth | None:
+    """The modulation; None without one.
+
+    Raises:
+        InputError: of a regulator, or no pulse is possible.
+    """
+    if given is None:
+        return None
+    if regulated:
+        raise InputError(
+            "a pressure regulator is not switched", field="pwm", hint="choose a valve, or leave pwm out"
+        )
+    on, off = given.min_on or 0.0, given.min_off or 0.0
+    if (on + off) * given.frequency >= 1.0:
+        raise InputError(
+            f"in a period of {1e3 / given.frequency:.4g} ms there is no pulse of at least {on * 1e3:.4g} ms "
+            f"with a pause of at least {off * 1e3:.4g} ms",
+            field="pwm.frequency",
+            hint="lower the frequency",
+        )
+    return PulseWidth(given.frequency, given.valves, on, off)
 
 
 def port_volume_of(fittings: Sequence[Part | None]) -> float:

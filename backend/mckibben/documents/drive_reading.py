@@ -10,12 +10,16 @@ from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 from mckibben.documents.convert import stated_muscle
-from mckibben.documents.drive import ControllerInput, DriveDocument
+from mckibben.documents.drive import DriveDocument
+from mckibben.documents.drive_control import Control, control_of
 from mckibben.documents.drive_parts import (
     TYPICAL_TUBE,
     Part,
+    flow_control_of,
     load_of,
     port_volume_of,
+    pwm_of,
+    quick_exhaust_of,
     regulator_of,
     tube_of,
     unverified_of,
@@ -25,7 +29,7 @@ from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
 from mckibben.presets import FittingPreset, TubePreset, ValvePreset
-from mckibben.simulation.command.pid import PidController, controller_from
+from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.command.shapes import Signal
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.parts import Drive, Valve
@@ -96,8 +100,9 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
     model = studio.static_model(start)
     regulator = regulator_of(document.regulator, valve_preset)
     valve = valve_of(document.valve, valve_preset)
-    command, controller, reference, notes = _command(document, regulator is not None, measured=measured)
-    _check_flow(valve, command, controller)
+    command, control, notes = _command(document, regulator is not None, measured=measured)
+    _check_flow(valve, command, None if control is None else control.controller)
+    tube, control_valve = tube_of(document.tube, tube_preset), flow_control_of(document.flow_control)
     lowest, highest = _stops(document, model)
     drive = Drive(
         model=model,
@@ -107,7 +112,10 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         duration=document.duration,
         supply_pressure=document.supply.pressure,
         regulator=regulator,
-        tube=tube_of(document.tube, tube_preset),
+        tube=tube,
+        flow_control=control_valve,
+        pwm=pwm_of(document.pwm, regulated=regulator is not None),
+        quick_exhaust=quick_exhaust_of(document.quick_exhaust, tube=tube, control=control_valve),
         assumed_tube=None if "tube" in document.model_fields_set else TYPICAL_TUBE,
         min_contraction=lowest,
         max_contraction=highest,
@@ -118,8 +126,9 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         polytropic_exponent=document.gas.polytropic_exponent,
         wall_heat_transfer=document.gas.wall_heat_transfer,
         **_pair(document, lowest, highest)._asdict(),
-        controller=controller,
-        reference=reference,
+        controller=None if control is None else control.controller,
+        reference=None if control is None else control.reference,
+        stiffness=None if control is None else control.stiffness,
         ambient_pressure=document.gas.ambient_pressure,
         temperature=document.gas.temperature,
     )
@@ -151,30 +160,24 @@ def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Par
 
 def _command(
     document: DriveDocument, regulated: bool, *, measured: bool
-) -> tuple[Signal, PidController | None, Signal | None, dict[str, str]]:
+) -> tuple[Signal, Control | None, dict[str, str]]:
     """Command, controller and its reference; at rest a valve exhausts and a regulator gives no pressure."""
     rest = 0.0 if regulated else -1.0
     notes: dict[str, str] = {}
     closed = signal_from({"shape": "step", "level": 0.0, "initial": 0.0}, unit="1", field="command")
     if document.controller is not None:
-        controller, reference = _controller(document.controller, rest)
+        control = control_of(document, regulated)
         if document.command is not None:
             notes["command"] = "not used: the controller generates the command"
-        return closed, controller, reference, notes
+        return closed, control, notes
     if document.command is None:
         if measured:
-            return closed, None, None, notes
+            return closed, None, notes
         raise InputError(
             "command is missing", field="command", hint='e.g. {"shape": "pulse", "on": "0 s", "off": "2 s"}'
         )
     command = signal_from(document.command, unit="1", field="command", rest=rest, limits=(rest, 1.0))
-    return command, None, None, notes
-
-
-def _controller(controller: ControllerInput, rest: float) -> tuple[PidController, Signal]:
-    values = controller.model_dump(exclude_none=True)
-    reference = signal_from(values.pop("reference"), unit="m", field="controller.reference")
-    return controller_from(values, output_min=rest), reference
+    return command, None, notes
 
 
 def _check_flow(valve: Valve, command: Signal, controller: PidController | None) -> None:

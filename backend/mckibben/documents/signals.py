@@ -52,7 +52,15 @@ _KEYS = {
     "values": "Values of the points, as many as instants.",
     "interpolation": "Joined by lines, or each value held until the next.",
 }
-_EXAMPLES = {"s": "0.5 s", "1": "50 %", "Hz": "2 Hz", "rad": "90 deg", "m": "20 mm", "N": "120 N"}
+_EXAMPLES = {
+    "s": "0.5 s",
+    "1": "50 %",
+    "Hz": "2 Hz",
+    "rad": "90 deg",
+    "m": "20 mm",
+    "N": "120 N",
+    "N*m/rad": "20 N*m/rad",
+}
 
 
 @dataclass(frozen=True, slots=True)
@@ -160,4 +168,6 @@ def _key_schema(name: str, kind: str, unit: str) -> JsonSchemaValue:
 
 Command = Annotated[dict[str, Any], SignalInput("1")]
 Reference = Annotated[dict[str, Any], SignalInput("m")]
+AngleOverTime = Annotated[Any, SignalInput("rad", plain=True)]
+StiffnessOverTime = Annotated[Any, SignalInput("N*m/rad", plain=True)]
 ForceOverTime = Annotated[Any, SignalInput("N", plain=True)]

@@ -113,6 +113,9 @@ def muscle_side(
     flows = flow_path(
         tube=structure.tube,
         regulator=structure.regulator,
+        second_order=structure.second_order,
+        flow_control=structure.flow_control,
+        quick_exhaust=structure.quick_exhaust,
         tube_exponent=constants["polytropic_exponent"] if structure.polytropic else 1.0,
         model=model,
         values=values,
@@ -157,7 +160,8 @@ def muscle_side(
         **flows["rates"],
         **({"gas_mass": inflow} if balanced else {}),
     }
-    instant = _readings(model, muscle, values, gauge=gauge, force=force, stroke=stroke)
+    # The sensor of a pair is zero in the middle, as the position of its load is.
+    instant = _readings(model, muscle, values, gauge=gauge, force=force, stroke=stroke - motion.start)
     drive = {
         "supply_flow": flows["supply"],
         "mass_flow": inflow,

@@ -204,6 +204,8 @@ def _side_states(structure: DriveStructure, model: Model, suffix: str) -> list[S
         states.append(StateInfo("tube_pressure", None, 1e5))
     if structure.regulator:
         states.append(StateInfo("regulator_pressure", None, 1e5))
+    if structure.regulator and structure.second_order:
+        states.append(StateInfo("regulator_rate", 0.0, 1e6))
     if with_energy_balance(structure=structure, model=model):
         states.append(StateInfo("gas_mass", None, 1e-3))
     for effect in model.effects:

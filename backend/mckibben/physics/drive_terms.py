@@ -18,6 +18,16 @@ CONSTANTS = (
     "exhaust_ratio",
     "regulator_range",
     "regulator_time",
+    "regulator_damping",
+    "regulator_band",
+    "regulator_dead_band",
+    "filling_restriction",
+    "filling_restriction_ratio",
+    "venting_restriction",
+    "venting_restriction_ratio",
+    "quick_exhaust_conductance",
+    "quick_exhaust_ratio",
+    "quick_exhaust_band",
     "tube_volume",
     "tube_conductance",
     "tube_ratio",
@@ -81,14 +91,20 @@ class DriveStructure:
         effects: effects of muscle and drive; the same for both muscles of a pair.
         tube: whether the pressure in the tube is a state.
         regulator: whether a pressure regulator feeds the muscle instead of a valve.
+        second_order: whether the regulator follows its set point by a lag of second order.
         pair: whether a second muscle with its own valve pulls against the first (an antagonist pair).
+        flow_control: whether a flow control valve is between valve or tube and muscle.
+        quick_exhaust: whether a quick exhaust valve is on the muscle; needs a tube.
         polytropic: whether the gas follows a stated polytropic exponent instead of the energy balance.
     """
 
     effects: tuple[Effect, ...]
     tube: bool = False
     regulator: bool = False
+    second_order: bool = False
     pair: bool = False
+    flow_control: bool = False
+    quick_exhaust: bool = False
     polytropic: bool = False
 
 

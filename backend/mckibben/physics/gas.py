@@ -23,6 +23,7 @@ ANR_TEMPERATURE = 293.15  # K
 
 # Above this pressure ratio psi is linear: its exact slope at r = 1 is infinite (the real flow is laminar).
 LAMINAR_RATIO = 0.999
+_CLOSED = 1e-30  # conductance below all others, so that nothing is divided by 0 [m^3/(s Pa)]
 
 
 def flow_function(*, ratio: Value, critical_ratio: Value) -> Value:
@@ -58,6 +59,34 @@ def mass_flow(
     sign = ops.where(forward, 1.0, -1.0)
     psi = flow_function(ratio=downstream / upstream, critical_ratio=critical_ratio)
     return sign * conductance * ANR_DENSITY * upstream * ops.sqrt(ANR_TEMPERATURE / temperature) * psi
+
+
+def in_series(*, first: Value, first_ratio: Value, second: Value, second_ratio: Value) -> tuple[Value, Value]:
+    r"""One for two restrictions in series, the first upstream: conductance [m^3/(s Pa)] and critical ratio.
+
+    Its choked flow is exact: the pressure between both, a share x of that upstream, solves
+    :math:`C_1^2\,\psi_1(x)^2 = C_2^2 x^2` while the second is choked, and where :math:`C_1 \le b_1 C_2` the
+    first alone is. So is its slope near equal pressures, where :math:`(1-b)/C^2` adds up:
+
+    .. math:: C = \min(C_1,\,C_2 x),\quad
+       1 - b = C^2\Bigl(\frac{1-b_1}{C_1^2} + \frac{1-b_2}{C_2^2}\Bigr)
+
+    Between, the flow is within 1.5 % of that of both. Each conductance may be 0. Derived from ISO 6358 for
+    this program; 1/C^2 = 1/C_1^2 + 1/C_2^2, often used, is up to 7 % below the choked flow of two equal ones.
+
+    >>> conductance, ratio = in_series(first=1e-8, first_ratio=0.3, second=1e-8, second_ratio=0.3)
+    >>> round(float(conductance) * 1e8, 4), round(float(ratio), 4)
+    (0.7572, 0.1973)
+    """
+    wide = ops.maximum(first, first_ratio * second)  # below, the first alone is choked
+    root = ops.sqrt(wide**2 + (1.0 - 2.0 * first_ratio) * second**2)
+    both = wide**2 + ((1.0 - first_ratio) * second) ** 2
+    passed = (first_ratio * wide + (1.0 - first_ratio) * root) / ops.maximum(both, _CLOSED**2)
+    by_second = ops.greater(first, first_ratio * second)
+    of_first = ops.where(by_second, second * passed, 1.0)  # C/C_1
+    of_second = ops.where(by_second, wide * passed, first / ops.maximum(second, _CLOSED))  # C/C_2
+    ratio = 1.0 - of_first**2 * (1.0 - first_ratio) - of_second**2 * (1.0 - second_ratio)
+    return of_first * first, ratio
 
 
 def conductance_of_nominal_flow(*, nominal_flow: Value, critical_ratio: Value) -> Value:

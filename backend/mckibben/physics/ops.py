@@ -8,6 +8,7 @@ symengine's machine-code back end cannot differentiate ``Abs``, ``Max``, ``Min``
 from __future__ import annotations
 
 from collections.abc import Callable
+from contextvars import ContextVar
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ Value = Any
 pi = float(np.pi)
 
 _COMPLEX_STEP = 1e-30
+_inside: ContextVar[int] = ContextVar("derivatives that are being taken", default=0)
 
 
 def is_symbolic(x: Value) -> bool:
@@ -110,6 +112,12 @@ def derivative(function: Callable[[Value], Value], at: Value) -> Value:
     to rounding for every operation of this namespace. The function must be elementwise in its argument.
     """
     if is_symbolic(at):
-        x = se.Dummy("x")
-        return function(x).diff(x).subs({x: at})
+        depth = _inside.get()
+        # Not se.Dummy: its running number orders the terms, and with them the last digits.
+        x = se.Symbol(f"derivative:{depth}")
+        token = _inside.set(depth + 1)
+        try:
+            return function(x).diff(x).subs({x: at})
+        finally:
+            _inside.reset(token)
     return np.imag(function(at + 1j * _COMPLEX_STEP)) / _COMPLEX_STEP

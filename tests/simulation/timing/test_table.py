@@ -182,6 +182,25 @@ def test_exponential_approach(uneven):
     assert figures.pressure_settling_time == pytest.approx(np.log(100.0) * tau, rel=1e-3)
 
 
+@pytest.mark.parametrize("plateau", [0.4999, 0.5001])
+def test_a_pause_at_half_the_pressure_is_said(plateau):
+    """A pause of 20 ms at 0.01 % beside half of the step: the delay jumps by the pause."""
+    t = np.linspace(0.0, 0.52, 5201)
+    begins, step = plateau * 0.5, 1e5
+    pressure = np.interp(t, [0.0, begins, begins + 0.02, 0.52], [0.0, plateau * step, plateau * step, step])
+    zero = np.zeros(len(t))
+    rising = trace(t, zero, zero, zero, pressure=pressure)
+    table = timing(rising, fill=(0.0, 0.52), exhaust=None)
+    expected = 0.25 if plateau > 0.5 else 0.27
+    assert table.extend.pressure_delay_time == pytest.approx(expected, abs=2e-4)
+    assert table.notes["extend.pressure_delay_time"].startswith(
+        "from 249.5 to 270.5 ms the pressure is within 0.1 % of its step around 50 % of it"
+    )
+    assert "extend.pressure_rise_time" not in table.notes
+    smooth = trace(t, zero, zero, zero, pressure=step * t / 0.52)
+    assert "extend.pressure_delay_time" not in timing(smooth, fill=(0.0, 0.52), exhaust=None).notes
+
+
 def test_overshoot_of_a_damped_oscillation():
     w, damping, stroke = 20.0, 4.0, 0.03
     t = grid(3.0, 3001)

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from math import pi
 
 from mckibben.application.simulate import SimulationResult
 from mckibben.report.summary.parts import Summary, Table, figure
-from mckibben.simulation.timing.table import PhaseFigures
+from mckibben.simulation.timing.table import PRESSURE_FIGURES, PhaseFigures
 
 # Name of a figure, its field in the timing table, factor and unit.
 _SHOWN: tuple[tuple[str, Callable[[PhaseFigures], float | None], str, float, str], ...] = (
@@ -55,6 +56,7 @@ def summary_of(result: SimulationResult, name: str) -> Summary:
         f"air: {result.gas}",
         *([] if note is None else [f"air mass {note}"]),
         *_tracking(result),
+        *_joint(result),
         *notices(result),
     ]
 
@@ -76,13 +78,14 @@ def timing_table(result: SimulationResult, name: str) -> Table:
 
 
 def _reasons(result: SimulationResult) -> set[str]:
-    """Why figures are missing."""
+    """Why figures are missing, and which of the pressure are blurred."""
     timing = result.timing
     return {
         f"{name}: {why}"
         for name, phase in (("extend", timing.extend), ("retract", timing.retract))
         for _, figure_of, key, _, _ in _SHOWN
-        if figure_of(phase) is None and (why := timing.notes.get(f"{name}.{key}"))
+        if (figure_of(phase) is None or key in PRESSURE_FIGURES)
+        and (why := timing.notes.get(f"{name}.{key}"))
     }
 
 
@@ -96,6 +99,25 @@ def _tracking(result: SimulationResult) -> list[Table]:
         ["lag", figure(_times(follows.lag, 1e3), unit=" ms")],
     ]
     return [Table("Following the reference", ["", ""], rows)]
+
+
+def _joint(result: SimulationResult) -> list[Table]:
+    """Where the joint of a pair is at the end, and how the stiffness follows its set point."""
+    joint = result.joint
+    if joint is None or not len(joint.angle):
+        return []
+    degrees = 180.0 / pi
+    rows = [
+        ["angle at the end", figure(float(joint.angle[-1]) * degrees, unit="°")],
+        ["stiffness at the end", figure(float(joint.stiffness[-1]), unit=" N·m/rad")],
+        [
+            "pressures at the end",
+            f"{result.pressure[-1] / 1e5:.3g} and {joint.counter_pressure[-1] / 1e5:.3g} bar",
+        ],
+    ]
+    if joint.stiffness_error is not None:
+        rows.append(["rms error of the stiffness", figure(joint.stiffness_error, unit=" N·m/rad")])
+    return [Table("Joint", ["", ""], rows)]
 
 
 def _times(value: float | None, factor: float) -> float | None:

@@ -110,6 +110,18 @@ class Joint(Strict):
     stiffness: Series = si_field("N*m/rad", "Stiffness of the joint at constant pressures.")
     counter_force: Series = si_field("N", "Tension of the second muscle.")
     counter_pressure: Series = si_field("Pa", "Pressure in the second muscle.")
+    counter_command: Series = si_field("1", "Command of the second valve or regulator.")
+    counter_mass_flow: Series = si_field("kg/s", "Mass flow into the second muscle.")
+    counter_supply_flow: Series = si_field("kg/s", "Mass flow from the supply to the second muscle.")
+    counter_exhaust_flow: Series = si_field("kg/s", "Mass flow from the second muscle to the atmosphere.")
+    counter_diameter: Series = si_field("m", "Braid diameter of the second muscle at mid-span.")
+    angle_reference: Series | None = si_field("rad", "Set point of the angle; null without a controller.")
+    stiffness_reference: Series | None = si_field(
+        "N*m/rad", "Set point of the stiffness; null where the stiffness is not controlled."
+    )
+    stiffness_error: float | None = si_field(
+        "N*m/rad", "Root mean square of stiffness minus set point over the rows; null without one."
+    )
 
 
 class SimulationAnswer(Strict):
@@ -130,7 +142,9 @@ class SimulationAnswer(Strict):
     supply_flow: Series = si_field("kg/s", "Mass flow from the supply.")
     exhaust_flow: Series = si_field("kg/s", "Mass flow to the atmosphere.")
     tube_pressure: Series | None = si_field("Pa", "Pressure in the tube, if there is one.")
-    regulator_pressure: Series | None = si_field("Pa", "Pressure after the regulator, if there is one.")
+    regulator_pressure: Series | None = si_field(
+        "Pa", "Set point of the regulator after its lag, if there is one."
+    )
     volume: Series = si_field("m^3", "Gas volume of the muscle with all dead volumes.")
     diameter: Series = si_field("m", "Braid diameter at mid-span.")
     length: Series = si_field("m", "Length of the muscle.")

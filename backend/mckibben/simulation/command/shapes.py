@@ -145,6 +145,30 @@ class Step(Signal):
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
+class Scaled(Signal):
+    """Another signal times a factor: an angle as a position on the rim of a pulley."""
+
+    shape = "scaled"
+    of: Signal
+    factor: float
+
+    @property
+    def before(self) -> float:
+        """That of the other signal, scaled."""
+        return self.factor * self.of.before
+
+    @property
+    def extent(self) -> tuple[float, float]:
+        """Those of the other signal, scaled."""
+        low, high = sorted(self.factor * end for end in self.of.extent)
+        return low, high
+
+    def _pieces(self, until: float, smooth_step: float | None = None) -> Pieces:
+        starts, values, slopes = self.of._pieces(until, smooth_step)
+        return starts, self.factor * values, self.factor * slopes
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Pulse(Step):
     """``level`` from ``on`` to ``off``, ``initial`` otherwise."""
 

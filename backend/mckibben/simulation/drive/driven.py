@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 import numpy as np
 
 from mckibben.physics.errors import InputError
@@ -58,8 +60,12 @@ def driven_states(
     length: np.ndarray,
     temperature: float = ROOM_TEMPERATURE,
     tolerance: float = TOLERANCE,
+    begin: Mapping[str, float] | None = None,
 ) -> dict[str, np.ndarray]:
     """The states ("effect.state") and readings that `driven_force` integrates, at each time of the record.
+
+    Args:
+        begin: states that do not begin at rest.
 
     Raises:
         InputError: as for `driven_force`.
@@ -76,6 +82,9 @@ def driven_states(
     }
     start = np.array([state.initial or 0.0 for state in compiled.model.states])
     start[0] = time[0]
+    names = [state.name for state in compiled.model.states]
+    for name, value in (begin or {}).items():
+        start[names.index(name)] = value
     return _run(compiled, table, inputs, start, time, tolerance)
 
 

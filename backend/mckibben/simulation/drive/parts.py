@@ -9,6 +9,7 @@ from mckibben.physics import ideal
 from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.command.pid import PidController
+from mckibben.simulation.command.pwm import PulseWidth
 from mckibben.simulation.command.signals import Signal
 from mckibben.simulation.statics.model import StaticModel
 
@@ -30,10 +31,52 @@ class Valve:
 
 @dataclass(frozen=True, slots=True)
 class Regulator:
-    """Full-scale gauge pressure [Pa] and time constant [s] of a pressure regulator."""
+    """A pressure regulator: two orifices that a lagging set point controls.
+
+    Attributes:
+        range: gauge pressure at full command [Pa].
+        time: time constant of the lag of the set point [s]; with ``damping`` 1 / natural angular frequency.
+        damping: damping ratio of a lag of second order; None = first order.
+        band: pressure error at which an orifice is fully open [Pa].
+        dead_band: width of the error in which both orifices are closed [Pa].
+    """
 
     range: float
     time: float
+    damping: float | None = None
+    band: float = 0.3e5
+    dead_band: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class FlowControl:
+    """A flow control valve on the muscle: its restriction while filling and while venting.
+
+    A conductance of infinity is free flow.
+    """
+
+    fill_conductance: float
+    exhaust_conductance: float
+    fill_ratio: float = 0.3
+    exhaust_ratio: float = 0.3
+
+
+@dataclass(frozen=True, slots=True)
+class QuickExhaust:
+    """A quick exhaust valve on the muscle, behind the tube.
+
+    Once the pressure in the tube is below that in the muscle, no air flows back but all of it to the
+    surroundings.
+
+    Attributes:
+        conductance: of its exhaust [m^3/(s Pa)].
+        critical_ratio: critical pressure ratio.
+        band: pressure difference at which it is fully open [Pa].
+    """
+
+    conductance: float
+    critical_ratio: float = 0.3
+    band: float = 0.1e5
 
 
 @dataclass(frozen=True, slots=True)
@@ -68,13 +111,29 @@ class Load:
     lever_ratio: float = 1.0
 
 
+@dataclass(frozen=True, slots=True)
+class StiffnessControl:
+    """Second set point of an antagonist joint: its stiffness, by what both muscles are given in common.
+
+    Attributes:
+        reference: stiffness of the joint [N m/rad].
+        kp, ki: gains [-], [1/s] of the missing mean pressure as a share of the full one.
+    """
+
+    reference: Signal
+    kp: float
+    ki: float
+
+
 @dataclass(frozen=True)
 class Drive:
     """A complete drive, SI; pressures gauge.
 
     Attributes:
         model: the muscle with its effects.
-        valve, regulator, tube: the air path; a regulator uses the valve's conductances.
+        valve, regulator, tube: the air path; a regulator's orifices have the valve's conductances.
+        flow_control, quick_exhaust: valves on the muscle; a quick exhaust needs a tube.
+        pwm: pulse-width modulation of switching valves; None = the valve opens as far as commanded.
         assumed_tube: used if no tube is stated and an effect of the model acts on one; None if the drive
             states that there is none.
         load: what the muscle pulls.
@@ -92,6 +151,9 @@ class Drive:
         precontraction: contraction ratio of both muscles of a pair in the middle position, where stroke = 0.
         pulley_radius: pulley radius of a pair [m].
         controller, reference: a position controller that replaces the command, and its set point [m].
+        stiffness: second set point of a controlled pair; its controller then gives half the difference of
+            both commands.
+        common: command that both muscles of a pair have in common; None = 0.5 of a regulator, 0 of a valve.
     """
 
     model: StaticModel
@@ -102,6 +164,9 @@ class Drive:
     supply_pressure: float
     regulator: Regulator | None = None
     tube: Tube | None = None
+    flow_control: FlowControl | None = None
+    quick_exhaust: QuickExhaust | None = None
+    pwm: PulseWidth | None = None
     assumed_tube: Tube | None = None
     min_contraction: float = 0.0
     max_contraction: float = 0.25
@@ -117,6 +182,8 @@ class Drive:
     pulley_radius: float | None = None
     controller: PidController | None = None
     reference: Signal | None = None
+    stiffness: StiffnessControl | None = None
+    common: float | None = None
     ambient_pressure: float = ideal.ATMOSPHERE
     temperature: float = 293.15
 
@@ -162,7 +229,10 @@ class Drive:
             self.model.effects,
             tube=self.tube_in_use is not None,
             regulator=self.regulator is not None,
+            second_order=self.regulator is not None and self.regulator.damping is not None,
             pair=self.pair,
+            flow_control=self.flow_control is not None,
+            quick_exhaust=self.quick_exhaust is not None,
             polytropic=self.polytropic_exponent is not None,
         )
 
@@ -174,5 +244,12 @@ class Drive:
         return low * rest, high * rest
 
     def counter(self, command: float) -> float:
-        """Command of the second muscle of a pair: -u for a valve, 1 - u for a regulator."""
-        return 1.0 - command if self.regulator is not None else -command
+        """Command of the second muscle of a pair: -u for a valve, 1 - u for a regulator, or 2 c - u."""
+        return 2.0 * self.common_command - command
+
+    @property
+    def common_command(self) -> float:
+        """Mean c of both commands of a pair."""
+        if self.common is not None:
+            return self.common
+        return 0.5 if self.regulator is not None else 0.0

@@ -16,7 +16,7 @@ from mckibben.simulation.command.segments import Segments, delayed, merged
 from mckibben.simulation.command.signals import Signal
 from mckibben.simulation.drive.events import Event, events_of
 from mckibben.simulation.drive.initial_state import Start, start_of
-from mckibben.simulation.drive.parts import Drive, Regulator
+from mckibben.simulation.drive.parts import Drive, FlowControl, QuickExhaust, Regulator
 from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
 from mckibben.simulation.outcome import Watch
 from mckibben.simulation.statics.model import StaticModel
@@ -25,6 +25,7 @@ GRAVITY = 9.80665  # m/s2
 # A slack muscle takes its free length within about this time [s].
 _SLACK_TIME = 2e-6
 _LIGHTEST = 1e-3  # kg; least moving mass: without mass there is no equation of motion
+_FREE = 1.0  # m3/(s Pa); conductance of free flow: a million times that of the largest valve
 _CONSTANTS = frozenset(CONSTANTS)
 # At 1e-5 a step may jump over the moment at which a load leaves its stop (0.4 mm in paper-ramp).
 TOLERANCE = 1e-6
@@ -56,6 +57,7 @@ class Run:
     engine: str
     wall_seconds: float
     notes: list[str] = field(default_factory=list)
+    counter_command: Segments | None = None
 
     @property
     def pressure(self) -> np.ndarray:
@@ -74,6 +76,8 @@ def constants_of(drive: Drive) -> dict[str, float]:
         ratio = float(gas.tube_critical_ratio(diameter=tube.inside_diameter, length=tube.length))
         tube_volume = tube.volume
     regulator = drive.regulator or Regulator(1.0, 1.0)
+    control = drive.flow_control or FlowControl(_FREE, _FREE)
+    quick = drive.quick_exhaust or QuickExhaust(1e-8)
     table = {
         "supply_pressure": drive.supply_pressure + drive.ambient_pressure,
         "ambient_pressure": drive.ambient_pressure,
@@ -84,6 +88,16 @@ def constants_of(drive: Drive) -> dict[str, float]:
         "exhaust_ratio": drive.valve.exhaust_ratio,
         "regulator_range": regulator.range,
         "regulator_time": regulator.time,
+        "regulator_damping": 1.0 if regulator.damping is None else regulator.damping,
+        "regulator_band": regulator.band,
+        "regulator_dead_band": regulator.dead_band,
+        "filling_restriction": min(control.fill_conductance, _FREE),
+        "filling_restriction_ratio": control.fill_ratio,
+        "venting_restriction": min(control.exhaust_conductance, _FREE),
+        "venting_restriction_ratio": control.exhaust_ratio,
+        "quick_exhaust_conductance": quick.conductance,
+        "quick_exhaust_ratio": quick.critical_ratio,
+        "quick_exhaust_band": quick.band,
         "tube_volume": tube_volume,
         "tube_conductance": conductance,
         "tube_ratio": ratio,
@@ -137,13 +151,14 @@ def external_force(drive: Drive) -> Segments:
 def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
     """Segment boundaries, inputs of each segment, and the command after the dead times of the effects."""
     on, off = dead_times(drive)
-    command = delayed(drive.command.segments(drive.duration), on, off, before=drive.command.before)
+    unshifted = drive.command.segments(drive.duration)
+    command = delayed(_switched(drive, unshifted), on, off, before=drive.command.before)
     command, external = merged(command, external_force(drive))
     counter = command  # unused for a single muscle
     if drive.pair:
-        unshifted = drive.command.segments(drive.duration)
         opposite = np.array([drive.counter(value) for value in unshifted.start_values])
         mirrored = Segments(unshifted.times, opposite, -unshifted.slopes)
+        mirrored = _switched(drive, mirrored)
         counter, _ = merged(delayed(mirrored, on, off, before=drive.counter(drive.command.before)), command)
         command, external = merged(command, counter)[0], merged(external, counter)[0]
     columns = {
@@ -156,6 +171,11 @@ def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
         "begin": command.times[:-1],
     }
     return command.times, np.column_stack([columns[name] for name in INPUTS]), command
+
+
+def _switched(drive: Drive, command: Segments) -> Segments:
+    """The openings of switching valves, or the command itself."""
+    return command if drive.pwm is None else drive.pwm.switched(command)
 
 
 def before_of(drive: Drive, inputs: np.ndarray) -> np.ndarray:

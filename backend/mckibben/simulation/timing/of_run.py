@@ -9,12 +9,13 @@ from typing import ClassVar, Literal
 import numpy as np
 
 from mckibben.physics.drive_terms import COUNTER, HIGH_STOP
+from mckibben.physics.flow_path import Restriction, with_flow_control
 from mckibben.physics.gas import GAS_CONSTANT as _R
 from mckibben.physics.model import Model
 from mckibben.simulation.command.segments import Interval, Segments, phases
 from mckibben.simulation.drive.events import Event
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.transient import Run, dead_times
+from mckibben.simulation.drive.transient import Run, constants_of, dead_times
 from mckibben.simulation.integrate.engine import SLOWEST_REBOUND
 from mckibben.simulation.timing.table import TimingTable, timing
 from mckibben.simulation.timing.trace import Impact, Trace
@@ -24,6 +25,7 @@ Array = np.ndarray
 
 # The timing table is computed on a grid at least this fine.
 _FINEST, _FEWEST, _MOST = 1e-3, 2000, 20_000
+_TRIMMING = 0.01  # of the largest flow of a run; a regulator trims with less
 _FILL, _EXHAUST = 1, 2
 _FEWEST_TRACKED = 4  # least number of rows for tracking figures
 
@@ -236,7 +238,28 @@ def choked_of(run: Run) -> list[ChokedInterval]:
 
 def _choked_side(run: Run) -> Array:
     """1 where filling is choked, 2 where venting is, else 0."""
-    out, valve = run.outputs, run.drive.valve
-    fill = (out["supply_flow"] > 0.0) & (out["fill_pressure_ratio"] < valve.fill_ratio)
-    exhaust = (out["exhaust_flow"] > 0.0) & (out["exhaust_pressure_ratio"] < valve.exhaust_ratio)
+    out = run.outputs
+    # A regulator at rest trims its pressure with hardly any air, always choked on its way out.
+    share = 0.0 if run.drive.regulator is None else _TRIMMING
+    flows = {name: out[f"{name}_flow"] for name in ("supply", "exhaust")}
+    least = {name: share * float(np.max(flow, initial=0.0)) for name, flow in flows.items()}
+    fill_ratio, exhaust_ratio = _critical_ratios(run.drive)
+    after_exhaust, quick = out["exhaust_pressure_ratio"], run.drive.quick_exhaust
+    if quick is not None:
+        exhaust_ratio, after_exhaust = (
+            quick.critical_ratio,
+            run.drive.ambient_pressure / run.states["pressure"],
+        )
+    fill = (flows["supply"] > least["supply"]) & (out["fill_pressure_ratio"] < fill_ratio)
+    exhaust = (flows["exhaust"] > least["exhaust"]) & (after_exhaust < exhaust_ratio)
     return np.where(fill, _FILL, np.where(exhaust, _EXHAUST, 0))
+
+
+def _critical_ratios(drive: Drive) -> tuple[float, float]:
+    """Of filling and venting through the open valve, with a flow control that is directly behind it."""
+    valve = drive.valve
+    filling = Restriction(valve.fill_conductance, valve.fill_ratio)
+    venting = Restriction(valve.exhaust_conductance, valve.exhaust_ratio)
+    if drive.flow_control is not None and drive.tube_in_use is None:
+        filling, venting = with_flow_control(before=filling, behind=venting, c=constants_of(drive))
+    return float(filling.critical_ratio), float(venting.critical_ratio)

@@ -18,7 +18,9 @@ the stroke of the phase: to the stop it ends on, else to where it ends, or the d
   count.
 - impact_energy: m v^2/2 of the first impact; 0 without one.
 - pressure_rise_time, pressure_delay_time: 10-90 % and 50 % of the pressure step of the phase (end minus
-  start); pressure_settling_time: from here on within 1 % of that step around the end value.
+  start); pressure_settling_time: from here on within 1 % of that step around the end value. Where the
+  pressure stands still near such a level, as between two pulses of a modulated valve, its last digits decide
+  whether it passes before or behind the pause: a note says from when to when it is within 0.1 % of the step.
 - air_mass: air taken from the supply (fill), let out to the atmosphere (exhaust), with that for the tube;
   air_volume_anr: that at ANR; tube_air_mass: the part for the tube. With a stated polytropic exponent, which
   does not conserve mass, from the states at begin and end of the phase at ambient temperature.
@@ -58,6 +60,8 @@ FIGURE_UNITS = {name: _NO_TIMES.get(name, "s") for name in FIGURES}
 #: Travel [m] and pressure change [Pa] below these count as none.
 SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0
 PRESSURE_BAND = 0.01
+# A level is passed, within this share of the step, in less than this share of the figure, or a note says so.
+_SHARP, _SHARP_TIME = 0.001, 0.01
 #: A signal that settles only in this last share of a phase counts as not settled.
 _STILL_MOVING = 0.1
 
@@ -234,8 +238,27 @@ class _Phase:
         low, half, high = (self._linear_first(pressure, share * change) for share in (0.1, 0.5, 0.9))
         settled = self._settled(pressure, change, PRESSURE_BAND * change, linear=True)
         figures = dict(zip(PRESSURE_FIGURES, (high - low, half, settled), strict=True))
-        why = {"pressure_settling_time": "the pressure still changes at the end of the phase"}
-        return figures, why if settled is None else {}
+        notes = {
+            name: why
+            for name, shares in (("pressure_rise_time", (0.1, 0.9)), ("pressure_delay_time", (0.5,)))
+            if (why := self._blurred(pressure, change, shares, figures[name]))
+        }
+        if settled is None:
+            notes["pressure_settling_time"] = "the pressure still changes at the end of the phase"
+        return figures, notes
+
+    def _blurred(
+        self, pressure: Array, change: float, shares: tuple[float, ...], figure: float | None
+    ) -> str | None:
+        """From when to when the pressure is nearly at a level of a figure; None when it passes at once."""
+        for share in shares:
+            first, last = (self._linear_first(pressure, (share + d) * change) for d in (-_SHARP, _SHARP))
+            if figure is not None and last - first > _SHARP_TIME * figure:
+                return (
+                    f"from {first * 1e3:.4g} to {last * 1e3:.4g} ms the pressure is within {100 * _SHARP:g} "
+                    f"% of its step around {100 * share:g} % of it: when it passes there is not known closer"
+                )
+        return None
 
     def _extremes(
         self, figures: dict[str, float | None], notes: dict[str, str], impact: tuple[float, float] | None

@@ -82,6 +82,25 @@ export const SPECS = {
     log: true,
     usual: regulatorFigure("time"),
   },
+  "regulator.damping": {
+    label: "Damping of second order",
+    quantity: "number",
+    bounds: [0.1, 2],
+    empty: "first order",
+  },
+  "regulator.band": {
+    label: "Error at full opening",
+    quantity: "pressure",
+    bounds: [1e3, 1e5],
+    log: true,
+    usual: () => regulatorFigure("band")() ?? 0.05 * (numberAt("regulator.range") ?? 6e5),
+  },
+  "regulator.dead_band": {
+    label: "Dead band",
+    quantity: "pressure",
+    bounds: [0, 2e4],
+    usual: () => regulatorFigure("dead_band")() ?? 0,
+  },
   "tube.inside_diameter": {
     label: "Tube inside diameter",
     symbol: "d",
@@ -216,6 +235,28 @@ export const SPECS = {
     bounds: [0, 5],
     usual: 0,
   },
+  "controller.angle": { label: "Angle", symbol: "φ", quantity: "angle", bounds: [-0.5, 0.5], usual: 0 },
+  "controller.stiffness.reference": {
+    label: "Stiffness",
+    symbol: "k",
+    quantity: "rotary",
+    bounds: [0, 100],
+    usual: 20,
+  },
+  "controller.stiffness.kp": {
+    label: "Gain P of the stiffness",
+    quantity: "number",
+    bounds: [0, 10],
+    usual: () => regulated.value ? 0 : 2,
+    hint: "Command per mean pressure that is missing, both as shares of the full one.",
+  },
+  "controller.stiffness.ki": {
+    label: "Gain I of the stiffness",
+    quantity: "number",
+    unit: "1/s",
+    bounds: [0, 20],
+    usual: () => regulated.value ? 0.5 : 0,
+  },
   "controller.derivative_filter": {
     label: "Derivative filter",
     quantity: "lapse",
@@ -233,7 +274,7 @@ export const SPECS = {
   "controller.output_max": { label: "Highest command", quantity: "ratio", bounds: [-1, 1], usual: 1 },
 };
 
-/** @param {"range" | "time"} key */
+/** @param {"range" | "time" | "damping" | "band" | "dead_band"} key */
 function regulatorFigure(key) {
   return () => {
     const q = /** @type {any} */ (partPreset("valves", "valve.preset"))?.regulator?.[key];

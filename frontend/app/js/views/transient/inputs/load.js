@@ -8,6 +8,7 @@ import { rearranged } from "../../../drive/document.js";
 import { choiceField, driveField, partMessage, SPECS } from "./fields.js";
 import { arrangement, drive, numberAt, run, setDrive } from "../model.js";
 import { middleOf } from "../series.js";
+import { followPosition } from "./set-points.js";
 import { signalFields } from "./signals.js";
 
 /** @typedef {import("../../../types.js").DriveArrangement} Arrangement */
@@ -44,8 +45,10 @@ function middle() {
 }
 
 /** @param {Arrangement} next */
-const arrange = (next) =>
+function arrange(next) {
+  if (next !== "antagonist") followPosition();
   setDrive("load", rearranged(drive.peek().load ?? {}, next, middle()), `load ${next}`);
+}
 
 function arrangementFields() {
   const how = arrangement.value, pair = how === "antagonist";

@@ -7,6 +7,7 @@ import { design, showMuscle } from "../../../muscle/document.js";
 import { siOf, withUnit } from "../../../format.js";
 import { effectsCard, isStatic } from "../../../muscle/effects.js";
 import { preset } from "../../../muscle/preset.js";
+import { studyTolerance } from "../../../drive/study.js";
 import { driveField, partMessage } from "./fields.js";
 import {
   arrangement,
@@ -24,6 +25,7 @@ import {
 } from "../model.js";
 import { airCard } from "./air.js";
 import { loadCard } from "./load.js";
+import { setPointFields } from "./set-points.js";
 import { signalFields } from "./signals.js";
 import { supplyCard } from "./supply.js";
 
@@ -95,14 +97,7 @@ function commandCard() {
             driveField(`controller.${key}`)
           ),
         ),
-        signalFields({
-          path: "controller.reference",
-          quantity: "length",
-          low: () => 0,
-          high: Math.max(run.peek()?.limits.position_max ?? 0.05, 0.01),
-          rest: () => 0,
-          full: Number((0.6 * (run.peek()?.limits.position_max ?? 0.03)).toPrecision(2)),
-        }, "Reference"),
+        ...setPointFields(),
       ];
     }
     return signalFields({
@@ -167,6 +162,16 @@ export function inputCards() {
       h("div", { class: "card-head" }, h("h2", null, "Drive")),
       scenarioField(),
       muscleLine(),
+      h(
+        "button",
+        {
+          type: "button",
+          class: "block",
+          title: "Monte Carlo of load, supply pressure and length",
+          onclick: () => studyTolerance("drive"),
+        },
+        "How much does tolerance matter?",
+      ),
     ),
     commandCard(),
     loadCard(),

@@ -106,15 +106,22 @@ const QUANTITIES = {
   seed: "number",
 };
 
+/** The signals of a drive: name, and quantity of the levels. @type {Record<string, [string, Quantity]>} */
+const WHOSE = {
+  command: ["Command", "ratio"],
+  "load.force": ["External force", "force"],
+  "controller.reference": ["Reference", "length"],
+  "controller.angle": ["Angle", "angle"],
+  "controller.stiffness.reference": ["Stiffness", "rotary"],
+};
+
 /** Name and quantity of a field of a signal by its path; null: it is no such field.
  * @param {string} path @param {any} signal @returns {{label: string, quantity: Quantity} | null} */
 export function signalField(path, signal) {
-  const [, where, key] = /^(command|controller\.reference|load\.force)\.(\w+)$/.exec(path) ?? [];
-  const row = where && SHAPES[signal?.shape]?.[1].find(([name]) => name === key);
+  const dot = path.lastIndexOf("."), whose = WHOSE[path.slice(0, dot)], key = path.slice(dot + 1);
+  const row = whose && SHAPES[signal?.shape]?.[1].find(([name]) => name === key);
   if (!row) return null;
-  const level = where === "command" ? "ratio" : where === "load.force" ? "force" : "length";
-  const whose = where === "command" ? "Command" : where === "load.force" ? "External force" : "Reference";
-  return { label: `${whose}: ${row[1].toLowerCase()}`, quantity: QUANTITIES[row[2]] ?? level };
+  return { label: `${whose[0]}: ${row[1].toLowerCase()}`, quantity: QUANTITIES[row[2]] ?? whose[1] };
 }
 
 /** @param {Signal} s @param {Row} row */

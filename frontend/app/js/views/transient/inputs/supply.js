@@ -7,6 +7,8 @@ import { siOf } from "../../../format.js";
 import { unverifiedBadge } from "../../../ui/sources.js";
 import { at } from "../../../paths.js";
 import { choiceField, driveField, partMessage } from "./fields.js";
+import { pulseWidth } from "./pulse-width.js";
+import { muscleValves } from "./muscle-valves.js";
 import { changePart, drive, numberAt, partPreset, regulated } from "../model.js";
 
 const OWN = "own", NONE = "none";
@@ -66,7 +68,19 @@ export function supplyCard() {
         h("summary", null, "Flow of the valve"),
         ...valveFields(),
       ),
-    () => regulated.value ? [driveField("regulator.range"), driveField("regulator.time")] : null,
+    () =>
+      regulated.value
+        ? [
+          ...["range", "time"].map((key) => driveField(`regulator.${key}`)),
+          h(
+            "details",
+            null,
+            h("summary", null, "Regulator in detail"),
+            ...["damping", "band", "dead_band"].map((key) => driveField(`regulator.${key}`)),
+          ),
+        ]
+        : null,
+    ...pulseWidth(),
     choiceField(
       "Tube",
       () => [[NONE, "None"], ...partOptions("tubes"), [OWN, "Own values"]],
@@ -78,6 +92,7 @@ export function supplyCard() {
       if (tubeId.value === NONE) return null;
       return [tubeId.value === OWN ? driveField("tube.inside_diameter") : null, driveField("tube.length")];
     },
+    ...muscleValves(),
   );
 }
 
