@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import sys
 from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -45,7 +47,7 @@ def test_print_notebook_frame_and_figures(view: LinearView) -> None:
     assert "<table" in view._repr_html_()
     frame = view.to_frame()
     assert list(frame.columns) == ["frequency_Hz", "gain", "phase_rad"]
-    assert [trace.name for trace in view.plot().data][:1] == ["smooth"]
+    assert [trace.name for trace in view.plot().data][:1] == ["mean of both sides"]
     assert any("5 %" in (trace.name or "") for trace in view.plot().data)
     assert len(view.plot_design().data) == 5
 
@@ -100,3 +102,20 @@ def test_where_it_switches_each_model_has_a_name() -> None:
 def test_problems_are_sentences(arguments: dict, message: str) -> None:
     with pytest.raises(mk.Problem, match=message):
         mk.Drive.preset("propneu-20").linearise(**arguments)
+
+
+def test_python_control_gets_matrices_and_names(view: LinearView, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Of python-control only its constructor is used: `StateSpace(A, B, C, D, states=..., ...)`."""
+    given: dict[str, object] = {}
+
+    def state_space(*matrices: object, **names: object) -> str:
+        given.update(names, matrices=matrices)
+        return "made"
+
+    monkeypatch.setitem(sys.modules, "control", SimpleNamespace(StateSpace=state_space))
+    assert view.to_control() == "made"
+    assert (given["states"], given["outputs"]) == (list(view.states), list(view.outputs))
+    assert len(given["matrices"]) == 4  # type: ignore[arg-type]
+    monkeypatch.setitem(sys.modules, "control", None)
+    with pytest.raises(mk.Problem, match="python-control is not installed"):
+        view.to_control()

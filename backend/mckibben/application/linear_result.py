@@ -9,7 +9,7 @@ import numpy as np
 
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.linear.design import Design
-from mckibben.simulation.linear.equations import Port
+from mckibben.simulation.linear.equations import COMMAND, READING, Port
 from mckibben.simulation.linear.linearise import Linearisation
 from mckibben.simulation.linear.loop import Margins, loop_response, margins
 from mckibben.simulation.linear.model import LinearModel
@@ -18,6 +18,7 @@ from mckibben.simulation.linear.response import (
     bandwidth,
     frequencies_for,
     frequency_response,
+    phase_of,
     poles_of,
     static_gain,
 )
@@ -202,7 +203,7 @@ class LinearResult:
 
     Attributes:
         point: where it was linearised.
-        smooth: whether nothing sticks or switches there.
+        smooth: whether nothing sticks or switches there in a way that the motion shows.
         lost: what the linear models do not contain.
         dead_band: commands between which nothing reacts.
         input, output: the channel of responses, poles and zeros.
@@ -266,12 +267,14 @@ def input_values(linear: Linearisation) -> dict[str, float]:
     }
 
 
-def model_result(linear: Linearisation, model: LinearModel, source: str, out: str) -> ModelResult:
-    """A model with the response of its channel."""
+def model_result(
+    linear: Linearisation, model: LinearModel, source: str, out: str, frequency: Array
+) -> ModelResult:
+    """A model with the response of its channel at frequencies [Hz]."""
     point, bound = model.point, model.point.bound
     poles, zeros = poles_of(model, source, out)
     width, why = bandwidth(model, source, out)
-    response = frequency_response(model, source, out, frequencies_for(linear.primary))
+    response = frequency_response(model, source, out, frequency)
     outputs = bound.values(point.state, point.command, point.switches, slides=point.direction != 0).ports
     inputs = input_values(linear)
     return ModelResult(
@@ -293,7 +296,7 @@ def model_result(linear: Linearisation, model: LinearModel, source: str, out: st
         bandwidth=width,
         bandwidth_note=why,
         gain=np.abs(response),
-        phase=np.unwrap(np.angle(response)),
+        phase=phase_of(model, source, out, frequency, response),
     )
 
 
@@ -347,7 +350,7 @@ def loop_result(linear: Linearisation, controller: PidController) -> LoopResult:
         margins=margins(linear.primary, controller, axis),
         frequency=frequency,
         gain=np.abs(loop),
-        phase=np.unwrap(np.angle(loop)),
+        phase=phase_of(linear.primary, COMMAND.name, READING.name, frequency, loop),
         closed_gain=np.abs(closed),
     )
 

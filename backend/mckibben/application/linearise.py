@@ -99,8 +99,8 @@ def _answer(question: LinearQuestion, linear: Linearisation, watch: Watch) -> Li
     source, out, drive = question.input, question.output, question.annotated.drive
     notes: list[str] = []
     with np.errstate(all="ignore"):
-        models = [model_result(linear, model, source, out) for model in linear.models]
-        frequency = frequencies_for(linear.primary)
+        frequency = frequencies_for(linear.primary, sweep_frequencies(linear))
+        models = [model_result(linear, model, source, out, frequency) for model in linear.models]
         primary = next(model for model in models if model.primary)
         points = _swept(question, linear, watch, notes)
         loop = loop_found = None

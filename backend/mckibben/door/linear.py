@@ -4,13 +4,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
+from importlib import import_module
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
+from mckibben.application.linear_matlab import mat_file, matrices_of
 from mckibben.application.linear_result import DesignResult, LinearResult, LoopResult, ModelResult
 from mckibben.door.frames import frame_of
 from mckibben.door.problem import reported
@@ -45,12 +47,12 @@ class LinearView(Result):
 
     @property
     def models(self) -> Sequence[str]:
-        """Names of the models: "smooth", or "held", "sliding shorter", "filling" and the like."""
+        """Names of the models: "smooth", "mean of both sides", or "held", "filling" and the like."""
         return tuple(model.name for model in self._result.models)
 
     @property
     def smooth(self) -> bool:
-        """Whether nothing sticks or switches at the operating point."""
+        """Whether nothing sticks or switches at the operating point in a way that the motion shows."""
         return self._result.smooth
 
     @property
@@ -135,6 +137,23 @@ class LinearView(Result):
         found = self._model(model)
         return cast(Any, signal).StateSpace(found.a, found.b, found.c, found.d)
 
+    @reported
+    def to_control(self, model: str | None = None) -> Any:
+        """A model as ``control.StateSpace`` of python-control, with all names; without the dead time.
+
+        Raises:
+            Problem: python-control is not installed, or there is no model of this name.
+        """
+        found = self._model(model)
+        try:
+            control = cast(Any, import_module("control"))
+        except ImportError as error:
+            raise InputError("python-control is not installed", hint="pip install control") from error
+        names = {
+            kind: [port.name for port in getattr(found, kind)] for kind in ("states", "inputs", "outputs")
+        }
+        return control.StateSpace(found.a, found.b, found.c, found.d, **names)
+
     def controller(self) -> dict[str, str]:
         """The designed controller for ``Drive.changed(controller={**..., "reference": {...}})``.
 
@@ -167,28 +186,10 @@ class LinearView(Result):
         if Path(path).suffix.lower() != ".mat":
             super().save(path)
             return
-        from scipy import io
-
         try:
-            cast(Any, io).savemat(fspath(path), dict(self._mat()))
+            Path(path).write_bytes(mat_file(matrices_of(self._result.primary)))
         except OSError as error:
             raise InputError(f"{fspath(path)}: cannot be written: {error.strerror or error}") from error
-
-    def _mat(self) -> Mapping[str, Any]:
-        model = self._result.primary
-        return {
-            "A": model.a,
-            "B": model.b,
-            "C": model.c,
-            "D": model.d,
-            "states": np.array(self.states, dtype=object),
-            "inputs": np.array(self.inputs, dtype=object),
-            "outputs": np.array(self.outputs, dtype=object),
-            "dead_time": model.dead_time,
-            "state_0": np.array([state.value for state in model.states]),
-            "input_0": np.array([port.value for port in model.inputs]),
-            "output_0": np.array([port.value for port in model.outputs]),
-        }
 
     def to_frame(self) -> pd.DataFrame:
         """One row for each frequency: frequency_Hz, and of each model gain and phase_rad."""

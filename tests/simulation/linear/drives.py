@@ -45,6 +45,10 @@ DOCUMENTS: dict[str, dict[str, Any]] = {
         **_LIFT, "effects": {**_LIFT["effects"], "valve_deadband": {"half_width": "4 %"}},
     },
     "friction": {**_REGULATED, "effects": {**_LIFT["effects"], "coulomb_friction": {"force": "10 N"}}},
+    **{
+        effect: {**_REGULATED, "effects": {**_LIFT["effects"], effect: {}}}
+        for effect in ("dahl", "bouc_wen", "maxwell_slip")
+    },
     "regulator with hysteresis": {
         **_REGULATED, "effects": {**_LIFT["effects"], "valve_hysteresis": {"width": "1 %"}},
     },

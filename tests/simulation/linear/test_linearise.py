@@ -8,69 +8,78 @@ from math import cos, pi, sqrt, tan
 import numpy as np
 import pytest
 
-from mckibben.documents.drive_files import read_document
+from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.shapes import Step
 from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.transient import dead_times
+from mckibben.simulation.linear.corner import corners_of
 from mckibben.simulation.linear.linearise import Linearisation, linearise
-from mckibben.simulation.linear.model import LinearModel
 from mckibben.simulation.linear.nonlinear import run_from
 from mckibben.simulation.linear.point import Condition
-from mckibben.simulation.linear.response import eigenvalues, step_response
+from mckibben.simulation.linear.response import eigenvalues, static_gain, step_response
+from tests.simulation.linear.differences import differences, of_model, side_of
 from tests.simulation.linear.drives import DOCUMENTS, SMOOTH, STUDIO, drive
-
-
-def differences(model: LinearModel) -> tuple[np.ndarray, np.ndarray]:
-    """A and B of a smooth model by central differences of the engine's own rates, scaled as the model's."""
-    point = model.point
-    bound = point.bound
-    compiled, names = bound.compiled, bound.names
-    expansion = {name: bound.expansion[:, i] for i, name in enumerate(names[j] for j in bound.independent)}
-    rows = [names.index(state.name) for state in model.states]
-    scales, inputs, _ = model.scales
-    place = list(bound.equations.model.parameters).index("supply_pressure")
-    entry = {"command": 0, "counter_command": 2, "load_force": 4}  # in the engine's inputs
-
-    def rates(state: np.ndarray, given: np.ndarray, parameters: np.ndarray) -> np.ndarray:
-        return compiled.rates(np.concatenate([state, parameters, given]), point.switches)[rows] / scales
-
-    at = bound.inputs(point.command)
-
-    def slope(change, size: float) -> np.ndarray:
-        # Richardson's extrapolation of two central differences; each step stays where the flow is linear.
-        once, twice = ((rates(*change(h)) - rates(*change(-h))) / (2.0 * h) for h in (size, 2.0 * size))
-        return (4.0 * once - twice) / 3.0
-
-    a = [
-        slope(lambda h, s=s, z=z: (point.state + h * z * expansion[s.name], at, bound.parameters), 1e-5)
-        for s, z in zip(model.states, scales, strict=True)
-    ]
-    b = []
-    for port, scale in zip(model.inputs, inputs, strict=True):
-
-        def moved(h: float, name: str = port.name, scale: float = scale) -> tuple[np.ndarray, ...]:
-            given, parameters = at.copy(), bound.parameters.copy()
-            if name in entry:
-                given[entry[name]] += h * scale
-            else:
-                parameters[place] += h * scale
-            return point.state, given, parameters
-
-        b.append(slope(moved, 1e-5))
-    return np.column_stack(a), np.column_stack(b)
 
 
 @pytest.mark.parametrize("name", [*SMOOTH, "pair"])
 def test_the_matrices_are_those_of_central_differences(name: str) -> None:
-    (model,) = linearise(drive(name)).models
-    a, b = differences(model)
-    states, inputs, _ = model.scales
-    exact_a, exact_b = model.a * states / states[:, None], model.b * inputs / states[:, None]
+    linear = linearise(drive(name))
+    (model,) = linear.models
+    a, b, exact_a, exact_b = of_model(linear, model)
     assert np.abs(a - exact_a) == pytest.approx(0.0, abs=1e-6 * np.abs(exact_a).max())
     assert np.abs(b - exact_b) == pytest.approx(0.0, abs=1e-6 * max(np.abs(exact_b).max(), 1.0))
     held = np.abs(exact_a) > 1e-3
     assert a[held] == pytest.approx(exact_a[held], rel=1e-6, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    "name", ["joint-20", "regulator with hysteresis", "valve", "valve and tube", "valve with dead band"]
+)
+def test_the_matrices_of_a_side_are_those_of_one_sided_differences(name: str) -> None:
+    linear = linearise(drive(name))
+    sides = [model for model in linear.models if side_of(model) and "sliding" not in model.name]
+    assert {side_of(model) for model in sides} == {1, -1}
+    for model in sides:
+        a, b, exact_a, exact_b = of_model(linear, model)
+        assert np.abs(a - exact_a).max() < 1e-6 * np.abs(exact_a).max(), model.name
+        assert np.abs(b - exact_b).max() < 1e-6 * max(np.abs(exact_b).max(), 1.0), model.name
+
+
+@pytest.mark.parametrize("name", ["regulator", "regulator, tube, lever", "pair", "joint-20"])
+def test_a_regulator_at_rest_is_a_corner_with_two_slopes(name: str) -> None:
+    """Both are one-sided differences of the rates, in the ratio of the flows; the answer says so."""
+    linear = linearise(drive(name))
+    point = linear.point
+    bound = point.bound
+    regulators = [bound.names[place] for place in bound.places("regulator_pressure")]
+    outlets = [bound.names[place] for place in bound.places("tube_pressure") or bound.places("pressure")]
+    names = [bound.names[place] for place in bound.independent]
+    slopes = {}
+    for side in (1, -1):
+        a, _ = differences(point, names, ["command"], (bound.scales, np.ones(1)), side=side, offset=0.0)
+        for outlet, source, sense in zip(outlets, regulators, (1, -1), strict=False):
+            ways = {1: "filling", -1: "venting"}
+            row, column = names.index(outlet), names.index(source)
+            scale = bound.scales[row] / bound.scales[column]
+            slopes[outlet, ways[side * sense]] = a[row, column] * scale
+    said = next(text for text in linear.lost if text.startswith("corner"))
+    for outlet, corner in zip(outlets, corners_of(point), strict=True):
+        assert corner.filling == pytest.approx(slopes[outlet, "filling"], rel=1e-6)
+        assert corner.venting == pytest.approx(slopes[outlet, "venting"], rel=1e-6)
+        for slope in corner:
+            assert f"{slope:.4g}/s" in said
+    if name == "regulator":
+        # By hand: C = 6.01 l/(s bar), b = 0.3 both ways; 6 bar gauge in front, ambient behind.
+        supply, own, ambient = 701_325.0, point.pressure + 101_325.0, 101_325.0
+
+        def flow(upstream: float, downstream: float) -> float:
+            return upstream * sqrt(1.0 - (max(downstream / upstream - 0.3, 0.0) / 0.7) ** 2)
+
+        (corner,) = corners_of(point)
+        ratio = flow(supply, own) / flow(own, ambient)
+        assert corner.filling / corner.venting == pytest.approx(ratio, rel=1e-6)
 
 
 def deviation(linear: Linearisation, given: Drive, source: str, size: float, seconds: float) -> float:
@@ -86,7 +95,7 @@ def deviation(linear: Linearisation, given: Drive, source: str, size: float, sec
     run = run_from(point, changed, grid=time, tolerance=1e-8)
     moved = run.states["stroke"] / given.load.lever_ratio - point.position
     expected = step_response(model, source, "position", time, size)
-    assert np.abs(moved).max() > 1e-6
+    assert np.abs(moved).max() > 1e-7
     return float(np.abs(moved - expected).max() / np.abs(moved).max())
 
 
@@ -95,7 +104,8 @@ def test_a_step_of_one_percent_is_that_of_the_nonlinear_run(name: str) -> None:
     given = drive(name)
     linear = linearise(given)
     assert linear.smooth
-    assert [model.name for model in linear.models] == ["smooth"]
+    plain = "smooth" if given.regulator is None else "mean of both sides"
+    assert [model.name for model in linear.models] == [plain]
     seconds = 0.3 if given.regulator is not None else 0.15  # a valve integrates: it leaves the point
     assert deviation(linear, given, "command", 0.01, seconds) < 0.02
     assert deviation(linear, given, "load_force", 0.01 * linear.point.force, seconds) < 0.02
@@ -149,6 +159,14 @@ def test_a_lift_by_a_valve_is_its_closed_form() -> None:
         assert rate == pytest.approx(steady, rel=1e-6)
 
 
+def test_each_side_of_a_valve_has_its_own_dead_time() -> None:
+    given = drive("propneu-20")
+    filling, venting, both = linearise(given).models
+    opening, closing = dead_times(given)
+    assert opening < closing
+    assert (filling.dead_time, venting.dead_time, both.dead_time) == (opening, closing, closing)
+
+
 def test_a_valve_with_a_dead_band_is_linearised_at_its_edges() -> None:
     linear = linearise(drive("valve with dead band"))
     plain = linearise(drive("valve"))
@@ -170,6 +188,24 @@ def test_a_regulator_with_play_has_a_dead_band() -> None:
     pole = eigenvalues(plain)[1]  # of the mechanics and the air nothing changes
     for model in linear.models:
         assert np.abs(eigenvalues(model) - pole).min() == pytest.approx(0.0, abs=1e-6 * abs(pole))
+
+
+def test_a_joint_with_play_is_linearised_where_both_muscles_react() -> None:
+    document = preset_document("joint-20", STUDIO)
+    annotated = drive_of(document, STUDIO)
+    linear = linearise(annotated.drive)
+    effects = {name: dict(own) for name, own in annotated.start.effects.items() if name != "valve_hysteresis"}
+    without = linearise(drive_of(document.model_copy(update={"effects": effects}), STUDIO).drive)
+    expected = static_gain(without.primary, "command", "position")
+    assert linear.primary.name == "mean of filling and venting"
+    assert expected is not None
+    for model in linear.models:
+        gain = static_gain(model, "command", "position")
+        if "held" in model.name:  # by the presliding of both muscles
+            assert gain is not None
+            assert gain < 0.5 * expected
+        else:
+            assert gain == pytest.approx(expected, rel=0.05), model.name
 
 
 def test_a_muscle_without_a_load_has_no_tension() -> None:
@@ -205,6 +241,25 @@ def test_friction_holds_and_slides() -> None:
     ]
     assert gains[0] < 0.3 * gains[1]
     assert any(text.startswith("friction") for text in linear.lost)
+
+
+@pytest.mark.parametrize("effect", ["dahl", "bouc_wen", "maxwell_slip"])
+def test_friction_with_memory_holds_like_a_spring(effect: str) -> None:
+    given = drive(effect)
+    linear = linearise(given)
+    held = linear.models[0]
+    assert held.name == "held"
+    assert deviation(linear, given, "command", 1e-4, 0.6) < 0.02  # 0.8 %; a larger step slides a little
+    gains = [static_gain(model, "command", "position") for model in (held, linear.primary)]
+    assert gains[0] is not None
+    assert gains[1] is not None
+    assert gains[0] < 0.5 * gains[1]
+    if effect == "dahl":  # F/x_b over the mass of 10 kg, with the way of 0.2 % of 300 mm
+        names = [state.name for state in held.states]
+        speed, share = names.index("speed"), names.index("dahl.presliding")
+        force = next(each for each in given.model.effects if each.id == "dahl").parameters[0].default
+        stiffness = -held.a[speed, share] * held.a[share, speed]
+        assert stiffness == pytest.approx(force / 0.6e-3 / 10.0, rel=1e-6)
 
 
 def test_what_is_lost_is_said() -> None:

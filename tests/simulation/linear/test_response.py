@@ -20,6 +20,7 @@ from mckibben.simulation.linear.response import (
     bandwidth,
     frequencies_for,
     frequency_response,
+    phase_of,
     poles_of,
     static_gain,
     step_response,
@@ -46,6 +47,32 @@ def test_response_and_step_are_those_of_scipy(source: str, out: str) -> None:
     time = np.linspace(0.0, 1.0, 101)
     _, shape = signal.step(state_space(model, source, out), T=time)
     assert step_response(model, source, out, time, 1.0) == pytest.approx(shape, abs=1e-6 * abs(shape).max())
+
+
+def test_an_undamped_pole_takes_half_a_turn() -> None:
+    model = linearise(drive("propneu-20")).primary
+    frequency = frequencies_for(model)
+    for axis in (frequency, frequency[::9]):
+        response = frequency_response(model, "command", "position", axis)
+        phase = phase_of(model, "command", "position", axis, response)
+        assert np.exp(1j * phase) == pytest.approx(response / np.abs(response), abs=1e-9)
+        # An integrator and an oscillation: -90 and then -270 degrees, and the dead time.
+        late = 2.0 * np.pi * axis * model.dead_time
+        assert np.degrees(phase + late)[[0, -1]] == pytest.approx([-90.0, -270.0], abs=1.0)
+        assert (np.diff(phase + late) < 1e-6).all()
+
+
+def test_each_integrator_has_taken_a_quarter_of_a_turn_however_high_the_axis_begins() -> None:
+    """A held muscle behind a valve: a quarter for the air, another one above its creep of 0.17 Hz."""
+    model = linearise(drive("paper-step-mpye")).models[0]
+    assert model.name == "held filling"
+    axis = np.geomspace(5.0, 50.0, 30)
+    response = frequency_response(model, "command", "position", axis)
+    phase = phase_of(model, "command", "position", axis, response)
+    assert np.exp(1j * phase) == pytest.approx(response / abs(response), abs=1e-9)
+    late = 360.0 * 5.0 * model.dead_time
+    assert -195.0 < degrees(phase[0]) + late < -160.0
+    assert (np.diff(phase) < 0.0).all()
 
 
 def test_zeros_are_those_of_the_transfer_function() -> None:

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mckibben.simulation.linear.linearise import balanced_bias, balanced_share, linearise
-from mckibben.simulation.linear.response import frequency_response
+from mckibben.simulation.linear.response import eigenvalues, frequency_response
 from mckibben.simulation.linear.sweep import describing_points
 from tests.simulation.linear.drives import drive
 
@@ -27,6 +27,26 @@ def test_a_small_sine_gives_the_linear_response(source: str, amplitude: float) -
         assert point.gain == pytest.approx(abs(value), rel=0.02)
         assert np.exp(1j * point.phase) == pytest.approx(value / abs(value), abs=0.03)
         assert point.distortion < 0.02
+
+
+def test_an_undamped_drive_swings_by_itself_beside_the_sine() -> None:
+    """Above its own 3 Hz that oscillation is larger than the forced one, and never decays."""
+    linear = linearise(drive("propneu-20"))
+    own = max(abs(value.imag) for value in eigenvalues(linear.primary)) / (2.0 * pi)
+    frequencies = tuple(own * share for share in (0.3, 1.5, 2.0))
+    points = describing_points(
+        linear, source="command", out="position", frequencies=frequencies, amplitudes=(0.01,)
+    )
+    # A small sine opens the valve anew in each period: the dead time is that of opening.
+    expected = frequency_response(linear.models[0], "command", "position", np.array(frequencies))
+    for point, value in zip(points, expected, strict=True):
+        assert point.gain == pytest.approx(abs(value), rel=0.06)
+        assert np.angle(np.exp(1j * point.phase) / value) == pytest.approx(0.0, abs=0.15)
+    assert points[-1].remark == "the drive's own oscillation does not decay; it is taken off"
+    near = describing_points(
+        linear, source="command", out="position", frequencies=(1.02 * own,), amplitudes=(0.01,)
+    )
+    assert near[0].remark == "the drive's own oscillation of nearly this frequency does not decay"
 
 
 def test_a_valve_that_fills_and_vents_lies_between_its_two_models() -> None:

@@ -22,7 +22,7 @@ from mckibben.door.figures.style import (
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
 
-_DASHES = (None, "dash", "dot", "dashdot")
+_DASHES = ("dash", "dot", "dashdot", "longdash")
 
 
 def bode_figure(result: LinearResult, title: str) -> Figure:
@@ -31,7 +31,7 @@ def bode_figure(result: LinearResult, title: str) -> Figure:
     others = 0
     for model in result.models:
         colour = ACCENT if model.primary else SOFT
-        dash = None if model.primary else _DASHES[1 + others % 3]
+        dash = None if model.primary else _DASHES[others % len(_DASHES)]
         others += 0 if model.primary else 1
         add_line(figure, result.frequency, _decibels(model.gain), model.name, colour=colour, dash=dash)
         degrees = np.degrees(model.phase)

@@ -7,7 +7,7 @@ from fastapi import APIRouter, Request, Response
 from mckibben.server import request_examples
 from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
-from mckibben.server.long_work import answered
+from mckibben.server.long_work import answered, contained
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.linearisations import LinearisationAnswer, LinearisationRequest
 from mckibben.server.schemas.simulations import SimulationEvents
@@ -25,4 +25,5 @@ async def linearise_drive(
     body: LinearisationRequest, request: Request, studio: StudioDep, store: StoreDep
 ) -> Response:
     """Linear models of a drive at an operating point; closing the connection ends sweep and design."""
-    return await answered(request, "linear view", body, studio, store, quick=body.design is None)
+    quick = body.design is None and not contained(request, body)
+    return await answered(request, "linear view", body, studio, store, quick=quick)

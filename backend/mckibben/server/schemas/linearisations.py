@@ -244,7 +244,9 @@ class LinearisationAnswer(Strict):
     """The linear view of a drive at an operating point, in SI; angles in rad."""
 
     point: LinearPointAnswer = Field(description="Where it was linearised.")
-    smooth: bool = Field(description="Whether nothing sticks or switches there; then there is one model.")
+    smooth: bool = Field(
+        description="Whether nothing sticks or switches there in a way the motion shows: there is one model."
+    )
     lost: list[str] = Field(description="What the linear models do not contain.")
     dead_band: list[float] | None = si_field("1", "Commands between which nothing reacts.")
     input: NamedValue = Field(description="Input of the chosen channel.")

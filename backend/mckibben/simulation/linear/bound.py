@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -47,8 +47,11 @@ class BoundDrive:
 
     @cached_property
     def parameters(self) -> Array:
-        """Constants of a run."""
-        return parameters_of(self.drive, self.compiled)
+        """Constants of a run; a regulator has no dead band here, in which it would not control at all."""
+        drive = self.drive
+        if drive.regulator is not None:
+            drive = replace(drive, regulator=replace(drive.regulator, dead_band=0.0))
+        return parameters_of(drive, self.compiled)
 
     @cached_property
     def load_force(self) -> float:

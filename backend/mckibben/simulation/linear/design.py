@@ -88,7 +88,7 @@ def design(linear: Linearisation, goals: Goals, watch: Watch | None = None) -> D
         start = by_rule(bench.template, *ultimate)
     trials = []
     if drive.controller is not None:
-        trials.append(bench.trial("own", drive.controller))
+        trials.append(bench.trial("own", bench.commanding(drive.controller)))
     trials.append(bench.trial("rule", start))
     best = _refined(bench, [trial.controller for trial in trials], ultimate)
     trials.append(bench.trial("refined", best))
@@ -106,7 +106,7 @@ def design(linear: Linearisation, goals: Goals, watch: Watch | None = None) -> D
         rule=RULE,
         ultimate_gain=None if ultimate is None else ultimate[0],
         ultimate_period=None if ultimate is None else ultimate[1],
-        trials=tuple(trials),
+        trials=tuple(bench.of_drive(trial) for trial in trials),
         robust=tuple(bench.variations(best)),
         evaluations=bench.runs,
         remarks=tuple(remarks),

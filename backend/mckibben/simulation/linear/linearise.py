@@ -2,23 +2,26 @@
 
 Where the equations have one derivative there is one model. Where they have two there are more, each named:
 a valve that is closed fills on one side of its command and vents on the other; a muscle with friction is held
-at rest, and slides once the friction is overcome.
+at rest, and slides once the friction is overcome. A regulator at rest is on such a corner too; where the load
+moves alike on both of its sides there is one model, their mean, and it says the slopes of both.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import NamedTuple
 
 import numpy as np
 
 from mckibben.physics.errors import InputError
-from mckibben.physics.gas import LAMINAR_RATIO
-from mckibben.simulation.command.shapes import Signal
+from mckibben.simulation.command.pwm import PulseWidth
+from mckibben.simulation.drive.joint import at_stiffness
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import dead_times
 from mckibben.simulation.linear.bound import BoundDrive
-from mckibben.simulation.linear.equations import COMMAND, PRESSURE
+from mckibben.simulation.linear.corner import corners_of
+from mckibben.simulation.linear.equations import COMMAND, COUNTER_COMMAND, LOAD_FORCE, POSITION, PRESSURE
+from mckibben.simulation.linear.losses import losses
 from mckibben.simulation.linear.model import INPUT_SCALES, LinearModel, matrices, mean_of, model_of, moving
 from mckibben.simulation.linear.point import Condition, OperatingPoint, operating_point
 
@@ -26,6 +29,8 @@ Array = np.ndarray
 
 _DIFFERENT = 1e-6  # relative difference of two derivatives [1/s, scaled] that are not the same
 _SILENT = 1e-12  # relative response of the pressure to a command that does nothing
+_SEEN = np.geomspace(1.0, 60.0, 12)  # rad/s; frequencies of motions that a regulator can follow
+_SAME_RESPONSE = 0.1  # largest relative difference of two responses whose mean is one model
 _PROBE = 10.0  # rad/s; where it is tested whether the command acts
 
 
@@ -35,10 +40,11 @@ class Linearisation:
 
     Attributes:
         point: the equilibrium.
-        models: one where the equations are smooth, several where something sticks or switches.
+        models: one where the equations are smooth or the motion does not show which side of a regulator acts,
+            several where something sticks or switches.
         primary: the model for loop and design: the only one, or the mean of both directions.
         lost: what the linear models do not contain, as sentences.
-        smooth: whether nothing sticks or switches at the point.
+        smooth: whether nothing sticks or switches at the point in a way that the motion shows.
         dead_band: commands between which nothing reacts, None if there is no such band.
     """
 
@@ -67,9 +73,48 @@ def linearise(drive: Drive, condition: Condition | None = None) -> Linearisation
     Raises:
         InputError: there is no such equilibrium; the message says which there are. Field "at".
     """
-    bound = BoundDrive(drive)
+    if drive.stiffness is not None:
+        drive, condition = _joint(drive, condition)
+    bound = BoundDrive(replace(drive, pwm=None))
     with np.errstate(all="ignore"):
-        return _linearised(bound, condition)
+        found = _linearised(bound, condition)
+    if drive.pwm is None:
+        return found
+    return replace(found, lost=(*found.lost, _modulated(drive.pwm)))
+
+
+def _modulated(pwm: PulseWidth) -> str:
+    """What a linear model of modulated valves leaves out.
+
+    Raises:
+        InputError: the valve fills and vents in each period, which no mean opening describes. Field "pwm".
+    """
+    if pwm.valves == "one":
+        raise InputError(
+            "there is no linear model of one valve that fills and vents in every period: no opening has the "
+            "mean of both flows",
+            field="pwm.valves",
+            hint='"two", or leave pwm out',
+        )
+    return (
+        f"pulse-width modulation: the models and the points beside them have its mean opening; ripple at "
+        f"{pwm.frequency:g} Hz, up to {pwm.period * 1e3:.3g} ms until a command is read, and pulses below "
+        f"{pwm.min_on * 1e3:.3g} ms are left out"
+    )
+
+
+def _joint(drive: Drive, condition: Condition | None) -> tuple[Drive, Condition]:
+    """A joint at the stiffness of its set point, and the condition; by default the angle of its set point."""
+    lever = drive.load.lever_ratio
+    if condition is None:
+        middle = 0.0 if drive.reference is None else float(drive.reference.value(0.0))
+        condition = Condition("position", middle)
+    stroke = 0.0
+    if condition.kind == "position":
+        stroke = condition.value * lever
+    elif condition.kind == "contraction":
+        stroke = (condition.value - drive.precontraction) * drive.muscle.nominal_length
+    return at_stiffness(drive, stroke), condition
 
 
 def _linearised(bound: BoundDrive, condition: Condition | None) -> Linearisation:
@@ -77,20 +122,22 @@ def _linearised(bound: BoundDrive, condition: Condition | None) -> Linearisation
     sides = [side for sign in (1, -1) if (side := _side(rest, sign)) is not None]
     switches = len(sides) == 2 and (sides[0].offset != sides[1].offset or _differ(rest, sides[0], sides[1]))
     sticks = rest.on_stop is None and _sticks(rest)
-    delay = max(dead_times(bound.drive))
+    corners = corners_of(rest)
+    opening, closing = dead_times(bound.drive)
+    delays = {1: opening, -1: closing, 0: max(opening, closing)}
     ways = {1: "filling", -1: "venting"}
     chosen = sides if switches else (sides if len(sides) == 1 else [_Side(0, 0.0)])
     models: list[LinearModel] = []
     sliding: list[LinearModel] = []
     for side in chosen:
         way = ways[side.sign] if switches else ""
-        name = " ".join(filter(None, ["held" if sticks else "", way])) or "smooth"
+        plain = "mean of both sides" if corners else "smooth"
+        name = " ".join(filter(None, ["held" if sticks else "", way])) or plain
         if rest.on_stop:
             name = " ".join(filter(None, ["on the stop", way]))
-        text = _text(rest, way, sticks)
-        models.append(
-            model_of(rest, name=name, text=text, side=side.sign, dead_time=delay, offset=side.offset)
-        )
+        text = _text(rest, way, sticks, bool(corners))
+        late, offset = delays[side.sign], side.offset
+        models.append(model_of(rest, name=name, text=text, side=side.sign, dead_time=late, offset=offset))
     notes: list[str] = []
     if sticks:
         for direction, word in ((1, "shorter"), (-1, "longer")):
@@ -101,6 +148,8 @@ def _linearised(bound: BoundDrive, condition: Condition | None) -> Linearisation
             except InputError as error:
                 notes.append(f"there is no model that slides {word}: {error.message}")
                 continue
+            # A play of the valve settles elsewhere at the command with which the muscle slides.
+            side = (_side(point, direction) or side) if switches else side
             change = abs(point.pressure - rest.pressure)
             name = " ".join(filter(None, [f"sliding {word}", way]))
             text = (
@@ -110,7 +159,7 @@ def _linearised(bound: BoundDrive, condition: Condition | None) -> Linearisation
             sign = side.sign if switches else 0
             sliding.append(
                 model_of(
-                    point, name=name, text=text, side=sign, dead_time=delay,
+                    point, name=name, text=text, side=sign, dead_time=delays[sign],
                     offset=side.offset if switches else 0.0,
                 )
             )  # fmt: skip
@@ -119,7 +168,7 @@ def _linearised(bound: BoundDrive, condition: Condition | None) -> Linearisation
     if primary not in models:
         models.append(primary)
     band = _band(rest, sides)
-    lost = (*_losses(rest, band, sticks, switches), *notes)
+    lost = (*losses(rest, band=band, sticks=sticks, switches=switches, corners=corners), *notes)
     return Linearisation(rest, tuple(models), primary, lost, not (sticks or switches), band)
 
 
@@ -185,14 +234,18 @@ def balanced_share(gains: tuple[float, float] | None) -> float:
     return float(2.0 * np.mean(np.maximum(bias + turn, 0.0) * turn))
 
 
-def _text(rest: OperatingPoint, way: str, sticks: bool) -> str:
+def _text(rest: OperatingPoint, way: str, sticks: bool, corner: bool) -> str:
     words = [f"the valve is {way}"] if way else []
     if rest.on_stop:
         words.append("the load rests on its end stop, so that only the air moves")
+    elif sticks and rest.bound.reached:
+        words.append("friction holds the muscle: while it builds up it is a spring, until the muscle slides")
     elif sticks:
         words.append(
             "friction holds the muscle: it creeps below 1 mm/s, as it does in a run, and hardly moves"
         )
+    if corner and not way:
+        words.append("the regulator rests on a corner, between filling and venting: the mean of both slopes")
     return " and ".join(words) or "the equations are smooth here"
 
 
@@ -205,8 +258,31 @@ def _scaled(point: OperatingPoint, side: _Side, *, slides: bool = False) -> Arra
 
 
 def _differ(point: OperatingPoint, first: _Side, second: _Side) -> bool:
+    if point.bound.drive.regulator is not None:
+        return _respond_differently(point, first, second)
     one, other = _scaled(point, first), _scaled(point, second)
     return bool(np.any(np.abs(one - other) > _DIFFERENT * (1.0 + np.maximum(np.abs(one), np.abs(other)))))
+
+
+def _respond_differently(point: OperatingPoint, first: _Side, second: _Side) -> bool:
+    """Whether the position lets one see if a regulator fills or vents.
+
+    Its orifices pass different flows, but each closes a pressure error within milliseconds: what counts is
+    the response of the drive, not a derivative.
+    """
+    scales, equations = point.bound.scales, point.bound.equations
+    inputs = [equations.inputs.index(port) for port in (COMMAND, LOAD_FORCE)]
+    position = equations.outputs.index(POSITION)
+    responses: list[Array] = []
+    for side in (first, second):
+        a, b, c, _ = matrices(point, side=side.sign, slides=False, offset=side.offset)
+        scaled, columns = a * scales / scales[:, None], b[:, inputs] / scales[:, None]
+        turns = [1j * w * np.eye(len(scales)) - scaled for w in _SEEN]
+        responses.append(
+            np.array([(c[position] * scales) @ np.linalg.solve(turn, columns) for turn in turns])
+        )
+    size = np.abs(responses[0]).max(axis=0)
+    return bool(np.any(np.abs(responses[0] - responses[1]).max(axis=0) > _SAME_RESPONSE * size + 1e-9))
 
 
 def _sticks(rest: OperatingPoint) -> bool:
@@ -219,14 +295,17 @@ def _sticks(rest: OperatingPoint) -> bool:
 
 
 def _acts(point: OperatingPoint, sign: int, offset: float) -> bool:
-    """Whether a pressure reacts to a small change of the command on this side."""
+    """Whether the pressure, of a pair both, reacts to a small change of the command on this side."""
     a, b, _, _ = matrices(point, side=sign, slides=False, offset=offset)
-    scales = point.bound.scales
-    names = [point.bound.names[index] for index in point.bound.independent]
-    scaled = a * scales / scales[:, None]
-    column = b[:, 0] / scales
-    response = np.linalg.solve(1j * _PROBE * np.eye(len(scales)) - scaled, column)
-    return abs(response[names.index("pressure")]) > _SILENT
+    bound, scales = point.bound, point.bound.scales
+    ports = bound.equations.inputs
+    commands = [COMMAND, COUNTER_COMMAND] if bound.drive.pair else [COMMAND]
+    scaled, responses = a * scales / scales[:, None], []
+    for port, place in zip(commands, bound.places("pressure"), strict=True):
+        column = b[:, ports.index(port)] / scales
+        response = np.linalg.solve(1j * _PROBE * np.eye(len(scales)) - scaled, column)
+        responses.append(abs(response[bound.independent.index(place)]))
+    return min(responses) > _SILENT
 
 
 def _side(point: OperatingPoint, sign: int) -> _Side | None:
@@ -257,51 +336,3 @@ def _band(point: OperatingPoint, sides: list[_Side]) -> tuple[float, float] | No
     if len(edges) < 2 or edges[1] - edges[-1] < 1e-8:
         return None
     return edges[-1], edges[1]
-
-
-def _losses(
-    point: OperatingPoint, band: tuple[float, float] | None, sticks: bool, switches: bool
-) -> list[str]:
-    """What linear models at this point do not contain."""
-    drive = point.bound.drive
-    lever = drive.load.lever_ratio
-    lowest = 0.0 if drive.regulator is not None else -1.0
-    up, down = 1.0 - point.command, point.command - lowest
-    part = "regulator" if drive.regulator is not None else "valve"
-    lost = [
-        f"saturation: from {point.command:.4g} the command can rise by {up:.3g} and fall by {down:.3g}",
-    ]
-    if point.on_stop:
-        lost.append("end stops: the load rests on one and leaves it only when the net force pulls it off")
-    else:
-        low, high = ((stop - point.stroke) / lever * 1e3 for stop in drive.stops)
-        lost.append(f"end stops: {-low:.4g} mm below and {high:.4g} mm above the operating point")
-    if band is not None:
-        lost.append(
-            f"dead band: between {band[0]:.4g} and {band[1]:.4g} the command does nothing; the models are "
-            "those at its edges"
-        )
-    if switches:
-        lost.append(
-            f"switching: the {part} has another flow for filling than for venting; each side has its model"
-        )
-    if sticks:
-        lost.append("friction: it holds the muscle until it is overcome; one model holds, the others slide")
-    delays = dead_times(drive)
-    if max(delays) > 0.0:
-        lost.append(
-            f"dead time: {delays[0] * 1e3:.3g} ms on, {delays[1] * 1e3:.3g} ms off; not in A, B, C, D, but "
-            f"{max(delays) * 1e3:.3g} ms are in every frequency response, margin and design"
-        )
-    if drive.tube_in_use is not None or drive.regulator is not None:
-        span = (1.0 - LAMINAR_RATIO) * (point.pressure + drive.ambient_pressure)
-        lost.append(
-            f"flow: it is proportional to the difference of two pressures up to {span:.3g} Pa only; beyond, "
-            "it grows with the root"
-        )
-    if isinstance(drive.load.force, Signal):
-        lost.append(f"load: the external force is constant, {point.bound.load_force:.4g} N as at the start")
-    if not point.on_stop:
-        tension = min(point.bound.tensions(point.state))
-        lost.append(f"slack: the muscle must keep its tension, {tension:.4g} N at the operating point")
-    return lost

@@ -19,11 +19,14 @@ _STATES = {
     "speed": ("m/s", "rate of the stroke"),
     "pressure": ("Pa", "pressure in the muscle"),
     "tube_pressure": ("Pa", "pressure in the tube"),
-    "regulator_pressure": ("Pa", "pressure after the regulator"),
+    "regulator_pressure": ("Pa", "set point of the regulator after its lag"),
+    "regulator_rate": ("Pa/s", "rate of the set point of the regulator"),
     "gas_mass": ("kg", "mass of the air in the muscle"),
 }
 # Share by which pressures along a path without flow are moved apart.
 _PRESSURE_ASIDE = 1e-11
+# Speed [m/s] that tells the directions of friction with memory apart and moves nothing.
+_CREEP = 1e-13
 # Magnitudes of the inputs, for the conditioning of matrices; no result depends on them.
 INPUT_SCALES = {COMMAND.name: 1.0, COUNTER_COMMAND.name: 1.0, SUPPLY.name: 1e5, LOAD_FORCE.name: 100.0}
 _OUTPUT_SCALES = {"m": 0.1, "m/s": 1.0, "Pa": 1e5, "N": 100.0, "kg/s": 1e-3}
@@ -34,7 +37,7 @@ class LinearModel:
     """The matrices of a model, and what it is a model of.
 
     Attributes:
-        name: short name, "smooth", "held", "sliding shorter", "filling", ...
+        name: short name, "smooth", "mean of both sides", "held", "sliding shorter", "filling", ...
         text: what it describes, one sentence.
         states, inputs, outputs: names with SI units, in the order of the matrices.
         a, b, c, d: shapes (states, states), (states, inputs), (outputs, states), (outputs, inputs).
@@ -108,7 +111,8 @@ def _beside(
 ) -> tuple[Array, Array, Array, Array]:
     """The derivatives while air just flows in (flow 1) or out (-1).
 
-    Exactly at equal pressures the branches of the flow's energy have no derivative.
+    Exactly at equal pressures the branches of the flow's energy have no derivative, and exactly at rest
+    friction with memory has none by the speed: those of a muscle at rest are the mean of both directions.
     """
     bound = point.bound
     state, command = point.state.copy(), point.command + offset + side * ASIDE
@@ -117,9 +121,15 @@ def _beside(
     for name, steps in (("tube_pressure", 1.0), ("regulator_pressure", 2.0)):
         for place, sense in zip(bound.places(name), (1.0, -1.0), strict=False):
             state[place] *= 1.0 + sense * flow * steps * _PRESSURE_ASIDE
-    values = bound.values(state, command, point.switches, slides=slides)
     keep, expansion = bound.independent, bound.expansion
-    return (values.a @ expansion)[keep], values.b[keep], values.c @ expansion, values.d
+    found: list[tuple[Array, Array, Array, Array]] = []
+    speed = bound.names.index("speed")
+    for creep in (_CREEP, -_CREEP) if bound.reached and not slides else (state[speed],):
+        state[speed] = creep
+        values = bound.values(state, command, point.switches, slides=slides)
+        found.append(((values.a @ expansion)[keep], values.b[keep], values.c @ expansion, values.d))
+    a, b, c, d = (np.mean(each, axis=0) for each in zip(*found, strict=True))
+    return a, b, c, d
 
 
 def model_of(

@@ -8,17 +8,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from mckibben.simulation.command.pid import PidController, PidState
-from mckibben.simulation.command.segments import Segments
 from mckibben.simulation.command.shapes import Signal
-from mckibben.simulation.drive.controlled import ControlLoop, loop_in_kernel
+from mckibben.simulation.drive.control_loop import ControlLoop
+from mckibben.simulation.drive.controlled import loop_in_kernel, loop_in_python, run_of_loop
 from mckibben.simulation.drive.initial_state import Rest, Start
+from mckibben.simulation.drive.joint import largest_difference
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import (
     TOLERANCE,
     Run,
     external_force,
     parameters_of,
-    run_of,
     simulate,
 )
 from mckibben.simulation.integrate.engine import compiled_drive, kernel
@@ -73,6 +73,7 @@ def controlled_from(
     *,
     grid: Array,
     tolerance: float = TOLERANCE,
+    joint: bool = False,
 ) -> Run:
     """A run under a controller that has held the point before.
 
@@ -83,11 +84,19 @@ def controlled_from(
         reference: of the position [m].
         grid: times of the rows; the last is the end of the run.
         tolerance: relative error per step.
+        joint: whether the loop of a joint's stiffness runs too; else the common command is constant.
     """
     kernel.awaited()
+    if joint:
+        common = drive.common_command
+        controller = replace(
+            controller,
+            output_min=max(controller.output_min - common, -largest_difference(drive.regulator is not None)),
+            output_max=min(controller.output_max - common, largest_difference(drive.regulator is not None)),
+        )
     settled = _Settled(
         **{name: getattr(controller, name) for name in PidController.__dataclass_fields__},
-        held=point.command,
+        held=point.command - (drive.common_command if joint else 0.0),
         position=point.position,
     )
     duration = float(grid[-1])
@@ -107,6 +116,5 @@ def controlled_from(
         watch=Watch(),
     )
     began = time.perf_counter()
-    solution, commands = loop_in_kernel(loop)
-    command = Segments(np.append(commands[:, 0], duration), commands[:, 1], np.zeros(len(commands)))
-    return run_of(controlled, compiled, grid, loop.start, solution, command, time.perf_counter() - began)
+    solution, commands = loop_in_python(loop, "rodas") if joint else loop_in_kernel(loop)
+    return run_of_loop(loop, solution, commands, time.perf_counter() - began)

@@ -122,6 +122,15 @@ def operating_point(bound: BoundDrive, condition: Condition | None, *, direction
     return point
 
 
+def held_positions(bound: BoundDrive) -> tuple[float, float]:
+    """Lowest and highest position [m] that pressures up to the highest can hold.
+
+    Raises:
+        InputError: the load does not move. Field "at".
+    """
+    return _Search(bound, 0).held_positions()
+
+
 def _pressure_of(bound: BoundDrive, command: float) -> Condition:
     regulator = bound.drive.regulator
     if regulator is None:
@@ -161,6 +170,8 @@ class _Search:
         """Sum of a pair's pressures: mirrored regulators share their range, valves keep what they have."""
         drive = self.bound.drive
         if drive.regulator is not None:
+            if drive.common is not None:
+                return min(2.0 * drive.common * drive.regulator.range, 2.0 * self.top)
             return min(drive.regulator.range, self.top)
         return 2.0 * drive.start_pressure if drive.start_pressure > 0.0 else self.top
 
@@ -185,17 +196,22 @@ class _Search:
             return self.high, HIGH_STOP
         return _root(lambda stroke: self.net(stroke, pressure), self.lowest, self.high), None
 
-    def middle_position(self) -> float:
-        """Middle of the positions that pressures up to the highest can hold [m]."""
+    def held_positions(self) -> tuple[float, float]:
+        """Lowest and highest position that pressures up to the highest can hold [m]."""
+        lever = self.bound.drive.load.lever_ratio
         low, high = self.stroke_at(0.0)[0], self.stroke_at(self.most)[0]
         if high - low < 1e-6:
             raise InputError(
                 f"the load does not move: up to {self.most / 1e5:.3g} bar it stays at "
-                f"{low / self.bound.drive.load.lever_ratio * 1e3:.4g} mm",
+                f"{low / lever * 1e3:.4g} mm",
                 field=_FIELD,
                 hint="change the load, the supply pressure or the end stops",
             )
-        return 0.5 * (low + high) / self.bound.drive.load.lever_ratio
+        return low / lever, high / lever
+
+    def middle_position(self) -> float:
+        """Middle of the positions that pressures up to the highest can hold [m]."""
+        return 0.5 * sum(self.held_positions())
 
     def at_stroke(self, stroke: float) -> OperatingPoint:
         """The equilibrium at a stroke."""

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -12,10 +13,12 @@ from mckibben.simulation.linear.model import LinearModel
 
 Array = np.ndarray
 
+_FROM = 1e-4  # Hz; from here on the turns of a phase are counted
 _STANDS = 1e-6  # a pole slower than this is an integrator [rad/s]
 _SAME = 1e-5  # relative distance of a pole and a zero that cancel
 _SLOWEST, _FASTEST = 0.01, 200.0  # Hz, of a frequency axis
 _POINTS = 240
+_ASIDE = 1e-3  # damping ratio below which a pole counts as undamped for the phase
 
 
 @dataclass(frozen=True, slots=True)
@@ -101,18 +104,20 @@ def _pole(value: complex, *, cancelled: bool) -> Pole:
     return Pole(real, value.imag, size / (2.0 * math.pi), -real / size, decay, kind, cancelled)
 
 
-def frequencies_for(model: LinearModel) -> Array:
-    """A frequency axis [Hz] around the poles that matter."""
+def frequencies_for(model: LinearModel, cover: Sequence[float] = ()) -> Array:
+    """A frequency axis [Hz] around the poles that matter, and beyond the frequencies to cover."""
     sizes = np.abs(eigenvalues(model)) / (2.0 * math.pi)
     known = sizes[(sizes > _SLOWEST) & (sizes < _FASTEST)]
     if not len(known):
         known = np.array([1.0])
     low, high = max(_SLOWEST, 0.1 * known.min()), min(_FASTEST, max(10.0 * known.max(), 20.0))
+    if len(cover):
+        low, high = min(low, 0.7 * min(cover)), max(high, 1.4 * max(cover))
     return np.geomspace(low, high, _POINTS)
 
 
 def frequency_response(
-    model: LinearModel, input_name: str, output_name: str, frequency: Array
+    model: LinearModel, input_name: str, output_name: str, frequency: Array, *, aside: float = 0.0
 ) -> NDArray[np.complex128]:
     """Complex response of a channel, with the dead time of a command.
 
@@ -120,9 +125,10 @@ def frequency_response(
         model: the model.
         input_name, output_name: the channel.
         frequency: [Hz], shape (n,); a pole on it gives infinity.
+        aside: how far to the right of the imaginary axis, as a share of the frequency.
     """
     a, b, c, d = _scaled_channel(model, input_name, output_name)
-    s = 2j * math.pi * np.asarray(frequency, float)
+    s = (2j + 2.0 * aside) * math.pi * np.asarray(frequency, float)
     systems = s[:, None, None] * np.eye(len(a)) - a
     with np.errstate(all="ignore"):
         try:
@@ -135,6 +141,46 @@ def frequency_response(
     out = outputs[[port.name for port in model.outputs].index(output_name)]
     delay = model.dead_time if input_name.endswith("command") else 0.0
     return response * (out / into) * np.exp(-s * delay)
+
+
+def phase_of(
+    model: LinearModel, input_name: str, output_name: str, frequency: Array, response: Array
+) -> Array:
+    """The phase of a response without jumps of a whole turn [rad].
+
+    The turns are counted from far below the lowest frequency, where each integrator has taken a quarter. An
+    undamped pole takes half a turn, as one with little damping does: the turns are then counted a trifle to
+    the right of the imaginary axis, on a finer axis around each pole.
+
+    Args:
+        model, input_name, output_name: the channel of the response, or of its plant.
+        frequency: [Hz], ascending.
+        response: at these frequencies.
+    """
+    near = [
+        abs(pole.imag) / (2.0 * math.pi) * (1.0 + 0.5 * _ASIDE * np.arange(-40, 41))
+        for pole in eigenvalues(model)
+        if pole.imag > _STANDS and abs(pole.real) < _ASIDE * pole.imag
+    ]
+    first = float(frequency[0])
+    below = np.geomspace(min(_FROM, 0.5 * first), first, 120)
+    axis = np.unique(np.concatenate([below, frequency, *near]))
+    beside = frequency_response(model, input_name, output_name, axis, aside=_ASIDE if near else 0.0)
+    turned = np.unwrap(np.angle(beside))
+    turned -= _turns(model, input_name, output_name, float(turned[0]))
+    turned = np.interp(frequency, axis, turned)
+    angle = np.angle(response)
+    own = np.angle(frequency_response(model, input_name, output_name, frequency))
+    plant = own + 2.0 * math.pi * np.round((turned - own) / (2.0 * math.pi))
+    return plant + np.unwrap(np.angle(np.exp(1j * (angle - own))))
+
+
+def _turns(model: LinearModel, input_name: str, output_name: str, lowest: float) -> float:
+    """Whole turns by which a phase at the lowest frequency is off: a quarter falls for each integrator."""
+    poles, origin = poles_of(model, input_name, output_name)
+    falls = sum(pole.kind == "integrator" and not pole.cancelled for pole in poles)
+    off = lowest - 0.5 * math.pi * (sum(abs(zero) < _STANDS for zero in origin) - falls)
+    return 2.0 * math.pi * round(off / (2.0 * math.pi)) if abs(off) > math.pi + 0.1 else 0.0
 
 
 def static_gain(model: LinearModel, input_name: str, output_name: str) -> float | None:

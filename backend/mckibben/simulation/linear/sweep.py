@@ -2,8 +2,9 @@ r"""A frequency sweep of the nonlinear drive: describing points beside the linea
 
 A sine :math:`u_0 + b + a \sin\omega t` of the command runs until the oscillation repeats itself; amplitude
 and phase of the output at the fundamental, over those of the sine, are one point (the describing function:
-Gelb & Vander Velde, Multiple-Input Describing Functions, 1968). A valve that fills and vents with different
-flows would drift away, so the bias b balances the two: equal areas of what flows in and out.
+Gelb & Vander Velde, Multiple-Input Describing Functions, 1968). A drive that hardly damps goes on swinging by
+itself: that oscillation is fitted beside the sine, over more periods, and said. A valve that fills and vents
+with different flows would drift away, so the bias b balances the two: equal areas of what flows in and out.
 """
 
 from __future__ import annotations
@@ -25,6 +26,7 @@ Array = np.ndarray
 
 SWEPT = (COMMAND.name, LOAD_FORCE.name)
 _MEASURED = 2  # periods whose fundamental is taken
+_LONGEST = 24  # most periods that are measured beside an oscillation of the drive itself
 _SETTLING = (3, 24)  # least and most periods before
 _ROWS = 48  # of a period
 _TOLERANCE = 1e-5
@@ -39,7 +41,8 @@ class DescribingPoint:
         amplitude: of the input, in its unit.
         gain: amplitude of the output over that of the input, in their units.
         phase: of the output after the input [rad], between -2 pi and 0 or so; as the linear response.
-        distortion: rms of everything but the fundamental over the rms of the output, drift taken off [-].
+        distortion: rms of everything but the fundamental over the rms of the output; drift and an own
+            oscillation that does not decay are taken off [-].
         remark: what kept it from being a clean oscillation; None if nothing did.
     """
 
@@ -99,8 +102,10 @@ def _point(
     slow = [-1.0 / value.real for value in eigenvalues(linear.primary) if value.real < -1e-3]
     oscillating = max((time for time in slow if time < 5.0), default=0.0)
     before = int(np.clip(math.ceil(4.0 * oscillating * frequency), *_SETTLING))
-    duration = (before + _MEASURED) / frequency
-    grid = np.linspace(before / frequency, duration, _MEASURED * _ROWS, endpoint=False)
+    ringing = _ringing(linear, before / frequency)
+    measured = int(np.clip(math.ceil(3.0 * frequency / min(ringing, default=frequency)), _MEASURED, _LONGEST))
+    duration = (before + measured) / frequency
+    grid = np.linspace(before / frequency, duration, measured * _ROWS, endpoint=False)
     offset = point.command + bias
     if source == COMMAND.name:
         signal = Sine(amplitude=amplitude, offset=offset, frequency=frequency)
@@ -128,8 +133,11 @@ def _point(
     angle = 2.0 * math.pi * frequency * grid
     columns = np.column_stack([np.ones_like(grid), grid - grid.mean(), np.sin(angle), np.cos(angle)])
     fit = np.linalg.lstsq(columns, output, rcond=None)[0]
+    rest, swinging = output - columns @ fit, 0.0
+    apart = [own for own in ringing if abs(own - frequency) * measured > frequency]
+    if apart:
+        fit, rest, swinging = _beside_its_own(columns, output, grid, apart[0])
     fundamental = complex(fit[2], fit[3])
-    rest = output - columns @ fit
     total = math.sqrt(float(np.mean(rest**2)) + 0.5 * abs(fundamental) ** 2)
     distortion = math.sqrt(float(np.mean(rest**2))) / total if total > 0.0 else 0.0
     remark = None
@@ -138,9 +146,35 @@ def _point(
         remark = "the load touches an end stop"
     elif drift > 0.2 * abs(fundamental):
         remark = "the mean still drifts"
+    elif len(ringing) > len(apart):
+        remark = "the drive's own oscillation of nearly this frequency does not decay"
+    elif swinging > 0.2 * abs(fundamental):
+        remark = "the drive's own oscillation does not decay; it is taken off"
     return DescribingPoint(
         frequency, amplitude, abs(fundamental) / amplitude, float(np.angle(fundamental)), distortion, remark
     )
+
+
+def _ringing(linear: Linearisation, seconds: float) -> list[float]:
+    """Frequencies [Hz] of the drive's own oscillations that are not gone after a time, the lowest first."""
+    values = [value for value in eigenvalues(linear.primary) if value.imag > 1e-6]
+    return sorted(value.imag / (2.0 * math.pi) for value in values if -value.real * seconds < 3.0)
+
+
+def _beside_its_own(
+    columns: Array, output: Array, time: Array, frequency: float
+) -> tuple[Array, Array, float]:
+    """Fit beside an oscillation whose frequency is sought within 10 %; its rest, and its amplitude."""
+    found: tuple[Array, Array, float] | None = None
+    for share in np.linspace(0.9, 1.1, 41):
+        angle = 2.0 * math.pi * frequency * share * time
+        wider = np.column_stack([columns, np.sin(angle), np.cos(angle)])
+        fit = np.linalg.lstsq(wider, output, rcond=None)[0]
+        rest = output - wider @ fit
+        if found is None or float(rest @ rest) < float(found[1] @ found[1]):
+            found = fit, rest, math.hypot(fit[-2], fit[-1])
+    assert found is not None  # noqa: S101 - there are shares
+    return found
 
 
 def _nothing(frequency: float, amplitude: float, remark: str) -> DescribingPoint:

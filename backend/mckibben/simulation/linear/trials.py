@@ -31,6 +31,7 @@ BAND = 0.02  # of the step; the position has settled when it stays within
 _TOLERANCE = 1e-5
 _SPREAD = 0.2  # of mass and supply
 _FAILED = 1e3
+_CHECKS, _UNCHECKED = 20, 10.0  # of controllers of a joint; cost of one that was not checked
 _HOPELESS = 20.0  # cost of a controller whose neighbours need not be run
 
 
@@ -111,9 +112,10 @@ class Bench:
     def __init__(self, linear: Linearisation, goals: Goals, watch: Watch) -> None:
         self.linear, self.goals, self.watch = linear, goals, watch
         self.runs, self.ended = 0, False
+        self.checks = _CHECKS  # runs with the loop of a joint's stiffness that are left
         drive = linear.point.bound.drive
         lowest = 0.0 if drive.regulator is not None else -1.0
-        given = drive.controller
+        given = None if drive.controller is None else self.commanding(drive.controller)
         self.template = (
             PidController(kp=1.0, output_min=lowest)
             if given is None
@@ -123,8 +125,27 @@ class Bench:
         # Another mass or supply begins out of balance: it has this long to come back to the point.
         self.lead = goals.settling
 
-    def run(self, controller: PidController, drive: Drive) -> tuple[Array, Array, Array, Array, bool]:
-        """Time, reference, position, command, and whether the run completed."""
+    def commanding(self, controller: PidController) -> PidController:
+        """A drive's controller as one of its first muscle's command: that of a joint gives a difference."""
+        return self._shifted(controller, 1.0)
+
+    def of_drive(self, trial: Trial) -> Trial:
+        """A trial with its controller as the drive has it; inverse of `commanding`."""
+        return replace(trial, controller=self._shifted(trial.controller, -1.0))
+
+    def _shifted(self, controller: PidController, sign: float) -> PidController:
+        drive = self.linear.point.bound.drive
+        if drive.stiffness is None:
+            return controller
+        low, high = (
+            end + sign * drive.common_command for end in (controller.output_min, controller.output_max)
+        )
+        return replace(controller, output_min=low, output_max=high)
+
+    def run(
+        self, controller: PidController, drive: Drive, *, joint: bool = False
+    ) -> tuple[Array, Array, Array, Array, bool]:
+        """Time, reference, position, command, and whether the run completed; ``joint``: with stiffness."""
         start, step = self.linear.point.position, self.goals.step or 0.0
         count = max(round(2.0 * self.hold / controller.sample_time), 200)
         stride = max(1, count // 1500)
@@ -132,7 +153,7 @@ class Bench:
         grid = np.linspace(0.0, end, max(count // stride, 200) + 1)
         reference = Pulse(on=self.lead, off=self.lead + self.hold, level=start + step, initial=start)
         run = controlled_from(
-            self.linear.point, drive, controller, reference, grid=grid, tolerance=_TOLERANCE
+            self.linear.point, drive, controller, reference, grid=grid, tolerance=_TOLERANCE, joint=joint
         )
         time = run.time
         position = run.states["stroke"] / drive.load.lever_ratio
@@ -144,9 +165,9 @@ class Bench:
             run.outcome is Outcome.COMPLETED,
         )
 
-    def figures(self, controller: PidController, drive: Drive) -> StepFigures:
+    def figures(self, controller: PidController, drive: Drive, *, joint: bool = False) -> StepFigures:
         """Figures of both steps."""
-        time, _, position, command, completed = self.run(controller, drive)
+        time, _, position, command, completed = self.run(controller, drive, joint=joint)
         return self._figures_of(controller, time, position, command, completed)
 
     def _figures_of(
@@ -181,7 +202,9 @@ class Bench:
 
     def trial(self, name: str, controller: PidController) -> Trial:
         """A controller with everything to show of it."""
-        time, reference, position, command, completed = self.run(controller, self.linear.point.bound.drive)
+        drive = self.linear.point.bound.drive
+        joint = drive.stiffness is not None
+        time, reference, position, command, completed = self.run(controller, drive, joint=joint)
         figures = self._figures_of(controller, time, position, command, completed)
         axis = frequencies_for(self.linear.primary)
         found = margins(self.linear.primary, controller, axis)
@@ -209,7 +232,20 @@ class Bench:
             return 1.5 * first, False
         others = [self.figures(controller, drive) for drive in self._neighbours()]
         met = missing == 0.0 and nominal.meets and all(other.meets for other in others)
-        return first + 0.5 * max(self._cost(other) for other in others), met
+        cost = first + 0.5 * max(self._cost(other) for other in others)
+        if self.linear.point.bound.drive.stiffness is None:
+            return cost, met
+        return self._cost_of_joint(controller, cost) if met and self.checks else (cost + _UNCHECKED, False)
+
+    def _cost_of_joint(self, controller: PidController, cost: float) -> tuple[float, bool]:
+        """The same with the loop of the stiffness, which takes longer to run: only where it is worth it."""
+        self.checks -= 1
+        nominal = self.figures(controller, self.linear.point.bound.drive, joint=True)
+        if not nominal.meets:
+            return cost + self._cost(nominal), False
+        others = [self.figures(controller, drive, joint=True) for drive in self._neighbours()]
+        worst = max(self._cost(other) for other in others)
+        return self._cost(nominal) + 0.5 * worst, all(other.meets for other in others)
 
     def _neighbours(self) -> list[Drive]:
         return [self.changed(1.0 + _SPREAD, 1.0 - _SPREAD), self.changed(1.0 - _SPREAD, 1.0 + _SPREAD)]
@@ -233,8 +269,9 @@ class Bench:
     def variations(self, controller: PidController) -> list[Variation]:
         """The corners of mass and supply."""
         factors = (1.0 - _SPREAD, 1.0, 1.0 + _SPREAD)
+        joint = self.linear.point.bound.drive.stiffness is not None
         return [
-            Variation(mass, supply, self.figures(controller, self.changed(mass, supply)))
+            Variation(mass, supply, self.figures(controller, self.changed(mass, supply), joint=joint))
             for mass in factors
             for supply in factors
         ]

@@ -5,7 +5,6 @@ import { defaultDrive, inSi, isDrive, withArrangement } from "../../drive/docume
 import { isObject } from "../../paths.js";
 import { addPart } from "../../state.js";
 
-/** @typedef {import("../../types.js").Drive} Drive */
 /** @typedef {import("../../types.js").Pin} Pin */
 /** @typedef {import("../../types.js").Transient} Transient */
 
@@ -54,11 +53,3 @@ function readTransient(raw) {
 }
 
 addPart("transient", { start: defaultTransient, read: readTransient });
-
-/** The complete drive document, as the server and the command line read it.
- * @param {Transient} t @param {object} muscle @param {object | null} effects @returns {Drive} */
-export function driveDocument(t, muscle, effects) {
-  const { command, controller, ...rest } = t.drive;
-  const driven = t.mode === "controller" ? { controller } : { command };
-  return { schema: 1, muscle, ...(effects ? { effects } : {}), ...rest, ...driven };
-}

@@ -47,6 +47,13 @@ const JOINT = [
   ["joint_stiffness", "rotary", "stiffness"],
   ["counter_pressure", "pressure", "counter_pressure"],
   ["counter_force", "force", "counter_force"],
+  ["counter_command", "ratio", "counter_command"],
+  ["counter_mass_flow", "flow", "counter_mass_flow"],
+  ["counter_supply_flow", "flow", "counter_supply_flow"],
+  ["counter_exhaust_flow", "flow", "counter_exhaust_flow"],
+  ["counter_diameter", "length", "counter_diameter"],
+  ["angle_reference", "angle", "angle_reference"],
+  ["stiffness_reference", "rotary", "stiffness_reference"],
 ];
 
 /** @param {Run} r @returns {import("../../ui/table.js").Table} every column of a run in shown units */

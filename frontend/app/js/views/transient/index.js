@@ -2,7 +2,7 @@
 // The Transient view as the program sees it; its page is fetched when it is first shown.
 import { later } from "../../ui/later.js";
 import { isDriveDocument } from "../../drive/document.js";
-import { view } from "../../state.js";
+import { goTo, view } from "../../state.js";
 import "./document.js";
 
 /** Whether a key is free: a focused control uses the space bar itself. @param {KeyboardEvent} e */
@@ -25,6 +25,12 @@ export const TRANSIENT_KEYS = [
     run: async () => (await import("./pinned/card.js")).pin(),
   },
 ];
+
+/** Asks for the measured trace that the server has no more. */
+export const chooseTrace = () => {
+  goTo("transient");
+  document.getElementById("measured-file")?.click();
+};
 
 /** @returns {import("../../ui/menu.js").Item[]} */
 export const transientExports = () => [

@@ -1,10 +1,11 @@
 // @ts-check
 // A measured trace shown in the plots: the file is read by the server.
 import { h, icon } from "../../dom.js";
-import { computed, signal } from "../../reactive.js";
+import { apart, computed, effect, signal } from "../../reactive.js";
 import { view } from "../../state.js";
 import { ApiError } from "../../server/client.js";
-import { keep, measurement, missingFile } from "../../server/measurements.js";
+import { keep, measurement } from "../../server/measurements.js";
+import { cameBack, has, lacks } from "../../server/missing.js";
 import { Question } from "../../server/question.js";
 import { editTransient, transient } from "./model.js";
 
@@ -33,6 +34,7 @@ async function send(file) {
     if (!read) return;
     isSending.value = true;
     const answer = await keep(file, read.mapping);
+    has([answer.id]);
     editTransient({ measurement: { id: answer.id, name: answer.name } }, `measured trace ${answer.name}`);
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
@@ -45,7 +47,8 @@ async function send(file) {
 /** What is wrong with the file that was sent, or with the one the document names. */
 function complaint() {
   const error = columns.error.value;
-  return refused.value || (error && chosen.value ? `${chosen.value.name}: ${missingFile(error)}` : "");
+  const isMissing = error?.status === 404; // the banner says so
+  return refused.value || (error && chosen.value && !isMissing ? `${chosen.value.name}: ${error.words}` : "");
 }
 
 /** What is shown of the file, and the messages of the server. */
@@ -81,6 +84,13 @@ function summary() {
 
 export function measuredCard() {
   columns.follow(() => chosen.value?.id ?? null, { active: () => view.value === "transient" });
+  effect(() => {
+    const error = columns.error.value, file = chosen.peek();
+    if (error?.status === 404 && file) lacks({ ...file, view: "transient" });
+  });
+  effect(() => {
+    if (cameBack.value && columns.error.peek()?.status === 404) apart(() => columns.again());
+  });
   const input = h("input", {
     type: "file",
     hidden: true,

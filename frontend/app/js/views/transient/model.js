@@ -8,8 +8,15 @@ import { Question } from "../../server/question.js";
 import { presets, status } from "../../store.js";
 import { openDrive } from "../../drive/open.js";
 import { preset, presetEffects as muscleEffects } from "../../muscle/preset.js";
-import { defaultTransient, driveDocument } from "./document.js";
-import { arrangementOf, countedAt, inclinationOf, inSi, partsOfDrive } from "../../drive/document.js";
+import { defaultTransient } from "./document.js";
+import {
+  arrangementOf,
+  countedAt,
+  driveDocument,
+  inclinationOf,
+  inSi,
+  partsOfDrive,
+} from "../../drive/document.js";
 import { at, isObject, put } from "../../paths.js";
 import { siNumber } from "../../quantities.js";
 

@@ -1,7 +1,8 @@
 // @ts-check
 // The page of the Transient view: inputs, motion and plots, figures.
 import { append, h } from "../../dom.js";
-import { computed } from "../../reactive.js";
+import { apart, computed, effect } from "../../reactive.js";
+import { lostPresets } from "../../server/missing.js";
 import { linearCard } from "./linear/card.js";
 import { stageCard } from "./motion/animation.js";
 import { paired, plotCards } from "./plots/charts.js";
@@ -16,7 +17,7 @@ import { startStatics } from "./statics.js";
 
 function notice() {
   const error = fault.value, field = faultField();
-  if (!error) return null;
+  if (!error || lostPresets.value.length) return null; // the banner says what is gone
   return faultNotice(`${error.words}${run.value ? " The plots show the last valid run." : ""}`, {
     goTo: field === null ? null : () => goToField(field, ".transient"),
     retry,
@@ -24,6 +25,10 @@ function notice() {
 }
 
 export function transientPage() {
+  const isWhole = computed(() => !lostPresets.value.length);
+  effect(() => {
+    if (isWhole.value && fault.peek()) apart(retry);
+  });
   const stale = computed(() => Boolean(fault.value));
   const results = h("div", { class: () => `column results${stale.value ? " stale" : ""}` });
   figureCards().forEach((card) => append(results, card));

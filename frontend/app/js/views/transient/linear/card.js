@@ -109,7 +109,7 @@ const pointFields = () =>
 const goalField = (key, label, empty) =>
   h(
     "label",
-    null,
+    { class: empty ? "wide" : null },
     `${label} `,
     h("input", {
       type: "text",
@@ -167,7 +167,7 @@ function words() {
     `At ${withUnit(position, "length", system)} (${withUnit(contraction, "ratio", system)}), ` +
       `${withUnit(pressure, "pressure", system)}, command ${withUnit(command, "ratio", system)}. `,
     answer.smooth
-      ? "Nothing sticks or switches here."
+      ? "Nothing sticks or switches here in a way that the motion shows."
       : "Something sticks or switches here: each case has its model.",
     outdated.value ? h("b", null, " The drive has changed since.") : null,
   );

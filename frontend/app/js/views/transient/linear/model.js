@@ -86,7 +86,7 @@ export function takeOver(trial) {
     sample_time: c.sample_time,
     output_min: c.output_min,
     output_max: c.output_max,
-    reference: isControlled && old.reference ? old.reference : steps,
+    ...(old.angle === undefined ? { reference: isControlled && old.reference ? old.reference : steps } : {}), // a joint keeps its set points
   };
   edit((d) => ({
     ...d,

@@ -184,7 +184,8 @@ export function readout() {
     cell("p", answer.pressure, "pressure"),
     cell("F", answer.force, "force"),
     cell("ε", answer.contraction, "ratio"),
-    ...(answer.joint ? jointCells(answer.joint, cell) : [cell("Ø", answer.diameter, "length")]),
+    cell(answer.joint ? "Ø1" : "Ø", answer.diameter, "length"),
+    ...(answer.joint ? jointCells(answer.joint, cell) : []),
   ];
 }
 

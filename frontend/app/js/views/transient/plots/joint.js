@@ -2,7 +2,7 @@
 // The pulley of an antagonist pair: plots, values at the cursor, card.
 import { h } from "../../../dom.js";
 import { units } from "../../../state.js";
-import { brief, scaleOf, toShown } from "../../../format.js";
+import { brief, scaleOf, toShown, withUnit } from "../../../format.js";
 import { extent } from "../../../plots/axes.js";
 import { run, timeWindow } from "../model.js";
 import { overTime, pinLines } from "./specs.js";
@@ -21,6 +21,15 @@ export const JOINT = {
   stiffness: { title: "Joint stiffness", quantity: "rotary" },
 };
 
+/** The set point of a column, where it is controlled. @param {View} v @param {Palette} p @param {Column} key
+ * @returns {import("./specs.js").Line[]} */
+function setPoint(v, p, key) {
+  const values = key === "torque" ? null : v.run.joint?.[`${key}_reference`];
+  return values
+    ? [{ id: "reference", name: "set point", values, color: p.soft, dash: "dash", width: 1.5 }]
+    : [];
+}
+
 /** @param {Column} key */
 const spec = (key) => (/** @type {View} */ v, /** @type {Palette} */ p) =>
   overTime(v, p, {
@@ -29,6 +38,7 @@ const spec = (key) => (/** @type {View} */ v, /** @type {Palette} */ p) =>
     title: JOINT[key].title.replace(/^Joint s/, "S"),
     lines: [
       ...pinLines(v, p, (r) => r.joint?.[key] ?? null),
+      ...setPoint(v, p, key),
       { id: key, name: JOINT[key].title.toLowerCase(), values: v.run.joint?.[key] ?? [], color: p.accent },
     ],
     zero: true,
@@ -44,6 +54,7 @@ export const jointCells = (joint, cell) => [
   cell("φ", joint.angle, "angle"),
   cell("M", joint.torque, "torque"),
   cell("k", joint.stiffness, "rotary"),
+  cell("Ø2", joint.counter_diameter, "length"),
 ];
 
 /** The value of a column with the largest magnitude; null without a joint. @param {Run} r @param {Column} key */
@@ -78,7 +89,11 @@ export function jointCard() {
     h(
       "p",
       { class: "hint" },
-      "Stiffness at constant pressures. The air consumption is that of the first muscle only.",
+      joint.stiffness_error == null
+        ? "Stiffness at constant pressures. The air consumption is that of the first muscle only."
+        : `Stiffness at constant pressures; it misses its set point by ${
+          withUnit(joint.stiffness_error, "rotary", units.value)
+        } rms. The air consumption is that of the first muscle only.`,
     ),
   );
 }

@@ -174,7 +174,7 @@ export function pressureSpec(v, p) {
   if (run.regulator_pressure) {
     lines.push({
       id: "regulator",
-      name: "regulator",
+      name: "set point",
       values: run.regulator_pressure,
       color: p.load,
       dash: "dash",
@@ -259,6 +259,7 @@ export function lowerSpec(v, p) {
       },
       { id: "flow", name: run.joint ? "muscle 1" : "muscle", values: run.mass_flow, color: p.accent },
     ];
+    if (run.joint) lines.push(second(p, run.joint.counter_mass_flow));
     return overTime(v, p, { key: lower, title: "Mass flow", quantity: "flow", lines, zero: true });
   }
   if (lower === "force") {
@@ -288,6 +289,7 @@ export function lowerSpec(v, p) {
   lines = [
     { id: "command", name: "command", values: run.command, color: p.second, dash: "dash", width: 1.5 },
     { id: "opening", name: "opening", values: run.opening, color: p.accent },
+    ...(run.joint ? [{ ...second(p, run.joint.counter_command), name: "command 2" }] : []),
   ];
   return overTime(v, p, {
     key: lower,
