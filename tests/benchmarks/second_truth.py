@@ -1,6 +1,6 @@
 """The diagnosis examined by somebody else: the cases of `tests/second_truth`, and what their models predict.
 
-    python -m tests.benchmarks.second_truth [--only c01,c02]
+    python -m tests.benchmarks.second_truth [--set cases|third|fourth] [--only c01,c02]
 
 Errors are over the true noise. *Surplus*: a named group that holds no hidden effect. *Held*: error of the
 repaired model on the second test of the same muscle, without fitting anything again.
@@ -22,7 +22,8 @@ import numpy as np
 from tests.benchmarks.diagnosis import say
 from tests.benchmarks.workers import in_parallel, own_studio
 
-CASES = Path(__file__).parents[1] / "second_truth" / "cases.zip"
+SETS = Path(__file__).parents[1] / "second_truth"
+_OF_LETTER = {"c": "cases", "d": "third", "e": "fourth"}
 WANTED = 1.2  # largest error over the noise of a prediction that holds
 
 
@@ -49,9 +50,9 @@ class Line:
         return self.found == len(self.hidden) and not self.surplus
 
 
-def names() -> list[str]:
-    """Names of the cases."""
-    with zipfile.ZipFile(CASES) as archive:
+def names(chosen: str = "cases") -> list[str]:
+    """Names of the cases of a set."""
+    with zipfile.ZipFile(SETS / f"{chosen}.zip") as archive:
         return sorted({name.partition("/")[0] for name in archive.namelist() if name.endswith("answer.json")})
 
 
@@ -64,7 +65,7 @@ def diagnosed(case: str) -> Line:
     from mckibben.identification.predict.fit_model import FitModel
     from mckibben.measurement.read import read_measurement
 
-    with zipfile.ZipFile(CASES) as archive:
+    with zipfile.ZipFile(SETS / f"{_OF_LETTER[case[0]]}.zip") as archive:
         train, held, given, answer = (
             archive.read(f"{case}/{name}") for name in ("train.csv", "held.csv", "given.json", "answer.json")
         )
@@ -136,7 +137,9 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--only", default="", help="cases, separated by commas")
-    chosen = [name for name in parser.parse_args().only.split(",") if name] or names()
+    parser.add_argument("--set", default="cases", choices=tuple(_OF_LETTER.values()), help="which examiner's")
+    given = parser.parse_args()
+    chosen = [name for name in given.only.split(",") if name] or names(given.set)
     lines = []
     for line in in_parallel(diagnosed, chosen):
         lines.append(line)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import json
 from pathlib import Path
 from typing import Any
@@ -72,7 +73,7 @@ def test_the_json_has_the_promised_shape(run: Run) -> None:
     assert {
         "status", "effects", "indistinguishable", "unexplained_share", "proposed_term", "next_measurement"
     } <= verdict.keys()  # fmt: skip
-    assert verdict["status"] == "missing_effects"
+    assert verdict["status"] == "ambiguous"  # the friction has twins of short travel
     assert set(verdict["effects"]) == {"bladder_elasticity", "coulomb_friction"}
     assert set(answer["model"]["effects"]) == {"bladder_elasticity", "coulomb_friction"}
 
@@ -102,7 +103,7 @@ def test_the_start_model_is_ideal_named_or_the_presets(run: Run) -> None:
         answer = answer_of(run("diagnose", file, *options, "--json"))
         return set(answer["path"][0]["model"]["effects"]), answer["verdict"]["status"]
 
-    assert start("--muscle", muscle) == (set(), "missing_effects")
+    assert start("--muscle", muscle) == (set(), "ambiguous")  # with the friction's twins of short travel
     assert start("--muscle", muscle, "--effect", "coulomb_friction") == ({"coulomb_friction"}, "adequate")
     nothing_to_search = ("--noise", "1 kN")
     own = start("--muscle", "DMSP-20", *nothing_to_search)[0]
@@ -254,7 +255,8 @@ def test_a_trace_is_diagnosed_with_its_drive(run: Run, lifted: str) -> None:
 
 WRONG = {
     "missing file": (["rubbin.csv", "--muscle", "m.json"], ["rubbin.csv", "Did you mean 'rubbing.csv'?"]),
-    "folder": ([".", "--muscle", "m.json"], ["folder"]),
+    "folder and file": ([".", "rubbing.csv", "--muscle", "m.json"], ["a folder is diagnosed alone"]),
+    "wrong option for all files": ([".", "--muscle", "DMSP-21"], ["none of its files", "bad.csv"]),
     "no data": (["--muscle", "m.json"], ["DATA"]),
     "no muscle": (["rubbing.csv"], ["--muscle is missing"]),
     "unknown preset": (["rubbing.csv", "--muscle", "DMSP-21"], ["DMSP-21", "Did you mean 'DMSP-20'?"]),
@@ -324,3 +326,38 @@ def test_a_wrong_rest_length_is_asked_about_and_answered(run: Run) -> None:
     assert used["verdict"]["effects"] == ["coulomb_friction"]
     err = refused(run("diagnose", file, "--muscle", long, "--keep", "length"))
     assert "--keep: 'length' is not a doubtful statement" in err
+
+
+def test_a_folder_gives_one_line_for_each_file(run: Run) -> None:
+    muscle = write("m.json", BRAID)
+    Path("tests").mkdir()
+    Path(rubbing()).rename("tests/a-rubbing.csv")
+    Path("tests/b-notes.txt").write_text("nothing to read\n", "utf-8")
+    code, out, err = run("diagnose", "tests", "--muscle", muscle, "--json")
+    assert code == 0, err
+    rubbed, notes = result_of(out)["files"]
+    assert rubbed["file"] == "a-rubbing.csv"
+    assert rubbed["effects"] == ["coulomb_friction"]
+    assert rubbed["best"] < 0.5 * rubbed["start"]
+    assert rubbed["best"] == pytest.approx(1.0, rel=0.2)  # the noise of the data, 1 N
+    assert notes["effects"] == []
+    assert "b-notes.txt" in notes["refused"]
+
+    code, out, err = run("diagnose", "tests", "--muscle", muscle, "--out", "verdicts.csv")
+    assert code == 0
+    assert "coulomb_friction" in out
+    table = list(csv.DictReader(Path("verdicts.csv").read_text("utf-8").splitlines()))
+    assert [row["file"] for row in table] == ["a-rubbing.csv", "b-notes.txt"]
+    assert float(table[0]["best"]) == rubbed["best"]
+    assert not Path("verdicts.csv.journal").exists()
+    for options, words in [
+        (["tests", "--out", "verdicts.csv", "--resume"], "nothing to resume"),
+        (["tests", "--resume"], "--out"),
+        (["tests", "--out", "verdicts.xls"], "not a known ending"),
+        (["tests/a-rubbing.csv", "--scheduler", "tcp://127.0.0.1:1"], "name a folder"),
+    ]:
+        assert words in refused(run("diagnose", *options, "--muscle", muscle))
+    assert "b-notes.txt: refused" in err
+    assert "name one file" in refused(run("diagnose", "tests", "--muscle", muscle, "--save", "x.json"))
+    Path("none").mkdir()
+    assert "there is no file in it" in refused(run("diagnose", "none", "--muscle", muscle))

@@ -9,8 +9,8 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections.abc import Callable
-from contextlib import suppress
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from typing import Any
 
@@ -33,8 +33,23 @@ def keep_in(folder: Path) -> None:
 
 
 def remember(page: Page) -> None:
-    """Let this page's diagnoses be answered by what the server told any page of this run before."""
+    """Let this page's diagnoses be answered by what the server told any page of this run before.
+
+    Once the page is open: a page with routes asks for all of its modules anew, which doubles what it costs.
+    """
     page.route(_PATH, lambda route: _answer(route, lambda body: body))
+
+
+@contextmanager
+def unanswered(page: Page) -> Iterator[None]:
+    """What the page asks meanwhile waits for ever: for models of which only the numbers are looked at."""
+
+    def wait(route: Route) -> None:
+        """The page ends it when it asks for the next model."""
+
+    page.route(_PATH, wait)
+    yield
+    page.unroute(_PATH, wait)
 
 
 def alter(page: Page, change: Callable[[dict[str, Any]], None]) -> None:

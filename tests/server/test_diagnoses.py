@@ -109,9 +109,10 @@ def test_the_answer_is_the_promised_one(answer: dict[str, Any]) -> None:
     assert answer["noise_floor"].keys() == {"rmse", "how", "interval"}
     assert answer["channels"] == {}
     verdict = answer["verdict"]
-    assert verdict["status"] == "missing_effects"
+    # The steps of the file do not show over which travel the friction changes sign.
+    assert verdict["status"] == "ambiguous"
     assert set(verdict["effects"]) == {"bladder_elasticity", "coulomb_friction"}
-    assert verdict["indistinguishable"] == []
+    assert {"coulomb_friction", "dahl"} <= set().union(*verdict["indistinguishable"])
     assert verdict["proposed_term"] is None
     assert verdict["unexplained_share"] < 0.3
     assert verdict["sentence"].startswith("Missing: ")

@@ -9,8 +9,10 @@ from pathlib import Path
 from mckibben.application.diagnose import prepare
 from mckibben.application.keep import keep
 from mckibben.application.measurement_files import measurements_of
+from mckibben.application.model_question import ModelQuestion
 from mckibben.application.next_experiment import NO_EXPERIMENT, schedule_csv
 from mckibben.application.saved_model import model_text, saved_model
+from mckibben.cli.diagnose_folder import FolderOptions, run_folder
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import (
@@ -45,20 +47,35 @@ def run(
     save: Path | None = None,
     save_preset: str | None = None,
     schedule: Path | None = None,
+    folder: FolderOptions | None = None,
 ) -> None:
     """Print the diagnosis, and write a report, the model and the next experiment if requested.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
+
+    def asked(names: Sequence[str]) -> ModelQuestion:
+        measurements = measurements_of(names, studio, correction, said, given=standard_input(names))
+        question = model_question(studio, measurements, model, free=free, strict=correction.strict)
+        if noise is None:
+            return question
+        return replace(question, noise=_level(noise, question.predictor.unit))
+
+    if any(Path(name).is_dir() for name in files):
+        writes = {"--report": report, "--save": save, "--save-preset": save_preset, "--schedule": schedule}
+        wanted = (model, tuple(free), noise, correction, dict(said))
+        run_folder(
+            files, lambda name: asked([name]), studio, wanted, folder or FolderOptions(), as_json, writes
+        )
+        return
+    if folder is not None:
+        folder.refuse(files)
     if save is not None:
         check_folder(save, "--save")
     if schedule is not None:
         check_folder(schedule, "--schedule")
-    measurements = measurements_of(files, studio, correction, said, given=standard_input(files))
-    question = model_question(studio, measurements, model, free=free, strict=correction.strict)
-    if noise is not None:
-        question = replace(question, noise=_level(noise, question.predictor.unit))
+    question = asked(files)
     work = prepare(question, studio)
     with progress("trying effects") as watch:
         result = work(watch)

@@ -121,11 +121,14 @@ def test_rounding_errors_are_no_effect():
 @pytest.mark.parametrize("noise", [0.0, 1.0])
 def test_one_missing_friction_is_found(noise):
     found = of_friction(noise)
-    assert found.status == "missing_effects"
     assert found.added == ("coulomb_friction",)
+    # Steps of several millimetres do not show over which travel the friction changes sign.
+    presliding = {"bouc_wen", "dahl", "maxwell_slip"}
+    assert {(other.of, other.effect in presliding) for other in found.alternatives} == {
+        ("coulomb_friction", True)
+    }
     value = found.best.fit_model.values["coulomb_friction"]["force"]
     assert value == pytest.approx(FRICTION, abs=0.2 * noise + 1e-4)
-    assert found.alternatives == ()
     assert found.start.rmse == pytest.approx(np.hypot(FRICTION, noise), rel=0.02)
     first = found.candidates[0]
     assert first.effect.id == "coulomb_friction"
@@ -155,7 +158,7 @@ def test_one_speed_cannot_tell_friction_from_damping():
 
 def test_two_effects_are_found_in_the_order_of_their_size():
     found = diagnosis(cycles(coulomb, noise=1.0, each=30, c10=0.4e6, second=3.0))
-    assert found.status == "missing_effects"
+    assert {other.of for other in found.alternatives} == {"coulomb_friction"}  # its twins with presliding
     assert set(found.added) == {"bladder_elasticity", "coulomb_friction"}
     assert [step.added for step in found.path] == [None, "bladder_elasticity", "coulomb_friction"]
     errors = [step.fitted_model.rmse for step in found.path]

@@ -121,7 +121,7 @@ def pictures(
 
 def _quasistatic(kind: Kind, task: ComparableRows, bare: FitModel, both: FitModel) -> SignaturePicture | None:
     """The picture; None where the prediction of this kind of test does not contain the effect."""
-    predictor, effect = QuasistaticPredictor(task), both.effects[-1]
+    predictor, effect = QuasistaticPredictor(task).after(("rest",)), both.effects[-1]
     if kind in effect.kinds and predictor.why_hidden(effect):
         return None
     if kind == "diameter" and "compliance" in effect.slots:

@@ -24,7 +24,7 @@ from mckibben.identification.residual.noise import allowing_for_errors, noise_of
 from mckibben.physics.errors import InputError
 
 _SEARCHED = 2  # entries with a search of their own
-_SINGLES = 4  # effects that each entry is fitted with alone
+_SINGLES = 6  # effects that each entry is fitted with alone
 _LEAST_GAIN = 0.1  # least relative reduction of the error
 _LEAST_CHANGE = 0.01  # least relative change of a quantity; less is the accuracy of a ruler
 _CERTAIN = 0.98  # largest confidence: the models themselves are not exact
@@ -353,5 +353,5 @@ def sentence_of(found: WrongEntry, titles: Mapping[str, str]) -> str:
     share = 100.0 * found.explains
     if not also:
         return f"{what} explains {share:.0f} % of the error"
-    alone = f" (by itself {share:.0f} %)" if share >= 1.0 else ""
+    alone = f"; alone it explains {share:.0f} %" if share >= 1.0 else ""
     return f"{what} explains the error together with {also}{alone}"

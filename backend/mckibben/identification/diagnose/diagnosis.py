@@ -33,7 +33,7 @@ from mckibben.identification.diagnose.verdict import (
 from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError, Fitter
-from mckibben.identification.fit.least_squares import FitResult, least_squares_fit
+from mckibben.identification.fit.least_squares import FitResult, fit_report
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
@@ -266,7 +266,7 @@ def _diagnose(
     refinements, corrections = refined(fitter, lean, searched, corrections)
     path += tuple(PathStep(name, model, correction=True) for name, model in refinements)
     best = refinements[-1][1] if refinements else lean
-    fit = _final_fit(predictor, best)
+    fit = _final_fit(best)
     rows = effective_rows(lean.residual, predictor.sweeps, predictor.folds)
     weights = model_weights(
         fitter.known.values(), root, rows=rows, noise=fitter.noise, implausible=lean.implausible
@@ -338,6 +338,7 @@ def _diagnose(
         messages=(
             *([] if gauge_zero is None else [gauge_zero.message]),
             *messages(fitter, best, fit),
+            *predictor.assumed_history(best.fit_model),
             *turned_constants(fitter, fit_model, best),
         ),
         not_tried=tuple(not_tried),
@@ -371,13 +372,9 @@ class _Progress:
             raise CancelledError
 
 
-def _final_fit(predictor: Predictor, best: FittedModel) -> FitResult | None:
+def _final_fit(best: FittedModel) -> FitResult | None:
     if not best.free:
         return None
-    start_values = [p.start for p in best.free]
-    return least_squares_fit(
-        lambda numbers: best.jacobian @ (np.asarray(numbers) - start_values) - best.residual,
-        lambda _: best.jacobian,
-        best.free,
-        starts=1,
-    )
+    # The numbers are those of the model, which is at its minimum: what is reported and what is saved agree.
+    numbers = np.array([p.start for p in best.free])
+    return fit_report(numbers, best.jacobian, -best.residual, best.free)

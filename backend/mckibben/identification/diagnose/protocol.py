@@ -263,7 +263,7 @@ def experiment_of(words: str, runs: Sequence[RigRun], fit_model: FitModel) -> Pr
         for _ in range(_PASSES):
             task = _along(task, QuasistaticPredictor(task).predict(fit_model), parts)
     numbers = np.repeat(np.arange(len(runs)), [len(run.time) for run in runs])
-    return Protocol(words, Schedule(numbers, columns), QuasistaticPredictor(task))
+    return Protocol(words, Schedule(numbers, columns), QuasistaticPredictor(task).after(("rest",)))
 
 
 def _along(task: ComparableRows, length: np.ndarray, times: Sequence[np.ndarray]) -> ComparableRows:

@@ -20,6 +20,7 @@ from mckibben.physics.effect import Effect
 
 _BEAM = 4  # models kept in each round
 _TRIED = 8  # candidates fitted per model: those with the largest first-order gain
+_FLEXIBLE = 2  # effects tried in exchange for the sake of their further constants
 _PATIENCE = 2  # rounds without a better model after which the search stops
 _ALIKE = 0.02  # share of the mean square; models whose residuals differ by less are merged
 _DEEPEST = 7  # most effects added
@@ -173,7 +174,10 @@ def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedMod
                 continue
             inside = set(best.fit_model.ids)
             others = [effect for effect in fitter.candidates if effect.id not in inside]
-            swaps = [exchanged(fitter, less, effect) for effect in fitter.promising(less, others)[:_BEAM]]
+            tried = fitter.promising(less, others)[:_BEAM]
+            if fitter.effort.thorough:
+                tried += [e for e in fitter.flexible(less, others, _FLEXIBLE) if e not in tried]
+            swaps = [exchanged(fitter, less, effect) for effect in tried]
             swaps = [
                 lean(fitter, fitted_model, root) if _as_good(fitted_model, best) else fitted_model
                 for fitted_model in swaps

@@ -235,7 +235,7 @@ def compared(
         fit=result,
         rows=rows,
         excluded=predictor.excluded,
-        messages=tuple(messages) + (result.messages if result else ()),
+        messages=(*messages, *predictor.assumed_history(fit_model), *(result.messages if result else ())),
         absorbed=absorbed_by(predictor, fit_model),
     )
 

@@ -19,6 +19,7 @@ _MOVED = 1e-3  # relative change of a parameter below which the fit has not left
 _USUAL = 0.01  # share of the range: size of a parameter that is off by default
 _STUCK = 0.999  # error over the error before, above which a fit is repeated from another start
 _LEAST_PROMISE = 0.02  # least first-order gain near the noise, share of the mean square
+_PLACES = 12  # places tried of an effect that acts beyond some state only
 _NEAR_FLOOR = 1.2  # error over noise below which only effects with a clear gain of their own are tried
 
 
@@ -46,6 +47,7 @@ class Fitter:
         refitted_keys: keys of the models that were fitted from a second start.
         known_gains: results of `gains`.
         known_columns: changes of the prediction that have been computed.
+        known_places: results of `_placed`.
     """
 
     predictor: Predictor
@@ -62,6 +64,9 @@ class Fitter:
     refitted_keys: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
     known_gains: WeakKeyDictionary[FittedModel, dict[str, float]] = field(default_factory=WeakKeyDictionary)
     known_columns: WeakKeyDictionary[FittedModel, dict[tuple[str, ...], np.ndarray]] = field(
+        default_factory=WeakKeyDictionary
+    )
+    known_places: WeakKeyDictionary[FittedModel, dict[str, dict[str, float]]] = field(
         default_factory=WeakKeyDictionary
     )
 
@@ -88,7 +93,7 @@ class Fitter:
         """The model with one more effect, refitted from the present values."""
         off = self.acting(fitted_model, effect)
         freed = fitted_model.freed | {f"{effect.id}.{n}" for n in off if not effect.parameter(n).fitted}
-        start = _between(effect, off)
+        start = self._placed(fitted_model, effect) | _between(effect, off)
         for name in held_beside(self.geometry):
             owner, _, parameter = name.partition(".")
             if owner == effect.id and parameter in start:
@@ -127,7 +132,11 @@ class Fitter:
         """The model with further constants of an effect freed: all, and subsets if all are too many."""
         names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted and not p.reference}
         names -= fitted_model.freed | held_beside(self.geometry)
-        names -= self._blind(fitted_model, names)
+        hidden = self._blind(fitted_model.fit_model, names)
+        shown = names - hidden
+        # What describes a part of the law that is off does not show until that part is there.
+        together = {name: {name} | self._woken(fitted_model, effect, name, hidden) for name in sorted(shown)}
+        names = set().union(*together.values())
         if not names:
             return []
         whole = self.fit(fitted_model.fit_model, fitted_model.freed | names)
@@ -135,10 +144,20 @@ class Fitter:
             return [whole]
         stuck = {p.name for p, at in zip(whole.free, whole.at_bound, strict=True) if at}
         fewer = [names - stuck] if 1 < len(names - stuck) < len(names) else []
+        singles = [{name} for name in together]
+        groups = [group for group in together.values() if len(group) > 1]
         return [
             self.fit(fitted_model.fit_model, fitted_model.freed | some)
-            for some in (*fewer, *({n} for n in sorted(names)))
+            for some in (*fewer, *singles, *groups)
         ]
+
+    def _woken(self, fitted_model: FittedModel, effect: Effect, name: str, hidden: set[str]) -> set[str]:
+        """Of the hidden constants of an effect those that show once another one is not off."""
+        p = effect.parameter(name.partition(".")[2])
+        if not hidden or p.off is None or fitted_model.fit_model.number(name) != p.off:
+            return set()
+        there = _between(effect, {p.name: p.off})[p.name]
+        return hidden - self._blind(fitted_model.fit_model.with_numbers([name], [there]), hidden)
 
     def holding(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
         """The model with a freed constant fixed at a value again, refitted."""
@@ -157,6 +176,19 @@ class Fitter:
         order = sorted(effects, key=lambda effect: -gains[effect.id])
         return [effect for effect in order if gains[effect.id] > least]
 
+    def flexible(self, fitted_model: FittedModel, effects: Sequence[Effect], count: int) -> list[Effect]:
+        """The effects with the largest first-order gain when their further constants are free as well.
+
+        Only effects that have such constants: what a pressure fades in, say, does not show by its factor.
+        """
+        basis, unexplained = self._unexplained(fitted_model)
+        gains = {}
+        for effect in effects:
+            off = {p.name: p.off for p in effect.parameters if p.off is not None}
+            if len(off) > len(self.acting(fitted_model, effect)):
+                gains[effect] = _gain(self._columns(fitted_model, effect, off), basis, unexplained)
+        return sorted(gains, key=lambda effect: -gains[effect])[:count]
+
     def gains(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> dict[str, float]:
         """Effect -> first-order reduction of the sum of squares if it is added and all is refitted."""
         basis, unexplained = self._unexplained(fitted_model)
@@ -164,16 +196,7 @@ class Fitter:
         for effect in effects:
             if effect.id in gains:
                 continue
-            columns = self.changes(fitted_model, effect)
-            rest = columns - basis @ (basis.T @ columns)
-            size, whole = np.linalg.norm(rest, axis=0), np.linalg.norm(columns, axis=0)
-            distinct = size > 1e-3 * whole
-            solution = (
-                np.linalg.lstsq(rest[:, distinct] / size[distinct], unexplained, rcond=1e-6)[0]
-                if np.any(distinct)
-                else unexplained[:0]
-            )
-            gains[effect.id] = float(np.sum((rest[:, distinct] / size[distinct] @ solution) ** 2))
+            gains[effect.id] = _gain(self.changes(fitted_model, effect), basis, unexplained)
         return {effect.id: gains[effect.id] for effect in effects}
 
     @staticmethod
@@ -229,20 +252,49 @@ class Fitter:
     def _new_columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
         columns = [np.empty((len(fitted_model.residual), 0))]
         for name in off:
-            single = effect.off | {name: _between(effect, off)[name]}
+            single = effect.off | self._placed(fitted_model, effect) | {name: _between(effect, off)[name]}
             trial = self._trial_residual(fitted_model.fit_model.adding(effect, single))
             columns.append((fitted_model.residual - trial)[:, None])
         return np.hstack(columns)
 
+    def _placed(self, fitted_model: FittedModel, effect: Effect) -> dict[str, float]:
+        """Where an effect begins that acts beyond some state only: the place that explains most.
+
+        At its usual place it may lie beyond the data, where it changes nothing and would never be tried. Such
+        a place is a fitted parameter without an off value.
+        """
+        places = [p for p in effect.parameters if p.off is None and p.fitted]
+        known = self.known_places.setdefault(fitted_model, {})
+        if len(places) != 1:
+            return {}
+        if effect.id not in known:
+            (place,) = places
+            off = {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted}
+            acting = effect.off | _between(effect, off)
+            basis, unexplained = self._unexplained(fitted_model)
+
+            def explained(value: float) -> float:
+                trial = self._trial_residual(
+                    fitted_model.fit_model.adding(effect, acting | {place.name: value})
+                )
+                column = fitted_model.residual - trial
+                rest = column - basis @ (basis.T @ column)
+                size = float(np.linalg.norm(rest))
+                return float(rest @ unexplained) / size if size > self._least else 0.0
+
+            tried = [place.default, *np.linspace(place.lower, place.upper, _PLACES + 2)[1:-1].tolist()]
+            known[effect.id] = {place.name: max(tried, key=explained)}
+        return known[effect.id]
+
     def _trial_residual(self, fit_model: FitModel) -> np.ndarray:
         return self.predictor.weighted(self.predictor.measured - self.predictor.trial(fit_model))
 
-    def _blind(self, fitted_model: FittedModel, names: set[str]) -> set[str]:
+    def _blind(self, fit_model: FitModel, names: set[str]) -> set[str]:
         """The constants that do not change the prediction."""
-        free = [p for p in free_numbers(fitted_model.fit_model, (), names) if p.name in names]
+        free = [p for p in free_numbers(fit_model, (), names) if p.name in names]
         if not free:
             return set()
-        columns = self.predictor.linearised(fitted_model.fit_model, free)[1]
+        columns = self.predictor.linearised(fit_model, free)[1]
         span = np.array([p.upper - p.lower for p in free])
         reach = self._sizes(columns) * span
         return {p.name for p, size in zip(free, reach, strict=True) if not size > self._least}
@@ -274,3 +326,15 @@ def _between(effect: Effect, off: dict[str, float]) -> dict[str, float]:
         p = effect.parameter(name)
         distances[name] = p.default - value if p.default != value else _USUAL * (p.upper - value)
     return {name: value + distances[name] / 3.0 for name, value in off.items()}
+
+
+def _gain(columns: np.ndarray, basis: np.ndarray, unexplained: np.ndarray) -> float:
+    """First-order reduction of the sum of squares by columns beside an orthonormal basis."""
+    rest = columns - basis @ (basis.T @ columns)
+    size, whole = np.linalg.norm(rest, axis=0), np.linalg.norm(columns, axis=0)
+    distinct = size > 1e-3 * whole
+    if not np.any(distinct):
+        return 0.0
+    directions = rest[:, distinct] / size[distinct]
+    solution = np.linalg.lstsq(directions, unexplained, rcond=1e-6)[0]
+    return float(np.sum((directions @ solution) ** 2))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 
 import numpy as np
 
@@ -75,11 +76,26 @@ class Misfit:
         return fit_report(numbers, self.derivatives(numbers), self.value(numbers), self._free)
 
     def fit(self, effort: FitEffort) -> FitResult:
-        """Least squares over the free parameters, see `least_squares_fit`."""
+        """Least squares over the free parameters, see `least_squares_fit`.
+
+        What went before the records is that which suits the start; where another one suits the end better,
+        the fit goes on with that. The evaluations after it are with the last one.
+        """
+        any_history, free = self._predictor, self._free
+        history = any_history.history(self.fit_model(np.array([p.start for p in free])))
+        result = self._after(any_history.after(history), free, effort)
+        better = any_history.history(self.fit_model(np.array(result.numbers)))
+        if better != history:
+            ended = [replace(p, start=float(x)) for p, x in zip(free, result.numbers, strict=True)]
+            result = self._after(any_history.after(better), ended, effort)
+        return result
+
+    def _after(self, predictor: Predictor, free: Sequence[Free], effort: FitEffort) -> FitResult:
+        self._predictor, self._at = predictor, None
         return least_squares_fit(
             self.value,
             self.derivatives,
-            self._free,
+            free,
             starts=effort.starts,
             tolerance=effort.tolerance,
             evaluations=effort.evaluations,

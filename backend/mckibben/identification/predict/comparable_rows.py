@@ -33,6 +33,7 @@ _NEW_LEVEL = 0.05  # change of the constant quantity from row to row, share of i
 _FORGOTTEN = 0.15  # travel after which friction no longer depends on the history, share of the swept range
 _PAUSE = 3.0  # time step over the median one, above which the recording paused
 _MOTION = 0.01  # shortest travel of a motion, share of the range of lengths; less is noise
+_MANY_ROWS = 20  # rows of a record from which its first one can be spared
 _SHORT = 0.3  # share of the next step; a shorter one next to a reversal hides a part of the way
 _REAL_STEP = 0.3  # share of a usual step; smaller ones are noise at rest
 _PRESSED = ("isometric", "isotonic")  # kinds in which the pressure moves
@@ -210,8 +211,9 @@ def _motion(
         if stroked and not moved.measured:
             length = lengths(measurement, nominal_length)
             unsure = _jumps(columns["time"], length, moved, records_of(measurement))
-            # The file does not show whether the muscle already moves after a pause.
+            # The file does not show whether the muscle already moves at the start or after a pause.
             unsure[1:] |= _pauses(columns["time"], columns["group"])
+            unsure |= _first_of_long(records_of(measurement))
         messages += moved.messages
         if not known:
             direction, known = moved.direction, True
@@ -232,6 +234,14 @@ def _held(measurement: Measurement, nominal_length: float, direction: np.ndarray
     length = lengths(measurement, nominal_length)
     least = _MOTION * float(np.ptp(length[measurement.usable])) if np.any(measurement.usable) else 0.0
     return held_directions(direction, length, records_of(measurement), least=least)
+
+
+def _first_of_long(records: np.ndarray) -> np.ndarray:
+    """Mask of the first row of each record, if the record has rows enough."""
+    _, first, count = np.unique(records, return_index=True, return_counts=True)
+    rows = np.zeros(len(records), bool)
+    rows[first[count >= _MANY_ROWS]] = True
+    return rows
 
 
 def _pauses(time: np.ndarray, group: np.ndarray) -> np.ndarray:
@@ -342,7 +352,14 @@ def _between_rows(moved: np.ndarray, records: np.ndarray) -> np.ndarray:
     )
     short_out = turns & (np.abs(out) < _SHORT * np.abs(step[extreme + 1]))
     short_into = turns & (np.abs(into) < _SHORT * np.abs(step[extreme - 2]))
-    hidden[extreme[short_out] + 1] = True
+    # Two equal rows: the way turned between them, or the motion paused there.
+    even = (
+        (out == 0.0)
+        & (into * step[extreme + 1] < 0.0)
+        & (np.minimum(np.abs(into), np.abs(step[extreme + 1])) > real)
+        & (records[extreme - 2] == records[extreme + 2])
+    )
+    hidden[extreme[short_out | even] + 1] = True
     hidden[extreme[short_into]] = True
     return hidden
 

@@ -8,13 +8,14 @@ By the implicit function theorem,
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
+from copy import copy
 
 import numpy as np
 
 from mckibben.identification.predict.comparable_rows import ComparableRows
 from mckibben.identification.predict.fit_model import LOAD, FitModel
-from mckibben.identification.predict.memory import Memory, remembers
+from mckibben.identification.predict.memory import HISTORIES, Memory, remembers, remembers_before
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
@@ -26,22 +27,67 @@ State = Mapping[str, np.ndarray]
 # Up to this many rows a model is compiled once with derivatives by all its parameters. Compiling each choice
 # of parameters (10 ms) would take longer than to evaluate the unneeded derivatives.
 _FEW_ROWS = 600
+_KEPT = 512  # models whose history is known
 
 
 class Evaluation:
-    """Evaluates models at the same comparable rows."""
+    """Evaluates models at the same comparable rows.
+
+    Args:
+        task: the rows.
+    """
 
     def __init__(self, task: ComparableRows) -> None:
         self.task = task
         self._memory = Memory(task)
+        self._known_history: str | None = None
+        self._histories: dict[Hashable, str] = {}
+
+    def after(self, history: str) -> Evaluation:
+        """The same with one of `HISTORIES` for every model."""
+        pinned = copy(self)
+        pinned._known_history = history
+        return pinned
+
+    def history(self, fit_model: FitModel) -> str:
+        """What went before the records, of `HISTORIES`: that with which the forces fit best.
+
+        Files do not say it. Rest, unless effects remember it and another one is closer to the forces.
+        """
+        if self._known_history is not None:
+            return self._known_history
+        task = self.task
+        if task.channel != "force" or not any(map(remembers_before, fit_model.effects)):
+            return "rest"
+        named = tuple((name, *values.values()) for name, values in fit_model.values.items())
+        key = (fit_model.muscle, fit_model.ids, named)
+        if key not in self._histories:
+            if len(self._histories) >= _KEPT:
+                self._histories.pop(next(iter(self._histories)))
+            self._histories[key] = self._best_history(fit_model)
+        return self._histories[key]
+
+    def _best_history(self, fit_model: FitModel) -> str:
+        task = self.task
+        scored = ~task.turning if np.any(~task.turning) else slice(None)
+        misfit = {}
+        with np.errstate(all="ignore"):
+            for name, before in HISTORIES.items():
+                force = self._at(fit_model, (), self._state(fit_model, before), before)[0]["force"]
+                misfit[name] = float(np.sum((force - task.measured)[scored] ** 2))
+        finite = {name: value for name, value in misfit.items() if np.isfinite(value)}
+        return min(finite, key=lambda name: finite[name], default="rest")
 
     def state(self, fit_model: FitModel) -> dict[str, np.ndarray]:
         """Inputs of the model: the measured ones, and the states of effects with memory."""
+        return self._state(fit_model, HISTORIES[self.history(fit_model)])
+
+    def _state(self, fit_model: FitModel, before: float) -> dict[str, np.ndarray]:
         state = {name: self.task.state[name] for name in INPUTS if name in self.task.state}
         moved = self.moved(fit_model)
         if "length" in state and np.any(moved):
             state["length"] = state["length"] + moved
-        return state | self._memory.states(fit_model)
+        return state | self._memory.states(fit_model, before)
 
     def moved(self, fit_model: FitModel) -> np.ndarray | float:
         """How much longer each length is with the nominal length of a model than with that of the rows [m].
@@ -60,12 +106,13 @@ class Evaluation:
         """
         # A custom term may be undefined at some rows; callers check the result.
         with np.errstate(all="ignore"):
-            return self._at(fit_model, names, state)
+            before = HISTORIES[self.history(fit_model)]
+            return self._at(fit_model, names, state, before)
 
     def _at(
-        self, fit_model: FitModel, names: Sequence[str], state: State | None
+        self, fit_model: FitModel, names: Sequence[str], state: State | None, before: float
     ) -> tuple[dict[str, np.ndarray], np.ndarray]:
-        moved = self._memory.by_parameters(fit_model, names)
+        moved = self._memory.by_parameters(fit_model, names, before)
         effects = sorted_effects(fit_model.effects)
         memory = any(map(remembers, effects))
         inner = [name for name in names if name != LOAD]
@@ -74,7 +121,7 @@ class Evaluation:
         gradient_by = _derivatives(effects, inner, memory) if few else tuple(inner)
         compiled = compiled_state(effects, gradient_by, memory=memory, quick=True)
         constants = compiled.pack(fit_model.muscle, fit_model.values)
-        out, raw = settle(compiled, constants, state or self.state(fit_model))
+        out, raw = settle(compiled, constants, state or self._state(fit_model, before))
         picked = [gradient_by.index(name) for name in inner]
         force, tension, _, compliance = np.moveaxis(raw.reshape(-1, 4, raw.shape[1])[picked], 1, 0)
         pulling = out["tension"] > 0.0

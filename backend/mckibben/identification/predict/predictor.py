@@ -92,6 +92,27 @@ class Predictor(ABC):
         """Unclipped prediction by the quickest method, for the change caused by a candidate."""
         return self.predict(fit_model, clipped=False)
 
+    def history(self, fit_model: FitModel) -> tuple[str, ...]:
+        """What went before each measurement, of `mckibben.identification.predict.memory.HISTORIES`.
+
+        Files do not say it, and friction with memory depends on it: that with which a model fits best.
+        """
+        return ()
+
+    def after(self, history: tuple[str, ...]) -> Predictor:
+        """This predictor with a history that does not depend on the model."""
+        return self
+
+    def assumed_history(self, fit_model: FitModel) -> tuple[str, ...]:
+        """A sentence where another history than rest was assumed."""
+        names = [name for name in dict.fromkeys(self.history(fit_model)) if name != "rest"]
+        return tuple(
+            "friction remembers what was before a record, which no file says: "
+            + ("a motion that went on" if name == "the same way" else "a motion the other way that turned")
+            + " where it begins was assumed, because the forces fit best with it"
+            for name in names
+        )
+
     @abstractmethod
     def why_hidden(self, effect: Effect) -> str:
         """Why these data cannot reveal an effect; empty if they can."""

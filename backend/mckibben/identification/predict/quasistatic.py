@@ -101,7 +101,18 @@ class QuasistaticPredictor(Predictor):
         if not set(fit_model.effects) <= set(self._wide):
             return self.predict(fit_model, clipped=False)
         values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in self._wide}
-        return self.predict(replace(fit_model, effects=self._wide, values=values), clipped=False)
+        wide = replace(fit_model, effects=self._wide, values=values)
+        return self.after(("rest",)).predict(wide, clipped=False)
+
+    def history(self, fit_model: FitModel) -> tuple[str, ...]:
+        """See `Evaluation.history`."""
+        return (self._evaluation.history(_at_once(fit_model)),)
+
+    def after(self, history: tuple[str, ...]) -> QuasistaticPredictor:
+        """This predictor with a history that does not depend on the model."""
+        pinned = copy(self)
+        pinned._evaluation = self._evaluation.after(history[0])
+        return pinned
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """Force, length or diameter of each row; the length is limited by the lock of the braid."""
@@ -113,11 +124,11 @@ class QuasistaticPredictor(Predictor):
         if values is None:
             return super().input_slope(fit_model, channel)
         step = _INPUT_STEP * float(np.max(np.abs(values)))
-        ends = []
+        ends, (history,) = [], self.history(fit_model)
         for sign in (-1.0, 1.0):
             other = copy(self)
             other.task = replace(self.task, state={**self.task.state, channel: values + sign * step})
-            other._evaluation = Evaluation(other.task)
+            other._evaluation = Evaluation(other.task).after(history)
             ends.append(other.predict(fit_model))
         slope = (ends[1] - ends[0]) / (2.0 * step) if step > 0.0 else np.zeros(len(self.measured))
         return np.where(np.isfinite(slope), slope, 0.0)

@@ -213,6 +213,20 @@ class SpecimensPredictor(Predictor):
         reasons = [each.predictor.why_hidden(effect) for each in self._specimens]
         return "" if not all(reasons) else reasons[0]
 
+    def history(self, fit_model: FitModel) -> tuple[str, ...]:
+        """Of each specimen."""
+        own = (each.predictor.history(self._own(fit_model, each)) for each in self._specimens)
+        return tuple(name for names in own for name in (names or ("rest",)))
+
+    def after(self, history: tuple[str, ...]) -> SpecimensPredictor:
+        """This predictor with histories that do not depend on the model."""
+        pinned = copy(self)
+        pinned._specimens = tuple(
+            replace(each, predictor=each.predictor.after((name,)))
+            for each, name in zip(self._specimens, history, strict=True)
+        )
+        return pinned
+
     def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> SpecimensPredictor:
         """Every specimen prepared."""
         ready = copy(self)
