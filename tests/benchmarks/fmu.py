@@ -1,6 +1,6 @@
 """FMUs of every drive preset without a controller and of repaired drives of `tests.truth`, beside our runs:
 
-    python -m tests.benchmarks.fmu [--repaired 5]
+    python -m tests.benchmarks.fmu [--fmi 3] [--repaired 1-5] [--only propneu-20]
 
 Each is compiled by gcc with all warnings as errors, checked by FMPy and simulated by it: co-simulation by the
 FMU's own solver, model exchange by CVode, both at a tolerance of 1e-7, with the command of the document after
@@ -16,6 +16,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from mckibben.documents.drive_files import read_document
+from mckibben.export.fmu.dialects import FMI2, FMI3, Dialect
 from mckibben.export.source import of_drive, stated_source
 from mckibben.export.subject import Subject, subject_of
 from mckibben.simulation.timing.of_run import time_step
@@ -27,41 +28,45 @@ from tests.truth.generate import all_cases
 _POSITION, _TIMING = 1e-4, 5e-3
 
 
-def presets() -> Iterator[tuple[str, Subject]]:
-    """The drive presets without a controller."""
+def presets(only: str | None = None) -> Iterator[tuple[str, Subject]]:
+    """The drive presets without a controller, or one of them."""
     for preset in studio().library.list("drives"):
+        if only not in (None, preset.id):
+            continue
         subject = subject_of(stated_source(preset.id, studio()), studio())
         if subject.runnable is not None and subject.runnable.drive.controller is None:
             yield preset.id, subject
 
 
-def repaired(count: int) -> Iterator[tuple[str, Subject]]:
-    """Drives as a diagnosis of their measurement leaves them; the first of each hidden effect."""
+def repaired(first: int, last: int) -> Iterator[tuple[str, Subject]]:
+    """Drives as a diagnosis of their measurement leaves them; the first of each hidden effect, from 1."""
     from mckibben.identification.diagnose.diagnosis import diagnose
 
     seen: set[frozenset[str]] = set()
     for case in all_cases(seeds=(0,)):
         hidden = frozenset().union(*case.hidden) if case.hidden else frozenset()
-        if case.kind != "transient" or not hidden or case.unknown or hidden in seen or len(seen) >= count:
+        if case.kind != "transient" or not hidden or case.unknown or hidden in seen or len(seen) >= last:
             continue
         if case.drive is None or case.drive.get("controller") or "command" not in case.drive:
+            continue
+        seen.add(hidden)
+        if len(seen) < first:
             continue
         predictor, fit_model = subject_and_start(case, studio())
         best = diagnose(predictor, fit_model, catalogue=studio().catalogue).best.fit_model
         document = {**case.drive, "effects": {name: dict(own) for name, own in best.values.items()}}
         stated = of_drive(read_document(document, "the drive"), studio(), case.id, title=case.id)
-        seen.add(hidden)
         yield f"{case.id} + {', '.join(best.values)}", subject_of(stated, studio())
 
 
-def examined(name: str, subject: Subject, folder: Path) -> bool:
+def examined(name: str, subject: Subject, folder: Path, dialect: Dialect) -> bool:
     """Print the lines of one drive; whether all is as wanted."""
     from fmpy.validation import validate_fmu
 
-    path = fmu_of(subject, folder, "drive")
+    path = fmu_of(subject, folder, "drive", dialect)
     problems = validate_fmu(str(path))
     good = not problems
-    say(f"{name}: {len(problems)} problems")
+    say(f"{name}, FMI {dialect.version}: {len(problems)} problems")
     assert subject.runnable is not None
     interval = time_step(subject.runnable.drive.duration)
     for kind in KINDS:
@@ -82,12 +87,15 @@ def examined(name: str, subject: Subject, folder: Path) -> bool:
 def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--repaired", type=int, default=5)
+    parser.add_argument("--repaired", default="1-5", help="which of them, 0 for none")
+    parser.add_argument("--fmi", type=int, choices=(2, 3), default=2)
+    parser.add_argument("--only", help="of the drive presets this one alone; - for none")
     given = parser.parse_args()
+    first, _, last = given.repaired.partition("-")
     with tempfile.TemporaryDirectory() as folder:
         lines = [
-            examined(name, subject, Path(folder))
-            for drives in (presets(), repaired(given.repaired))
+            examined(name, subject, Path(folder), FMI3 if given.fmi == 3 else FMI2)
+            for drives in (presets(given.only), repaired(int(first), int(last or first)))
             for name, subject in drives
         ]
     say(f"{sum(lines)} of {len(lines)} as wanted")

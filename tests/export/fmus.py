@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from mckibben.export.fmu.build import Compiler
+from mckibben.export.fmu.dialects import FMI2, Dialect
+from mckibben.export.fmu.package import packed
 from mckibben.export.fmu.variables import PLAY, Plant
-from mckibben.export.formats.fmu import packed
 from mckibben.export.subject import Subject
 from mckibben.simulation.drive.transient import Run, simulate
 from mckibben.simulation.timing.of_run import timing_of, trace_of
@@ -20,9 +21,9 @@ KINDS = ("CoSimulation", "ModelExchange")
 TOLERANCE = 1e-7
 
 
-def fmu_of(subject: Subject, folder: Path, name: str) -> Path:
+def fmu_of(subject: Subject, folder: Path, name: str, dialect: Dialect = FMI2) -> Path:
     """The FMU of a model, compiled without any warning."""
-    file = packed(subject, name, (STRICT,))
+    file = packed(subject, name, (STRICT,), dialect)
     assert not any("failed" in remark for remark in file.remarks), file.remarks
     path = folder / file.name
     path.write_bytes(file.content)
@@ -48,12 +49,23 @@ def simulated(path: Path, subject: Subject, kind: str, *, interval: float = 1e-3
     return rows[np.abs(share - np.round(share)) < 1e-6]
 
 
+def opening_signal(subject: Subject) -> np.ndarray:
+    """The command of the document as an input signal of FMPy."""
+    assert subject.runnable is not None
+    command = subject.runnable.signals["opening"]
+    assert command is not None
+    times = np.repeat(command.times, 2)[1:-1]
+    levels = np.column_stack([command.start_values, command.end_values]).ravel()
+    kinds = [("time", np.float64), ("opening", np.float64)]
+    return np.array(list(zip(times, levels, strict=True)), dtype=kinds)
+
+
 def our_run(subject: Subject, time: np.ndarray) -> Run:
-    """The run of the engine at the times of an FMU; of equal times one."""
+    """The run of the engine's kernel at the times of an FMU; of equal times one."""
     assert subject.runnable is not None
     drive = subject.runnable.drive
     grid = np.unique(np.clip(np.round(time, 9), 0.0, drive.duration))
-    return simulate(drive, grid=grid, tolerance=TOLERANCE)
+    return simulate(drive, grid=grid, tolerance=TOLERANCE, engine="rodas")
 
 
 def position_error(rows: np.ndarray, run: Run) -> float:

@@ -167,11 +167,13 @@ DRIVES = {
         "tube": {"inside_diameter": "4 mm", "length": "1 m"},
         "load": {"mass": "2 kg", "arrangement": "antagonist", "pulley_radius": "20 mm"},
         "command": {"shape": "sine", "amplitude": 0.5, "period": "1 s"}, "stops": {"restitution": 0.3},
+        "pwm": {"frequency": "100 Hz", "min_on": "1 ms"},
     },
     "regulated": {
         "muscle": {"preset": "DMSP-10", "nominal_length": "250 mm"},
         "effects": {"spool_lag": {}, "creep": {}, "rig_compliance": {}, "moving_mass": {}},
         "supply": {"pressure": "7 bar"}, "valve": {"preset": "VPPM-6"},
+        "flow_control": {"meter": "out", "sonic_conductance": 8e-9, "free_conductance": 2e-8},
         "load": {"mass": "5 kg", "force": {"shape": "step", "level": "20 N", "at": "1 s"}},
         "gas": {"polytropic_exponent": 1.2},
         "command": {"shape": "ramp", "from": 0, "to": 1, "duration": "2 s"},
@@ -182,7 +184,7 @@ static void run_NAME(void)
 {
     double k[NAMEU_DRIVE_CONSTANTS];
     NAME_prepare(NAME_parameters, k);
-    for (int row = 0; row < 200; ++row) {
+    for (int row = 0; row < 1000; ++row) {
         double y[NAMEU_DRIVE_STATES], u[NAMEU_DRIVE_INPUTS], w[NAMEU_DRIVE_SWITCHES];
         double rates[NAMEU_DRIVE_STATES], out[NAMEU_DRIVE_OUTPUTS], guards[NAMEU_DRIVE_SWITCHES];
         double jacobian[NAMEU_DRIVE_STATES * NAMEU_DRIVE_STATES];
@@ -208,7 +210,7 @@ static void run_NAME(void)
     }
 }
 """
-DRIVE_ROWS = 200
+DRIVE_ROWS = 1000
 
 
 def drive(name: str) -> Subject:

@@ -32,8 +32,9 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.units import is_unit
 from tests.export.models import studio, subject
 
-ALL = ("c", "fmu", "json", "latex", "matlab", "modelica", "python", "table")
-TEXTS = tuple(form for form in ALL if form != "fmu")  # tests/export/test_fmu.py examines that one
+ALL = ("c", "fmu", "fmu3", "json", "latex", "linear", "matlab", "modelica", "python", "table")
+# tests/export/test_fmu.py, test_fmu3.py and test_linear.py examine the others.
+TEXTS = tuple(form for form in ALL if form not in ("fmu", "fmu3", "linear"))
 HOSTILE = (
     'a */ int x; /* "); system("id"); //\n#include <bad>\r\nend\u2028%}\n\\end{document}\\input{/etc/passwd}'
     " ??/\n ''' \"\"\" \x00\x1b[31m $(id) `id` =cmd|'/c calc'!A1 \u202e ../../x"
@@ -156,6 +157,21 @@ def test_tables_interpolate_as_well_as_they_say():
     assert np.isnan(pressures_for(model, np.array([5000.0]), np.array([0.28]), 6e5)[0])
 
 
+@pytest.mark.parametrize(
+    ("effects", "said"),
+    [
+        ({"coulomb_friction": {"force": 21.0}}, "changes the force by up to 21 N."),
+        ({"dahl": {"force": 33.0}}, "changes the force by up to 33 N."),
+        ({"bladder_elasticity": {}}, "does not change the force."),
+    ],
+)
+def test_a_table_says_what_friction_would_change(effects, said):
+    """A muscle that slides against a constant friction pulls this much more or less."""
+    start = studio().start_model(StatedMuscle(preset="DMSP-20"), effects)
+    text = texts(Stated(start), "table")
+    assert said in " ".join(re.sub(r"\n\W*", " ", text).split())
+
+
 def test_the_csv_of_a_table_holds_the_force_of_the_model():
     stated = stated_source("DMSP-20", studio())
     file = next(file for file in written(stated, "table", "t") if file.name == "t_force.csv")
@@ -165,6 +181,29 @@ def test_the_csv_of_a_table_holds_the_force_of_the_model():
     for row in (body[3], body[-1]):
         expected = model.force(length=0.3 * (1.0 - contraction), pressure=float(row[0]))
         np.testing.assert_allclose(np.array(row[1:], float), expected, rtol=1e-7, atol=1e-6)
+
+
+def test_tables_over_pressure_are_those_of_the_inverse_questions():
+    """Blocked force and free contraction, and how exact a line between two rows is."""
+    from mckibben.export.lookup import lookup_of
+    from mckibben.simulation.statics.inverse import contraction_for_force
+
+    stated = stated_source("DMSP-20", studio())
+    model = subject_of(stated, studio()).statics
+    table = lookup_of(model)
+    file = next(file for file in written(stated, "table", "t") if file.name == "t_over_pressure.csv")
+    head, *body = csv.reader(line for line in file.content.decode().splitlines() if line[0] != "#")
+    assert head == ["pressure_Pa", "blocked_force_N", "free_contraction"]
+    pressure, blocked, free = (np.array([row[place] for row in body[1:]], float) for place in range(3))
+    for row in (5, 20):
+        force = float(model.force(length=0.3, pressure=pressure[row])[0])
+        assert blocked[row] == pytest.approx(force, rel=1e-8)
+        found = contraction_for_force(model, force=0.0, pressure=pressure[row])
+        assert free[row] == pytest.approx(found.value, rel=1e-6)
+    between = np.random.default_rng(2).uniform(pressure[0], pressure[-1], 300)
+    exact = model.force(length=0.3, pressure=between)
+    assert np.max(np.abs(np.interp(between, pressure, blocked) - exact)) <= 1.1 * table.blocked_error + 1e-6
+    assert "free contraction within" in " ".join(table.notes)
 
 
 def hostile(form: str) -> Stated:
@@ -179,10 +218,19 @@ def hostile(form: str) -> Stated:
     return Stated(start, HOSTILE)
 
 
+def hostile_saved() -> Stated:
+    """A model that was fitted to a file with a hostile name."""
+    origin = {**SAVED["origin"], "verdict": HOSTILE[:200]}
+    origin["files"] = [{"name": HOSTILE, "sha256": "ab" * 32, "rows": 720}]
+    saved = read_saved_model({**SAVED, "assumed": [HOSTILE], "origin": origin}, "the model")
+    return of_saved(saved, studio(), "model.json")
+
+
+@pytest.mark.parametrize("of", ["document", "file"])
 @pytest.mark.parametrize("form", TEXTS)
-def test_hostile_texts_stay_texts(form):
+def test_hostile_texts_stay_texts(form, of):
     """Without what stands in comments and texts nothing of them is left."""
-    text = texts(hostile(form), form)
+    text = texts(hostile(form) if of == "document" else hostile_saved(), form)
     assert not set(text) & set("\x00\x1b\r")
     assert form == "json" or not set(text) & set("\u2028\u202e")
     if form == "c":
@@ -193,7 +241,8 @@ def test_hostile_texts_stay_texts(form):
         assert r"\input" not in code.replace(r"\usepackage[utf8]{inputenc}", "")
         return
     elif form == "json":
-        assert json.loads(text)["about"]["title"] == HOSTILE[:200]
+        about = json.loads(text)["about"]
+        assert HOSTILE[:200] in (about["title"] if of == "document" else about["origin"][0])
         return
     else:
         mark = {"matlab": "%", "modelica": "//", "python": "#", "table": "[#%]"}[form]

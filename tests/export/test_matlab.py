@@ -10,9 +10,12 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from mckibben.export.formats import python
+from mckibben.export.formats import linear, python, table
 from mckibben.export.formats.matlab import write
+from mckibben.export.linear_models import linear_points, main_point
+from mckibben.export.lookup import lookup_of
 from mckibben.simulation.integrate.system import compiled_drive
+from tests.export.fmus import our_run
 from tests.export.models import assert_equal, cases, our_rates, ours, random_inputs, subject
 from tests.export.test_c import RESULT_MEMBERS, drive, packed, random_rows
 
@@ -120,3 +123,95 @@ def test_the_drive_in_octave_gives_the_numbers_of_the_engine(name, folder):
         expected.append(np.concatenate([*parts, matrix[np.ix_(kept, kept)].ravel(), *after, given]))
     for column, values in enumerate(np.array(expected).T):
         assert_equal(rows[:, column], values, f"{name}: column {column}")
+
+
+def test_tables_interpolate_in_octave_as_they_say_and_matrices_are_read(tmp_path: Path):
+    """`interp2` and `interp1` on the tables of the script, and `load` of the linear models of a drive."""
+    model = subject("together_0")
+    for file in table.write(model, "t"):
+        (tmp_path / file.name).write_bytes(file.content)
+    matlab, _ = linear.write(drive("lift"), "lift")
+    (tmp_path / matlab.name).write_bytes(matlab.content)
+    random = np.random.default_rng(9)
+    pressure, contraction = random.uniform(1e5, 5e5, 200), random.uniform(0.0, 0.1, 200)
+    np.savetxt(tmp_path / "x.csv", np.column_stack([pressure, contraction]), delimiter=",", fmt="%.17g")
+    script = """
+    t; x = dlmread('x.csv'); s = t_table;
+    force = interp2(s.contraction, s.pressure, s.force, x(:, 2), x(:, 1));
+    again = interp2(s.contraction, s.force_axis, s.pressure_for_force, x(:, 2), force);
+    blocked = interp1(s.pressure, s.blocked_force, x(:, 1));
+    m = load('lift.mat');
+    assert(isequal(m.A, m.points(3).models(end).A) || isequal(m.A, m.points(3).models(1).A));
+    assert(columns(m.B) == numel(m.inputs) && strcmp(m.states{1}, 'stroke') && ischar(m.about));
+    f = fopen('y.out', 'w');
+    fwrite(f, [force, again, blocked], 'double'); fwrite(f, m.A, 'double'); fclose(f);
+    """
+    (tmp_path / "run_all.m").write_text(script, "utf-8")
+    command = [str(OCTAVE), "--quiet", "--norc", "run_all.m"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-3000:]
+    values = np.fromfile(tmp_path / "y.out")
+    force, again, blocked = values[:600].reshape(3, 200)
+    said = lookup_of(model.statics)
+    rest = model.statics.muscle.nominal_length
+    exact = model.statics.force(length=rest * (1.0 - contraction), pressure=pressure)
+    assert np.max(np.abs(force - exact)) <= 1.1 * said.force_error
+    pulls = (exact > 20.0) & np.isfinite(again)
+    assert np.count_nonzero(pulls) > 100
+    # Back through the inverse table: its own error, and that of the force over its slope.
+    slope = model.statics.outputs(length=rest * (1.0 - contraction), pressure=pressure)["force_by_pressure"]
+    allowed = 1.1 * (said.pressure_error + said.force_error / slope)
+    assert np.all(np.abs(again - pressure)[pulls] <= allowed[pulls])
+    line = model.statics.force(length=rest, pressure=pressure)
+    assert np.max(np.abs(blocked - line)) <= 1.1 * said.blocked_error + 1e-6
+    points, _ = linear_points(drive("lift").runnable)
+    np.testing.assert_array_equal(values[600:].reshape(3, 3).T, main_point(points).primary.a)
+
+
+_RUN = """
+1;
+function [value, stop, way] = event(m, t, y, k, w)
+  value = m.guards(y, k, m.inputs(t), w)(:) + m.least;
+  stop = ones(numel(w), 1); way = -stop;
+end
+warning('off', 'all');
+m = lift(); k = m.prepare(m.parameters); y = m.start; w = m.start_switches;
+breaks = [BREAKS]; now = 0; times = 0; strokes = y(1);
+while now < breaks(end)
+  u = m.inputs(now + 1e-12);
+  for round = 1:6
+    wrong = find(m.guards(y, k, u, w) < -m.least, 1);
+    if isempty(wrong), break; end
+    [y, w] = m.change(wrong, m.parameters, k, u, y, w);
+  end
+  last = breaks(find(breaks > now + 1e-12, 1));
+  options = odeset('RelTol', 1e-5, 'AbsTol', 1e-8, 'MaxStep', 0.02, ...
+                   'Jacobian', @(t, y) m.jacobian(y, k, u, w), 'Events', @(t, y) event(m, t, y, k, w));
+  [t, s, te, ye, ie] = ode23s(@(t, y) m.rates(y, k, u, w), [now, last], y, options);
+  times = [times; t(2:end)]; strokes = [strokes; s(2:end, 1)]; y = s(end, :)';
+  now = t(end);
+  if isempty(ie)
+    now = last;
+  else
+    [y, w] = m.change(ie(end), m.parameters, k, u, y, w);
+  end
+end
+f = fopen('y.out', 'w'); fwrite(f, [times, strokes], 'double'); fclose(f);
+"""
+
+
+def test_octaves_own_integrator_makes_the_run_of_the_engine(tmp_path: Path):
+    """Right-hand side, Jacobian and events of the written file, by `ode23s`; the lift leaves its stop."""
+    model = drive("lift")
+    (tmp_path / "lift.m").write_bytes(write(model, "lift")[0].content)
+    breaks = f"{float(model.runnable.signals['opening'].times[1])!r}, 0.6"
+    (tmp_path / "run_all.m").write_text(_RUN.replace("BREAKS", breaks), "utf-8")
+    command = [str(OCTAVE), "--quiet", "--norc", "run_all.m"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr[-3000:]
+    times, strokes = np.fromfile(tmp_path / "y.out").reshape(2, -1)
+    grid = np.linspace(0.0, 0.6, 121)
+    run = our_run(model, grid)
+    assert np.ptp(run.states["stroke"]) > 0.05
+    times, first = np.unique(times, return_index=True)
+    assert np.max(np.abs(np.interp(grid, times, strokes[first]) - run.states["stroke"])) < 1e-4

@@ -17,6 +17,7 @@ def test_the_formats_are_listed(shared_client: TestClient) -> None:
     formats = shared_client.get("/api/exports").json()["formats"]
     assert {"c", "json", "latex", "matlab", "modelica", "python", "table"} <= {each["id"] for each in formats}
     assert [each["drives"] for each in formats if each["id"] == "table"] == [False]
+    assert [each["id"] for each in formats if not each["muscles"]] == ["linear"]
 
 
 def test_one_file_comes_as_it_is_with_its_name(shared_client: TestClient) -> None:
@@ -60,6 +61,8 @@ def test_a_fitted_model_keeps_its_range_and_its_files(shared_client: TestClient)
         ({"as": "c"}, "muscle"),
         ({"as": "c", "muscle": MUSCLE, "drive": "propneu-20"}, "drive"),
         ({"as": "fortran", "muscle": MUSCLE}, "as"),
+        ({"as": "linear", "muscle": MUSCLE}, "as"),
+        ({"as": "linear", "drive": "paper-ramp"}, "as"),
         ({"as": "c", "drive": "propneu-21"}, "drive"),
         ({"as": "c", "drive": "propneu-20", "effects": {}}, "effects"),
         ({"as": "c", "muscle": MUSCLE, "name": "../../x"}, "name"),

@@ -36,8 +36,9 @@ class Exportable(Frozen):
         Args:
             path: of the main file; several files stand beside it under its name, or in it if it ends with
                 ``.zip``. A folder takes them under the name of the model.
-            as_: "c", "fmu", "json", "latex", "matlab", "modelica", "python" or "table". An FMU has a binary
-                for each platform that a C compiler is found for; a warning names those that it lacks.
+            as_: "c", "fmu" (FMI 2.0), "fmu3" (FMI 3.0), "json", "latex", "linear" (of a drive: ``.mat`` or
+                ``.json`` by the ending), "matlab", "modelica", "python" or "table". An FMU has a binary for
+                each platform that a C compiler is found for; a warning names those that it lacks.
 
         Returns:
             the files written.

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.simulation.statics.inverse import contraction_at
 from mckibben.simulation.statics.model import StaticModel
 
 PRESSURES, CONTRACTIONS, FORCES = 25, 41, 25  # breakpoints
@@ -28,10 +29,13 @@ class Lookup:
         pressure, contraction, force_axis: breakpoints.
         force, volume: at pressures (rows) and contractions (columns); at rest, without direction.
         inverse: pressure for the forces (rows) at contractions; NaN where no permitted pressure gives it.
+        blocked_force, free_contraction: over pressure: force at the nominal length, contraction without load,
+            NaN where there is none.
         force_error, force_error_pulling: largest error of bilinear interpolation between breakpoints, in all
             cells and in those in which the muscle pulls at all corners [N].
         volume_error: of the volume [m^3].
         pressure_error: of the inverse table, in cells without NaN [Pa].
+        blocked_error, free_error: of linear interpolation over pressure [N], [-].
     """
 
     pressure: np.ndarray
@@ -40,24 +44,46 @@ class Lookup:
     force: np.ndarray
     volume: np.ndarray
     inverse: np.ndarray
+    blocked_force: np.ndarray
+    free_contraction: np.ndarray
     force_error: float
     force_error_pulling: float
     volume_error: float
     pressure_error: float
+    blocked_error: float
+    free_error: float
 
     @property
     def notes(self) -> list[str]:
-        """What the tables leave out, and how exact they are."""
+        """Where the tables end, and how exact they are."""
         largest = float(np.max(self.force))
         return [
-            "Velocity, direction and memory: the tables hold for a muscle at rest.",
             f"Between breakpoints (bilinear, measured at {len(_BETWEEN) ** 2} points of every cell): force "
             f"within {self.force_error:.3g} N ({100.0 * self.force_error / largest:.2g} % of the largest), "
             f"within {self.force_error_pulling:.3g} N where all corners of the cell pull; volume within "
-            f"{self.volume_error:.3g} m^3; pressure for a force within {self.pressure_error:.3g} Pa.",
+            f"{self.volume_error:.3g} m^3; pressure for a force within {self.pressure_error:.3g} Pa. Over "
+            f"pressure alone (linear): blocked force within {self.blocked_error:.3g} N, free contraction "
+            f"within {self.free_error:.3g}.",
             f"Pressures above {self.pressure[-1]:.6g} Pa, contractions outside {self.contraction[0]:.4g} to "
             f"{self.contraction[-1]:.4g}.",
         ]
+
+
+def left_out(lookup: Lookup, slow: StaticModel) -> str:
+    """What motion changes, with the largest change by friction and hysteresis, which is measured.
+
+    Args:
+        lookup: the tables, without direction.
+        slow: the model with friction that has memory fully built up in its direction.
+    """
+    lengths = slow.muscle.nominal_length * (1.0 - lookup.contraction)
+    loops = (slow.curves(lookup.pressure, lengths, direction=each).force for each in (-1.0, 1.0))
+    change = max(_largest(loop - lookup.force) for loop in loops)
+    moved = f"changes the force by up to {change:.3g} N" if change > 0.0 else "does not change the force"
+    return (
+        "Velocity, direction and memory: the tables hold for a muscle at rest. A long slow motion, after "
+        f"which friction and hysteresis are fully built up, {moved}."
+    )
 
 
 def lookup_of(model: StaticModel) -> Lookup:
@@ -78,6 +104,7 @@ def lookup_of(model: StaticModel) -> Lookup:
         for table, values in ((curves.force, exact.force), (curves.volume, exact.volume))
     )
     pulling = np.minimum.reduce([curves.force[a:b, c:d] for a, b in _HALVES for c, d in _HALVES]) > 0.0
+    lines = [_over_pressure(model, each) for each in (pressure, between[0])]
     width = len(_BETWEEN)
     of_pulling = np.kron(pulling, np.ones((width, width), bool))
     return Lookup(
@@ -87,6 +114,8 @@ def lookup_of(model: StaticModel) -> Lookup:
         force=curves.force,
         volume=curves.volume,
         inverse=inverse,
+        blocked_force=lines[0][0],
+        free_contraction=lines[0][1],
         force_error=_largest(forces),
         force_error_pulling=_largest(np.where(of_pulling, forces, np.nan)),
         volume_error=_largest(volumes),
@@ -94,7 +123,15 @@ def lookup_of(model: StaticModel) -> Lookup:
             _bilinear(force_axis, contraction, inverse, between[2], between[1])
             - _inverse(model, between[2], between[1], highest)
         ),
+        blocked_error=_largest(np.interp(between[0], pressure, lines[0][0]) - lines[1][0]),
+        free_error=_largest(np.interp(between[0], pressure, lines[0][1]) - lines[1][1]),
     )
+
+
+def _over_pressure(model: StaticModel, pressure: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Blocked force [N] and free contraction [-]."""
+    blocked = model.force(length=model.muscle.nominal_length, pressure=pressure)
+    return blocked, contraction_at(model, load=0.0, pressures=pressure)
 
 
 _HALVES = ((None, -1), (1, None))

@@ -49,6 +49,9 @@ class Format:
         write: files of a subject under a stem, the main one first. Names begin with the stem, which is made
             of letters, digits, ``-``, ``_`` and ``.``. Raises InputError for what the format cannot carry.
         drives: whether it can carry a whole drive; otherwise it takes the muscle of one.
+        muscles: whether it can carry a muscle alone; otherwise it needs a drive.
+        alternatives: whether its files are the same model in several forms: a path with the ending of one
+            gets that one alone.
         identifier: whether the stem must be an identifier, because the program reads the file by its name.
         id: name of the file that declares it, set by `formats`.
     """
@@ -57,6 +60,8 @@ class Format:
     note: str
     write: Callable[[Subject, str], tuple[ExportedFile, ...]]
     drives: bool = True
+    muscles: bool = True
+    alternatives: bool = False
     identifier: bool = False
     id: str = ""
 

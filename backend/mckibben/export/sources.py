@@ -35,6 +35,24 @@ DRIVE_CONSTANTS: Mapping[str, tuple[str, str, str]] = {
     "exhaust_ratio": ("1", "Critical pressure ratio of venting.", "valve.exhaust_critical_pressure_ratio"),
     "regulator_range": ("Pa", "Gauge pressure of the regulator at full command.", "regulator.range"),
     "regulator_time": ("s", "Time constant of the regulator.", "regulator.time"),
+    "regulator_damping": ("1", "Damping ratio of a regulator of second order.", "regulator.damping"),
+    "regulator_band": ("Pa", "Pressure error at which an orifice is fully open.", "regulator.band"),
+    "regulator_dead_band": ("Pa", "Error in which both orifices are closed.", "regulator.dead_band"),
+    "filling_restriction": ("m^3/(s*Pa)", "Flow control valve, filling; 1 is free flow.", "flow_control"),
+    "filling_restriction_ratio": ("1", "Its critical pressure ratio.", "flow_control"),
+    "venting_restriction": ("m^3/(s*Pa)", "Flow control valve, venting; 1 is free flow.", "flow_control"),
+    "venting_restriction_ratio": ("1", "Its critical pressure ratio.", "flow_control"),
+    "quick_exhaust_conductance": (
+        "m^3/(s*Pa)",
+        "Exhaust of a quick exhaust valve.",
+        "quick_exhaust.sonic_conductance",
+    ),
+    "quick_exhaust_ratio": (
+        "1",
+        "Critical pressure ratio of it.",
+        "quick_exhaust.critical_pressure_ratio",
+    ),
+    "quick_exhaust_band": ("Pa", "Pressure difference at which it is fully open.", "quick_exhaust.band"),
     "tube_volume": ("m^3", "Volume of the tube.", "tube"),
     "tube_conductance": ("m^3/(s*Pa)", "Sonic conductance of the tube.", "tube"),
     "tube_ratio": ("1", "Critical pressure ratio of the tube.", "tube"),
@@ -157,7 +175,8 @@ class Sources:
                 return f"{part.id}: {quantity.source}", quantity.grade
             if isinstance(part, ValvePreset) and section == "regulator" and part.regulator is not None:
                 quantity = getattr(part.regulator, field)
-                return f"{part.id}: {quantity.source}", quantity.grade
+                if quantity is not None:
+                    return f"{part.id}: {quantity.source}", quantity.grade
         if name == "gravity":
             return "standard gravity 9.80665 m/s^2 times the sine of the inclination", "C"
         return "default of the program, or follows from other entries", "E"

@@ -131,6 +131,7 @@ class Subject:
         about: what every file says of it.
         name: of functions, an identifier.
         statics: the checked static model.
+        slow: the same with friction that has memory fully built up in its direction.
         start: muscle and effects as stated.
         document: JSON that stands alone; reading it gives the same model.
         runnable: the drive; None for a muscle alone.
@@ -139,6 +140,7 @@ class Subject:
     about: About
     name: str
     statics: StaticModel
+    slow: StaticModel
     start: StartModel
     document: dict[str, Any]
     runnable: RunnableDrive | None
@@ -192,7 +194,8 @@ def subject_of(stated: Stated, studio: Studio) -> Subject:
         assumed=tuple(_assumed(stated, start, annotated)),
         origin=tuple(_origin(stated)),
     )
-    return Subject(about, name, statics, start, _document(stated, start, studio), runnable)
+    slow = studio.slow_model(start)
+    return Subject(about, name, statics, slow, start, _document(stated, start, studio), runnable)
 
 
 def runnable_of(annotated: AnnotatedDrive, *, commanded: bool) -> RunnableDrive:
@@ -305,6 +308,12 @@ def _left_out(equations: StaticEquations, start: StartModel, runnable: RunnableD
         yield (
             f"The controller (sampled PID, every {drive.controller.sample_time:g} s): the opening is an "
             "input, to be computed by your own controller."
+        )
+    if drive.pwm is not None:
+        own = "" if drive.controller is not None else "The command of the document is written as its pulses. "
+        yield (
+            f"The pulse-width modulation ({drive.pwm.frequency:g} Hz): the opening is that of the switching "
+            f"valves. {own}Modulate your own commands."
         )
     if any(runnable.dead_times):
         on, off = runnable.dead_times

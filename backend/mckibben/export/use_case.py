@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from mckibben.documents.studio import Studio
@@ -56,6 +56,12 @@ def export(question: ExportQuestion, studio: Studio) -> Export:
     form = format_named(question.format)
     stem = None if question.stem is None else checked_stem(question.stem, form)
     subject = subject_of(question.stated, studio)
+    if subject.runnable is None and not form.muscles:
+        raise InputError(
+            f"{form.title} need a drive, and this is a muscle alone: without load and valve nothing moves",
+            field="as",
+            hint="name a drive, or take another format",
+        )
     name = subject.name if stem is None else stem
     return Export(form.write(subject, name), subject.about.id, name)
 
@@ -117,6 +123,14 @@ def write_export(
     except InputError as error:
         raise InputError(f"{named}: {error.message}", hint=error.hint) from error
     done = _told(export(ExportQuestion(question.stated, question.format, stem), studio), remark)
+    if form.alternatives:
+        wanted = [each for each in done.files if Path(each.name).suffix == path.suffix.lower()]
+        if not wanted and path.suffix.lower() != ".zip":
+            known = ", ".join(Path(each.name).suffix for each in done.files)
+            raise InputError(
+                f"{named}: {form.title} are not written as '{path.suffix}'", hint=f"end the name with {known}"
+            )
+        done = replace(done, files=tuple(wanted) or done.files)
     if len(done.files) == 1:
         return [_written(path, done.files[0].content, named)]
     if path.suffix.lower() == ".zip":

@@ -24,6 +24,9 @@ _TARGETS = {
     "darwin64": ("x86_64-macos", "aarch64-macos"),
 }
 _PAGE = 14  # log2 of the alignment of the parts of a macOS binary
+# Operating systems as FMI 3.0 names them.
+_SYSTEMS = {"linux64": "linux", "win64": "windows", "darwin64": "darwin"}
+_ARCHITECTURES = {"AMD64": "x86_64", "arm64": "aarch64"}
 # What an architecture is called in the head of a macOS binary of several.
 _PROCESSORS = {"x86_64-macos": (0x01000007, 3), "aarch64-macos": (0x0100000C, 0)}
 
@@ -65,9 +68,19 @@ def compilers() -> tuple[Compiler, ...]:
     return tuple(found[name] for name in _SUFFIX if name in found)
 
 
-def built(sources: Mapping[str, str], identifier: str, using: tuple[Compiler, ...]) -> Built:
-    """Compile sources for all platforms of some compilers."""
+def built(
+    sources: Mapping[str, str], identifier: str, using: tuple[Compiler, ...], *, tuples: bool = False
+) -> Built:
+    """Compile sources for all platforms of some compilers.
+
+    Args:
+        sources: name -> text.
+        identifier: name of the binaries.
+        using: the compilers.
+        tuples: whether a folder is named by architecture and system, as in FMI 3.0, not by platform.
+    """
     binaries: dict[str, bytes] = {}
+    done: set[str] = set()
     remarks = []
     for compiler in using:
         name = f"{identifier}{_SUFFIX[compiler.platform]}"
@@ -82,10 +95,15 @@ def built(sources: Mapping[str, str], identifier: str, using: tuple[Compiler, ..
                 f"The FMU has no binary for {compiler.platform}, the compiler failed: {first[:200]}"
             )
             continue
+        done.add(compiler.platform)
+        if tuples:
+            for target, part in parts.items():
+                binaries[f"binaries/{_tuple_of(compiler.platform, target)}/{name}"] = part
+            continue
         binaries[f"binaries/{compiler.platform}/{name}"] = (
             next(iter(parts.values())) if len(parts) == 1 else universal(parts)
         )
-    missing = [name for name in _SUFFIX if not any(f"/{name}/" in path for path in binaries)]
+    missing = [name for name in _SUFFIX if name not in done]
     if not using:
         remarks.append(
             "The FMU holds sources only: no C compiler was found here. Install gcc, or the extra 'fmu' "
@@ -97,6 +115,12 @@ def built(sources: Mapping[str, str], identifier: str, using: tuple[Compiler, ..
             f"{' and '.join(missing)}; the extra 'fmu' (pip install 'mckibben[fmu]') compiles for them too."
         )
     return Built(binaries, tuple(remarks))
+
+
+def _tuple_of(name: str, target: str) -> str:
+    """ "x86_64-linux" of a platform; without a target that of this machine."""
+    architecture = target.partition("-")[0] or platform.machine()
+    return f"{_ARCHITECTURES.get(architecture, architecture)}-{_SYSTEMS[name]}"
 
 
 def _compiled(sources: Mapping[str, str], name: str, command: tuple[str, ...]) -> bytes:

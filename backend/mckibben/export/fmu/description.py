@@ -1,4 +1,4 @@
-"""``modelDescription.xml`` of FMI 2.0."""
+"""``modelDescription.xml``."""
 
 from __future__ import annotations
 
@@ -6,11 +6,11 @@ import re
 from collections.abc import Iterable, Iterator
 from xml.etree import ElementTree
 
+from mckibben.export.fmu.dialects import Described, Dialect, as_text
 from mckibben.export.fmu.variables import (
     INPUT,
     OUTPUT,
     PARAMETER,
-    PLAY,
     RATE,
     STATE,
     SWITCH,
@@ -39,13 +39,17 @@ _UNITS: dict[str, tuple[int, ...]] = {
 _TOKEN = re.compile(r"([A-Za-z]+|1)(?:\^?(-?\d+))?|([*/()])")
 # At 1e-6 an integrator of several steps' memory like CVode errs by 0.1 mm where a load lands.
 _TOLERANCE = "1e-07"
+STARTS = (
+    "The states start where the document starts with its own parameters: they do not follow a parameter that "
+    "is changed. Then set the states too, or let the model come to rest before its inputs move."
+)
 _PLAYED = (
     "true: the document's course of the inputs {names} is played, with its dead times applied, and their "
     "values are ignored; false: the inputs act as set."
 )
 
 
-def description(plant: Plant, identifier: str, guid: str, sources: Iterable[str]) -> str:
+def description(plant: Plant, identifier: str, guid: str, sources: Iterable[str], dialect: Dialect) -> str:
     """The XML.
 
     Args:
@@ -53,66 +57,36 @@ def description(plant: Plant, identifier: str, guid: str, sources: Iterable[str]
         identifier: of the binaries.
         guid: of the FMU.
         sources: names of the C files.
+        dialect: version of FMI.
     """
     about, drive = plant.subject.about, plant.drive
+    said = [f"Model {about.id}, sha256 {about.hash}.", *([STARTS] if plant.states else []), *about.left_out]
     root = ElementTree.Element(
         "fmiModelDescription",
-        fmiVersion="2.0",
-        modelName=_text(about.title),
-        guid=guid,
-        description=_text(" ".join([f"Model {about.id}, sha256 {about.hash}.", *about.left_out])),
-        version=about.hash[:12],
-        generationTool=_text(about.program),
-        variableNamingConvention="structured",
-        numberOfEventIndicators=str(len(plant.switches)),
+        {
+            "fmiVersion": dialect.version,
+            "modelName": _text(about.title),
+            dialect.token: guid,
+            "description": _text(" ".join(said)),
+            "version": about.hash[:12],
+            "generationTool": _text(about.program),
+            "variableNamingConvention": "structured",
+            **dialect.root(plant),
+        },
     )
-    files = list(sources)
-    common = {
-        "modelIdentifier": identifier,
-        "canNotUseMemoryManagementFunctions": "true",
-        "canGetAndSetFMUstate": "true",
-        "canSerializeFMUstate": "true",
-        "providesDirectionalDerivative": "true",
-    }
-    for kind, more in (
-        ("ModelExchange", {}),
-        ("CoSimulation", {"canHandleVariableCommunicationStepSize": "true", "canInterpolateInputs": "true"}),
-    ):
-        own = ElementTree.SubElement(root, kind, {**common, **more})
-        listed = ElementTree.SubElement(own, "SourceFiles")
-        for name in files:
-            ElementTree.SubElement(listed, "File", name=name)
+    dialect.interfaces(root, identifier, list(sources))
+    described = list(_described(plant))
+    names = [each.attributes["name"] for each in described]
+    assert len(set(names)) == len(names), names  # noqa: S101 - names are made unique
     variables = ElementTree.Element("ModelVariables")
-    units: set[str] = set()
-    index = _Indexed(variables, units)
-    states = [
-        index.add(each, STATE + n, "local", "continuous", initial="exact")
-        for n, each in enumerate(plant.states)
-    ]
-    rates = [
-        index.add(each, RATE + n, "local", "continuous", derivative=states[n])
-        for n, each in enumerate(plant.rates())
-    ]
-    for n, each in enumerate(plant.inputs):
-        index.add(each, INPUT + n, "input", "continuous")
-    outputs = [index.add(each, OUTPUT + n, "output", "continuous") for n, each in enumerate(plant.outputs)]
-    for n, each in enumerate(plant.switches):
-        index.add(each, SWITCH + n, "local", "discrete", initial="exact")
-    for n, each in enumerate(plant.parameters):
-        index.add(each, PARAMETER + n, "parameter", "tunable")
+    for each in described:
+        dialect.variable(variables, each)
     if plant.plays:
-        names = ", ".join(each.name for each, own in zip(plant.inputs, plant.played, strict=True) if own)
-        said = {
-            "description": _PLAYED.format(names=names),
-            "causality": "parameter",
-            "variability": "tunable",
-        }
-        own = ElementTree.SubElement(
-            variables, "ScalarVariable", {"name": PLAY, "valueReference": "0", **said}
-        )
-        ElementTree.SubElement(own, "Boolean", start="false")
+        names = [each.name for each, own in zip(plant.inputs, plant.played, strict=True) if own]
+        dialect.flag(variables, _PLAYED.format(names=", ".join(names)))
+    dialect.last(variables, plant)
     defined = ElementTree.SubElement(root, "UnitDefinitions")
-    for unit in sorted(units):
+    for unit in sorted({each.unit for each in described} - {"1"} | {"s"}):
         own = ElementTree.SubElement(defined, "Unit", name=unit)
         exponents = dimension(unit)
         if exponents is not None:
@@ -125,49 +99,40 @@ def description(plant: Plant, identifier: str, guid: str, sources: Iterable[str]
     times = {"startTime": "0.0", "stopTime": repr(stop), "tolerance": _TOLERANCE, "stepSize": "0.001"}
     ElementTree.SubElement(root, "DefaultExperiment", times)
     root.append(variables)
-    structure = ElementTree.SubElement(root, "ModelStructure")
-    for kind, unknowns in (
-        ("Outputs", outputs),
-        ("Derivatives", rates),
-        ("InitialUnknowns", sorted([*outputs, *rates])),
-    ):
-        if unknowns:
-            own = ElementTree.SubElement(structure, kind)
-            for number in unknowns:
-                ElementTree.SubElement(own, "Unknown", index=str(number))
-    ElementTree.indent(root)
-    return f'<?xml version="1.0" encoding="UTF-8"?>\n{ElementTree.tostring(root, encoding="unicode")}\n'
+    dialect.structure(root, described, plant)
+    return as_text(root)
 
 
-class _Indexed:
-    """Adds variables and counts them, as the structure refers to them by number."""
+def _described(plant: Plant) -> Iterator[Described]:
+    """All real variables in their order; states first, then their rates."""
+    for n, each in enumerate(plant.states):
+        yield _real(each, STATE + n, "local", "continuous", initial="exact")
+    for n, each in enumerate(plant.rates()):
+        yield _real(each, RATE + n, "local", "continuous", state=STATE + n)
+    for n, each in enumerate(plant.inputs):
+        yield _real(each, INPUT + n, "input", "continuous")
+    for n, each in enumerate(plant.outputs):
+        yield _real(each, OUTPUT + n, "output", "continuous")
+    for n, each in enumerate(plant.switches):
+        yield _real(each, SWITCH + n, "local", "discrete", initial="exact")
+    for n, each in enumerate(plant.parameters):
+        yield _real(each, PARAMETER + n, "parameter", "tunable")
 
-    def __init__(self, parent: ElementTree.Element, units: set[str]) -> None:
-        self._parent, self._units, self._names = parent, units, set[str]()
 
-    def add(
-        self, variable: Variable, reference: int, causality: str, variability: str,
-        initial: str | None = None, derivative: int | None = None,
-    ) -> int:  # fmt: skip
-        """Add a variable; returns its number, from 1."""
-        assert variable.name not in self._names, variable.name  # noqa: S101 - names are made unique
-        self._names.add(variable.name)
-        attributes = {
-            "name": variable.name, "valueReference": str(reference), "description": _text(variable.meaning),
-            "causality": causality, "variability": variability,
-        }  # fmt: skip
-        if initial is not None:
-            attributes["initial"] = initial
-        own = ElementTree.SubElement(self._parent, "ScalarVariable", attributes)
-        unit = {} if variable.unit == "1" else {"unit": variable.unit}
-        self._units.update(unit.values())
-        numbers = {"min": variable.least, "max": variable.most, "nominal": variable.nominal}
-        numbers["start"] = variable.start
-        real = {name: repr(float(number)) for name, number in numbers.items() if number is not None}
-        if derivative is not None:
-            real["derivative"] = str(derivative)
-        ElementTree.SubElement(own, "Real", {**unit, **real})
-        return len(self._names)
+def _real(
+    variable: Variable, reference: int, causality: str, variability: str,
+    initial: str | None = None, state: int | None = None,
+) -> Described:  # fmt: skip
+    attributes = {
+        "name": variable.name, "description": _text(variable.meaning),
+        "causality": causality, "variability": variability,
+    }  # fmt: skip
+    if initial is not None:
+        attributes["initial"] = initial
+    numbers = {"min": variable.least, "max": variable.most, "nominal": variable.nominal}
+    numbers["start"] = variable.start
+    known = {name: repr(float(number)) for name, number in numbers.items() if number is not None}
+    return Described(reference, attributes, variable.unit, known, state)
 
 
 def _text(text: str) -> str:

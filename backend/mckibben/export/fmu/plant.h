@@ -39,7 +39,7 @@ int plant_settle(plant *it);
 void plant_jacobian(const double *y, const double *k, const double *u, const double *w, double *matrix);
 void plant_input_jacobian(const double *y, const double *k, const double *u, const double *w, double *matrix);
 
-enum { PLANT_DONE = 0, PLANT_STEP_TOO_SMALL = 1, PLANT_NOT_FINITE = 2, PLANT_CHATTERS = 3 };
+enum { PLANT_DONE = 0, PLANT_STEP_TOO_SMALL = 1, PLANT_NOT_FINITE = 2, PLANT_CHATTERS = 3, PLANT_TOO_STIFF = 4 };
 /* Integrates to a time, over switches and pieces of the inputs. */
 int plant_advance(plant *it, double end);
 

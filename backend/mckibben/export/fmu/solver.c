@@ -13,6 +13,7 @@
 enum { N = PLANT_ROOM(MODEL_STATES), W = PLANT_ROOM(MODEL_SWITCHES), U = PLANT_ROOM(MODEL_INPUTS) };
 /* Switches that change more often between two calls make the model chatter. */
 enum { MOST_CHANGES = 10000 };
+enum { MOST_TRIES = 1000000 }; /* of steps, in one call or piece of the inputs */
 
 typedef struct {
     double start[N], end[N], stages[6][N], dense[2][N];
@@ -231,6 +232,7 @@ static int advance_piece(plant *it, double end)
 {
     step_of s;
     int landing = -1, failed = 0, changes = 0;
+    long tries = 0;
     double h = it->step, after_landing = h;
     plant_settle(it);
     while (it->time < end) {
@@ -239,6 +241,9 @@ static int advance_piece(plant *it, double end)
         double error, factor, share;
         if (changes > MOST_CHANGES) {
             return PLANT_CHATTERS;
+        }
+        if (++tries > MOST_TRIES) {
+            return PLANT_TOO_STIFF;
         }
         s.t = it->time;
         s.h = h = last ? end - it->time : h;

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mckibben.export.bounds import bounds_of
 from mckibben.export.c_static import RESULT_MEMBERS
 from mckibben.export.drive_equations import COUNTER_OPENING, FORCE, OPENING, SUPPLY
 from mckibben.export.drive_words import Words
@@ -17,9 +18,9 @@ from mckibben.export.subject import RunnableDrive, Subject
 from mckibben.physics.drive_terms import CONSTANTS, COUNTER
 from mckibben.physics.model import ROOM_TEMPERATURE
 
-#: First value reference of each kind; `fmi2.c` knows them.
+#: First value reference of each kind; `access.h` knows them.
 KIND = 100_000
-STATE, RATE, PARAMETER, INPUT, OUTPUT, SWITCH = (KIND * number for number in range(1, 7))
+STATE, RATE, PARAMETER, INPUT, OUTPUT, SWITCH, INDICATOR, TIME = (KIND * number for number in range(1, 9))
 PLAY = "play_document_command"
 _SEGMENT = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
 # Inputs of a muscle alone.
@@ -95,7 +96,7 @@ class Plant:
 
     @cached_property
     def parameters(self) -> list[Variable]:
-        """All numbers that the equations depend on, with the bounds of the effects and the source of each."""
+        """All numbers that the equations depend on, with bounds and the source of each."""
         subject, drive = self.subject, self.drive
         said = {each.name: each for each in subject.about.constants}
         bounds = {
@@ -111,8 +112,8 @@ class Plant:
         found = []
         for full, value in values.items():
             name = f"drive.{full}" if full in CONSTANTS else full
-            least, most = bounds.get(full, (None, None))
-            if least is None or most is None or not least <= value <= most:
+            least, most = bounds.get(full) or bounds_of(full)
+            if (least is not None and value < least) or (most is not None and value > most):
                 least = most = None
             source = said.get(name)
             ground = (

@@ -47,6 +47,7 @@ class ExportFormat(Strict):
     title: str = Field(description="Its name for display.", examples=["C99"])
     note: str = Field(description="What is in it, in a few words.")
     drives: bool = Field(description="Whether it holds a whole drive; otherwise the muscle of one.")
+    muscles: bool = Field(description="Whether it holds a muscle alone; otherwise it needs a drive.")
 
 
 class FormatsAnswer(Strict):
