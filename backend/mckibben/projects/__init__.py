@@ -1,0 +1,1 @@
+"""Projects in a database: document, history, measurements and notes."""

@@ -1,0 +1,167 @@
+"""The database of the projects: SQLite in the user's data folder, or PostgreSQL by its address."""
+
+from __future__ import annotations
+
+import contextlib
+import threading
+from collections.abc import Iterator
+from importlib import resources
+from pathlib import Path
+from typing import Any
+
+from sqlalchemy import Connection, create_engine, event, make_url, text
+from sqlalchemy.exc import ArgumentError, DBAPIError, NoSuchModuleError
+from sqlalchemy.orm import Session
+
+from mckibben.physics.errors import InputError
+
+_WAIT = 10.0  # s; until a lock of another process is given up
+_LOCK = 0x6D636B69  # of a PostgreSQL database while it is migrated; any number of our own
+_DIALECTS = ("sqlite", "postgresql")
+
+
+class Database:
+    """Sessions on a database whose tables are those of this version.
+
+    Nothing is opened before the first session. A committed transaction survives the death of the process and
+    of the machine: SQLite keeps a write-ahead log and waits for the disk.
+
+    Args:
+        address: a folder, in which ``projects.sqlite`` is kept, or an URL such as
+            ``postgresql://user:secret@host/name``.
+
+    Raises:
+        InputError: it is neither, or of a database that is not supported.
+    """
+
+    def __init__(self, address: Path | str) -> None:
+        if isinstance(address, Path):
+            self._file = address / "projects.sqlite"
+            url = make_url("sqlite://").set(database=str(self._file))
+        else:
+            self._file = None
+            url = _url(address)
+            if url.get_backend_name() == "sqlite" and url.database:
+                self._file = Path(url.database)
+        self._engine = create_engine(
+            url,
+            connect_args={"timeout": _WAIT} if self._file else {"connect_timeout": int(_WAIT)},
+            pool_pre_ping=not self._file,
+        )
+        self._ready = threading.Lock()
+        self._migrated = False
+        if self._file:
+            event.listen(self._engine, "connect", _open_sqlite)
+            event.listen(self._engine, "begin", _begin_sqlite)
+
+    @property
+    def place(self) -> str:
+        """Where it is, without a password."""
+        return str(self._file) if self._file else self._engine.url.render_as_string(hide_password=True)
+
+    @contextlib.contextmanager
+    def session(self, *, writes: bool = False) -> Iterator[Session]:
+        """A transaction, committed at the end of the block and undone by an exception.
+
+        Args:
+            writes: whether it changes anything; writers of a SQLite database then wait for each other.
+
+        Raises:
+            InputError: code ``conflict``, the database cannot be reached, read or written.
+        """
+        try:
+            self._migrate()
+            options = {"writes": writes}
+            with self._engine.connect().execution_options(**options) as connection, Session(connection) as s:
+                yield s
+                s.commit()
+        except (DBAPIError, OSError) as error:
+            raise self._unusable(error) from error
+
+    def close(self) -> None:
+        """Close all connections."""
+        self._engine.dispose()
+
+    def _migrate(self) -> None:
+        with self._ready:
+            if self._migrated:
+                return
+            if self._file:
+                self._file.parent.mkdir(parents=True, exist_ok=True)
+            with self._engine.connect().execution_options(writes=True) as connection, connection.begin():
+                if not self._file:  # another server may do the same at this moment
+                    connection.execute(text("SELECT pg_advisory_xact_lock(:key)"), {"key": _LOCK})
+                migrate(connection)
+            self._migrated = True
+
+    def _unusable(self, error: Exception) -> InputError:
+        cause = getattr(error, "orig", None) or error
+        words = " ".join(str(cause).split())[:200]
+        return InputError(
+            f"the projects cannot be read or written: {words}",
+            hint=f"the database is {self.place}; look whether it can be reached and has space",
+            code="conflict",
+        )
+
+
+def migrate(connection: Connection, to: str = "head") -> None:
+    """Bring the database of a connection, within its transaction, to a state of the tables.
+
+    Raises:
+        InputError: a later version of this program has changed it.
+    """
+    from alembic import command
+    from alembic.config import Config
+    from alembic.util import CommandError
+
+    configuration = Config()
+    with resources.as_file(resources.files("mckibben.projects") / "migrations") as folder:
+        configuration.set_main_option("script_location", str(folder).replace("%", "%%"))
+        configuration.set_main_option("path_separator", "os")
+        configuration.attributes["connection"] = connection
+        try:
+            command.upgrade(configuration, to)
+        except CommandError as error:
+            raise InputError(
+                "the database of the projects was made by a later version of this program",
+                hint="install that version, or name another folder with --data",
+                code="conflict",
+            ) from error
+
+
+def _url(address: str) -> Any:
+    problem = f"'{address.partition('@')[2] or address}' is not the address of a database"
+    hint = "e.g. 'postgresql://user:secret@host/name', or 'sqlite:///C:/data/projects.sqlite'"
+    try:
+        url = make_url(address)
+        backend = url.get_backend_name()
+        if backend == "postgresql" and url.drivername == "postgresql":
+            url = url.set(drivername="postgresql+psycopg")
+        url.get_dialect()
+    except (ArgumentError, NoSuchModuleError, ValueError) as error:
+        raise InputError(problem, field="projects", hint=hint) from error
+    if backend not in _DIALECTS:
+        raise InputError(f"databases of {backend} are not supported", field="projects", hint=hint)
+    if backend == "postgresql":
+        try:
+            import psycopg  # noqa: F401
+        except ImportError as error:
+            raise InputError(
+                "the driver of PostgreSQL is not installed",
+                field="projects",
+                hint="pip install 'mckibben[postgres]'",
+            ) from error
+    return url
+
+
+def _open_sqlite(connection: Any, _: object) -> None:
+    connection.isolation_level = None  # transactions begin where `_begin_sqlite` says so
+    cursor = connection.cursor()
+    for setting in ("journal_mode = WAL", "synchronous = FULL", "foreign_keys = ON"):
+        cursor.execute(f"PRAGMA {setting}")
+    cursor.close()
+
+
+def _begin_sqlite(connection: Connection) -> None:
+    writes = connection.get_execution_options().get("writes", False)
+    connection.exec_driver_sql("BEGIN IMMEDIATE" if writes else "BEGIN")

@@ -1,0 +1,16 @@
+"""Alembic's entry: runs the migrations on the connection that `mckibben.projects.database` opened."""
+
+from __future__ import annotations
+
+from alembic import context
+
+from mckibben.projects.tables import Base
+
+context.configure(
+    connection=context.config.attributes["connection"],
+    target_metadata=Base.metadata,
+    transactional_ddl=True,
+    render_as_batch=True,  # SQLite changes a table by copying it
+)
+with context.begin_transaction():
+    context.run_migrations()

@@ -1,0 +1,132 @@
+"""The database itself: migrations, addresses, failures, and what a killed process leaves."""
+
+from __future__ import annotations
+
+import os
+import signal
+import subprocess
+import sys
+import threading
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+import pytest
+from sqlalchemy import text
+
+from mckibben.physics.errors import InputError
+from mckibben.projects.database import Database, migrate
+from mckibben.projects.store import ProjectStore
+from mckibben.projects.tables import Base
+
+WRITER = Path(__file__).with_name("writer.py")
+
+
+def test_the_migrations_end_at_the_tables(database: Database) -> None:
+    from alembic.autogenerate import compare_metadata
+    from alembic.migration import MigrationContext
+
+    with database.session() as session:
+        context = MigrationContext.configure(session.connection(), opts={"compare_type": True})
+        assert compare_metadata(context, Base.metadata) == []
+
+
+def test_a_database_without_studies_is_brought_forward(database: Database) -> None:
+    store = ProjectStore(database)
+    identity = store.create({"kept": True}, title="Lift").summary.id
+    with database._engine.begin() as connection:
+        connection.execute(text("DROP TABLE project_studies"))
+        connection.execute(text("UPDATE alembic_version SET version_num = '0001'"))
+    database._migrated = False
+    opened = store.open(identity)
+    assert (opened.document, opened.studies) == ({"kept": True}, ())
+
+
+def test_servers_that_start_together_migrate_once(tmp_path: Path) -> None:
+    stores = [ProjectStore(Database(tmp_path)) for _ in range(4)]
+    start = threading.Barrier(4)
+
+    def create(store: ProjectStore) -> str:
+        start.wait(10.0)
+        return store.create({}, title="Lift").summary.id
+
+    with ThreadPoolExecutor(4) as pool:
+        made = set(pool.map(create, stores))
+    assert {each.id for each in stores[0].list()} == made
+    assert len(made) == 4
+    for store in stores:
+        store.close()
+
+
+def test_a_database_of_a_later_version_is_left_alone(database: Database) -> None:
+    with database.session(writes=True) as session:
+        session.execute(text("UPDATE alembic_version SET version_num = '9999'"))
+    database._migrated = False
+    with pytest.raises(InputError, match="later version of this program"), database.session():
+        pass
+    with database._engine.begin() as connection:
+        assert connection.scalar(text("SELECT version_num FROM alembic_version")) == "9999"
+        with pytest.raises(InputError, match="later version"):
+            migrate(connection)
+
+
+@pytest.mark.parametrize(
+    ("address", "words"),
+    [
+        ("nonsense", "not the address of a database"),
+        ("mysql://localhost/x", "mysql are not supported|not the address"),
+        ("oracle+none://localhost/x", "not the address"),
+        ("postgresql://user:secret@host:no/x", "not the address"),
+    ],
+)
+def test_addresses_that_are_none_are_refused(address: str, words: str) -> None:
+    with pytest.raises(InputError, match=words) as caught:
+        Database(address)
+    assert "secret" not in str(caught.value)
+    assert "postgresql://" in (caught.value.hint or "")
+
+
+def test_a_database_that_cannot_be_reached_is_said() -> None:
+    database = Database("postgresql://tester:secret@/postgres?host=/nowhere-at-all")
+    with pytest.raises(InputError, match="cannot be read or written") as caught, database.session():
+        pass
+    assert caught.value.code == "conflict"
+    assert "secret" not in f"{caught.value} {caught.value.hint}"
+    database.close()
+
+
+def test_a_file_that_is_no_database_is_said(tmp_path: Path) -> None:
+    (tmp_path / "projects.sqlite").write_bytes(b"a text, not a database" * 100)
+    database = Database(tmp_path)
+    with pytest.raises(InputError, match="cannot be read or written"), database.session():
+        pass
+    database.close()
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="kill -9 is of POSIX")
+def test_nothing_acknowledged_is_lost_by_kill_9(database: Database, tmp_path: Path) -> None:
+    """A process that saves and says so is killed; `tests.benchmarks.projects` does it fifty times."""
+    address = str(tmp_path) if database._file else database._engine.url.render_as_string(hide_password=False)
+    for _ in range(3):
+        acknowledged = killed_while_saving(address, after=5)
+        store = ProjectStore(database)
+        identity, version = acknowledged[-1]
+        opened = store.open(identity)
+        assert opened.summary.version in (version, version + 1)
+        assert opened.document == {"version": opened.summary.version, "filling": "x" * 20_000}
+
+
+def killed_while_saving(address: str, *, after: int) -> list[tuple[str, int]]:
+    """What a process acknowledged, with SIGKILL after some saves."""
+    said = []
+    with subprocess.Popen(
+        [sys.executable, str(WRITER), address], stdout=subprocess.PIPE, text=True
+    ) as process:
+        assert process.stdout is not None
+        for line in process.stdout:
+            identity, version = line.split()
+            said.append((identity, int(version)))
+            if len(said) == after:
+                os.kill(process.pid, signal.SIGKILL)
+                break
+        said += [(line.split()[0], int(line.split()[1])) for line in process.stdout if line.endswith("\n")]
+    return said
