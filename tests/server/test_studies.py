@@ -2,9 +2,22 @@
 
 from __future__ import annotations
 
+import io
+from pathlib import Path
+
+import pytest
 from fastapi.testclient import TestClient
 
+from mckibben.application import study_file
+from mckibben.application.study import prepare, study_question
+from mckibben.application.study_store import StudyStore
+from mckibben.documents.studio import Studio
+from mckibben.documents.study_files import read_study
+from mckibben.resources import presets_folder
+from mckibben.server.app import create_app
 from mckibben.server.schemas.studies import StudyAnswer
+from mckibben.server.settings import Settings
+from mckibben.simulation.outcome import Watch
 from tests.application.test_study import STUDY
 from tests.server.conftest import assert_error, post
 from tests.server.test_simulations import events_of
@@ -52,6 +65,51 @@ def test_the_runs_come_as_events(shared_client: TestClient) -> None:
     assert answer["runs"] == 20
 
 
+def test_what_was_made_is_kept_for_the_next_server(
+    shared_client: TestClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A study that was interrupted goes on in another process and gives the same table."""
+    study = STUDY | {"method": {"type": "monte_carlo", "runs": 12, "seed": 9}}
+    kept = {"runs": 0}
+    assert post(shared_client, f"{PATH}/kept", study).json() == kept
+    question = study_question(read_study(study), Studio(presets=presets_folder()))
+    store, made = StudyStore(tmp_path), []
+    stopped = Watch(found=made.append, cancelled=lambda: bool(made))
+    half = prepare(question, journal=store.of(question), chunk=2)(stopped)
+    assert 0 < half.runs < 12
+    assert store.result(question).table == half.table
+    client = TestClient(create_app(Settings(data=tmp_path)), base_url="http://127.0.0.1")
+    with client:
+        assert post(client, f"{PATH}/kept", study).json() == {"runs": half.runs}
+        answer = post(client, PATH, study).json()
+        assert (answer["kept"], answer["runs"]) == (half.runs, 12)
+        assert answer["table"] == post(shared_client, PATH, study).json()["table"]
+        again = post(client, PATH, study | {"title": "another title"}).json()
+        assert (again["kept"], again["table"]) == (12, answer["table"])
+        assert post(client, f"{PATH}/kept", study | {"method": {"type": "grid"}}).status_code == 200
+        monkeypatch.setattr(study_file, "find_spec", lambda _: None)
+        assert "pyarrow" in assert_error(post(client, f"{PATH}/parquet", study), 422)["message"]
+        assert (
+            post(client, f"{PATH}/options", {"subject": {"drive": "paper-step"}}).json()["parquet"] is False
+        )
+    tiny = StudyStore(tmp_path, quota=1)
+    other = study_question(read_study(STUDY), Studio(presets=presets_folder()))
+    prepare(other, journal=tiny.of(other))(Watch())
+    assert store.runs(question.document, question.studio) == 0
+    assert store.runs(other.document, other.studio) == 20
+
+
+def test_the_table_as_parquet(shared_client: TestClient) -> None:
+    parquet = pytest.importorskip(
+        "pyarrow.parquet", reason="needs the extra parquet: pip install 'mckibben[parquet]'"
+    )
+    answer = post(shared_client, PATH, STUDY).json()
+    response = post(shared_client, f"{PATH}/parquet", STUDY)
+    assert response.headers["content-type"] == "application/vnd.apache.parquet"
+    table = parquet.read_table(io.BytesIO(response.content)).to_pydict()
+    assert table["largest.force"] == answer["table"]["largest.force"]
+
+
 def test_what_is_refused(shared_client: TestClient) -> None:
     for change, field in [
         ({"method": {"type": "monte_carlo", "runs": 20_001}}, "method"),
@@ -62,3 +120,31 @@ def test_what_is_refused(shared_client: TestClient) -> None:
     ]:
         error = assert_error(post(shared_client, PATH, STUDY | change), 422)
         assert error["field"] == field
+
+
+def test_what_can_be_varied_and_watched(shared_client: TestClient) -> None:
+    drive = post(shared_client, f"{PATH}/options", {"subject": {"drive": "propneu-20"}}).json()
+    known = {item["path"]: item for item in drive["quantities"]}
+    assert known["load.mass"]["unit"] == "kg"
+    assert known["muscle.nominal_length"]["value"] > 0.0
+    assert known["gas.temperature"]["value"] == 293.15  # the default: 20 degC
+    assert "regulator.time" not in known  # varying it would make the valve a regulator
+    assert any(path.startswith("effects.") for path in known)
+    assert "timing.extend.positioning_time" in {item["path"] for item in drive["figures"]}
+    task = post(shared_client, f"{PATH}/options", {"subject": {"task": "lift-20kg"}}).json()
+    known = {item["path"]: item["value"] for item in task["quantities"]}
+    assert known["load.mass"] == 20.0
+    assert known["stroke"] == 0.06
+    assert "best.time" in {item["path"] for item in task["figures"]}
+    error = assert_error(post(shared_client, f"{PATH}/options", {"subject": {"drive": "no"}}), 422)
+    assert error["field"] == "subject.drive"
+
+
+def test_every_offered_quantity_can_be_varied(shared_client: TestClient) -> None:
+    options = post(shared_client, f"{PATH}/options", {"subject": {"drive": "propneu-20"}}).json()
+    offered = [item for item in options["quantities"] if item["value"]]
+    ranges = [{"path": q["path"], "values": [q["value"]]} for q in offered]
+    study = STUDY | {"subject": {"drive": "propneu-20"}, "quantities": ranges, "method": {"type": "list"}}
+    study["figures"], study["limits"] = ["timing.extend.positioning_time"], []
+    table = post(shared_client, PATH, study).json()["table"]
+    assert table["outcome"] == ["completed"]

@@ -64,7 +64,7 @@ def test_a_study_that_was_interrupted_gives_the_same_table(plan, tmp_path: Path)
     journal = Journal(path, "study 1", resume=False)
     table, outcome = run_plan(
         plan, TWO, in_threads(slow, 1), Watch(cancelled=lambda: made >= stop), chunk=5,
-        finished=lambda runs, _, rows: journal.add(runs, rows),
+        finished=lambda runs, _, rows: journal.add_rows(runs, rows),
     )  # fmt: skip
     journal.close()
     assert outcome is Outcome.CANCELLED
@@ -76,7 +76,7 @@ def test_a_study_that_was_interrupted_gives_the_same_table(plan, tmp_path: Path)
         known = len(journal.known)
         table, outcome = run_plan(
             plan, TWO, in_threads(slow, 2), Watch(), chunk=11, known=journal.known,
-            finished=lambda runs, _, rows: journal.add(runs, rows),
+            finished=lambda runs, _, rows: journal.add_rows(runs, rows),
         )  # fmt: skip
     assert outcome is Outcome.COMPLETED
     assert same(table, whole)
@@ -90,7 +90,7 @@ def test_a_journal_keeps_missing_figures_and_messages(tmp_path: Path):
     path = tmp_path / "j"
     row = Row("stuck", (float("nan"), 1.0 / 3.0), "why; “quoted”\nline")
     with Journal(path, "a", resume=False) as journal:
-        journal.add([7], [row])
+        journal.add_rows([7], [row])
     with Journal(path, "a", resume=True) as journal:
         kept = journal.known[7]
     assert (kept.outcome, kept.message) == (row.outcome, row.message)

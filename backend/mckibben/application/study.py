@@ -5,9 +5,9 @@ from __future__ import annotations
 import hashlib
 import time
 from collections import Counter
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 import orjson
@@ -20,7 +20,6 @@ from mckibben.documents.study_fields import StudyField
 from mckibben.physics.errors import fields_inside
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.studies.drive_figures import figures_named
-from mckibben.studies.journal import Journal
 from mckibben.studies.optimise import FigureGoal, FigureLimit, front
 from mckibben.studies.plan import Plan, RobustPlan
 from mckibben.studies.run import Workers, in_threads, run_plan
@@ -72,11 +71,7 @@ class StudyQuestion:
     @property
     def fingerprint(self) -> str:
         """Of everything that the rows depend on; title, confidence and further fields do not change it."""
-        whole = self.document.model_dump(
-            mode="json", by_alias=True, exclude={"title", "confidence", "subject"}
-        )
-        content = {"study": whole, "subject": self.subject.content, "version": __version__}
-        return hashlib.sha256(orjson.dumps(content, option=orjson.OPT_SORT_KEYS)).hexdigest()
+        return fingerprint_of(self.document, self.subject)
 
     def document_of(self, run: Sequence[float]) -> dict[str, object]:
         """The document of the subject with the values of a run."""
@@ -117,6 +112,7 @@ class StudyResult:
         probabilities: of keeping the limits; of random runs alone with intervals.
         designs: of a robust study, the most probable to keep all limits first.
         runs, planned: number of runs that were made, and that the study asks for.
+        kept: how many of them were made before, by a study that was interrupted or asked before.
         goals: figures of the goals.
         seed: of the random numbers; None without.
         outcome: "completed", or how the study ended early.
@@ -138,6 +134,7 @@ class StudyResult:
     designs: list[RobustDesign]
     runs: int
     planned: int
+    kept: int
     goals: list[str]
     confidence: float
     seed: int | None
@@ -161,6 +158,13 @@ def study_question(document: StudyDocument, studio: Studio, most_runs: int = MOS
     return StudyQuestion(
         document, subject, variables, fields, figures, goals_of(document), limits, plan, studio
     )
+
+
+def fingerprint_of(document: StudyDocument, subject: StudySubject) -> str:
+    """Of everything that the rows depend on, without the plan; see `StudyQuestion.fingerprint`."""
+    whole = document.model_dump(mode="json", by_alias=True, exclude={"title", "confidence", "subject"})
+    content = {"study": whole, "subject": subject.content, "version": __version__}
+    return hashlib.sha256(orjson.dumps(content, option=orjson.OPT_SORT_KEYS)).hexdigest()
 
 
 def evaluator_of(document: StudyDocument, studio: Studio) -> Evaluate:
@@ -188,21 +192,36 @@ def _varied(
     return tuple(variable for variable, _ in varied), tuple(field for _, field in varied)
 
 
+class Kept(Protocol):
+    """Rows of a study that outlive the process."""
+
+    @property
+    def known(self) -> Mapping[int, Row]:
+        """Rows by the number of their run."""
+        ...
+
+    def add_rows(self, runs: Sequence[int], rows: Sequence[Row]) -> None:
+        """Keep rows of finished runs."""
+        ...
+
+    def close(self) -> None:
+        """No further rows come."""
+        ...
+
+
 def prepare(
     question: StudyQuestion,
     *,
     workers: Workers | None = None,
-    journal: Path | None = None,
-    resume: bool = False,
+    journal: Callable[[], Kept] | None = None,
     chunk: int | None = None,
 ) -> Callable[[Watch], StudyResult]:
-    """The study, ready to start. New rows go to ``watch.found`` as they come.
+    """The study, ready to start. Rows go to ``watch.found`` as they come, those made before first.
 
     Args:
         question: the study.
         workers: who makes the runs; by default threads of this process.
-        journal: file that keeps the rows until the study is complete.
-        resume: do not make runs again that the journal holds.
+        journal: opens what keeps the rows; those that it holds are not made again.
         chunk: number of runs that a worker gets at a time.
     """
     paths = [figure.path for figure in question.figures]
@@ -212,11 +231,9 @@ def prepare(
         makers = workers or in_threads(
             evaluator(question.subject, question.variables, question.fields, paths, question.studio)
         )
-        kept = None if journal is None else Journal(journal, question.fingerprint, resume=resume)
+        kept, recalled = None if journal is None else journal(), 0
 
-        def finished(runs: Sequence[int], points: Array, rows: Sequence[Row]) -> None:
-            if kept is not None:
-                kept.add(runs, rows)
+        def tell(runs: Sequence[int], points: Array, rows: Sequence[Row]) -> None:
             if watch.found is not None:
                 part = StudyTable.of(
                     question.variables,
@@ -224,7 +241,17 @@ def prepare(
                     dict(zip(runs, points, strict=True)),
                     dict(zip(runs, rows, strict=True)),
                 )
-                watch.found({"table": part.columns(), "planned": question.plan.runs})
+                watch.found({"table": part.columns(), "planned": question.plan.runs, "kept": recalled})
+
+        def finished(runs: Sequence[int], points: Array, rows: Sequence[Row]) -> None:
+            if kept is not None:
+                kept.add_rows(runs, rows)
+            tell(runs, points, rows)
+
+        def recall(runs: Sequence[int], points: Array, rows: Sequence[Row]) -> None:
+            nonlocal recalled
+            recalled += len(runs)
+            tell(runs, points, rows)
 
         try:
             table, outcome = run_plan(
@@ -234,17 +261,20 @@ def prepare(
                 watch,
                 known=None if kept is None else kept.known,
                 finished=finished,
+                recalled=recall,
                 chunk=chunk or question.subject.chunk,
             )
         finally:
             if kept is not None:
                 kept.close()
-        return _result(question, table, outcome, (time.perf_counter() - began) * 1e3)
+        return _result(question, table, outcome, recalled, (time.perf_counter() - began) * 1e3)
 
     return work
 
 
-def _result(question: StudyQuestion, table: StudyTable, outcome: Outcome, wall_ms: float) -> StudyResult:
+def _result(
+    question: StudyQuestion, table: StudyTable, outcome: Outcome, kept: int, wall_ms: float
+) -> StudyResult:
     document, plan, method = question.document, question.plan, question.document.method
     level, complete = document.confidence, outcome is Outcome.COMPLETED
     independent = method.type == "monte_carlo"
@@ -273,6 +303,7 @@ def _result(question: StudyQuestion, table: StudyTable, outcome: Outcome, wall_m
         designs=designs,
         runs=len(table.runs),
         planned=plan.runs,
+        kept=kept,
         goals=[goal.figure for goal in question.goals],
         confidence=level,
         seed=getattr(method, "seed", None),

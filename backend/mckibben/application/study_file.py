@@ -6,12 +6,14 @@ import csv
 import io
 import os
 from collections.abc import Callable
+from importlib.util import find_spec
 from pathlib import Path
 
 from mckibben.application.json_text import answer_json
 from mckibben.application.study import StudyQuestion, StudyResult, prepare
 from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.studies.journal import Journal
 from mckibben.studies.run import Workers
 
 ENDINGS = (".csv", ".json", ".parquet")
@@ -34,13 +36,18 @@ def check_out(out: Path, resume: bool) -> None:
         what = "is a folder" if out.is_dir() else f"there is no folder {out.parent}"
         raise InputError(f"{out}: {what}", hint="name a file in an existing folder")
     if out.suffix.lower() == ".parquet":
-        _check_parquet(out)
+        _check_parquet(f"{out}: ")
     if resume and out.exists() and not journal_of(out).exists():
         raise InputError(f"{out}: this study is complete, there is nothing to resume", hint="omit --resume")
 
 
 def prepare_file(
-    question: StudyQuestion, out: Path, *, resume: bool, workers: Workers | None = None
+    question: StudyQuestion,
+    out: Path,
+    *,
+    resume: bool,
+    workers: Workers | None = None,
+    chunk: int | None = None,
 ) -> Callable[[Watch], StudyResult]:
     """A study whose table goes to a file; runs are kept in a journal beside it until all are made.
 
@@ -49,7 +56,12 @@ def prepare_file(
     """
     check_out(out, resume)
     journal = journal_of(out)
-    study = prepare(question, workers=workers, journal=journal, resume=resume)
+    study = prepare(
+        question,
+        workers=workers,
+        journal=lambda: Journal(journal, question.fingerprint, resume=resume),
+        chunk=chunk,
+    )
 
     def work(watch: Watch) -> StudyResult:
         result = study(watch)
@@ -88,17 +100,31 @@ def write_table(result: StudyResult, out: Path) -> None:
         elif ending == ".json":
             part.write_bytes(answer_json(result) + b"\n")
         else:
-            _check_parquet(out)
-            import pandas as pd
-
-            pd.DataFrame(result.table).to_parquet(part, index=False)
+            part.write_bytes(parquet_bytes(result, f"{out}: "))
         os.replace(part, out)
     except OSError as error:
         raise InputError(f"{out}: cannot be written: {error.strerror or error}") from error
 
 
-def _check_parquet(out: Path) -> None:
-    from importlib.util import find_spec
+def has_parquet() -> bool:
+    """Whether what writes Parquet is installed; it is an extra."""
+    return find_spec("pyarrow") is not None
 
-    if find_spec("pyarrow") is None:
-        raise InputError(f"{out}: parquet needs pyarrow", hint='pip install "mckibben[parquet]", or use .csv')
+
+def parquet_bytes(result: StudyResult, where: str = "") -> bytes:
+    """The table as Parquet, SI.
+
+    Raises:
+        InputError: a library is missing.
+    """
+    _check_parquet(where)
+    import pandas as pd
+
+    stream = io.BytesIO()
+    pd.DataFrame(result.table).to_parquet(stream, index=False)
+    return stream.getvalue()
+
+
+def _check_parquet(where: str) -> None:
+    if not has_parquet():
+        raise InputError(f"{where}parquet needs pyarrow", hint='pip install "mckibben[parquet]", or use CSV')

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
+from pathlib import Path
+from typing import Annotated
+
 import typer
 
 from mckibben.cli.app import app
@@ -14,8 +18,19 @@ from mckibben.cli.options import (
     ModelOptions,
     MuscleText,
     PresetsFolder,
+    ProjectsAddress,
     SavedModelFile,
 )
+
+
+class LogLevel(StrEnum):
+    """What is written to the terminal: this and what is worse."""
+
+    critical = "critical"
+    error = "error"
+    warning = "warning"
+    info = "info"
+    debug = "debug"
 
 
 @app.command()
@@ -33,9 +48,26 @@ def serve(
         max=64,
         help="Processes for diagnoses, sizings and reports; 0 = none of their own. Default: one per core.",
     ),
+    token_file: Annotated[
+        Path | None,
+        typer.Option(
+            metavar="FILE",
+            help="Take the token from this file instead of a new one at each start; also MCKIBBEN_TOKEN.",
+        ),
+    ] = None,
+    log_level: Annotated[LogLevel, typer.Option(help="What is written to the terminal.")] = LogLevel.warning,
+    access_log: bool | None = typer.Option(
+        None,
+        "--access-log/--no-access-log",
+        help="A line for each request. Default: only on addresses that others can reach.",
+    ),
+    quota: float = typer.Option(
+        4.0, min=0.001, metavar="GB", help="How much kept measurements may take on the disk."
+    ),
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
     data: DataFolder = None,
+    projects: ProjectsAddress = "",
 ) -> None:
     """Start the studio and open it in the browser."""
     from mckibben.cli.serve import run
@@ -45,9 +77,14 @@ def serve(
         port=port,
         open_browser=not no_open,
         workers=workers,
+        token_file=token_file,
+        log_level=log_level.value,
+        access_log=access_log,
+        quota=quota,
         presets=presets,
         effects=effects or [],
         data=data,
+        projects=projects or None,
     )
 
 
@@ -59,6 +96,11 @@ def curves(
     model: SavedModelFile = "",
     pressure: str | None = typer.Option(
         None, help='Gauge pressures, e.g. "1 bar,3 bar"; 1 to 6 bar when left out.'
+    ),
+    stiffness: bool = typer.Option(
+        False,
+        "--stiffness",
+        help="Also the stiffness: tangent, valve closed, that which the force implies, and the secant.",
     ),
     as_json: AsJson = False,
     presets: PresetsFolder = None,
@@ -73,5 +115,6 @@ def curves(
         open_studio(presets, effects, data),
         model=ModelOptions(muscle, ideal, effect or (), model=model),
         pressure=pressure,
+        stiffness=stiffness,
         as_json=as_json,
     )

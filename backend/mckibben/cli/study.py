@@ -21,6 +21,7 @@ def run(
     out: Path | None,
     resume: bool,
     scheduler: str | None,
+    chunk: int | None,
     as_json: bool,
 ) -> None:
     """Run the study; print its summary or the JSON answer, write its table if requested.
@@ -43,9 +44,9 @@ def run(
 
         workers = on_cluster(question, scheduler)
     if out is None:
-        work = prepare(question, workers=workers)
+        work = prepare(question, workers=workers, chunk=chunk)
     else:
-        work = prepare_file(question, out, resume=resume, workers=workers)
+        work = prepare_file(question, out, resume=resume, workers=workers, chunk=chunk)
     try:
         with progress("running the study") as watch:
             result = work(watch)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import hashlib
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
@@ -39,7 +40,17 @@ class Studio:
             name: {p.name: p for p in effect.parameters} for name, effect in self.catalogue.items()
         }
         self.library = PresetLibrary(presets, user_presets, self.effect_table)
+        self._own = (*(() if user_presets is None else (user_presets,)), *effects)
         self._facts: dict[str, tuple[MusclePreset, PresetFacts]] = {}
+
+    def own_mark(self) -> str:
+        """Of the contents of all files of the user, wherever they are: what he changes in them changes it."""
+        mark = hashlib.sha256()
+        for folder in self._own:
+            for path in sorted(folder.rglob("*")):
+                if path.suffix in (".json", ".py") and path.is_file():
+                    mark.update(f"{path.relative_to(folder).as_posix()}\n".encode() + path.read_bytes())
+        return mark.hexdigest()
 
     def start_model(
         self, muscle: StatedMuscle, effects: Mapping[str, Mapping[str, float | str]] | None

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from types import NoneType
 from typing import Annotated, Any, get_args, get_origin
 
 from pydantic import BaseModel
@@ -108,6 +109,33 @@ def field_at(
     if isinstance(value, int | float) and not isinstance(value, bool):
         return StudyField(path, None, float(value))
     return StudyField(path, None)
+
+
+def stated_paths(model: type[BaseModel], content: Mapping[str, Any], effects: EffectTable) -> Iterator[str]:
+    """Paths of the values in a document, and of fields that have a default in parts that always exist.
+
+    Not every one of them can be varied; `field_at` says.
+    """
+    for name, field in model.model_fields.items():
+        path = field.alias or name
+        value = content.get(path)
+        if path == "effects":
+            for effect in value or {}:
+                yield from (f"effects.{effect}.{parameter}" for parameter in effects.get(effect, {}))
+            continue
+        parts = list(_parts(field.annotation, field.metadata))
+        inner = [kind for kind, _ in parts if isinstance(kind, type) and issubclass(kind, BaseModel)]
+        if any(isinstance(item, SignalInput) for _, metadata in parts for item in metadata):
+            yield from (f"{path}.{key}" for key in value) if isinstance(value, Mapping) else (path,)
+        elif not inner:
+            yield path
+        elif isinstance(value, Mapping) or (value is None and not any(kind is NoneType for kind, _ in parts)):
+            yield from (
+                f"{path}.{rest}"
+                for rest in dict.fromkeys(
+                    rest for kind in inner for rest in stated_paths(kind, value or {}, effects)
+                )
+            )
 
 
 def _parts(annotation: Any, metadata: Sequence[Any]) -> Iterator[tuple[Any, Sequence[Any]]]:

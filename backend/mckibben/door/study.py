@@ -107,6 +107,7 @@ def study(
     *,
     out: str | PathLike[str] | None = None,
     resume: bool = False,
+    scheduler: str | None = None,
     progress: Callable[[float], object] | None = None,
 ) -> Study:
     """Many runs of a drive or task: sweep, Monte Carlo, sensitivity, optimisation, robust design.
@@ -117,6 +118,8 @@ def study(
             {"type": "monte_carlo", "runs": 1000}}``, or the path of a file.
         out: file for the table, .csv, .json or .parquet; runs are kept beside it until it is complete.
         resume: continue a study of ``out`` that was interrupted.
+        scheduler: address of a Dask scheduler whose workers make the runs, "tcp://host:8786"; the table is
+            the same as without.
         progress: called with the share that is done, 0 to 1.
 
     Raises:
@@ -137,5 +140,13 @@ def study(
             progress(share)
 
     watch = Watch(progress=None if progress is None else tell, time_limit=float("inf"))
-    work = prepare(question) if out is None else prepare_file(question, Path(out), resume=resume)
+    workers = None
+    if scheduler is not None:
+        from mckibben.application.study_cluster import on_cluster
+
+        workers = on_cluster(question, scheduler, again="call it again with resume=True when it is back")
+    if out is None:
+        work = prepare(question, workers=workers)
+    else:
+        work = prepare_file(question, Path(out), resume=resume, workers=workers)
     return Study(question, work(watch), name)

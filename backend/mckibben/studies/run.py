@@ -56,6 +56,7 @@ def run_plan(
     *,
     known: Mapping[int, Row] | None = None,
     finished: Callable[[Sequence[int], Array, Sequence[Row]], None] | None = None,
+    recalled: Callable[[Sequence[int], Array, Sequence[Row]], None] | None = None,
     chunk: int = CHUNK,
 ) -> tuple[StudyTable, Outcome]:
     """All runs of a plan, or those made before the watch ended the study.
@@ -69,6 +70,7 @@ def run_plan(
         watch: follows and ends the study.
         known: rows of an interrupted study by the number of their run; they are not made again.
         finished: called with numbers, points and rows of each chunk, in the order in which they end.
+        recalled: called alike with the runs of each batch that are known.
         chunk: number of runs that a worker gets at a time.
     """
     known = known or {}
@@ -101,8 +103,12 @@ def run_plan(
                 break
             numbers = range(begin, begin + len(batch))
             points |= zip(numbers, batch, strict=True)
-            rows |= {number: known[number] for number in numbers if number in known}
-            check()
+            found = [number for number in numbers if number in known]
+            rows |= {number: known[number] for number in found}
+            if found and recalled is not None:
+                recalled(found, batch[[number - begin for number in found]], [rows[n] for n in found])
+            if len(found) < len(numbers):
+                check()
             for (made, made_points), results in workers(chunks_of(batch, begin)):
                 rows |= zip(made, results, strict=True)
                 if finished is not None:

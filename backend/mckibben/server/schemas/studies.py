@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from typing import Literal
 
-from pydantic import Field
+from pydantic import Field, JsonValue
 
 from mckibben.documents.strict import Strict
+from mckibben.documents.study import Subject
 from mckibben.server.schemas.common import streamed
 
 _IN = "in the unit of the figure"
@@ -117,6 +118,7 @@ class StudyAnswer(Strict):
     designs: list[StudyDesign] = Field(description="Of a robust study, the most probable to keep all first.")
     runs: int = Field(description="Runs that were made.")
     planned: int = Field(description="Runs of the plan.")
+    kept: int = Field(description="Runs that were kept from before and not made again.")
     goals: list[str] = Field(description="Figures of the goals.")
     confidence: float = Field(description="Confidence level of all intervals.")
     seed: int | None = Field(description="Seed of the random numbers; null without.")
@@ -126,6 +128,48 @@ class StudyAnswer(Strict):
     wall_ms: float = Field(description="Computing time in ms.")
 
 
+class StudyOptionsRequest(Strict):
+    """Which subject."""
+
+    subject: Subject = Field(description="What is to be studied.")
+
+
+class StudyQuantityOption(Strict):
+    """A quantity that can be varied."""
+
+    path: str = Field(description="Path in the document of the subject.")
+    unit: str = Field(description="SI unit.")
+    value: float | None = Field(
+        description="Present value in SI; null for a plain gain, whose unit the document does not state."
+    )
+
+
+class StudyFigureOption(Strict):
+    """A figure that can be watched."""
+
+    path: str = Field(description="Path of the figure.")
+    unit: str = Field(description="SI unit.")
+
+
+class StudyOptionsAnswer(Strict):
+    """What a study of a subject can vary and watch."""
+
+    kind: Literal["drive", "task"] = Field(description="What the subject is.")
+    quantities: list[StudyQuantityOption] = Field(description="Quantities, in the order of the document.")
+    figures: list[StudyFigureOption] = Field(description="Figures.")
+    document: dict[str, JsonValue] = Field(
+        description="The document of the subject with the effects of its presets stated."
+    )
+    parquet: bool = Field(description="Whether the server can write tables as Parquet.")
+
+
+class StudyKeptAnswer(Strict):
+    """What is kept of a study."""
+
+    runs: int = Field(description="Runs that are kept from before.")
+
+
 StudyEvents = streamed(
-    '{"table": columns of new runs, "planned": runs of the plan} or absent; runs come as they end'
+    '{"table": columns of new runs, "planned": runs of the plan, "kept": how many so far are from before} or '
+    "absent; runs come as they end"
 )

@@ -1,0 +1,76 @@
+"""What a study of a subject can vary and watch."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from mckibben.application.study_file import has_parquet
+from mckibben.application.study_subject import subject_of
+from mckibben.documents.drive_files import read_document
+from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.studio import Studio
+from mckibben.documents.study import Subject
+from mckibben.documents.study_fields import stated_paths
+from mckibben.physics.errors import InputError
+from mckibben.studies.table import Figure
+
+
+@dataclass(frozen=True, slots=True)
+class OpenQuantity:
+    """A quantity that a study can vary.
+
+    Attributes:
+        path: in the document of the subject.
+        unit: SI unit.
+        value: its present value in SI; None where only the document says what its number means.
+    """
+
+    path: str
+    unit: str
+    value: float | None
+
+
+@dataclass(frozen=True, slots=True)
+class StudyOptions:
+    """What a study of a subject can vary and watch.
+
+    Attributes:
+        kind: "drive" or "task".
+        quantities, figures: in the order of the document and of the timing table.
+        document: of the subject, complete: its effects with their values are stated.
+        parquet: whether tables can be written as Parquet here.
+    """
+
+    kind: str
+    quantities: list[OpenQuantity]
+    figures: list[Figure]
+    document: dict[str, Any]
+    parquet: bool
+
+
+def study_options(subject: Subject, studio: Studio) -> StudyOptions:
+    """What a study of this subject can vary and watch.
+
+    Raises:
+        InputError: as `mckibben.application.study_subject.subject_of`.
+    """
+    found = subject_of(subject, studio)
+    presets = _of_presets(found.content, studio) if found.kind == "drive" else {}
+    quantities = []
+    for path in stated_paths(found.model, found.content, studio.effect_table):
+        try:
+            field = found.field(path, studio)
+        except InputError:  # a part, a list, a profile: no single value
+            continue
+        value = presets.get(path) if field.stated is None else field.stated
+        if field.unit is not None and (value is not None or field.as_text):
+            quantities.append(OpenQuantity(path, field.unit, value))
+    figures = [Figure(path, unit) for path, unit in found.figures.items()]
+    return StudyOptions(found.kind, quantities, figures, dict(found.content), has_parquet())
+
+
+def _of_presets(content: Any, studio: Studio) -> dict[str, float]:
+    """The length of the muscle where its preset says it: path -> value in SI."""
+    muscle = drive_of(read_document(content, "the drive"), studio).start.muscle
+    return {"muscle.nominal_length": muscle.nominal_length}

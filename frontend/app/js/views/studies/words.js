@@ -1,0 +1,91 @@
+// @ts-check
+// Names and scales of the columns of a study.
+import { capitalized, number, plainScale, quantityOf, readable, scaleOf, toShown } from "../../format.js";
+
+/** @typedef {import("../../format.js").Quantity} Quantity */
+/** @typedef {import("../../format.js").Scale} Scale */
+/** @typedef {import("../../format.js").System} System */
+/** @typedef {import("../../types.js").S["StudyColumnAnswer"]} Column */
+
+/** Where the last part of a path alone would not say what it is. @type {Record<string, string>} */
+const TITLES = {
+  "muscle.nominal_length": "Rest length",
+  "load.mass": "Mass",
+  "supply.pressure": "Supply pressure",
+  "tube.length": "Tube length",
+  "load.force": "Load force",
+  "gas.temperature": "Temperature",
+  "gas.ambient_pressure": "Ambient pressure",
+  air_volume_anr: "Air volume (ANR)",
+  max_speed: "Greatest speed",
+  max_acceleration: "Greatest acceleration",
+  min_acceleration: "Smallest acceleration",
+  nominal_length: "Rest length",
+};
+const PHASES = ["extend", "retract"];
+
+/** @param {string} path */
+export function titleOf(path) {
+  const [base, factor] = path.split(" (");
+  const known = TITLES[base];
+  const keys = base.split("."), last = keys.at(-1) ?? "";
+  const name = known ?? TITLES[last] ?? capitalized(readable(last));
+  if (keys[0] === "timing" && PHASES.includes(keys[1])) return `${name}, ${keys[1]}`;
+  if (["largest", "smallest", "last"].includes(keys[0])) {
+    return `${capitalized(keys[0])} ${name.toLowerCase()}`;
+  }
+  const around = known || keys.length < 2 || keys[0] === "best" ? "" : `, ${readable(keys.slice(-2, -1)[0])}`;
+  return `${name}${around}${factor ? ", factor" : ""}`;
+}
+
+/** What a group of paths is called in a list. @param {string} path */
+export function groupOf(path) {
+  const keys = path.split(".");
+  if (keys[0] === "timing") return `Timing, ${keys[1]}`;
+  if (keys[0] === "effects") return `Effect: ${readable(keys[1])}`;
+  return keys.length > 1 ? capitalized(readable(keys[0])) : "Drive";
+}
+
+const SHARES = /contraction|overshoot|share|probability|reserve|restitution|opening/;
+
+/** @param {string} path @param {string | null} unit SI @returns {Quantity | null} */
+export function kindOf(path, unit) {
+  const si = (unit ?? "1").replaceAll("^", "");
+  if (si === "1") return SHARES.test(path) && !path.includes("(") ? "ratio" : "number";
+  if (si === "m3") return path.includes("anr") ? "normal" : "volume";
+  if (si === "kg" && path.includes("air")) return "air";
+  if (si === "s" && /^(timing|tracking|best)\./.test(path)) return "lapse";
+  if (si === "m/s2") return "acceleration";
+  return quantityOf(si, path);
+}
+
+/** @param {string} path @param {string | null} unit @param {System} system @returns {Scale} */
+export function scaleFor(path, unit, system) {
+  const kind = kindOf(path, unit);
+  return kind ? scaleOf(kind, system) : plainScale(unit ?? "1");
+}
+
+/** The scale of a difference: without the offset of temperature scales. @param {Scale} scale */
+export const ofDifference = (scale) => ({ ...scale, offset: 0 });
+
+/** @param {number | null | undefined} si @param {Scale} scale */
+export const valueText = (si, scale) => si == null ? "–" : number(toShown(si, scale), scale.digits + 2);
+
+/** @param {number | null | undefined} si @param {Scale} scale */
+export function withUnitOf(si, scale) {
+  const text = valueText(si, scale);
+  return si == null || !scale.unit ? text : `${text}\u00a0${scale.unit}`;
+}
+
+/** @param {number} share */
+export const percentText = (share) => `${(100 * share).toFixed(1).replace(/\.0$/, "")}\u00a0%`;
+
+/** How runs ended. @type {Record<string, string>} */
+export const OUTCOMES = {
+  completed: "completed",
+  refused: "refused: no drive can have these values",
+  no_proposal: "without a proposal",
+};
+
+/** @param {string} name */
+export const outcomeText = (name) => OUTCOMES[name] ?? readable(name);
