@@ -59,6 +59,15 @@ def user_folder() -> Path:
     return earlier if earlier.is_dir() and not place.exists() else place
 
 
+def cache_folder() -> Path | None:
+    """Where compiled code is kept that can be made again; ``MCKIBBEN_CACHE`` is another place or ``off``."""
+    from platformdirs import user_cache_path
+
+    if chosen := os.environ.get("MCKIBBEN_CACHE"):
+        return None if chosen == "off" else Path(chosen).expanduser()
+    return user_cache_path("mckibben", appauthor=False)
+
+
 def _earlier_user_folder() -> Path:
     home = Path.home()
     if sys.platform == "win32":

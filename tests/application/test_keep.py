@@ -127,7 +127,7 @@ def test_what_is_no_covariance_is_refused(studio: Studio, table: dict[str, Any],
         read_saved_model(MODEL | {"covariance": table}, "the model")
     assert (refused.value.field or "").startswith("covariance")
     kept(studio)
-    path = next(Path(studio.library._user_folder or "").rglob("mine.json"))
+    path = next(Path(studio.library.user_folder or "").rglob("mine.json"))
     document = json.loads(path.read_text("utf-8"))
     document["fit"]["covariance"] = table
     with pytest.raises(InputError, match=words):

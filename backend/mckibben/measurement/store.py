@@ -2,7 +2,8 @@
 
 ``<sha256>.data`` holds the bytes of a file, ``<id>.json`` its name. A file uploaded with a mapping of its
 columns has a different id; its ``.json`` states the content and the mapping. Files are written atomically, so
-that a crash never leaves an incomplete one.
+that a crash never leaves an incomplete one. A deleted one can be restored until its room is needed; several
+programs may use a folder at once.
 """
 
 from __future__ import annotations
@@ -16,17 +17,22 @@ import tempfile
 import threading
 import time
 from collections import OrderedDict
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from mckibben.folder import DELETED, KEPT_DELETED, deleted, locked, restore
+from mckibben.folder import delete as move_away
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read import Correction, read_correction, read_measurement
+from mckibben.measurement.read.limits import size_of
 from mckibben.physics.errors import InputError
 
 _ID = re.compile(r"[0-9a-f]{64}")
 _KEPT_IN_MEMORY = 8
 _MOST_IN_MEMORY = 256_000_000  # bytes, of all but the last one
+DEFAULT_QUOTA = 4_000_000_000  # bytes
 _STALE = 3600.0  # s; the process of an older temporary file has ended
 MAX_NAME = 200
 
@@ -38,14 +44,37 @@ def clean_name(name: str) -> str:
     return printable[:MAX_NAME] or "measurement.csv"
 
 
+@dataclass(frozen=True, slots=True)
+class KeptFile:
+    """A stored measurement.
+
+    Attributes:
+        id: of the measurement.
+        name: of the file, for people.
+        size: of the file [bytes].
+        changed: when it was stored, renamed or deleted [s since 1970].
+        corrected: whether it is read with corrections of the user.
+    """
+
+    id: str
+    name: str
+    size: int
+    changed: float
+    corrected: bool
+
+
 class MeasurementStore:
     """Measurements by content.
 
     Args:
         folder: where they are stored; created on the first upload.
+        quota: most bytes that all may take, None = `DEFAULT_QUOTA`.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, *, quota: int | None = None) -> None:
+        self.quota = DEFAULT_QUOTA if quota is None else quota
+        #: The folder of the user's data.
+        self.data = folder
         self._folder = folder / "measurements"
         self._recent: OrderedDict[str, Measurement] = OrderedDict()
         self._lock = threading.Lock()
@@ -62,19 +91,14 @@ class MeasurementStore:
         about = {"name": name}
         if measurement.id != digest:
             about |= {"content": digest, "mapping": correction.canonical()}
-        try:
-            self._folder.mkdir(parents=True, exist_ok=True)
-            _remove_stale(self._folder)
-            data = self._folder / f"{digest}.data"
+        with self._changing("stored") as folder:
+            _remove_stale(folder)
+            data = folder / f"{digest}.data"
             if not data.exists() or data.stat().st_size != len(content):
+                self._make_room(len(content))
                 _write(data, content)
-            _write(self._folder / f"{measurement.id}.json", json.dumps(about).encode())
-        except OSError as error:
-            raise InputError(
-                f"the measurement cannot be stored: {error.strerror or error}",
-                hint="start the server with --data and a writable folder",
-                code="conflict",
-            ) from error
+            _write(folder / f"{measurement.id}.json", json.dumps(about).encode())
+            (folder / DELETED / f"{measurement.id}.json").unlink(missing_ok=True)
         self._remember(measurement.id, measurement)
         return measurement
 
@@ -85,24 +109,183 @@ class MeasurementStore:
             InputError: code ``not_found``, no file of this content was uploaded.
         """
         with self._lock:
-            if identity in self._recent:
+            # Another program may have deleted it.
+            if identity in self._recent and not self._is_deleted(identity):
                 self._recent.move_to_end(identity)
                 return self._recent[identity]
-        # Only a verified id ever becomes part of a path.
-        measurement = self._read(identity) if _ID.fullmatch(identity) else None
+        measurement = self._read(identity)
         if measurement is None:
-            raise InputError(
-                f"there is no measurement {identity[:12]}…",
-                field="measurement",
-                hint="upload the file again with PUT /api/measurements",
-                code="not_found",
-            )
+            raise _unknown(identity)
         self._remember(identity, measurement)
         return measurement
 
+    def kept(self) -> list[KeptFile]:
+        """What is stored, the last one first."""
+        found = [self._kept(path) for path in self._folder.glob("*.json")]
+        return sorted((file for file in found if file is not None), key=lambda file: -file.changed)
+
+    def deleted(self) -> list[KeptFile]:
+        """What can be restored, the last one first."""
+        found = [self._kept(path) for path in deleted(self._folder)]
+        return [file for file in found if file is not None]
+
+    def size(self) -> int:
+        """What all takes on the disk, with what can be restored [bytes]."""
+        total = 0
+        for path in (*self._folder.glob("*.data"), *self._folder.glob("*.json")):
+            with contextlib.suppress(OSError):
+                total += path.stat().st_size
+        return total
+
+    def rename(self, identity: str, name: str, was: str | None = None) -> KeptFile:
+        """Give a stored file another name.
+
+        Args:
+            identity: of the measurement.
+            name: the new one.
+            was: the name that the user saw; None = whatever it is.
+
+        Raises:
+            InputError: there is no such file; code ``conflict``: it has another name by now.
+        """
+        with self._changing("renamed") as folder:
+            path = self._present(identity)
+            about = _about(path)
+            if was is not None and about.get("name") != was:
+                raise InputError(
+                    f"the file is called '{about.get('name')}' by now", field="was",
+                    hint="look at the list again", code="conflict",
+                )  # fmt: skip
+            _write(folder / path.name, json.dumps({**about, "name": clean_name(name)}).encode())
+        with self._lock:
+            self._recent.pop(identity, None)  # it holds the old name
+        return self._known(path)
+
+    def delete(self, identity: str) -> KeptFile:
+        """Delete a stored file; it can be restored until its room is needed, for 30 days at most.
+
+        Raises:
+            InputError: code ``not_found``, there is no such file.
+        """
+        with self._changing("deleted"):
+            path = self._present(identity)
+            file = self._known(path)
+            move_away(path)
+            self._forget(lambda old: time.time() - old.stat().st_mtime > KEPT_DELETED)
+        with self._lock:
+            self._recent.pop(identity, None)
+        return file
+
+    def restore(self, identity: str) -> KeptFile:
+        """Bring a deleted file back; one that is there stays as it is.
+
+        Raises:
+            InputError: code ``not_found``, it cannot be restored.
+        """
+        with self._changing("restored") as folder:
+            path = self._path(identity)
+            if not path.is_file():
+                try:
+                    restore(folder, path.name)
+                except FileNotFoundError:
+                    raise _unknown(identity) from None
+        return self._known(path)
+
+    def _path(self, identity: str) -> Path:
+        # Only a verified id ever becomes part of a path.
+        if not _ID.fullmatch(identity):
+            raise _unknown(identity)
+        return self._folder / f"{identity}.json"
+
+    def _is_deleted(self, identity: str) -> bool:
+        # A content whose .json is lost is read nevertheless.
+        path = self._path(identity)
+        return not path.is_file() and (path.parent / DELETED / path.name).is_file()
+
+    def _present(self, identity: str) -> Path:
+        path = self._path(identity)
+        if not path.is_file():
+            raise _unknown(identity)
+        return path
+
+    def _kept(self, path: Path) -> KeptFile | None:
+        """What a ``.json`` stands for; None if it is none of the store's, or gone."""
+        about = _about(path)
+        content = str(about.get("content", path.stem))
+        if not (about and _ID.fullmatch(path.stem) and _ID.fullmatch(content)):
+            return None
+        try:
+            size = (self._folder / f"{content}.data").stat().st_size
+            changed = path.stat().st_mtime
+        except OSError:
+            return None
+        return KeptFile(path.stem, clean_name(str(about.get("name", ""))), size, changed, "content" in about)
+
+    def _known(self, path: Path) -> KeptFile:
+        file = self._kept(path)
+        if file is None:
+            raise _unknown(path.stem)
+        return file
+
+    @contextlib.contextmanager
+    def _changing(self, what: str) -> Iterator[Path]:
+        """The folder, which no other program changes meanwhile."""
+        try:
+            with locked(self._folder):
+                yield self._folder
+        except OSError as error:
+            raise InputError(
+                f"the measurement cannot be {what}: {error.strerror or error}",
+                hint="start the server with --data and a writable folder",
+                code="conflict",
+            ) from error
+
+    def _make_room(self, size: int) -> None:
+        """Refuse a file for which there is no room, also without what was deleted."""
+        if self.size() + size <= self.quota:
+            return
+        self._forget(lambda _: self.size() + size > self.quota)
+        if (taken := self.size()) + size > self.quota:
+            raise InputError(
+                f"the kept measurements take {size_of(taken)} of {size_of(self.quota)}, "
+                f"this one needs {size_of(size)}",
+                hint="delete some (Catalogue, Kept), or start the server with a larger --quota",
+                code="conflict",
+            )
+
+    def _forget(self, whether: Callable[[Path], bool]) -> None:
+        """Remove deleted files for good, the oldest first, and contents that nothing names any more."""
+        for path in reversed(deleted(self._folder)):
+            if not whether(path):
+                continue
+            content = str(_about(path).get("content", path.stem))
+            path.unlink(missing_ok=True)
+            others = (*self._folder.glob("*.json"), *deleted(self._folder))
+            if _ID.fullmatch(content) and not any(
+                content == str(_about(other).get("content", other.stem)) for other in others
+            ):
+                (self._folder / f"{content}.data").unlink(missing_ok=True)
+
+    def original(self, identity: str) -> tuple[str, bytes, str | None] | None:
+        """Name, content and mapping of a stored measurement, as uploaded; None if there is none."""
+        if not _ID.fullmatch(identity):
+            return None
+        about = _about(self._folder / f"{identity}.json")
+        content, mapping = str(about.get("content", identity)), about.get("mapping")
+        if not about or not _ID.fullmatch(content):
+            return None
+        try:
+            data = (self._folder / f"{content}.data").read_bytes()
+        except OSError:
+            return None
+        name = clean_name(str(about.get("name", "measurement.csv")))
+        return name, data, mapping if isinstance(mapping, str) else None
+
     def _read(self, identity: str) -> Measurement | None:
         """The stored measurement; None if it does not exist or has changed."""
-        about = _about(self._folder / f"{identity}.json")
+        about = _about(self._path(identity))
+        if self._is_deleted(identity):
+            return None
         content, mapping = str(about.get("content", identity)), about.get("mapping")
         if not _ID.fullmatch(content):
             return None
@@ -126,6 +309,15 @@ class MeasurementStore:
                 or sum(_size(kept) for kept in self._recent.values()) > _MOST_IN_MEMORY
             ):
                 self._recent.popitem(last=False)
+
+
+def _unknown(identity: str) -> InputError:
+    return InputError(
+        f"there is no measurement {identity[:12]}…",
+        field="measurement",
+        hint="upload the file again with PUT /api/measurements",
+        code="not_found",
+    )
 
 
 def _size(measurement: Measurement) -> int:

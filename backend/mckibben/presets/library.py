@@ -7,10 +7,13 @@ import os
 import re
 import tempfile
 import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NamedTuple, cast
 
+from mckibben.folder import locked
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets.quantity import Finding
 from mckibben.presets.reading import KINDS, MAX_BYTES, BadDocumentError, parse, read_file, slug
@@ -60,12 +63,14 @@ class PresetLibrary:
         self._folder = Path(folder)
         if not self._folder.is_dir():
             raise FileNotFoundError(f"there is no preset folder {self._folder}")
-        self._user_folder = None if user_folder is None else Path(user_folder)
-        self._effects = effects
+        self.user_folder = None if user_folder is None else Path(user_folder)
+        self.effects = effects
         self._lock = threading.RLock()
         self._built_in = {kind: self._scan(kind, "built-in", {}) for kind in KINDS}
         self._user = {kind: _Shelf() for kind in KINDS}
         self._signatures: dict[str, Signature] = dict.fromkeys(KINDS, ())
+        #: Kind -> the user's files as they were when somebody last looked at them here.
+        self._seen = {kind: self._files_of(kind) for kind in KINDS}
 
     @property
     def kinds(self) -> tuple[str, ...]:
@@ -78,7 +83,10 @@ class PresetLibrary:
         Raises:
             InputError: code ``not_found``, there is no such kind.
         """
-        return sorted(self._all(kind).values(), key=lambda preset: _natural(preset.id))
+        with self._lock:
+            presets = self._all(kind)
+            self._seen[kind] = self._signatures[kind]
+        return sorted(presets.values(), key=lambda preset: _natural(preset.id))
 
     def get(self, kind: str, preset_id: str) -> Preset:
         """One preset; letter case does not matter, and ``-`` may stand for ``/`` as in the file name.
@@ -126,7 +134,7 @@ class PresetLibrary:
         kinds = KINDS if kind is None else [kind]
         for name in kinds:
             self._refresh(name)
-        found = [] if self._user_folder is None else strays(self._user_folder)
+        found = [] if self.user_folder is None else strays(self.user_folder)
         return [
             problem
             for name in kinds
@@ -141,14 +149,14 @@ class PresetLibrary:
             InputError: the document is not a valid muscle preset (``field`` says where); code ``conflict``:
                 there is no user folder, or the id belongs to a built-in preset.
         """
-        if self._user_folder is None:
+        if self.user_folder is None:
             raise InputError(
                 "muscles cannot be saved: no user folder is set",
                 hint="start the server with a user folder",
                 code="conflict",
             )
         try:
-            preset = parse(MusclePreset, document, self._effects)
+            preset = parse(MusclePreset, document, self.effects)
         except BadDocumentError as bad:
             first = bad.findings[0]
             raise InputError(first.message, field=first.field, hint=first.hint) from bad
@@ -158,7 +166,7 @@ class PresetLibrary:
                 field="id",
                 hint="letters, digits and '-', e.g. 'my-muscle-20'",
             )
-        content = json.dumps(preset.to_document(), indent=2, ensure_ascii=False).encode() + b"\n"
+        content = written(preset)
         if len(content) > MAX_BYTES:
             raise InputError(f"the preset is larger than {MAX_BYTES // 1_000_000} MB")
         with self._lock:
@@ -170,9 +178,74 @@ class PresetLibrary:
                     hint="choose another id",
                     code="conflict",
                 )
-            _write(self._user_folder, "muscles", f"{preset.id}.json", content)
+            with self.changing("muscles", f"{preset.id}.json") as folder:
+                write(folder, f"{preset.id}.json", content)
             saved = self.muscle(preset.id)
         return saved
+
+    def own_file(self, kind: str, preset_id: str) -> Path:
+        """The file of a preset of the user.
+
+        Raises:
+            InputError: there is none of this id; code ``conflict``: it comes with the program.
+        """
+        preset = self.get(kind, preset_id)
+        if self.user_folder is None or preset.origin != "user":
+            raise InputError(
+                f"'{preset.id}' comes with the program",
+                field="id",
+                hint="only your own presets change",
+                code="conflict",
+            )
+        return self.user_folder / kind / f"{slug(preset.id)}.json"
+
+    def load_own(self, kind: str, path: Path) -> Preset:
+        """A preset of the user from a file.
+
+        Raises:
+            BadDocumentError: it is none.
+        """
+        return self._load(kind, path, "user")
+
+    @contextmanager
+    def changing(self, kind: str, name: str) -> Iterator[Path]:
+        """The user's folder of a kind, in which no other program writes meanwhile.
+
+        Raises:
+            InputError: code ``conflict``: another program has changed the file since it was last looked at
+                here, or the folder cannot be written.
+        """
+        root = self.user_folder
+        assert root is not None  # noqa: S101 - the callers have looked
+        try:
+            _refuse_link(root, kind)  # before the lock, which is a file in that folder
+            with self._lock, locked(root / kind):
+                _refuse_link(root, kind)
+                now, seen = (
+                    {entry[0]: entry for entry in signature}
+                    for signature in (self._files_of(kind), self._seen[kind])
+                )
+                # A link is not a preset, so that nobody has looked at it; it is replaced.
+                if name in now and now[name] != seen.get(name) and not (root / kind / name).is_symlink():
+                    raise InputError(
+                        f"another program has changed '{Path(name).stem}' in the meantime",
+                        field="id",
+                        hint="look at it (reload the page), or choose another id",
+                        code="conflict",
+                    )
+                yield root / kind
+                self._seen[kind] = tuple(
+                    entry for entry in self._files_of(kind) if entry[0] == name or seen.get(entry[0]) == entry
+                )
+        except (FileNotFoundError, FileExistsError):
+            raise
+        except OSError as error:
+            raise InputError(
+                f"the preset cannot be written: {error.strerror or error}", code="conflict"
+            ) from error
+
+    def _files_of(self, kind: str) -> Signature:
+        return () if self.user_folder is None else _signature(self.user_folder / kind)
 
     def _all(self, kind: str) -> dict[str, Preset]:
         self._refresh(kind)
@@ -186,16 +259,16 @@ class PresetLibrary:
                 hint=did_you_mean(kind[:80], KINDS),
                 code="not_found",
             )
-        if self._user_folder is None:
+        if self.user_folder is None:
             return
         with self._lock:
-            signature = _signature(self._user_folder / kind)
+            signature = _signature(self.user_folder / kind)
             if signature != self._signatures[kind]:
                 self._user[kind] = self._scan(kind, "user", self._built_in[kind].presets)
                 self._signatures[kind] = signature
 
     def _scan(self, kind: str, origin: Origin, taken: dict[str, Preset]) -> _Shelf:
-        root = self._folder if origin == "built-in" else self._user_folder
+        root = self._folder if origin == "built-in" else self.user_folder
         shelf = _Shelf()
         if root is None:
             return shelf
@@ -216,12 +289,12 @@ class PresetLibrary:
 
     def _load(self, kind: str, path: Path, origin: Origin) -> Preset:
         document = read_file(path, follow_links=origin == "built-in")
-        preset = parse(KINDS[kind], document, self._effects)
+        preset = parse(KINDS[kind], document, self.effects)
         if slug(preset.id) != path.stem:
             raise BadDocumentError(
                 [Finding("id", f"'{preset.id}' does not match the file name", f"{slug(preset.id)}.json")]
             )
-        preset.adopt(origin, self._effects)
+        preset.adopt(origin, self.effects)
         return preset
 
 
@@ -253,25 +326,26 @@ def _signature(folder: Path) -> Signature:
     return tuple(result)
 
 
-def _write(root: Path, kind: str, name: str, content: bytes) -> None:
-    """Write a file of the user folder atomically: readers see the old or the new one, never a part."""
-    folder = root / kind
+def written(preset: Preset) -> bytes:
+    """The content of its file."""
+    return json.dumps(preset.to_document(), indent=2, ensure_ascii=False).encode() + b"\n"
+
+
+def write(folder: Path, name: str, content: bytes) -> None:
+    """Write a file atomically: readers see the old or the new one, never a part."""
+    handle, temporary = tempfile.mkstemp(dir=folder, prefix=".", suffix=".tmp")
     try:
-        folder.mkdir(parents=True, exist_ok=True)
-        if folder.resolve() != root.resolve() / kind:
-            raise InputError("the user folder is a link to elsewhere", hint="a plain folder", code="conflict")
-        handle, temporary = tempfile.mkstemp(dir=folder, prefix=".", suffix=".tmp")
-        try:
-            with os.fdopen(handle, "wb") as stream:
-                stream.write(content)
-                stream.flush()
-                os.fsync(stream.fileno())
-            # Replaces a link of that name itself, not the file it points to.
-            Path(temporary).replace(folder / name)
-        except BaseException:
-            Path(temporary).unlink(missing_ok=True)
-            raise
-    except OSError as error:
-        raise InputError(
-            f"the preset cannot be written: {error.strerror or error}", code="conflict"
-        ) from error
+        with os.fdopen(handle, "wb") as stream:
+            stream.write(content)
+            stream.flush()
+            os.fsync(stream.fileno())
+        # Replaces a link of that name itself, not the file it points to.
+        Path(temporary).replace(folder / name)
+    except BaseException:
+        Path(temporary).unlink(missing_ok=True)
+        raise
+
+
+def _refuse_link(root: Path, kind: str) -> None:
+    if (root / kind).resolve() != root.resolve() / kind:
+        raise InputError("the user folder is a link to elsewhere", hint="a plain folder", code="conflict")

@@ -4,15 +4,17 @@ from __future__ import annotations
 
 from typing import Annotated
 
-from fastapi import APIRouter, Path
+import orjson
+from fastapi import APIRouter, Path, Request
+from fastapi.concurrency import run_in_threadpool
 
 from mckibben.application.keep import keep
-from mckibben.application.saved_model import present_model
+from mckibben.documents.saved_model import read_saved_model
 from mckibben.presets import MusclePreset
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
-from mckibben.server.questions.models import model_question
+from mckibben.server.long_work import whole
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.presets import (
     FittedMuscleRequest,
@@ -63,15 +65,21 @@ def save_muscle(body: MusclePreset, studio: StudioDep) -> JsonAnswer:
     return JsonAnswer(saved.public(), status_code=201)
 
 
-# In a worker thread: the model is compared with its data.
 @router.post(
     "/muscles/fitted",
     status_code=201,
     response_model=MuscleAnswer,
-    responses=errors(400, 404, 409, 413, 415, 422),
+    responses=errors(400, 404, 409, 413, 415, 422, 429),
     openapi_extra=request_examples.worked("fitted_muscle"),
 )
-def keep_fitted_muscle(body: FittedMuscleRequest, studio: StudioDep, store: StoreDep) -> JsonAnswer:
+async def keep_fitted_muscle(
+    body: FittedMuscleRequest, request: Request, studio: StudioDep, store: StoreDep
+) -> JsonAnswer:
     """Keep a fitted model as a user preset, as it is, with the covariance and the range of its data."""
-    saved = present_model(model_question(body, studio, store), studio)
-    return JsonAnswer(keep(saved, studio, id=body.id, title=body.title).public(), status_code=201)
+    document = await whole(request, "fitted model", body, studio, store)
+
+    def kept() -> JsonAnswer:
+        saved = read_saved_model(orjson.loads(document), "the model")
+        return JsonAnswer(keep(saved, studio, id=body.id, title=body.title).public(), status_code=201)
+
+    return await run_in_threadpool(kept)

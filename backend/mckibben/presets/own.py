@@ -1,0 +1,109 @@
+"""The user's presets as kept data: list, rename, delete, restore."""
+
+from __future__ import annotations
+
+import time
+from contextlib import suppress
+from pathlib import Path
+from typing import NamedTuple
+
+from mckibben.folder import KEPT_DELETED, delete, deleted, restore
+from mckibben.physics.errors import InputError
+from mckibben.presets.library import PresetLibrary, write, written
+from mckibben.presets.reading import KINDS, BadDocumentError, parse, slug
+
+
+class OwnPreset(NamedTuple):
+    """A preset of the user: id, title, size of its file [bytes], when it was changed [s since 1970]."""
+
+    id: str
+    title: str
+    size: int
+    changed: float
+
+
+class OwnPresets:
+    """The presets of the user, as files of a folder that other programs may use at the same time.
+
+    Args:
+        library: that reads them.
+    """
+
+    def __init__(self, library: PresetLibrary) -> None:
+        self._library = library
+
+    def own(self, kind: str) -> list[OwnPreset]:
+        """The user's valid presets of a kind, by id."""
+        found = []
+        for preset in self._library.list(kind):
+            with suppress(OSError):
+                if preset.origin == "user":
+                    info = self._library.own_file(kind, preset.id).stat()
+                    found.append(OwnPreset(preset.id, preset.title, info.st_size, info.st_mtime))
+        return found
+
+    def deleted(self, kind: str) -> list[OwnPreset]:
+        """The user's presets of a kind that can be restored, the last one first."""
+        found = []
+        for path in [] if self._library.user_folder is None else deleted(self._library.user_folder / kind):
+            with suppress(BadDocumentError, OSError):
+                preset, info = self._library.load_own(kind, path), path.stat()
+                found.append(OwnPreset(preset.id, preset.title, info.st_size, info.st_mtime))
+        return found
+
+    def rename(self, kind: str, preset_id: str, title: str, was: str | None = None) -> None:
+        """Give a preset of the user another title.
+
+        Raises:
+            InputError: there is none of this id, the title cannot be used, or it has another one by now.
+        """
+        path, preset = self._library.own_file(kind, preset_id), self._library.get(kind, preset_id)
+        if was is not None and preset.title != was:
+            raise InputError(
+                f"the preset is called '{preset.title}' by now", field="was",
+                hint="look at the list again", code="conflict",
+            )  # fmt: skip
+        try:
+            renamed = parse(KINDS[kind], {**preset.to_document(), "title": title}, self._library.effects)
+        except BadDocumentError as bad:
+            first = bad.findings[0]
+            raise InputError(first.message, field="name", hint=first.hint) from bad
+        with self._library.changing(kind, path.name) as folder:
+            write(folder, path.name, written(renamed))
+
+    def delete(self, kind: str, preset_id: str) -> None:
+        """Delete a preset of the user; it can be restored for 30 days.
+
+        Raises:
+            InputError: there is none of this id; code ``conflict``: it is one of the program.
+        """
+        path = self._library.own_file(kind, preset_id)
+        with self._library.changing(kind, path.name):
+            delete(path)
+            for old in deleted(path.parent):
+                if time.time() - old.stat().st_mtime > KEPT_DELETED:
+                    old.unlink(missing_ok=True)
+
+    def restore(self, kind: str, preset_id: str) -> None:
+        """Bring a deleted preset of the user back.
+
+        Raises:
+            InputError: it cannot be restored; code ``conflict``: there is another one of this id.
+        """
+        name = f"{slug(preset_id)}.json"
+        if kind not in KINDS or self._library.user_folder is None or Path(name).name != name:
+            raise _not_deleted(preset_id)
+        try:
+            with self._library.changing(kind, name) as folder:
+                restore(folder, name)
+        except FileNotFoundError:
+            raise _not_deleted(preset_id) from None
+        except FileExistsError:
+            raise InputError(
+                f"there is another preset '{preset_id}' by now", field="id",
+                hint="delete or rename that one first", code="conflict",
+            ) from None  # fmt: skip
+
+
+def _not_deleted(preset_id: str) -> InputError:
+    return InputError(f"there is no deleted preset '{preset_id[:80]}'", code="not_found")

@@ -1,0 +1,61 @@
+"""What the user keeps on the disk: list, rename, delete, restore."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from fastapi import APIRouter, Path
+
+from mckibben.application import kept
+from mckibben.server import request_examples
+from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.context import StoreDep, StudioDep
+from mckibben.server.schemas.common import errors
+from mckibben.server.schemas.kept import KeptAnswer, KeptKind, RenameRequest
+
+router = APIRouter(prefix="/api/kept", tags=["kept"], route_class=StrictRoute)
+
+Kind = Annotated[KeptKind, Path(description="'files' for measurement files, else the kind of preset.")]
+Identity = Annotated[
+    str,
+    Path(
+        pattern=r"^[A-Za-z0-9][A-Za-z0-9-]{0,63}$",
+        description="Id of the measurement or preset.",
+        examples=["bench-3"],
+    ),
+]
+
+
+# In worker threads, all of them: they read and write files.
+@router.get("", response_model=KeptAnswer, responses=errors())
+def list_kept(studio: StudioDep, store: StoreDep) -> JsonAnswer:
+    """Measurements and presets of the user, those that can be restored, and what they take."""
+    return JsonAnswer(kept.kept(studio, store))
+
+
+@router.patch(
+    "/{kind}/{identity}",
+    response_model=KeptAnswer,
+    responses=errors(400, 404, 409, 413, 415, 422),
+    openapi_extra=request_examples.worked("rename"),
+)
+def rename_kept(
+    kind: Kind, identity: Identity, body: RenameRequest, studio: StudioDep, store: StoreDep
+) -> JsonAnswer:
+    """Give a measurement or preset another name; its id stays. The answer is what is kept now."""
+    kept.rename(studio, store, kind=kind, identity=identity, name=body.name, was=body.was)
+    return JsonAnswer(kept.kept(studio, store))
+
+
+@router.delete("/{kind}/{identity}", response_model=KeptAnswer, responses=errors(404, 409, 422))
+def delete_kept(kind: Kind, identity: Identity, studio: StudioDep, store: StoreDep) -> JsonAnswer:
+    """Delete a measurement or preset; for 30 days it can be restored, unless its room is needed."""
+    kept.delete(studio, store, kind=kind, identity=identity)
+    return JsonAnswer(kept.kept(studio, store))
+
+
+@router.post("/{kind}/{identity}/restore", response_model=KeptAnswer, responses=errors(404, 409, 422))
+def restore_kept(kind: Kind, identity: Identity, studio: StudioDep, store: StoreDep) -> JsonAnswer:
+    """Bring a deleted measurement or preset back. The answer is what is kept now."""
+    kept.restore(studio, store, kind=kind, identity=identity)
+    return JsonAnswer(kept.kept(studio, store))

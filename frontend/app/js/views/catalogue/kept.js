@@ -1,0 +1,183 @@
+// @ts-check
+// What is kept on the server: measurement files and presets of one's own, to rename, delete and restore.
+import { h } from "../../dom.js";
+import { effect, signal } from "../../reactive.js";
+import { view } from "../../state.js";
+import { brief } from "../../format.js";
+import { ApiError, get, send } from "../../server/client.js";
+import { loadKind } from "../../server/presets.js";
+import { KIND_TITLES } from "./columns.js";
+
+/** @typedef {import("../../types.js").S["KeptAnswer"]} Kept */
+/** @typedef {import("../../types.js").S["KeptItem"]} Item */
+
+const kept = signal(/** @type {Kept | null} */ (null));
+const fault = signal("");
+/** The item that was deleted last, for its Undo. */
+const gone = signal(/** @type {Item | null} */ (null));
+/** The item whose name is being changed. */
+const renaming = signal(/** @type {Item | null} */ (null));
+
+/** @param {() => Promise<Kept>} ask @param {string} [kind] of preset that changes with it */
+async function take(ask, kind) {
+  try {
+    kept.value = await ask();
+    fault.value = "";
+    if (kind && kind !== "files") await loadKind(kind);
+    return true;
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+    fault.value = error.words;
+    return false;
+  }
+}
+
+const look = () => take(() => get("/api/kept"));
+/** @param {Item} item */
+const place = (item) => `/api/kept/${item.kind}/${item.id}`;
+
+/** @param {Item} item */
+async function remove(item) {
+  if (await take(() => send("DELETE", place(item)), item.kind)) gone.value = item;
+}
+
+/** @param {Item} item */
+async function bringBack(item) {
+  if (await take(() => send("POST", `${place(item)}/restore`), item.kind)) gone.value = null;
+}
+
+/** @param {Item} item @param {string} name */
+async function rename(item, name) {
+  const done = name === item.name || await take(
+    () => send("PATCH", place(item), { name, was: item.name }),
+    item.kind,
+  );
+  if (done) renaming.value = null;
+}
+
+/** @param {number} bytes */
+const sizeOf = (bytes) =>
+  bytes < 1e6
+    ? `${brief(Math.max(bytes / 1e3, 0.1))}\u00a0kB`
+    : bytes < 1e9
+    ? `${brief(bytes / 1e6)}\u00a0MB`
+    : `${brief(bytes / 1e9)}\u00a0GB`;
+
+/** @param {Item} item */
+const about = (item) =>
+  [
+    item.kind === "files" ? "Measurement" : KIND_TITLES[/** @type {keyof typeof KIND_TITLES} */ (item.kind)],
+    sizeOf(item.size),
+    new Date(1000 * item.changed).toLocaleDateString("en-GB"),
+    item.corrected ? "with your columns" : "",
+  ].filter(Boolean).join(" · ");
+
+/** @param {Item} item */
+function nameForm(item) {
+  const input = h("input", {
+    type: "text",
+    value: item.name,
+    maxlength: 120,
+    "aria-label": `New name of ${item.name}`,
+    onkeydown: (/** @type {KeyboardEvent} */ e) => e.key === "Escape" && (renaming.value = null),
+  });
+  queueMicrotask(() => input.select());
+  return h(
+    "form",
+    {
+      class: "kept-name",
+      onsubmit: (/** @type {Event} */ e) => {
+        e.preventDefault();
+        rename(item, input.value.trim());
+      },
+    },
+    input,
+    h("button", { type: "submit", class: "link" }, "Save"),
+  );
+}
+
+/** @param {Item} item */
+const row = (item) =>
+  h(
+    "li",
+    null,
+    () =>
+      renaming.value?.id === item.id && renaming.value.kind === item.kind
+        ? nameForm(item)
+        : h("b", null, item.name),
+    h("small", null, about(item)),
+    h(
+      "span",
+      { class: "kept-actions" },
+      h("button", {
+        type: "button",
+        class: "link",
+        "aria-label": `Rename ${item.name}`,
+        onclick: () => renaming.value = item,
+      }, "Rename"),
+      h("button", {
+        type: "button",
+        class: "link",
+        "aria-label": `Delete ${item.name}`,
+        onclick: () => remove(item),
+      }, "Delete"),
+    ),
+  );
+
+/** @param {Item} item */
+const deletedRow = (item) =>
+  h(
+    "li",
+    null,
+    h("span", null, item.name),
+    h("small", null, about(item)),
+    h("button", {
+      type: "button",
+      class: "link",
+      "aria-label": `Restore ${item.name}`,
+      onclick: () => bringBack(item),
+    }, "Restore"),
+  );
+
+function undoLine() {
+  const item = gone.value;
+  return item === null ? null : h(
+    "p",
+    { class: "kept-undo" },
+    `Deleted “${item.name}”. `,
+    h("button", { type: "button", class: "link", onclick: () => bringBack(item) }, "Undo"),
+  );
+}
+
+/** The card; nothing where nothing is kept. */
+export function keptCard() {
+  effect(() => {
+    if (view.value === "catalogue") look();
+  });
+  return () => {
+    const all = kept.value;
+    if (!all || !(all.items.length + all.deleted.length)) return null;
+    return h(
+      "section",
+      { class: "card kept", "aria-label": "Kept" },
+      h(
+        "div",
+        { class: "card-head" },
+        h("h2", null, "Kept"),
+        h("small", null, `files: ${sizeOf(all.size)} of ${sizeOf(all.quota)}`),
+      ),
+      h("div", { role: "status" }, undoLine),
+      () => fault.value ? h("p", { class: "warn", role: "alert" }, fault.value) : null,
+      all.items.length ? h("ul", { class: "plain" }, ...all.items.map(row)) : null,
+      all.deleted.length
+        ? h(
+          "details",
+          null,
+          h("summary", null, `Deleted (${all.deleted.length})`),
+          h("p", null, h("small", null, "Can be restored for 30 days, files until their room is needed.")),
+          h("ul", { class: "plain" }, ...all.deleted.map(deletedRow)),
+        )
+        : null,
+    );
+  };
+}
