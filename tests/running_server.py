@@ -31,6 +31,7 @@ class RunningServer:
             can depend on the one of the tests.
         command: what to start, without the arguments of ``serve``.
         arguments: further arguments of ``serve``.
+        token: that it asks for.
 
     Attributes:
         url: ``http://127.0.0.1:<port>``.
@@ -38,13 +39,16 @@ class RunningServer:
         seconds_to_ready: from process start to the first answer of ``/api/health``.
     """
 
-    def __init__(self, folder: Path, *, command: Sequence[str] = MAIN, arguments: Sequence[str] = ()) -> None:
+    def __init__(
+        self, folder: Path, *, command: Sequence[str] = MAIN, arguments: Sequence[str] = (), token: str = ""
+    ) -> None:
         self.data = folder / "data"
         self.presets = folder / "presets"
         self._folder = folder
         self._log = folder / "server.log"
         self._command = command
         self._arguments = arguments
+        self._headers = {"authorization": f"Bearer {token}"} if token else {}
         self.url = ""
         self.seconds_to_ready = 0.0
 
@@ -78,6 +82,19 @@ class RunningServer:
         """Everything the server has printed so far."""
         return self._log.read_text(encoding="utf-8", errors="replace")
 
+    @property
+    def pid(self) -> int:
+        """Of the process of the server."""
+        return self._process.pid
+
+    def send_signal(self, number: int) -> None:
+        """Send a signal to it."""
+        self._process.send_signal(number)
+
+    def wait(self, within: float) -> int:
+        """Wait for its end; its exit code."""
+        return self._process.wait(within)
+
     def check_alive(self) -> None:
         """Raise `ServerError` with the server's output when its process has ended."""
         code = self._process.poll()
@@ -98,7 +115,8 @@ class RunningServer:
         self.url = ready[1]
         # Without proxies: some machines send every address through one, loopback included.
         opener = urllib.request.build_opener(urllib.request.ProxyHandler({}))
-        with opener.open(f"{self.url}/api/health", timeout=READY_WITHIN):
+        request = urllib.request.Request(f"{self.url}/api/health", headers=self._headers)
+        with opener.open(request, timeout=READY_WITHIN):
             self.seconds_to_ready = time.perf_counter() - start
 
     def _stop(self) -> None:

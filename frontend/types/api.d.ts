@@ -26,6 +26,16 @@ export interface paths {
   "/api/inverse": {
     post: operations["answer_question"];
   };
+  "/api/kept": {
+    get: operations["list_kept"];
+  };
+  "/api/kept/{kind}/{identity}": {
+    delete: operations["delete_kept"];
+    patch: operations["rename_kept"];
+  };
+  "/api/kept/{kind}/{identity}/restore": {
+    post: operations["restore_kept"];
+  };
   "/api/linearisations": {
     post: operations["linearise_drive"];
   };
@@ -44,6 +54,9 @@ export interface paths {
   "/api/mysteries/{mystery_id}/reveal": {
     post: operations["reveal_mystery"];
   };
+  "/api/order-codes/{code}": {
+    get: operations["read_order_code"];
+  };
   "/api/presets/muscles": {
     post: operations["save_muscle"];
   };
@@ -55,6 +68,31 @@ export interface paths {
   };
   "/api/presets/{kind}/{preset_id}": {
     get: operations["read_preset"];
+  };
+  "/api/projects": {
+    get: operations["list_projects"];
+    post: operations["create_project"];
+  };
+  "/api/projects/import": {
+    post: operations["import_project"];
+  };
+  "/api/projects/{project_id}": {
+    get: operations["open_project"];
+    put: operations["save_project"];
+    delete: operations["delete_project"];
+    patch: operations["describe_project"];
+  };
+  "/api/projects/{project_id}/copies": {
+    post: operations["copy_project"];
+  };
+  "/api/projects/{project_id}/file": {
+    get: operations["export_project"];
+  };
+  "/api/projects/{project_id}/history": {
+    get: operations["read_history"];
+  };
+  "/api/projects/{project_id}/restore": {
+    post: operations["restore_project"];
   };
   "/api/reports": {
     post: operations["write_report"];
@@ -73,6 +111,15 @@ export interface paths {
   };
   "/api/studies": {
     post: operations["run_study"];
+  };
+  "/api/studies/kept": {
+    post: operations["count_kept_runs"];
+  };
+  "/api/studies/options": {
+    post: operations["list_study_options"];
+  };
+  "/api/studies/parquet": {
+    post: operations["write_parquet"];
   };
 }
 
@@ -195,6 +242,13 @@ export interface components {
       to: number;
       /** Air flows in (fill) or out (exhaust). */
       side: "fill" | "exhaust";
+    };
+    /** A part of an order code. */
+    CodePartAnswer: {
+      /** As it stands in the code. */
+      text: string;
+      /** What it means. */
+      meaning: string;
     };
     /** A column of numbers in one unit. */
     Column: {
@@ -394,8 +448,8 @@ export interface components {
       output_min?: number | string | null;
       /** Highest command. Default 1. [1] */
       output_max?: number | string | null;
-      /** Desired position, as a signal of time. [m] */
-      reference: {
+      /** Desired position, as a signal of time; a joint may state the angle instead. [m] */
+      reference?: {
         /** Name of the shape. */
         shape: "step";
         /** When it steps. [s] */
@@ -504,7 +558,120 @@ export interface components {
         };
         /** Joined by lines, or each value held until the next. */
         interpolation?: "linear" | "hold";
-      };
+      } | null;
+      /** Desired angle of an antagonist joint instead of the position: a constant, or a signal of time. [rad] */
+      angle?: number | string | {
+        /** Name of the shape. */
+        shape: "step";
+        /** When it steps. [s] */
+        at?: number | string;
+        /** The value after the step, inside the pulse, or in the first part of a period. [rad] */
+        level: number | string;
+        /** The value before the step, outside the pulse, or in the second part of a period. [rad] */
+        initial?: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "pulse";
+        /** The value after the step, inside the pulse, or in the first part of a period. [rad] */
+        level: number | string;
+        /** The value before the step, outside the pulse, or in the second part of a period. [rad] */
+        initial?: number | string;
+        /** When the pulse begins. [s] */
+        on?: number | string;
+        /** When the pulse ends. [s] */
+        off: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "square";
+        /** The value after the step, inside the pulse, or in the first part of a period. [rad] */
+        level?: number | string;
+        /** The value before the step, outside the pulse, or in the second part of a period. [rad] */
+        initial?: number | string;
+        /** Duration of one period. [s] */
+        period: number | string;
+        /** Share of each period with the first level. [1] */
+        duty?: number | string;
+        /** Peak to peak, the full height: level - initial. [rad] */
+        amplitude?: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "triangle";
+        /** Peak to peak, the full height: offset to offset + amplitude. [rad] */
+        amplitude: number | string;
+        /** Duration of one period. [s] */
+        period: number | string;
+        /** The value that the amplitude is added to. [rad] */
+        offset?: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "ramp";
+        /** The value before the ramp. [rad] */
+        from?: number | string;
+        /** The value after the ramp. [rad] */
+        to: number | string;
+        /** When the ramp begins. [s] */
+        start?: number | string;
+        /** How long the ramp lasts. [s] */
+        duration: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "sine";
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [rad] */
+        amplitude: number | string;
+        /** The value that the amplitude is added to. [rad] */
+        offset?: number | string;
+        /** Periods per second; or give the period. [Hz] */
+        frequency?: number | string;
+        /** Angle at t = 0. [rad] */
+        phase?: number | string;
+        /** Duration of one period. [s] */
+        period?: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "chirp";
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [rad] */
+        amplitude: number | string;
+        /** The value that the amplitude is added to. [rad] */
+        offset?: number | string;
+        /** Frequency at the start. [Hz] */
+        from: number | string;
+        /** Frequency at the end of the duration and after it. [Hz] */
+        to: number | string;
+        /** How long the frequency changes. [s] */
+        duration: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "random";
+        /** How long each level lasts. [s] */
+        hold: number | string;
+        /** Number that the levels follow from; the same seed gives the same levels. */
+        seed?: number;
+        /** Lowest level. [rad] */
+        lower?: number | string;
+        /** Highest level. [rad] */
+        upper: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "table";
+        /** Instants of the points, ascending. [s] */
+        times: (number | string)[] | {
+          /** Unit of the values. */
+          unit: string;
+          /** The numbers. */
+          values: number[];
+        };
+        /** Values of the points, as many as instants. [rad] */
+        values: (number | string)[] | {
+          /** Unit of the values. */
+          unit: string;
+          /** The numbers. */
+          values: number[];
+        };
+        /** Joined by lines, or each value held until the next. */
+        interpolation?: "linear" | "hold";
+      } | null;
+      /** Second set point, of an antagonist joint only. The controller then gives half of the difference of both commands, between -0.5 and 0.5 of a regulator. */
+      stiffness?: components["schemas"]["StiffnessControlInput"] | null;
     };
     /** Correlation of two fitted parameters. */
     Correlation: {
@@ -595,6 +762,10 @@ export interface components {
       stiffness: ((number | null)[])[];
       /** dF/dL at constant gas mass. [N/m] */
       stiffness_closed: ((number | null)[])[];
+      /** Stiffness of the ideal muscle with this force at this length, 6 L F/(3 L² - b²); null unless asked for, and where it has no value. [N/m] */
+      stiffness_from_force: ((number | null)[])[] | null;
+      /** Stiffness of the straight line from the length without force, F/(L - L_min); null unless asked for. [N/m] */
+      stiffness_secant: ((number | null)[])[] | null;
       /** Enclosed volume at the highest pressure. [m3] */
       volume: (number | null)[];
       /** Braid diameter at the highest pressure. [m] */
@@ -642,6 +813,8 @@ export interface components {
       load?: number | string | null;
       /** Fixed length, for force over pressure. [m] */
       fixed_length?: number | string | null;
+      /** Also the stiffness that the force implies, and the secant stiffness. */
+      further_stiffness?: boolean;
       /** The muscle. */
       muscle: components["schemas"]["MuscleInput"];
       /** The effects of its model; null: those of the preset. */
@@ -835,6 +1008,12 @@ export interface components {
       regulator?: components["schemas"]["RegulatorInput"] | null;
       /** Default: the valve is on the muscle, but a diagnosis tries a typical tube (4 mm, 1 m) as an explanation. null: there is no tube, and a diagnosis tries none. */
       tube?: components["schemas"]["TubeInput"] | null;
+      /** A one-way flow control valve on the muscle; null: there is none. */
+      flow_control?: components["schemas"]["FlowControlInput"] | null;
+      /** A quick exhaust valve on the muscle; null: there is none. */
+      quick_exhaust?: components["schemas"]["QuickExhaustInput"] | null;
+      /** Pulse-width modulation: the valves switch, and the command is their duty ratio; null: the valve opens as far as it is commanded. */
+      pwm?: components["schemas"]["PwmInput"] | null;
       /** Fitting presets; they add their port volumes. */
       fittings?: string[];
       /** The load. Default: none. */
@@ -1262,6 +1441,8 @@ export interface components {
       note: string;
       /** Whether it holds a whole drive; otherwise the muscle of one. */
       drives: boolean;
+      /** Whether it holds a muscle alone; otherwise it needs a drive. */
+      muscles: boolean;
     };
     /** What is taken along, and how: exactly one of muscle, model and drive. */
     ExportRequest: {
@@ -1409,6 +1590,17 @@ export interface components {
       /** The input it belongs to. */
       field?: string | null;
     };
+    /** A one-way flow control valve between tube (or valve) and muscle: it throttles the air in one direction, and lets it flow freely in the other. */
+    FlowControlInput: {
+      /** in: it throttles the filling of the muscle; out: its venting. */
+      meter: "in" | "out";
+      /** Conductance in the throttled direction, ISO 6358, as the screw is set. [m^3/(s*Pa)] */
+      sonic_conductance: number | string;
+      /** Critical pressure ratio b of both directions. Default: 0.3. [1] */
+      critical_pressure_ratio?: number | string | null;
+      /** Conductance in the free direction, through the check valve. Default: no resistance. [m^3/(s*Pa)] */
+      free_conductance?: number | string | null;
+    };
     /** Force over pressure at the fixed length, in both directions of motion. */
     ForceAtLength: {
       /** While shortening. [N] */
@@ -1509,6 +1701,10 @@ export interface components {
       running: number;
       /** Jobs in the queue. */
       waiting: number;
+      /** Jobs that may wait; further ones are refused with status 429. */
+      queue: number;
+      /** The processes by sort of work; empty without workers. */
+      lanes: components["schemas"]["LaneState"][];
       /** Most memory that the server itself took so far [bytes]; null on Windows. */
       memory: number | null;
       /** Program -> version. */
@@ -1541,6 +1737,11 @@ export interface components {
       what: string;
       /** Effect ids accepted as right answers. */
       effects: string[];
+    };
+    /** The versions of a project, the last one first. */
+    HistoryAnswer: {
+      /** The versions that are kept. */
+      history: components["schemas"]["RevisionInfo"][];
     };
     /** An earlier model in the user's history. */
     HistoryStep: {
@@ -1589,6 +1790,60 @@ export interface components {
       counter_force: (number | null)[];
       /** Pressure in the second muscle. [Pa] */
       counter_pressure: (number | null)[];
+      /** Command of the second valve or regulator. [1] */
+      counter_command: (number | null)[];
+      /** Mass flow into the second muscle. [kg/s] */
+      counter_mass_flow: (number | null)[];
+      /** Mass flow from the supply to the second muscle. [kg/s] */
+      counter_supply_flow: (number | null)[];
+      /** Mass flow from the second muscle to the atmosphere. [kg/s] */
+      counter_exhaust_flow: (number | null)[];
+      /** Braid diameter of the second muscle at mid-span. [m] */
+      counter_diameter: (number | null)[];
+      /** Set point of the angle; null without a controller. [rad] */
+      angle_reference: (number | null)[] | null;
+      /** Set point of the stiffness; null where the stiffness is not controlled. [N*m/rad] */
+      stiffness_reference: (number | null)[] | null;
+      /** Root mean square of stiffness minus set point over the rows; null without one. [N*m/rad] */
+      stiffness_error: number | null;
+    };
+    JsonValue: unknown;
+    /** All that the user keeps. */
+    KeptAnswer: {
+      /** Measurements and presets, the last one first. */
+      items: components["schemas"]["KeptItem"][];
+      /** Those that can be restored, the last one first. */
+      deleted: components["schemas"]["KeptItem"][];
+      /** Of all measurements on the disk, with deleted ones [bytes]. */
+      size: number;
+      /** Most that they may take [bytes]. */
+      quota: number;
+    };
+    /** A measurement file or a preset of the user. */
+    KeptItem: {
+      /** 'files' for a measurement file, else the kind of preset. */
+      kind: "files" | "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" | "tasks";
+      /** Id of the measurement or preset. */
+      id: string;
+      /** File name or title. */
+      name: string;
+      /** On the disk [bytes]. */
+      size: number;
+      /** When it was stored, renamed or deleted [s since 1970]. */
+      changed: number;
+      /** Whether the file is read with corrections of the user. */
+      corrected: boolean;
+    };
+    /** Processes for one sort of work. */
+    LaneState: {
+      /** Diagnoses and the like; files that are read; comparisons and models with typed terms. */
+      name: "long" | "files" | "models";
+      /** Jobs that run at a time. */
+      processes: number;
+      /** Jobs that run. */
+      running: number;
+      /** Jobs that wait. */
+      waiting: number;
     };
     /** Latin hypercube: each quantity is spread evenly over its distribution or range. */
     LatinHypercubeMethod: {
@@ -1700,7 +1955,7 @@ export interface components {
     LinearisationAnswer: {
       /** Where it was linearised. */
       point: components["schemas"]["LinearPointAnswer"];
-      /** Whether nothing sticks or switches there; then there is one model. */
+      /** Whether nothing sticks or switches there in a way the motion shows: there is one model. */
       smooth: boolean;
       /** What the linear models do not contain. */
       lost: string[];
@@ -2270,6 +2525,17 @@ export interface components {
       /** Value at the operating point, in its unit; states of gas absolute. */
       value: number;
     };
+    /** A project to be kept. */
+    NewProject: {
+      /** Title, in one line, at most 200 characters. */
+      title: string;
+      /** Notes of the user, plain text. */
+      notes?: string;
+      /** The document: any JSON object. Measurements whose ids stand anywhere in it are kept with it. */
+      document: { [key: string]: unknown };
+      /** The study of the document, as for /api/studies: its runs that the server keeps, up to 20 MB, are kept with the project. One that cannot be used is passed over. null: study tables stay. */
+      study?: { [key: string]: unknown } | null;
+    };
     /** The experiment that splits a group of indistinguishable effects best, with its set points. */
     NextExperiment: {
       /** The effects, that of the model first. */
@@ -2360,6 +2626,17 @@ export interface components {
       generations?: number;
       /** The random numbers follow from it: the same seed gives the same runs. */
       seed?: number;
+    };
+    /** What an order code says. */
+    OrderCodeAnswer: {
+      /** As it was given. */
+      code: string;
+      /** Id of the muscle preset of its series and diameter. */
+      preset: string;
+      /** Length that it states [m]. */
+      nominal_length: number;
+      /** Its parts, and what each means. */
+      parts: components["schemas"]["CodePartAnswer"][];
     };
     /** Characteristics over pressure: position at the load, force and diameters at the fixed length. */
     OverPressure: {
@@ -2597,6 +2874,76 @@ export interface components {
       /** Its cell in the rows of 'raw', from 0; null = it stands in none. */
       place: number | null;
     };
+    /** A project with the document of one version. */
+    ProjectAnswer: {
+      /** The project as it is now. */
+      project: components["schemas"]["ProjectInfo"];
+      /** The version of the document. */
+      revision: components["schemas"]["RevisionInfo"];
+      /** The document as it was saved. */
+      document: { [key: string]: unknown };
+      /** Ids of the measurements kept with it. */
+      measurements: string[];
+      /** Number of study tables kept with it. */
+      studies: number;
+      /** Study tables that are not kept or not shown, and why, in words. */
+      remarks: string[];
+    };
+    /** Another title or other notes. */
+    ProjectChange: {
+      /** Version that the change began with; 409 where the project has a later one. */
+      base_version: number;
+      /** New title; null = as it is. */
+      title?: string | null;
+      /** New notes; null = as they are. */
+      notes?: string | null;
+    };
+    /** How a copy is called. */
+    ProjectCopy: {
+      /** Title; null = that of the original with "(copy)". */
+      title?: string | null;
+    };
+    /** A project in a list. */
+    ProjectInfo: {
+      /** Its id. */
+      id: string;
+      /** Title, in one line, at most 200 characters. */
+      title: string;
+      /** Notes of the user, plain text. */
+      notes: string;
+      /** Number of the last version. */
+      version: number;
+      /** Instant, seconds since 1970 (UTC). */
+      created: number;
+      /** Instant of the last change, seconds since 1970 (UTC). */
+      changed: number;
+      /** Instant when it was deleted; null = it is not in the bin. */
+      deleted: number | null;
+      /** Number of measurements kept with it. */
+      files: number;
+      /** Size of document, measurements and study tables in bytes. */
+      size: number;
+    };
+    /** A further state of a project. */
+    ProjectState: {
+      /** The document: any JSON object. Measurements whose ids stand anywhere in it are kept with it. */
+      document: { [key: string]: unknown };
+      /** The study of the document, as for /api/studies: its runs that the server keeps, up to 20 MB, are kept with the project. One that cannot be used is passed over. null: study tables stay. */
+      study?: { [key: string]: unknown } | null;
+      /** Version that the change began with; 409 where the project has a later one. */
+      base_version: number;
+      /** What was done, in words, for the history. */
+      label?: string;
+      /** Saved without being asked for: such states replace each other within five minutes. */
+      automatic?: boolean;
+    };
+    /** The projects, the one changed last first. */
+    ProjectsAnswer: {
+      /** The projects. */
+      projects: components["schemas"]["ProjectInfo"][];
+      /** The database they are in, without a password. */
+      place: string;
+    };
     /** A drive that fulfils the task. Figures are per muscle unless stated otherwise. */
     ProposalAnswer: {
       /** Id of the preset. */
@@ -2691,6 +3038,17 @@ export interface components {
       /** The term and the residual. */
       curve: components["schemas"]["TermCurve"];
     };
+    /** Pulse-width modulation of switching valves. The command is read at the start of each period of a carrier; each valve is then open for its share of the period. */
+    PwmInput: {
+      /** Frequency of the carrier. [Hz] */
+      frequency: number | string;
+      /** two: a valve fills while the command is positive and another one vents while it is negative, each for the share |u| of the period; between, both are closed. one: a valve with three ports fills for the share (1 + u)/2 and vents for the rest. */
+      valves?: "two" | "one";
+      /** Shortest time a valve is open; shorter pulses are left out. Default: 0. [s] */
+      min_on?: number | string | null;
+      /** Shortest time a valve is closed; shorter pauses are left out. Default: 0. [s] */
+      min_off?: number | string | null;
+    };
     /** A value with its unit (text), source (short) and grade (a key of `physics.parameter.GRADES`). */
     Quantity: {
       /** The number, in its unit. */
@@ -2703,6 +3061,15 @@ export interface components {
       grade: "S" | "S2" | "C" | "D" | "M" | "E" | "user";
       /** Remark on the value. */
       note?: string | null;
+    };
+    /** A quick exhaust valve on the muscle. As soon as the pressure in the tube is below that in the muscle, the muscle vents through it to the surroundings, and not back through tube and valve. It needs a tube. */
+    QuickExhaustInput: {
+      /** Conductance of its exhaust, ISO 6358. [m^3/(s*Pa)] */
+      sonic_conductance: number | string;
+      /** Critical pressure ratio b of its exhaust. Default: 0.3. [1] */
+      critical_pressure_ratio?: number | string | null;
+      /** Pressure difference between muscle and tube at which it is fully open. Default: 0.1 bar, an estimate. [Pa] */
+      band?: number | string | null;
     };
     /** The range of a quantity in the data of the model. */
     RangeInput: {
@@ -2742,19 +3109,31 @@ export interface components {
       /** Position of the load. [m] */
       position: (number | null)[];
     };
-    /** Makes the valve a pressure regulator; a regulator preset has its own values. */
+    /** Makes the valve a pressure regulator: two orifices, of filling and venting, that open with the difference between its set point and the pressure at its outlet. A regulator preset has its own values. */
     RegulatorInput: {
       /** Gauge pressure at full command. [Pa] */
       range?: number | string | null;
-      /** Time constant of the regulated pressure. [s] */
+      /** Time constant with which the regulator follows its set point; with a damping, that of a lag of second order, 1/(2 pi f). [s] */
       time?: number | string | null;
+      /** Damping ratio of a lag of second order. Default: that of the preset, else first order. [1] */
+      damping?: number | string | null;
+      /** Pressure error at which an orifice of the regulator is fully open. Default: that of the preset, else 5 % of the range, an estimate. [Pa] */
+      band?: number | string | null;
+      /** Width of the pressure error in which both orifices stay closed. Default: that of the preset, else 0. [Pa] */
+      dead_band?: number | string | null;
     };
-    /** Figures of a pressure regulator: full-scale gauge pressure and time constant. */
+    /** Figures of a pressure regulator. */
     RegulatorPart: {
       /** Gauge pressure at full command. */
       range: components["schemas"]["Quantity"];
-      /** Time constant of the regulated pressure. */
+      /** Time constant with which it follows its set point. */
       time: components["schemas"]["Quantity"];
+      /** Damping ratio of a lag of second order; null: first order. */
+      damping?: components["schemas"]["Quantity"] | null;
+      /** Pressure error at which an orifice is fully open. */
+      band?: components["schemas"]["Quantity"] | null;
+      /** Width of the pressure error in which both orifices are closed. */
+      dead_band?: components["schemas"]["Quantity"] | null;
     };
     /** A rejected candidate. */
     RejectedAnswer: {
@@ -2774,6 +3153,13 @@ export interface components {
       would_work_if: string;
       /** Number of combinations this entry covers. */
       combinations: number;
+    };
+    /** A new name. */
+    RenameRequest: {
+      /** The new name. */
+      name: string;
+      /** The name that the user saw; refused if it is another by now. */
+      was?: string | null;
     };
     /** A comparison request, with further content of the report. */
     ReportRequest: {
@@ -2853,6 +3239,17 @@ export interface components {
     RevealRequest: {
       /** Ids of the effects of the user's model. */
       effects?: string[];
+    };
+    /** A version in the history of a project. */
+    RevisionInfo: {
+      /** Its number. */
+      version: number;
+      /** Instant, seconds since 1970 (UTC). */
+      saved: number;
+      /** What was done, in words, for the history. */
+      label: string;
+      /** Whether it was saved without being asked for. */
+      automatic: boolean;
     };
     /** The lattice of the braid. */
     RhombusAnswer: {
@@ -3046,7 +3443,7 @@ export interface components {
       exhaust_flow: (number | null)[];
       /** Pressure in the tube, if there is one. [Pa] */
       tube_pressure: (number | null)[] | null;
-      /** Pressure after the regulator, if there is one. [Pa] */
+      /** Set point of the regulator after its lag, if there is one. [Pa] */
       regulator_pressure: (number | null)[] | null;
       /** Gas volume of the muscle with all dead volumes. [m^3] */
       volume: (number | null)[];
@@ -3295,6 +3692,124 @@ export interface components {
       /** Whether the goals are met. */
       meets: boolean;
     };
+    /** Second set point of a controlled antagonist joint: its stiffness, by the command that both muscles have in common. It is estimated from the angle and both pressures with the static model of the muscles; its error counts as the mean pressure that is missing, a share of the full one. */
+    StiffnessControlInput: {
+      /** Desired stiffness of the joint at constant pressures: a constant, or a signal of time. [N*m/rad] */
+      reference: number | string | {
+        /** Name of the shape. */
+        shape: "step";
+        /** When it steps. [s] */
+        at?: number | string;
+        /** The value after the step, inside the pulse, or in the first part of a period. [N*m/rad] */
+        level: number | string;
+        /** The value before the step, outside the pulse, or in the second part of a period. [N*m/rad] */
+        initial?: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "pulse";
+        /** The value after the step, inside the pulse, or in the first part of a period. [N*m/rad] */
+        level: number | string;
+        /** The value before the step, outside the pulse, or in the second part of a period. [N*m/rad] */
+        initial?: number | string;
+        /** When the pulse begins. [s] */
+        on?: number | string;
+        /** When the pulse ends. [s] */
+        off: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "square";
+        /** The value after the step, inside the pulse, or in the first part of a period. [N*m/rad] */
+        level?: number | string;
+        /** The value before the step, outside the pulse, or in the second part of a period. [N*m/rad] */
+        initial?: number | string;
+        /** Duration of one period. [s] */
+        period: number | string;
+        /** Share of each period with the first level. [1] */
+        duty?: number | string;
+        /** Peak to peak, the full height: level - initial. [N*m/rad] */
+        amplitude?: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "triangle";
+        /** Peak to peak, the full height: offset to offset + amplitude. [N*m/rad] */
+        amplitude: number | string;
+        /** Duration of one period. [s] */
+        period: number | string;
+        /** The value that the amplitude is added to. [N*m/rad] */
+        offset?: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "ramp";
+        /** The value before the ramp. [N*m/rad] */
+        from?: number | string;
+        /** The value after the ramp. [N*m/rad] */
+        to: number | string;
+        /** When the ramp begins. [s] */
+        start?: number | string;
+        /** How long the ramp lasts. [s] */
+        duration: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "sine";
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [N*m/rad] */
+        amplitude: number | string;
+        /** The value that the amplitude is added to. [N*m/rad] */
+        offset?: number | string;
+        /** Periods per second; or give the period. [Hz] */
+        frequency?: number | string;
+        /** Angle at t = 0. [rad] */
+        phase?: number | string;
+        /** Duration of one period. [s] */
+        period?: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "chirp";
+        /** From the middle to the peak, half the height: offset - amplitude to offset + amplitude. [N*m/rad] */
+        amplitude: number | string;
+        /** The value that the amplitude is added to. [N*m/rad] */
+        offset?: number | string;
+        /** Frequency at the start. [Hz] */
+        from: number | string;
+        /** Frequency at the end of the duration and after it. [Hz] */
+        to: number | string;
+        /** How long the frequency changes. [s] */
+        duration: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "random";
+        /** How long each level lasts. [s] */
+        hold: number | string;
+        /** Number that the levels follow from; the same seed gives the same levels. */
+        seed?: number;
+        /** Lowest level. [N*m/rad] */
+        lower?: number | string;
+        /** Highest level. [N*m/rad] */
+        upper: number | string;
+      } | {
+        /** Name of the shape. */
+        shape: "table";
+        /** Instants of the points, ascending. [s] */
+        times: (number | string)[] | {
+          /** Unit of the values. */
+          unit: string;
+          /** The numbers. */
+          values: number[];
+        };
+        /** Values of the points, as many as instants. [N*m/rad] */
+        values: (number | string)[] | {
+          /** Unit of the values. */
+          unit: string;
+          /** The numbers. */
+          values: number[];
+        };
+        /** Joined by lines, or each value held until the next. */
+        interpolation?: "linear" | "hold";
+      };
+      /** Proportional gain. Default: 2 for a valve, 0 for a regulator. [1] */
+      kp?: number | string | null;
+      /** Integral gain, 1/s. Default: 0 for a valve, 0.5 for a regulator. [1/s] */
+      ki?: number | string | null;
+    };
     /** End stops as contraction ratios; below 0 the muscle may be stretched. */
     StopsInput: {
       /** The load rests here without pressure. [1] */
@@ -3349,6 +3864,8 @@ export interface components {
       runs: number;
       /** Runs of the plan. */
       planned: number;
+      /** Runs that were kept from before and not made again. */
+      kept: number;
       /** Figures of the goals. */
       goals: string[];
       /** Confidence level of all intervals. */
@@ -3421,6 +3938,13 @@ export interface components {
       /** Upper end; null where the runs do not give one. */
       high: number | null;
     };
+    /** A figure that can be watched. */
+    StudyFigureOption: {
+      /** Path of the figure. */
+      path: string;
+      /** SI unit. */
+      unit: string;
+    };
     /** A figure over all runs that have it. */
     StudyFigureSummary: {
       /** Path of the figure. */
@@ -3465,6 +3989,29 @@ export interface components {
       /** Morris: standard deviation of the effects, in the unit of the figure; large where the influence is not linear or depends on other quantities. */
       deviation: number | null;
     };
+    /** What is kept of a study. */
+    StudyKeptAnswer: {
+      /** Runs that are kept from before. */
+      runs: number;
+    };
+    /** What a study of a subject can vary and watch. */
+    StudyOptionsAnswer: {
+      /** What the subject is. */
+      kind: "drive" | "task";
+      /** Quantities, in the order of the document. */
+      quantities: components["schemas"]["StudyQuantityOption"][];
+      /** Figures. */
+      figures: components["schemas"]["StudyFigureOption"][];
+      /** The document of the subject with the effects of its presets stated. */
+      document: { [key: string]: components["schemas"]["JsonValue"] };
+      /** Whether the server can write tables as Parquet. */
+      parquet: boolean;
+    };
+    /** Which subject. */
+    StudyOptionsRequest: {
+      /** What is to be studied. */
+      subject: components["schemas"]["Subject"];
+    };
     /** Share of the runs that keep a limit; one that failed does not keep it. */
     StudyProbability: {
       /** The figure of the limit, or 'all'. */
@@ -3475,6 +4022,15 @@ export interface components {
       runs: number;
       /** kept / runs, with the interval of Clopper and Pearson. */
       probability: components["schemas"]["StudyEstimate"];
+    };
+    /** A quantity that can be varied. */
+    StudyQuantityOption: {
+      /** Path in the document of the subject. */
+      path: string;
+      /** SI unit. */
+      unit: string;
+      /** Present value in SI; null for a plain gain, whose unit the document does not state. */
+      value: number | null;
     };
     /** Influences on a figure. */
     StudySensitivity: {
@@ -3959,6 +4515,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -3973,6 +4530,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -3986,6 +4544,81 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** A copy with the last document and all measurements. */
+  copy_project: {
+    parameters: {
+      path: { project_id: string };
+    };
+    requestBody: { content: { "application/json": components["schemas"]["ProjectCopy"] } };
+    responses: {
+      201: { content: { "application/json": components["schemas"]["ProjectAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** How many runs of a study are kept from before; asked again, it does not make them again. */
+  count_kept_runs: {
+    requestBody: { content: { "application/json": components["schemas"]["StudyDocument"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["StudyKeptAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Keep a document as a new project, with the measurements that it names and the table of its study. */
+  create_project: {
+    requestBody: { content: { "application/json": components["schemas"]["NewProject"] } };
+    responses: {
+      201: { content: { "application/json": components["schemas"]["ProjectAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Delete a measurement or preset; for 30 days it can be restored, unless its room is needed. */
+  delete_kept: {
+    parameters: {
+      path: { kind: "files" | "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" | "tasks"; identity: string };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["KeptAnswer"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Put a project into the bin, where it stays for 30 days; or erase it from there. */
+  delete_project: {
+    parameters: {
+      path: { project_id: string };
+      query: { erase?: boolean };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["ProjectInfo"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -3997,6 +4630,25 @@ export interface operations {
       400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Another title or other notes. */
+  describe_project: {
+    parameters: {
+      path: { project_id: string };
+    };
+    requestBody: { content: { "application/json": components["schemas"]["ProjectChange"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["ProjectInfo"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
@@ -4031,6 +4683,34 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
+  /** A project as one file, with its history, measurements and study tables. */
+  export_project: {
+    parameters: {
+      path: { project_id: string };
+    };
+    responses: {
+      200: { content: { "application/zip": Blob | ArrayBuffer | string } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Unpack a project of another machine as a new one, with its history, measurements and study tables. */
+  import_project: {
+    requestBody: { content: { "application/octet-stream": Blob | ArrayBuffer | string; "application/zip": Blob | ArrayBuffer | string } };
+    responses: {
+      201: { content: { "application/json": components["schemas"]["ProjectAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** Keep a fitted model as a user preset, as it is, with the covariance and the range of its data. */
   keep_fitted_muscle: {
     requestBody: { content: { "application/json": components["schemas"]["FittedMuscleRequest"] } };
@@ -4043,6 +4723,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -4074,6 +4755,14 @@ export interface operations {
       200: { content: { "application/json": components["schemas"]["FormatsAnswer"] } };
     };
   };
+  /** Measurements and presets of the user, those that can be restored, and what they take. */
+  list_kept: {
+    responses: {
+      200: { content: { "application/json": components["schemas"]["KeptAnswer"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** Every mystery with its story and start model; comparisons accept its measurement by id. */
   list_mysteries: {
     responses: {
@@ -4095,6 +4784,47 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
+  /** All projects, the one changed last first. */
+  list_projects: {
+    parameters: {
+      query: { deleted?: boolean };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["ProjectsAnswer"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Quantities that a study of this subject can vary, with their values, and figures it can watch. */
+  list_study_options: {
+    requestBody: { content: { "application/json": components["schemas"]["StudyOptionsRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["StudyOptionsAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** A project; measurements and runs of studies that the server no longer has are stored again. */
+  open_project: {
+    parameters: {
+      path: { project_id: string };
+      query: { version?: number | null };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["ProjectAnswer"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** How a file would be read: columns, units, rows, kind, experiment. Nothing is stored. */
   preview_measurement: {
     parameters: {
@@ -4108,6 +4838,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -4119,6 +4850,20 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
+  /** The versions of a project, the last one first; open one with ``?version=``. */
+  read_history: {
+    parameters: {
+      path: { project_id: string };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["HistoryAnswer"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** A measurement with its columns in SI. */
   read_measurement: {
     parameters: {
@@ -4126,6 +4871,20 @@ export interface operations {
     };
     responses: {
       200: { content: { "application/json": components["schemas"]["MeasurementDetail"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Preset and length that an order code names, and what its parts mean. The field of an error names the part that is not understood by its place between the hyphens: ``code.2`` of ``DMSP-20-300X-RM`` is ``300X``. */
+  read_order_code: {
+    parameters: {
+      path: { code: string };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["OrderCodeAnswer"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
@@ -4141,6 +4900,52 @@ export interface operations {
       200: { content: { "application/json": components["schemas"]["MuscleAnswer"] | components["schemas"]["ValveAnswer"] | components["schemas"]["TubeAnswer"] | components["schemas"]["FittingAnswer"] | components["schemas"]["MeasurementPresetAnswer"] | components["schemas"]["CurvePresetAnswer"] | components["schemas"]["mckibben__server__schemas__presets__DesignAnswer"] | components["schemas"]["DriveAnswer"] | components["schemas"]["TaskAnswer"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Give a measurement or preset another name; its id stays. The answer is what is kept now. */
+  rename_kept: {
+    parameters: {
+      path: { kind: "files" | "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" | "tasks"; identity: string };
+    };
+    requestBody: { content: { "application/json": components["schemas"]["RenameRequest"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["KeptAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Bring a deleted measurement or preset back. The answer is what is kept now. */
+  restore_kept: {
+    parameters: {
+      path: { kind: "files" | "muscles" | "valves" | "tubes" | "fittings" | "measurements" | "curves" | "designs" | "drives" | "tasks"; identity: string };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["KeptAnswer"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** Take a project out of the bin. */
+  restore_project: {
+    parameters: {
+      path: { project_id: string };
+    };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["ProjectInfo"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
@@ -4162,7 +4967,7 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
-  /** Sweeps, Monte Carlo, sensitivities, optimisation, robust designs; at most 20 000 runs. Closing the connection ends the study. Longer ones: ``mckibben study``. */
+  /** Sweeps, Monte Carlo, sensitivities, optimisation, robust designs; at most 20 000 runs. Closing the connection ends the study. Its runs are kept: asked again, also after a restart of the server, it goes on from there, and a finished one answers at once. Longer studies: ``mckibben study``. */
   run_study: {
     requestBody: { content: { "application/json": components["schemas"]["StudyDocument"] } };
     responses: {
@@ -4190,6 +4995,24 @@ export interface operations {
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
+  /** Save a further state; 409 where somebody else has saved since ``base_version``. */
+  save_project: {
+    parameters: {
+      path: { project_id: string };
+    };
+    requestBody: { content: { "application/json": components["schemas"]["ProjectState"] } };
+    responses: {
+      200: { content: { "application/json": components["schemas"]["ProjectAnswer"] } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
   /** Motion, pressures, force, flows and timing table of a drive; closing the connection ends the run. */
   simulate_drive: {
     requestBody: { content: { "application/json": components["schemas"]["SimulationRequest"] } };
@@ -4200,6 +5023,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -4231,6 +5055,7 @@ export interface operations {
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
@@ -4242,6 +5067,20 @@ export interface operations {
       400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+    };
+  };
+  /** The table of a study as Parquet, of the runs that are kept; none is made. Needs pyarrow where the server runs; ``/api/studies/options`` says whether it is there. */
+  write_parquet: {
+    requestBody: { content: { "application/json": components["schemas"]["StudyDocument"] } };
+    responses: {
+      200: { content: { "application/vnd.apache.parquet": Blob | ArrayBuffer | string } };
+      400: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      403: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       413: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       415: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };

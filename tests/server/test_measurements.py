@@ -136,7 +136,11 @@ def test_a_name_is_only_a_name(client: TestClient, settings: Settings, name: str
     body = upload(client, name=name).json()
     assert "/" not in body["name"]
     assert "\\" not in body["name"]
-    written = {path.relative_to(settings.data) for path in settings.data.rglob("*") if path.is_file()}
+    written = {
+        path.relative_to(settings.data)
+        for path in settings.data.rglob("*")
+        if path.is_file() and path.name != ".lock"
+    }
     assert written == {Path(f"measurements/{ID}.data"), Path(f"measurements/{ID}.json")}
 
 

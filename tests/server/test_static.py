@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gzip
+import re
 import sys
 from pathlib import Path
 
@@ -14,13 +15,15 @@ from mckibben.server.app import create_app
 from mckibben.server.settings import Settings
 from tests.server.conftest import URL, assert_error
 
+PAGE = '<!doctype html><link rel="icon" href="/icon.svg"><script src="/js/main.js"></script>'
+
 
 @pytest.fixture
 def page(tmp_path: Path) -> TestClient:
     """A server whose page is three small files."""
     folder = tmp_path / "page"
     (folder / "js").mkdir(parents=True)
-    (folder / "index.html").write_text("<!doctype html><title>page</title>", "utf-8")
+    (folder / "index.html").write_text(PAGE, "utf-8")
     (folder / "js" / "main.js").write_text("export const long = 1;\n" * 200, "utf-8")
     (folder / "app.css").write_text("body {}", "utf-8")
     (tmp_path / "secret.txt").write_text("secret", "utf-8")
@@ -45,6 +48,32 @@ def test_files_are_served_with_their_type_and_revalidated(page: TestClient, path
     again = page.get(path, headers={"if-none-match": response.headers["etag"]})
     assert again.status_code == 304
     assert not again.content
+
+
+def test_what_the_page_links_is_kept_for_good_until_a_file_changes(page: TestClient, tmp_path: Path) -> None:
+    text = page.get("/").text
+    (link,) = re.findall(r'src="(/[0-9a-f]{16}/js/main.js)"', text)
+    assert 'href="/icon.svg"' in text
+    response = page.get(link)
+    assert "immutable" in response.headers["cache-control"]
+    assert response.content == page.get("/js/main.js").content
+    (tmp_path / "page" / "js" / "other.js").write_text("export const other = 2;", "utf-8")
+    (tmp_path / "page" / "js" / "main.js").write_text("export const long = 2;", "utf-8")
+    # A page that is still open asks by the old name: it gets the file, which must not stay under that name.
+    late = page.get(link)
+    assert late.headers["cache-control"] == "no-cache"
+    assert "long = 2" in late.text
+    (new,) = re.findall(r'src="(/[0-9a-f]{16}/js/main.js)"', page.get("/").text)
+    assert new != link
+    assert "immutable" in page.get(new).headers["cache-control"]
+
+
+@pytest.mark.parametrize(
+    "path", ["js/none.js", "index.html", "api/health", "link.txt", "js/../../secret.txt"]
+)
+def test_nothing_else_lies_under_that_name(page: TestClient, path: str) -> None:
+    (name,) = re.findall(r'src="/([0-9a-f]{16})/js', page.get("/").text)
+    assert_error(page.get(f"/{name}/{path}"), 404)
 
 
 def test_larger_files_are_compressed(page: TestClient) -> None:

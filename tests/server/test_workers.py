@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import contextlib
 import json
 import os
@@ -18,10 +19,12 @@ from typing import Any
 
 import pytest
 
+from mckibben.server.lane import BusyError
+from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.server.settings import Settings
-from mckibben.server.workers import BusyError, Ticket, Workers
+from mckibben.server.workers import Ticket, Workers
 from tests.running_server import RunningServer
-from tests.server.conftest import run_async
+from tests.server.conftest import CSV, run_async
 
 DIAGNOSIS = {
     "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
@@ -59,18 +62,19 @@ def health(server: RunningServer) -> dict[str, Any]:
     return json.loads(send(server, "/api/health", None)[1])
 
 
+def children(parent: int) -> list[int]:
+    found = []
+    for entry in Path("/proc").iterdir():
+        if entry.name.isdigit():
+            with contextlib.suppress(OSError, IndexError):
+                fields = (entry / "stat").read_text().rpartition(")")[2].split()
+                if int(fields[1]) == parent:
+                    found.append(int(entry.name))
+    return found
+
+
 def workers_of(server: RunningServer) -> list[int]:
     """Process ids: the workers are children of a fork server, which is one of the server."""
-
-    def children(parent: int) -> list[int]:
-        found = []
-        for entry in Path("/proc").iterdir():
-            if entry.name.isdigit():
-                with contextlib.suppress(OSError, IndexError):
-                    fields = (entry / "stat").read_text().rpartition(")")[2].split()
-                    if int(fields[1]) == parent:
-                        found.append(int(entry.name))
-        return found
 
     return [pid for middle in children(server._process.pid) for pid in children(middle)]
 
@@ -83,7 +87,7 @@ def until(condition: Any, within: float = 60.0) -> None:
 
 
 def test_an_answer_of_a_worker_is_that_of_the_server_itself(served: RunningServer) -> None:
-    status, text, _ = send(served, "/api/diagnoses", DIAGNOSIS)
+    status, text, _ = send(served, "/api/diagnoses", QUICK)
     assert status == 200
     assert json.loads(text)["verdict"]["status"]
     status, text, _ = send(served, "/api/diagnoses", DIAGNOSIS, "text/event-stream")
@@ -133,6 +137,52 @@ def test_a_killed_worker_takes_its_own_job_alone(served: RunningServer) -> None:
     assert send(served, "/api/diagnoses", QUICK)[0] == 200
 
 
+def test_an_idle_worker_that_is_killed_costs_no_job(served: RunningServer) -> None:
+    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+    for pid in workers_of(served):
+        with contextlib.suppress(ProcessLookupError):
+            os.kill(pid, signal.SIGKILL)
+    # The next job may be given away before anybody has noticed.
+    assert send(served, "/api/curves", CURVES | {"effects": TERM})[0] == 200
+    assert send(served, "/api/diagnoses", QUICK)[0] == 200
+
+
+def test_a_typed_term_and_a_file_do_not_wait_for_diagnoses(served: RunningServer) -> None:
+    data = json.dumps(DIAGNOSIS).encode()
+    headers = {"content-type": "application/json", "accept": "text/event-stream"}
+    request = urllib.request.Request(served.url + "/api/diagnoses", data, headers)
+    with contextlib.ExitStack() as asked:
+        streams = [asked.enter_context(urllib.request.urlopen(request, timeout=60)) for _ in range(4)]
+        until(lambda: health(served)["waiting"] == 2)
+        assert send(served, "/api/curves", CURVES | {"effects": TERM})[0] == 200
+        lanes = {lane["name"]: lane for lane in health(served)["lanes"]}
+        assert lanes["long"]["running"] == 2
+        assert lanes["files"]["processes"] == lanes["models"]["processes"] == 2
+        comparison = DIAGNOSIS | {"effects": TERM}
+        assert send(served, "/api/comparisons", comparison)[0] == 200
+        upload = urllib.request.Request(f"{served.url}/api/measurements?name=a.csv", CSV, method="PUT")
+        with urllib.request.urlopen(upload, timeout=60) as answer:
+            assert answer.status == 200
+        # All this was done before half of the diagnoses; nobody waits for them.
+        assert health(served)["running"] + health(served)["waiting"] >= 2
+        assert len(streams) == 4
+    until(lambda: health(served)["running"] == health(served)["waiting"] == 0)
+
+
+@pytest.mark.skipif(not Path("/proc/self/fd").exists(), reason="counts descriptors by /proc")
+def test_jobs_that_have_ended_hold_no_descriptors(served: RunningServer) -> None:
+    body = CURVES | {"pressures": ["2 bar"], "points": 3, "effects": TERM}
+    assert send(served, "/api/curves", body)[0] == 200
+    until(lambda: health(served)["running"] == 0)
+    everyone = [served.pid, *workers_of(served)]
+    before = {pid: len(list(Path(f"/proc/{pid}/fd").iterdir())) for pid in everyone}
+    for _ in range(12):
+        assert send(served, "/api/curves", body)[0] == 200
+    until(
+        lambda: all(len(list(Path(f"/proc/{pid}/fd").iterdir())) <= before[pid] + 3 for pid in everyone), 10
+    )
+
+
 def test_whoever_leaves_frees_the_worker(served: RunningServer) -> None:
     data = json.dumps(DIAGNOSIS).encode()
     headers = {"content-type": "application/json", "accept": "text/event-stream"}
@@ -166,6 +216,39 @@ def test_the_server_ends_under_work_and_leaves_no_process(
         until(lambda: not any(Path(f"/proc/{pid}").exists() for pid in pids), within=10.0)
         assert "Traceback" not in server.output
         assert "the server is ending" in told[0]  # as the last event, or as the answer if it had not begun
+
+
+def test_processes_that_take_no_jobs_are_replaced(
+    tmp_path: Path, compiled_kernels: None, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """As after a kill at the moment in which a process takes a job from the pipe of all."""
+    body = CurvesRequest.model_validate(CURVES)
+    workers = Workers(Settings(workers=1, data=tmp_path))
+
+    async def job() -> bytes:
+        ticket = workers.enter()
+        assert await ticket.place() is None
+        running = await workers.submit(ticket, "computation of curves", body)
+        while await running.news.get() is not None:
+            pass
+        return await workers.result(running)
+
+    async def both() -> None:
+        before = set(children(os.getpid()))
+        first = await job()
+        frozen = [pid for middle in set(children(os.getpid())) | before for pid in children(middle)]
+        for pid in frozen:
+            os.kill(pid, signal.SIGSTOP)
+        monkeypatch.setattr("mckibben.server.workers._BEGINS_WITHIN", 8.0)
+        try:
+            assert await job() == first
+        finally:
+            for pid in frozen:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(pid, signal.SIGCONT)
+            await asyncio.to_thread(workers.close)
+
+    run_async(both())
 
 
 def queue(workers: int, length: int) -> Workers:

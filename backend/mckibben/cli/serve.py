@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import re
 import socket
 import sys
 import threading
@@ -18,7 +19,10 @@ from mckibben.cli.options import folders
 from mckibben.physics.errors import InputError
 
 DEFAULT_PORT = 8000
+TOKEN_VARIABLE = "MCKIBBEN_TOKEN"
 _PORTS_TRIED = 50
+_SHORTEST_TOKEN = 16
+_USABLE_TOKEN = re.compile(r"[A-Za-z0-9._~-]+")
 
 
 def run(
@@ -27,9 +31,14 @@ def run(
     port: int | None,
     open_browser: bool,
     workers: int | None,
+    token_file: Path | None,
+    log_level: str,
+    access_log: bool | None,
+    quota: float,
     presets: Path | None,
     effects: Sequence[Path],
     data: Path | None,
+    projects: str | None,
 ) -> None:
     """Serve until interrupted.
 
@@ -37,6 +46,7 @@ def run(
         InputError: the address cannot be used, or a folder does not exist.
     """
     chosen = folders(presets, effects, data)
+    stated_token = _stated_token(token_file)
     listening = _bind(host, port)
     # Imported only after the port is bound: errors of the address are reported at once.
     import uvicorn
@@ -44,10 +54,11 @@ def run(
     from mckibben.documents.unused_files import unused_files
     from mckibben.server.app import create_app
     from mckibben.server.security import new_token
+    from mckibben.server.serving import WAITING_CONNECTIONS, serving
     from mckibben.server.settings import Settings, is_every_interface, is_loopback
 
     actual_port = int(listening.getsockname()[1])
-    token = None if is_loopback(host) else new_token()
+    token = stated_token or (None if is_loopback(host) else new_token())
     settings = Settings(
         host=host,
         port=actual_port,
@@ -55,7 +66,11 @@ def run(
         user_presets=chosen.user_presets,
         effects=chosen.effects,
         data=chosen.data,
+        projects=projects,
         workers=(os.cpu_count() or 1) if workers is None else workers,
+        quota=round(quota * 1e9),
+        log_level=log_level,
+        access_log=access_log,
     )
     link = _link(_own_address() if is_every_interface(host) else host, actual_port, token)
 
@@ -68,6 +83,8 @@ def run(
 
         async def startup(self, sockets: list[socket.socket] | None = None) -> None:
             await super().startup(sockets)
+            # uvicorn lets the system keep as many as are accepted at once, which is few.
+            listening.listen(WAITING_CONNECTIONS)
             if port is None and actual_port != DEFAULT_PORT:
                 typer.echo(f"Port {DEFAULT_PORT} is in use; taking {actual_port}.", err=True)
             typer.echo(f"mckibben is ready at {link} (Ctrl+C stops it)")
@@ -78,18 +95,32 @@ def run(
     app = create_app(settings)
     for sentence in unused_files(app.state.studio, chosen.user_presets):
         typer.echo(sentence, err=True)
-    config = uvicorn.Config(
-        app,
-        log_level="warning",
-        access_log=False,
-        server_header=False,
-        proxy_headers=False,
-        timeout_graceful_shutdown=2,
-    )
+    config = serving(app, settings)
     try:
         Server(config).run(sockets=[listening])
     except KeyboardInterrupt:
         typer.echo("Stopped.", err=True)
+
+
+def _stated_token(file: Path | None) -> str | None:
+    """The token of a file or of the environment; None without one."""
+    name, text = f"the environment variable {TOKEN_VARIABLE}", os.environ.get(TOKEN_VARIABLE)
+    if file is not None:
+        name = f"--token-file {file}"
+        try:
+            text = file.read_text("utf-8")
+        except (OSError, UnicodeError) as error:
+            why = error.strerror if isinstance(error, OSError) else "is not a text"
+            raise InputError(f"{name}: {why}", hint="name a file with the token in it") from error
+    if text is None:
+        return None
+    token = text.strip()
+    if len(token) < _SHORTEST_TOKEN or not _USABLE_TOKEN.fullmatch(token):
+        raise InputError(
+            f"{name}: is no token",
+            hint=f"at least {_SHORTEST_TOKEN} letters, digits, '-', '_', '.', e.g. of 'openssl rand -hex 32'",
+        )
+    return token
 
 
 def _bind(host: str, port: int | None) -> socket.socket:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import threading
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
@@ -15,6 +16,7 @@ from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
 from mckibben.report.versions import versions
 from mckibben.server import errors, static
+from mckibben.server.lanes import Lanes
 from mckibben.server.routes import (
     comparisons,
     curves,
@@ -26,10 +28,13 @@ from mckibben.server.routes import (
     health,
     help,
     inverse,
+    kept,
     linearisations,
     measurements,
     mysteries,
+    order_codes,
     presets,
+    projects,
     reports,
     signatures,
     simulations,
@@ -39,7 +44,6 @@ from mckibben.server.routes import (
 from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
 from mckibben.server.server_timing import TimingMiddleware
 from mckibben.server.settings import Settings
-from mckibben.server.workers import Workers
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.version import __version__
 
@@ -58,6 +62,8 @@ _TAGS = [
     {"name": "sizings", "description": "Sizing: from a task to ranked drives."},
     {"name": "studies", "description": "Many runs with varied quantities."},
     {"name": "measurements", "description": "Measurement files."},
+    {"name": "kept", "description": "What the user keeps: rename, delete, restore."},
+    {"name": "projects", "description": "Documents with history and measurements, in a database."},
     {"name": "experiments", "description": "What a measurement was made with, and what is to be asked."},
     {"name": "comparisons", "description": "A model compared with measurements."},
     {"name": "diagnoses", "description": "Which physical effect a model is missing."},
@@ -79,13 +85,18 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         # Ready when the first page asks for it, without delaying the start.
         threading.Thread(target=app.state.plotly.compressed, daemon=True).start()
-        # Delayed: importing numba blocks the interpreter for half a second, while the first page loads. The
-        # kernel of many runs brings the one of single runs with it.
-        warming = asyncio.get_running_loop().call_later(_WARM_AFTER, lane_kernels.warm)
+        # Delayed: importing numba blocks the interpreter for half a second, while the first page loads.
+        loop = asyncio.get_running_loop()
+        warming = [loop.call_later(_WARM_AFTER, threading.Thread(target=_warm, daemon=True).start)]
+        if app.state.workers is not None:
+            warming.append(loop.call_later(_WARM_AFTER, app.state.workers.start, "files"))
         yield
-        warming.cancel()
+        for later in warming:
+            later.cancel()
         if app.state.workers is not None:
             await asyncio.to_thread(app.state.workers.close)
+        if app.state.projects is not None:
+            await asyncio.to_thread(app.state.projects.close)
 
     app = FastAPI(
         title="mckibben",
@@ -104,8 +115,9 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.studio = Studio(
         presets=settings.presets, user_presets=settings.user_presets, effects=settings.effects
     )
-    app.state.store = MeasurementStore(settings.data)
-    app.state.workers = Workers(settings) if settings.workers else None
+    app.state.projects, app.state.opening_projects = None, threading.Lock()
+    app.state.store = MeasurementStore(settings.data, quota=settings.quota)
+    app.state.workers = Lanes(settings) if settings.workers else None
     app.state.effects = effects.EffectsDocument(app.state.studio.catalogue)
     app.state.versions = versions()
     app.state.plotly = static.PlotlyBundle()
@@ -123,7 +135,10 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         effects,
         signatures,
         presets,
+        order_codes,
+        projects,
         measurements,
+        kept,
         experiments,
         reports,
         exports,
@@ -142,6 +157,15 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.add_middleware(SecurityMiddleware, settings=settings)
     app.add_middleware(TimingMiddleware)
     return app
+
+
+def _warm() -> None:
+    """Load the integrators, and take all that is loaded by then out of what the garbage collector looks at.
+
+    It would otherwise hold up every request for two tenths of a second each time.
+    """
+    lane_kernels.warm().join()
+    gc.freeze()
 
 
 def _operation_name(route: APIRoute) -> str:

@@ -2,12 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from fastapi import Depends, Request
 
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
+
+if TYPE_CHECKING:
+    from mckibben.projects.store import ProjectStore
+else:
+    ProjectStore = object  # imported with the first question for projects
 
 
 async def _studio(request: Request) -> Studio:
@@ -18,12 +23,25 @@ async def _store(request: Request) -> MeasurementStore:
     return request.app.state.store
 
 
+def _projects(request: Request) -> ProjectStore:
+    """The projects; their database is imported with the first question for them."""
+    state = request.app.state
+    with state.opening_projects:
+        if state.projects is None:
+            from mckibben.projects.database import Database
+            from mckibben.projects.store import ProjectStore
+
+            state.projects = ProjectStore(Database(state.settings.projects or state.settings.data))
+    return state.projects
+
+
 async def _start_workers(request: Request) -> None:
     if request.app.state.workers is not None:
-        request.app.state.workers.start()
+        request.app.state.workers.start("long", "files")  # the third lane when a term is typed
 
 
 #: Of a route that is asked before long work: the workers start meanwhile.
 BeforeWork = Depends(_start_workers)
 StudioDep = Annotated[Studio, Depends(_studio)]
+ProjectsDep = Annotated[ProjectStore, Depends(_projects)]
 StoreDep = Annotated[MeasurementStore, Depends(_store)]

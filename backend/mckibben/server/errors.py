@@ -18,7 +18,7 @@ from starlette.exceptions import HTTPException
 from mckibben.documents.problems import first_problem
 from mckibben.physics.errors import InputError
 from mckibben.server.answer import BodyError, JsonAnswer
-from mckibben.server.workers import BusyError
+from mckibben.server.lane import BusyError
 
 log = logging.getLogger("mckibben.server")
 
@@ -84,7 +84,9 @@ def unexpected_answer(error: Exception) -> JsonAnswer:
 def _nearest_path(path: str, app: FastAPI) -> str:
     # Writing the description takes a moment: skip it for paths that browsers request by themselves.
     known = list(app.openapi()["paths"]) if path.startswith("/api") else []
-    near = get_close_matches(path[:200], known, n=1, cutoff=0.6)
+    # What begins like a path with parameters is rather that path than one that is spelt alike.
+    begun = [name for name in known if name.startswith(f"{path.rstrip('/')}/{{")]
+    near = begun[:1] or get_close_matches(path[:200], known, n=1, cutoff=0.6)
     return f"Did you mean '{near[0]}'?" if near else "The list of paths is at /openapi.json."
 
 

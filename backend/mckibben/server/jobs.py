@@ -1,4 +1,4 @@
-"""Long work of the server, by name: from the body of a request to the bytes of the answer.
+"""Work of the server, by name: from the body of a request to the bytes of the answer.
 
 A job is prepared, which reads files and refuses what cannot be used, and then run with a watch. It knows
 nothing of HTTP, so that it runs in a thread of the server or in another process alike.
@@ -6,12 +6,11 @@ nothing of HTTP, so that it runs in a thread of the server or in another process
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import Any
+from collections.abc import Mapping
 
 from mckibben.application import diagnose, linearise, size, study
 from mckibben.application.json_text import to_json
+from mckibben.application.study_store import StudyStore
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.study import StudyDocument
@@ -20,31 +19,17 @@ from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.report.diagnosis import gather as diagnosis_report
 from mckibben.report.sizing.gather import prepare_report
+from mckibben.server.job import Job, Prepared
 from mckibben.server.questions.linearisations import linear_question
 from mckibben.server.questions.models import model_question
 from mckibben.server.schemas.diagnoses import DiagnosisRequest
 from mckibben.server.schemas.linearisations import LinearisationRequest
 from mckibben.server.schemas.reports import ReportRequest
 from mckibben.server.schemas.sizing_reports import SizingReportRequest
-from mckibben.simulation.outcome import TIME_LIMIT, Watch
+from mckibben.server.short_jobs import SHORT_JOBS
 
-_MOST_RUNS = 20_000  # of a study by a request: a minute of both cores, and a table that a page can hold
+MOST_RUNS = 20_000  # of a study by a request: a minute of both cores, and a table that a page can hold
 _STUDY_LIMIT = 900.0  # s
-#: What is left to do when a job is prepared: the bytes of the answer.
-Prepared = Callable[[Watch], bytes]
-
-
-@dataclass(frozen=True, slots=True)
-class Job:
-    """One kind of long work.
-
-    Attributes:
-        prepare: reads and checks; raises `InputError` for what cannot be used.
-        time_limit: after which it ends by itself [s].
-    """
-
-    prepare: Callable[[Any, Studio, MeasurementStore], Prepared]
-    time_limit: float = TIME_LIMIT
 
 
 def _diagnosis(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) -> Prepared:
@@ -88,12 +73,13 @@ def _linear_view(body: LinearisationRequest, studio: Studio, _store: Measurement
     return lambda watch: to_json(work(watch))
 
 
-def _study(body: StudyDocument, studio: Studio, _store: MeasurementStore) -> Prepared:
-    work = study.prepare(study.study_question(body, studio, _MOST_RUNS))
+def _study(body: StudyDocument, studio: Studio, store: MeasurementStore) -> Prepared:
+    question = study.study_question(body, studio, MOST_RUNS)
+    work = study.prepare(question, journal=StudyStore(store.data).of(question))
     return lambda watch: to_json(work(watch))
 
 
-#: The kinds of long work.
+#: The kinds of work.
 JOBS: Mapping[str, Job] = {
     "diagnosis": Job(_diagnosis, diagnose.TIME_LIMIT),
     "linear view": Job(_linear_view),
@@ -101,4 +87,5 @@ JOBS: Mapping[str, Job] = {
     "study": Job(_study, _STUDY_LIMIT),
     "sizing": Job(_sizing),
     "sizing report": Job(_sizing_report),
+    **SHORT_JOBS,
 }

@@ -22,10 +22,12 @@ from starlette.requests import ClientDisconnect
 from mckibben.application.json_text import to_json
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
+from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.errors import InputError
 from mckibben.server.answer import JsonAnswer
 from mckibben.server.errors import input_error_answer, unexpected_answer
 from mckibben.server.jobs import JOBS
+from mckibben.server.lanes import Lanes
 from mckibben.server.workers import Workers
 from mckibben.simulation.outcome import TIME_LIMIT, Watch
 
@@ -133,7 +135,7 @@ async def answered(
     """
     if not wants_events(request):
         return JsonAnswer(await whole(request, kind, body, studio, store, quick=quick))
-    workers = _workers(request, quick=quick)
+    workers = _workers(request, kind, quick=quick)
     if workers is None:
         job = JOBS[kind]
         work = await prepared(request, job.prepare, body, studio, store)
@@ -153,7 +155,7 @@ async def whole(
     quick: bool = False,
 ) -> bytes:
     """The bytes of the answer of a job; arguments and errors as in `answered`."""
-    workers = _workers(request, quick=quick)
+    workers = _workers(request, kind, quick=quick)
     if workers is None:
         job = JOBS[kind]
         work = await prepared(request, job.prepare, body, studio, store)
@@ -168,9 +170,31 @@ async def whole(
             raise ClientDisconnect
 
 
-def _workers(request: Request, *, quick: bool) -> Workers | None:
-    """The workers of the server; None for a job that runs in the server itself."""
-    return None if quick else request.app.state.workers
+def contained(request: Request, body: object) -> bool:
+    """Whether a model is computed in a process of its own: it holds a term that the user typed, or his code.
+
+    What stays in the server compiles effects of the program alone.
+
+    Args:
+        request: of the caller.
+        body: with the effects of a muscle, of a drive or of a saved model.
+    """
+    if request.app.state.workers is None:
+        return False
+    studio: Studio = request.app.state.studio
+    for part in (body, getattr(body, "drive", None), getattr(body, "model", None)):
+        if isinstance(part, str):
+            if not studio.library.is_built_in("drives", part):
+                return True
+        elif not set(getattr(part, "effects", None) or ()) <= set(default_catalogue()):
+            return True
+    return False
+
+
+def _workers(request: Request, kind: str, *, quick: bool) -> Workers | None:
+    """The processes for a job; None for one that runs in the server itself."""
+    lanes: Lanes | None = request.app.state.workers
+    return None if quick or lanes is None else lanes.of(kind)
 
 
 async def _worked(workers: Workers, kind: str, body: object) -> AsyncGenerator[tuple[str, bytes]]:

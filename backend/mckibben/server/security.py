@@ -23,7 +23,9 @@ from mckibben.server.settings import LOOPBACK_NAMES, Settings, is_every_interfac
 
 JSON_LIMIT = 1_000_000
 UPLOAD_LIMIT = 64_000_000
-UPLOADS = frozenset({("PUT", "/api/measurements"), ("POST", "/api/measurements/preview")})
+UPLOADS = frozenset(
+    {("PUT", "/api/measurements"), ("POST", "/api/measurements/preview"), ("POST", "/api/projects/import")}
+)
 
 CONTENT_SECURITY_POLICY = (
     "default-src 'self'; img-src 'self' data: blob:; style-src 'self' 'unsafe-inline'; object-src 'none'; "

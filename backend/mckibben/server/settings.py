@@ -39,10 +39,16 @@ class Settings:
         user_presets: folder of the user's presets, where new ones are saved; None = saving is refused.
         effects: folders with further effect files.
         data: folder for uploaded measurements.
+        projects: address of the projects' database; None = SQLite in the data folder.
         frontend: the folder served at ``/``.
-        workers: processes for long work; 0 = threads of the server, which share one interpreter.
+        workers: processes for long work, and as many again, two at most, that read files and that hold
+            models with what the user typed; 0 = threads of the server, which share one interpreter.
         queue: jobs that may wait for a worker; more are refused.
         worker_memory: bytes that one of them may take.
+        reader_memory: bytes that one that reads files may take.
+        quota: bytes that kept measurements may take on the disk.
+        log_level: of what the server writes to the terminal.
+        access_log: whether it writes a line for each request; None = only when it is reachable from outside.
     """
 
     host: str = "127.0.0.1"
@@ -52,10 +58,15 @@ class Settings:
     user_presets: Path | None = None
     effects: tuple[Path, ...] = ()
     data: Path = field(default_factory=user_folder)
+    projects: str | None = None
     frontend: Path = field(default_factory=frontend_folder)
     workers: int = 0
     queue: int = 16
     worker_memory: int = 3_000_000_000
+    reader_memory: int = 2_000_000_000
+    quota: int = 4_000_000_000
+    log_level: str = "warning"
+    access_log: bool | None = None
 
     def __post_init__(self) -> None:
         if not is_loopback(self.host) and not self.token:

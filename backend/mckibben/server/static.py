@@ -3,13 +3,18 @@
 from __future__ import annotations
 
 import gzip
+import hashlib
 import mimetypes
+import os
+import re
 import threading
 from functools import cache
 from pathlib import Path
 
+from anyio import to_thread
 from fastapi import APIRouter, Request, Response
-from fastapi.responses import FileResponse
+from fastapi.responses import FileResponse, HTMLResponse
+from starlette.datastructures import Headers
 from starlette.exceptions import HTTPException
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.staticfiles import StaticFiles
@@ -24,33 +29,80 @@ for _suffix, _type in {
 }.items():  # fmt: skip
     mimetypes.add_type(_type, _suffix)
 
-# Files are revalidated every time, by their ETag: an upgrade never mixes old and new modules.
+# Modules and style sheets are linked from the page under a name of the state of all files, as in
+# `/<state>/js/main.js`; what they import lies under the same name. So a browser keeps them for good, asks for
+# none of them when the page is opened again, and never mixes old and new modules. By their plain path files
+# are revalidated every time.
 _REVALIDATE = "no-cache"
 _FOREVER = "public, max-age=31536000, immutable"
+_PAGE = ("/", "/index.html")
+_LINK = re.compile(r'(?<=["\'])/(?=(?:js|css)/)')
+_NAMED = re.compile(r"/([0-9a-f]{16})(/(?:js|css)/.+)")
 
 
 class _Frontend(StaticFiles):
-    """Static files that the browser revalidates."""
+    """Static files that the browser revalidates, or keeps."""
+
+    def __init__(self, folder: Path, kept: str) -> None:
+        super().__init__(directory=folder, html=True, check_dir=False)
+        self._kept = kept
 
     def file_response(self, *args: object, **kwargs: object) -> Response:
         """The file, or 304 when the browser has it already."""
         answer = super().file_response(*args, **kwargs)  # type: ignore[arg-type]
-        answer.headers["cache-control"] = _REVALIDATE
+        answer.headers["cache-control"] = self._kept
         return answer
 
 
 def frontend(folder: Path) -> ASGIApp:
     """Serve a folder at ``/``; missing files and unknown API paths answer 404."""
-    files = GZipMiddleware(_Frontend(directory=folder, html=True, check_dir=False), minimum_size=1000)
+    files, kept = (
+        GZipMiddleware(_Frontend(folder, kept), minimum_size=1000) for kept in (_REVALIDATE, _FOREVER)
+    )
+
+    async def page(scope: Scope, receive: Receive, send: Send) -> None:
+        state, text = await to_thread.run_sync(_linked_page, folder)
+        headers = {"cache-control": _REVALIDATE, "etag": f'"{state}"'}
+        if Headers(scope=scope).get("if-none-match") == headers["etag"]:
+            await Response(status_code=304, headers=headers)(scope, receive, send)
+        else:
+            await HTMLResponse(text, headers=headers)(scope, receive, send)
+
+    whole_page = GZipMiddleware(page, minimum_size=1000)
 
     async def serve(scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
             return
-        if scope["path"].startswith("/api/") or "\0" in scope["path"] or not folder.is_dir():
+        path = scope["path"]
+        if path.startswith("/api/") or "\0" in path or not folder.is_dir():
             raise HTTPException(404)
-        await files(scope, receive, send)
+        if path in _PAGE and scope["method"] in ("GET", "HEAD") and (folder / "index.html").is_file():
+            await whole_page(scope, receive, send)
+        elif named := _NAMED.fullmatch(path):
+            # A page opened before an upgrade gets the new file, which its browser must not keep for the old.
+            current = named[1] == await to_thread.run_sync(_state, folder)
+            await (kept if current else files)({**scope, "path": named[2]}, receive, send)
+        else:
+            await files(scope, receive, send)
 
     return serve
+
+
+def _linked_page(folder: Path) -> tuple[str, str]:
+    """Name of the state of all files, and the page with its links under that name."""
+    state = _state(folder)
+    return state, _LINK.sub(f"/{state}/", (folder / "index.html").read_text(encoding="utf-8"))
+
+
+def _state(folder: Path) -> str:
+    """Sixteen hexadecimal digits that differ when any file of the folder does."""
+    found = hashlib.blake2b(digest_size=8)
+    for place, inside, names in os.walk(folder):
+        inside.sort()
+        for name in sorted(names):
+            file = os.stat(os.path.join(place, name))
+            found.update(f"{place}/{name} {file.st_mtime_ns} {file.st_size}\n".encode())
+    return found.hexdigest()
 
 
 _compressing = threading.Lock()

@@ -6,6 +6,7 @@ of a word leaves nothing locked behind.
 
 from __future__ import annotations
 
+import gc
 import os
 import signal
 import sys
@@ -18,6 +19,7 @@ from typing import Any, Literal
 
 from mckibben.application.json_text import to_json
 from mckibben.documents.studio import Studio
+from mckibben.measurement.read import read_measurement
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.server.jobs import JOBS
@@ -25,16 +27,22 @@ from mckibben.server.settings import Settings
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Watch
 
-_NICE = 5  # requests of the page come first
+_NICE = 10  # requests of the page come first
 _KERNELS_WITHIN = 5.0  # s
+_ANY_FILE = b"# kind: static\npressure_bar;length_mm;force_N\n1;300;10\n1;290;5\n1;280;1\n"
 _LOOK_EVERY = 1.0  # s; whether the server is still there
 
 
 @dataclass(frozen=True, slots=True)
 class Message:
-    """What a worker says on the way: that the job is prepared, or a piece of JSON for a progress event."""
+    """What a worker says on the way.
 
-    kind: Literal["prepared", "progress"]
+    Attributes:
+        kind: that the job is prepared, a piece of JSON for a progress event, or that it says no more.
+        data: the JSON.
+    """
+
+    kind: Literal["prepared", "progress", "over"]
     data: bytes = b""
 
 
@@ -64,21 +72,31 @@ class _Own:
 _own: _Own | None = None
 
 
-def begin(settings: Settings) -> None:
-    """Open presets and store, and take the limits of a worker; called once in each process."""
+def begin(settings: Settings, memory: int, compiled: bool) -> None:
+    """Open presets and store, and take the limits of a worker; called once in each process.
+
+    Args:
+        settings: the folders of the server.
+        memory: bytes that the process may take.
+        compiled: whether its jobs run the integrators.
+    """
     global _own
     signal.signal(
         signal.SIGINT, signal.SIG_IGN
     )  # Ctrl+C reaches the whole group; the server ends its workers
     if hasattr(os, "nice"):
         os.nice(_NICE)
-    _limit_memory(settings.worker_memory)
+    _limit_memory(memory)
     threading.Thread(target=_end_with_the_server, args=(os.getppid(),), daemon=True).start()
     studio = Studio(presets=settings.presets, user_presets=settings.user_presets, effects=settings.effects)
     # Loaded before the first job, so that each worker gives the same answer; compiling them the first time
     # ever takes longer, and goes on beside the first job.
-    lane_kernels.warm().join(_KERNELS_WITHIN)
-    _own = _Own(studio, MeasurementStore(settings.data), settings.worker_memory)
+    if compiled:
+        lane_kernels.warm().join(_KERNELS_WITHIN)
+    else:
+        read_measurement(_ANY_FILE, "any.csv")  # loads what every file needs
+    _own = _Own(studio, MeasurementStore(settings.data, quota=settings.quota), memory)
+    gc.freeze()  # what is loaded by now stays; looking at it again would stop a job for a tenth of a second
 
 
 def perform(kind: str, body: Any, address: str, key: bytes, number: int) -> bytes | Refused:
@@ -120,14 +138,21 @@ def perform(kind: str, body: Any, address: str, key: bytes, number: int) -> byte
             return Refused(
                 f"this needs more than the {_own.memory / 1e9:.1f} GB of memory that one request may use",
                 None,
-                "use fewer rows, specimens or points",
+                job.hint,
                 "stopped",
             )
+        finally:
+            # The server closes its end, which wakes `_listen`: a connection that a thread reads stays open.
+            with suppress(OSError):
+                say(Message("over"))
 
 
 def _listen(line: Connection, stop: threading.Event) -> None:
-    """Wait for the word to stop; the end of the connection is one too."""
-    with suppress(EOFError, OSError):
+    """Wait for the word to stop; the end of the connection is one too.
+
+    A connection that is closed while it is read raises TypeError, because its handle is None by then.
+    """
+    with suppress(EOFError, OSError, TypeError):
         line.recv()
     stop.set()
 

@@ -15,6 +15,8 @@ import threading
 import time
 from asyncio import CancelledError
 from collections import deque
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
 from dataclasses import dataclass, field
@@ -25,38 +27,20 @@ from pebble import ProcessExpired, ProcessFuture, ProcessPool
 
 from mckibben.physics.errors import InputError
 from mckibben.server.jobs import JOBS
+from mckibben.server.lane import BusyError, Lane, Place
 from mckibben.server.settings import Settings
 from mckibben.server.worker import Message, Refused, begin, perform
 
 log = logging.getLogger("mckibben.server")
 
 _GRACE = 2.0  # s that a job may take to end by itself when it is asked to
-_OVERTIME = 10.0  # s beyond its own time limit after which a job is ended
+_BEGINS_WITHIN = 10.0  # s; a job whose turn it is begins at once, or when a process is replaced
+_FIRST_WITHIN = 40.0  # s; the first one waits for the first processes
+_MOST_TRIES = 3  # of a job whose process was killed before it began
 _RENEWED_AFTER = 200  # jobs, then a process is replaced: what was compiled stays in memory
 _LOOK_EVERY = 0.2  # s; at the place in the queue
 _FIRST_GUESS = 5.0  # s that a job takes, as long as none has ended
 _WEIGHT_OF_LAST = 0.3  # weight of the last job in the mean
-
-
-class BusyError(Exception):
-    """The queue is full.
-
-    Attributes:
-        waiting: jobs in it.
-        seconds: after which there will be room, about.
-    """
-
-    def __init__(self, waiting: int, seconds: float) -> None:
-        super().__init__(waiting, seconds)
-        self.waiting, self.seconds = waiting, seconds
-
-
-@dataclass(frozen=True, slots=True)
-class Place:
-    """A place in the queue: number of jobs before this one, and the time until it begins, about [s]."""
-
-    before: int
-    seconds: float
 
 
 @dataclass(eq=False)
@@ -65,6 +49,10 @@ class Running:
 
     Attributes:
         news: what the worker says; None when the job has ended.
+        line: on which it speaks; None = it has not begun.
+        stopped: whether it shall end.
+        again: how often it was given away once more because it did not begin.
+        lost: whether the processes have stopped taking jobs, this one among them.
     """
 
     kind: str
@@ -73,6 +61,8 @@ class Running:
     news: asyncio.Queue[Message | None] = field(default_factory=asyncio.Queue)
     line: Connection | None = None
     stopped: bool = False
+    again: int = 0
+    lost: bool = False
 
 
 class Ticket:
@@ -112,16 +102,19 @@ class Ticket:
 
 
 class Workers:
-    """The worker processes of a server; made on its event loop, used there alone.
+    """The worker processes of a lane; made on the server's event loop, used there alone.
 
     Args:
-        settings: number of processes, length of the queue, memory, and the folders of the server.
+        settings: the folders of the server.
+        lane: how many processes, how long a queue, how much memory; None = those of long work.
     """
 
-    def __init__(self, settings: Settings) -> None:
+    def __init__(self, settings: Settings, lane: Lane | None = None) -> None:
         self._settings = settings
+        self._lane = lane or Lane(settings.workers, settings.queue, settings.worker_memory)
         self._pool: ProcessPool | None = None
         self._listener: Listener | None = None
+        self._parked: list[tuple[ProcessPool, Listener | None]] = []
         self._key = os.urandom(16)
         self._running: dict[int, Running] = {}
         self._waiting: deque[Ticket] = deque()
@@ -130,7 +123,15 @@ class Workers:
         self._mean = _FIRST_GUESS
         self._loop: asyncio.AbstractEventLoop | None = None
         self._lock = threading.Lock()
+        # Not the threads of the event loop: simulations may keep all of those busy.
+        self._starter = ThreadPoolExecutor(1, thread_name_prefix="workers")
+        self._started = False
         self.ending = False
+
+    @property
+    def processes(self) -> int:
+        """Jobs that run at a time."""
+        return self._lane.processes
 
     @property
     def waiting(self) -> int:
@@ -145,7 +146,7 @@ class Workers:
     def start(self) -> None:
         """Start the processes, so that the first job need not wait for them. Later calls do nothing."""
         if self._pool is None and not self.ending:
-            threading.Thread(target=lambda: self._ready_pool()[0].active, daemon=True).start()
+            self._starter.submit(lambda: self._ready_pool()[0].active)
 
     def end(self) -> None:
         """The server ends: every job ends now, and who waits for one is told so. From any thread."""
@@ -156,11 +157,10 @@ class Workers:
 
     def close(self) -> None:
         """End all processes, whatever they do."""
-        with self._lock:
-            pool, self._pool = self._pool, None
-            listener, self._listener = self._listener, None
-        if pool is not None:
-            _end(pool, listener)
+        self._park()
+        self._starter.shutdown(wait=False, cancel_futures=True)
+        with ThreadPoolExecutor() as threads:
+            list(threads.map(lambda parked: _end(*parked), self._parked))
 
     def enter(self) -> Ticket:
         """A place in the queue, or a worker at once if one is free.
@@ -168,12 +168,12 @@ class Workers:
         Raises:
             BusyError: the queue is full.
         """
-        if len(self._inside) < self._settings.workers and not self._waiting:
+        if len(self._inside) < self._lane.processes and not self._waiting:
             ticket = Ticket(self)
             self._inside.add(ticket)
             ticket.begin()
             return ticket
-        if len(self._waiting) >= self._settings.queue:
+        if len(self._waiting) >= self._lane.queue:
             raise BusyError(len(self._waiting), self._seconds(len(self._waiting)))
         ticket = Ticket(self)
         self._waiting.append(ticket)
@@ -199,7 +199,7 @@ class Workers:
             following.begin()
 
     def _seconds(self, before: int) -> float:
-        return self._mean * (before + 1) / self._settings.workers
+        return self._mean * (before + 1) / self._lane.processes
 
     async def submit(self, ticket: Ticket, kind: str, body: Any) -> Running:
         """Give a job to a worker; its ticket, whose turn it is, is given back when the job has ended.
@@ -215,6 +215,7 @@ class Workers:
         if self.ending:
             raise _ending()
         loop = self._loop = self._loop or asyncio.get_running_loop()
+        first = not self._started
         self._number += 1
         running = Running(kind, self._number, ProcessFuture())
         self._running[running.number] = running  # known before it is scheduled: the worker may speak at once
@@ -222,29 +223,58 @@ class Workers:
         def schedule() -> None:
             pool, listener = self._ready_pool()
             arguments = [kind, body, listener.address, self._key, running.number]
-            running.future = pool.schedule(perform, args=arguments, timeout=JOBS[kind].time_limit + _OVERTIME)
+            running.future = pool.schedule(perform, args=arguments, timeout=JOBS[kind].ended_after)
             running.stopped = running.stopped or self.ending
             if running.stopped:  # meanwhile; what stopped it met the future that stood here before
                 running.future.cancel()
 
         def ended() -> None:
+            error = None if running.future.cancelled() else running.future.exception()
+            died = isinstance(error, ProcessExpired | BrokenProcessPool)
+            never_began = running.line is None and (running.lost or died)
+            if never_began and running.again < _MOST_TRIES and not (running.stopped or self.ending):
+                running.again, running.lost = running.again + 1, False  # nobody need know
+                self._starter.submit(lambda: (schedule(), follow()))
+                return
             self._running.pop(running.number, None)
             running.news.put_nowait(None)
             ticket.leave()
 
+        def look(future: object) -> None:
+            # A process that is killed while it takes a job from the others' pipe leaves the pipe locked.
+            if running.future is future and not running.future.done() and running.line is None:
+                log.error("the workers take no jobs any more and are replaced")
+                running.lost = not running.stopped
+                self._park()
+                running.future.cancel()
+
+        def follow() -> None:
+            within = _BEGINS_WITHIN if self._started and not first else _FIRST_WITHIN
+            loop.call_soon_threadsafe(loop.call_later, within, look, running.future)
+            running.future.add_done_callback(lambda _: loop.is_closed() or loop.call_soon_threadsafe(ended))
+
         try:
-            scheduling = asyncio.ensure_future(asyncio.to_thread(schedule))
-            while not (await asyncio.wait({scheduling}, timeout=_LOOK_EVERY))[0]:
-                if self.ending:  # the first processes take seconds to start: longer than the end may take
-                    raise _ending()
-            await scheduling
+            # A pool that has to be started again would keep the event loop waiting for its processes.
+            if self._started and self._pool is not None and self._pool.active:
+                schedule()
+            else:
+                await self._beside(schedule)
         except BaseException:
             self._running.pop(running.number, None)
             running.stopped = True
             running.future.cancel()
             raise
-        running.future.add_done_callback(lambda _: loop.is_closed() or loop.call_soon_threadsafe(ended))
+        follow()
         return running
+
+    async def _beside(self, schedule: Callable[[], None]) -> None:
+        """Schedule in a thread of its own: the first processes take seconds to start."""
+        scheduled: asyncio.Future[None] = asyncio.get_running_loop().run_in_executor(self._starter, schedule)
+        while not (await asyncio.wait({scheduled}, timeout=_LOOK_EVERY))[0]:
+            if self.ending:  # longer than the end may take
+                raise _ending()
+        await scheduled
+        self._started = True
 
     async def result(self, running: Running) -> bytes:
         """The bytes of the answer of a job.
@@ -264,7 +294,7 @@ class Workers:
         except TimeoutError:
             raise InputError(
                 f"the {kind} took longer than {JOBS[kind].time_limit:g} s and was ended",
-                hint="use fewer rows, effects or specimens",
+                hint=JOBS[kind].hint,
                 code="stopped",
             ) from None
         except (ProcessExpired, BrokenProcessPool) as error:
@@ -289,6 +319,14 @@ class Workers:
         assert self._loop is not None  # noqa: S101 - a job runs
         self._loop.call_later(_GRACE, running.future.cancel)
 
+    def _park(self) -> None:
+        """Take no further jobs to the present processes; those at work may end theirs."""
+        with self._lock:
+            if self._pool is not None:
+                self._parked.append((self._pool, self._listener))
+                self._pool.close()
+                self._pool = self._listener = None
+
     def _ready_pool(self) -> tuple[ProcessPool, Listener]:
         with self._lock:
             if self._pool is not None and not self._pool.active:
@@ -303,10 +341,10 @@ class Workers:
                 self._listener = Listener(authkey=self._key)
                 threading.Thread(target=self._accept, args=(self._listener,), daemon=True).start()
                 self._pool = ProcessPool(
-                    max_workers=self._settings.workers,
+                    max_workers=self._lane.processes,
                     max_tasks=_RENEWED_AFTER,
                     initializer=begin,
-                    initargs=[self._settings],
+                    initargs=[self._settings, self._lane.memory, self._lane.compiled],
                     context=context,
                 )
             assert self._listener is not None  # noqa: S101 - made with the pool
@@ -336,7 +374,7 @@ class Workers:
         with line, suppress(EOFError, OSError):
             while True:
                 message = line.recv()
-                if loop.is_closed():
+                if message.kind == "over" or loop.is_closed():
                     return
                 loop.call_soon_threadsafe(running.news.put_nowait, message)
 

@@ -25,8 +25,15 @@ async def read_health(request: Request) -> JsonAnswer:
             "plotly": request.app.state.plotly.version,
             "can_save_presets": settings.user_presets is not None,
             "workers": settings.workers,
-            "running": 0 if workers is None else workers.running,
-            "waiting": 0 if workers is None else workers.waiting,
+            "running": 0 if workers is None else workers.each["long"].running,
+            "waiting": 0 if workers is None else workers.each["long"].waiting,
+            "queue": settings.queue,
+            "lanes": []
+            if workers is None
+            else [
+                {"name": name, "processes": lane.processes, "running": lane.running, "waiting": lane.waiting}
+                for name, lane in workers.each.items()
+            ],
             "memory": _memory(),
             "versions": request.app.state.versions,
         }

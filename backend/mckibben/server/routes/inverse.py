@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from fastapi import APIRouter
+from fastapi import APIRouter, Request
 
-from mckibben.application.inverse import answer
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
-from mckibben.server.context import StudioDep
-from mckibben.server.questions.inverse import inverse_question
+from mckibben.server.context import StoreDep, StudioDep
+from mckibben.server.long_work import contained, whole
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.inverse import InverseAnswer, InverseRequest
 
@@ -18,9 +17,12 @@ router = APIRouter(prefix="/api/inverse", tags=["inverse"], route_class=StrictRo
 @router.post(
     "",
     response_model=InverseAnswer,
-    responses=errors(400, 413, 415, 422),
+    responses=errors(400, 413, 415, 422, 429),
     openapi_extra=request_examples.worked_each("questions"),
 )
-def answer_question(body: InverseRequest, studio: StudioDep) -> JsonAnswer:
+async def answer_question(
+    body: InverseRequest, request: Request, studio: StudioDep, store: StoreDep
+) -> JsonAnswer:
     """A pressure, contraction, working range or stroke pressure, with the limits it crosses."""
-    return JsonAnswer(answer(inverse_question(body, studio), studio))
+    quick = not contained(request, body)
+    return JsonAnswer(await whole(request, "inverse question", body, studio, store, quick=quick))

@@ -5,19 +5,18 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request
-from fastapi.concurrency import run_in_threadpool
 from starlette.exceptions import HTTPException
 
-from mckibben.application.experiment_form import preview_form
-from mckibben.application.measurements import details_of, preview_of, summary_of
-from mckibben.measurement.read import Correction, preview, read_correction
+from mckibben.measurement.read import Correction, read_correction
 from mckibben.measurement.read.correction import MAX_LENGTH
-from mckibben.measurement.store import MAX_NAME, clean_name
+from mckibben.measurement.store import MAX_NAME
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import BeforeWork, StoreDep, StudioDep
+from mckibben.server.long_work import whole
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.measurements import MeasurementAnswer, MeasurementDetail, PreviewAnswer
+from mckibben.server.short_jobs import FileRequest
 
 router = APIRouter(prefix="/api/measurements", tags=["measurements"], route_class=StrictRoute)
 
@@ -67,6 +66,7 @@ _Mapping = Annotated[
 ]
 
 
+Identity = Annotated[str, Path(pattern=r"^[0-9a-f]{64}$", description="SHA-256 of the file.")]
 _Muscle = Annotated[
     str | None,
     Query(
@@ -81,38 +81,40 @@ _Muscle = Annotated[
     "",
     dependencies=[BeforeWork],
     response_model=MeasurementAnswer,
-    responses=errors(400, 409, 413, 415, 422),
+    responses=errors(400, 409, 413, 415, 422, 429),
     openapi_extra=_BODY,
 )
 async def upload_measurement(
-    request: Request, name: _Name, store: StoreDep, mapping: _Mapping = None
+    request: Request, name: _Name, studio: StudioDep, store: StoreDep, mapping: _Mapping = None
 ) -> JsonAnswer:
     """Upload a measurement file; the answer shows how it was read. The same file is stored once.
 
     With a mapping the measurement gets its own id, so that two readings of a file can be compared.
     """
     content, correction = await _file(request, mapping)
-    return await run_in_threadpool(lambda: JsonAnswer(summary_of(store.put(content, name, correction))))
+    file = FileRequest(content, name, correction)
+    return JsonAnswer(await whole(request, "file upload", file, studio, store))
 
 
 @router.post(
     "/preview",
     dependencies=[BeforeWork],
     response_model=PreviewAnswer,
-    responses=errors(400, 413, 415, 422),
+    responses=errors(400, 413, 415, 422, 429),
     openapi_extra=_BODY,
 )
 async def preview_measurement(
-    request: Request, name: _Name, studio: StudioDep, mapping: _Mapping = None, muscle: _Muscle = None
+    request: Request,
+    name: _Name,
+    studio: StudioDep,
+    store: StoreDep,
+    mapping: _Mapping = None,
+    muscle: _Muscle = None,
 ) -> JsonAnswer:
     """How a file would be read: columns, units, rows, kind, experiment. Nothing is stored."""
     content, correction = await _file(request, mapping)
-
-    def read() -> JsonAnswer:
-        found = preview(content, clean_name(name), correction)
-        return JsonAnswer(preview_of(found, preview_form(found, studio, muscle)))
-
-    return await run_in_threadpool(read)
+    file = FileRequest(content, name, correction, muscle)
+    return JsonAnswer(await whole(request, "preview", file, studio, store))
 
 
 async def _file(request: Request, mapping: str | None) -> tuple[bytes, Correction]:
@@ -125,10 +127,9 @@ async def _file(request: Request, mapping: str | None) -> tuple[bytes, Correctio
     return await request.body(), correction
 
 
-@router.get("/{measurement_id}", response_model=MeasurementDetail, responses=errors(404, 422))
-def read_measurement(
-    measurement_id: Annotated[str, Path(pattern=r"^[0-9a-f]{64}$", description="SHA-256 of the file.")],
-    store: StoreDep,
+@router.get("/{measurement_id}", response_model=MeasurementDetail, responses=errors(404, 422, 429))
+async def read_measurement(
+    measurement_id: Identity, request: Request, studio: StudioDep, store: StoreDep
 ) -> JsonAnswer:
     """A measurement with its columns in SI."""
-    return JsonAnswer(details_of(store.get(measurement_id)))
+    return JsonAnswer(await whole(request, "measurement", measurement_id, studio, store))

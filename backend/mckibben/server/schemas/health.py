@@ -9,6 +9,17 @@ from pydantic import Field
 from mckibben.documents.strict import Strict
 
 
+class LaneState(Strict):
+    """Processes for one sort of work."""
+
+    name: Literal["long", "files", "models"] = Field(
+        description="Diagnoses and the like; files that are read; comparisons and models with typed terms."
+    )
+    processes: int = Field(description="Jobs that run at a time.")
+    running: int = Field(description="Jobs that run.")
+    waiting: int = Field(description="Jobs that wait.")
+
+
 class Health(Strict):
     """The server is up."""
 
@@ -20,6 +31,8 @@ class Health(Strict):
     )
     running: int = Field(description="Jobs in these processes.")
     waiting: int = Field(description="Jobs in the queue.")
+    queue: int = Field(description="Jobs that may wait; further ones are refused with status 429.")
+    lanes: list[LaneState] = Field(description="The processes by sort of work; empty without workers.")
     memory: int | None = Field(
         description="Most memory that the server itself took so far [bytes]; null on Windows."
     )

@@ -1,0 +1,41 @@
+"""What a job of the server is: from the body of a request to the bytes of the answer."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Any, Literal
+
+from mckibben.documents.studio import Studio
+from mckibben.measurement.store import MeasurementStore
+from mckibben.simulation.outcome import TIME_LIMIT, Watch
+
+#: What is left to do when a job is prepared: the bytes of the answer.
+Prepared = Callable[[Watch], bytes]
+#: Which processes do a job: those of long work, those that read files, those of models with typed terms.
+LaneName = Literal["long", "files", "models"]
+_OVERTIME = 10.0  # s beyond its own time limit after which a job is ended
+
+
+@dataclass(frozen=True, slots=True)
+class Job:
+    """One kind of work.
+
+    Attributes:
+        prepare: reads and checks; raises `InputError` for what cannot be used.
+        time_limit: after which it ends by itself, or is ended where it does not look at the time [s].
+        lane: of the processes that do it.
+        looks: whether it looks at the time.
+        hint: how it would take less time or memory.
+    """
+
+    prepare: Callable[[Any, Studio, MeasurementStore], Prepared]
+    time_limit: float = TIME_LIMIT
+    lane: LaneName = "long"
+    looks: bool = True
+    hint: str = "use fewer rows, effects, specimens or points"
+
+    @property
+    def ended_after(self) -> float:
+        """Time after which its process is ended [s]."""
+        return self.time_limit + _OVERTIME if self.looks else self.time_limit

@@ -1,0 +1,166 @@
+"""Short work that does not stay in the server: files that are read, models with what the user typed.
+
+A file or a typed term may keep native code busy that nothing in the same process can end.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+
+from mckibben.application import simulate
+from mckibben.application.compare import compare
+from mckibben.application.curves import curves
+from mckibben.application.experiment_form import experiment_forms, preview_form
+from mckibben.application.inverse import answer
+from mckibben.application.json_text import to_json
+from mckibben.application.measurements import details_of, preview_of, summary_of
+from mckibben.application.projects import unpacked
+from mckibben.application.saved_model import present_model
+from mckibben.documents.studio import Studio
+from mckibben.export.use_case import export
+from mckibben.measurement.read import Correction, preview
+from mckibben.measurement.store import MeasurementStore, clean_name
+from mckibben.physics.errors import InputError, fields_inside
+from mckibben.server.job import Job, Prepared
+from mckibben.server.questions.curves import curves_question
+from mckibben.server.questions.exports import export_question
+from mckibben.server.questions.inverse import Body as InverseBody
+from mckibben.server.questions.inverse import inverse_question
+from mckibben.server.questions.models import model_question, said_measurements
+from mckibben.server.questions.simulations import simulation_question
+from mckibben.server.schemas.comparisons import ComparisonRequest
+from mckibben.server.schemas.curves import CurvesRequest
+from mckibben.server.schemas.diagnoses import DiagnosisRequest
+from mckibben.server.schemas.exports import ExportRequest
+from mckibben.server.schemas.presets import FittedMuscleRequest
+from mckibben.server.schemas.simulations import SimulationRequest
+from mckibben.simulation.outcome import Watch
+
+_READ_WITHIN = 60.0  # s; the largest file takes a third of it
+_COMPARE_WITHIN = 120.0  # s
+_COMPUTE_WITHIN = 20.0  # s
+_SMALLER = "split the file, or keep every second row"
+_SMALLER_PROJECT = "import a project with smaller files"
+_SIMPLER = "use fewer factors and functions in the term"
+
+
+@dataclass(frozen=True, slots=True)
+class FileRequest:
+    """A file and what the user says of it.
+
+    Attributes:
+        content: its bytes.
+        name: for people.
+        correction: of how it is read.
+        muscle: id of the preset that is chosen, None without one; for the questions of a preview.
+    """
+
+    content: bytes
+    name: str
+    correction: Correction
+    muscle: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class PackedProject:
+    """A project of another machine.
+
+    Attributes:
+        content: its file.
+        database: of the projects: an address, or the folder of an SQLite file.
+    """
+
+    content: bytes
+    database: str | Path
+
+
+def _upload(body: FileRequest, _studio: Studio, store: MeasurementStore) -> Prepared:
+    return lambda _: to_json(summary_of(store.put(body.content, body.name, body.correction)))
+
+
+def _preview(body: FileRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
+    def read(_: Watch) -> bytes:
+        found = preview(body.content, clean_name(body.name), body.correction)
+        return to_json(preview_of(found, preview_form(found, studio, body.muscle)))
+
+    return read
+
+
+def _details(body: str, _studio: Studio, store: MeasurementStore) -> Prepared:
+    return lambda _: to_json(details_of(store.get(body)))
+
+
+def _comparison(body: ComparisonRequest, studio: Studio, store: MeasurementStore) -> Prepared:
+    return lambda _: to_json(compare(model_question(body, studio, store), fit=body.fit))
+
+
+def _experiments(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) -> Prepared:
+    measurements = said_measurements(body, studio, store)
+    ids = [item.id for item in body.chosen()]
+    pairs = list(zip(ids, measurements, strict=True))
+    return lambda _: to_json(experiment_forms(pairs, lambda: model_question(body, studio, store), studio))
+
+
+def _fitted_model(body: FittedMuscleRequest, studio: Studio, store: MeasurementStore) -> Prepared:
+    return lambda _: to_json(present_model(model_question(body, studio, store), studio).to_document())
+
+
+def _project_import(body: PackedProject, _studio: Studio, store: MeasurementStore) -> Prepared:
+    # Imported here: the database of the projects is nothing that the other files need.
+    from mckibben.projects.database import Database
+    from mckibben.projects.store import ProjectStore
+
+    projects = ProjectStore(Database(body.database))
+    return lambda _: to_json({"id": unpacked(body.content, projects, store).summary.id})
+
+
+def _curves(body: CurvesRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
+    return lambda _: to_json(curves(curves_question(body, studio), studio))
+
+
+def _inverse(body: InverseBody, studio: Studio, _store: MeasurementStore) -> Prepared:
+    return lambda _: to_json(answer(inverse_question(body, studio), studio))
+
+
+def _simulation(body: SimulationRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
+    run = simulate.prepare(simulation_question(body, studio))
+
+    def work(watch: Watch) -> bytes:
+        with fields_inside("drive"):
+            return to_json(run(watch))
+
+    return work
+
+
+# The first line of the answer is about the file, the rest is its content.
+def _export(body: ExportRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
+    question = export_question(body, studio)
+    inside = "drive" if body.drive is not None else "model" if body.model is not None else None
+
+    def write(_: Watch) -> bytes:
+        try:
+            file = export(question, studio).file
+            return to_json({"name": file.name, "media_type": file.media_type}) + b"\n" + file.content
+        except InputError as error:
+            if inside is not None and error.field not in ("as", "name"):
+                raise error.inside(inside) from error
+            raise
+
+    return write
+
+
+SHORT_JOBS: Mapping[str, Job] = {
+    "file upload": Job(_upload, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
+    "preview": Job(_preview, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
+    "project import": Job(_project_import, _READ_WITHIN, "files", looks=False, hint=_SMALLER_PROJECT),
+    "measurement": Job(_details, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
+    "comparison": Job(_comparison, _COMPARE_WITHIN, "models", looks=False),
+    "experiment form": Job(_experiments, _READ_WITHIN, "models", looks=False, hint=_SMALLER),
+    "fitted model": Job(_fitted_model, _COMPARE_WITHIN, "models", looks=False),
+    "computation of curves": Job(_curves, _COMPUTE_WITHIN, "models", looks=False, hint=_SIMPLER),
+    "inverse question": Job(_inverse, _COMPUTE_WITHIN, "models", looks=False, hint=_SIMPLER),
+    "simulation": Job(_simulation, lane="models", hint=_SIMPLER),
+    "export": Job(_export, _COMPARE_WITHIN, "models", looks=False, hint=_SIMPLER),
+}
