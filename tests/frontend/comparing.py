@@ -12,7 +12,7 @@ from collections.abc import Callable
 
 from playwright.sync_api import FilePayload, Locator, Page, expect
 
-from tests.frontend.diagnoses import remember
+from tests.frontend.diagnoses import remember, unanswered
 from tests.frontend.views import marked, open_compare, run
 
 NOISE = 2.0  # N
@@ -93,7 +93,7 @@ def use(page: Page) -> None:
     page.locator("dialog.import").get_by_role("button", name=re.compile("^Use th(is file|ese)")).click()
 
 
-def diagnosed(page: Page, within: float = 60_000) -> None:
+def diagnosed(page: Page, within: float = 180_000) -> None:
     """Wait (at most so many ms) until the numbers belong to the model and the diagnosis is complete."""
     expect(page.locator(".error-value")).not_to_have_class(re.compile("stale"), timeout=20_000)
     marked(page, '[data-diagnosis="done"]', within)
@@ -117,8 +117,13 @@ def state(page: Page) -> str | None:
 
 def opened(page: Page, *files: FilePayload) -> None:
     """The view with these files, compared and diagnosed."""
-    remember(page)
     open_compare(page)
+    bring(page, *files)
+
+
+def bring(page: Page, *files: FilePayload) -> None:
+    """Compare and diagnose files in the view that is open."""
+    remember(page)
     choose(page, *files)
     use(page)
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
@@ -133,12 +138,24 @@ def error(page: Page) -> float:
 
 
 def changed(page: Page, act: Callable[[], object]) -> float:
-    """Do something that changes the model; the error after it."""
+    """Do something that changes the model; the error after it, with a complete diagnosis."""
     number = page.locator("#error-now")
     before = number.inner_text()
     act()
     expect(number).not_to_have_text(before, use_inner_text=True, timeout=20_000)
     diagnosed(page)
+    return error(page)
+
+
+def fitted(page: Page, act: Callable[[], object]) -> float:
+    """Do something that changes the model; the error after it. No diagnosis comes."""
+    number = page.locator("#error-now")
+    before = number.inner_text()
+    with unanswered(page):
+        act()
+        expect(number).not_to_have_text(before, use_inner_text=True, timeout=20_000)
+        expect(page.locator(".error-value")).not_to_have_class(re.compile("stale"), timeout=20_000)
+        expect(number).not_to_have_class(re.compile("counting"))
     return error(page)
 
 

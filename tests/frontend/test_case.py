@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import math
 import re
 from collections.abc import Callable
 from itertools import pairwise
@@ -28,10 +29,10 @@ from tests.frontend.comparing import (
     use,
     watch_shifts,
 )
-from tests.frontend.diagnoses import alter, remember
+from tests.frontend.diagnoses import alter, remember, unanswered
 from tests.frontend.guard import PageGuard
 from tests.frontend.importing import CORPUS, answer_everything
-from tests.frontend.views import open_compare, open_design, run
+from tests.frontend.views import marked, open_compare, open_design, run
 
 needs_corpus = pytest.mark.skipif(
     not (CORPUS / "lab_de.csv").exists(), reason="the files of laboratories are not beside the project"
@@ -76,10 +77,10 @@ def falling(errors: list[str]) -> bool:
 
 
 def test_a_mystery_is_solved_by_the_recommendations_alone(page: Page) -> None:
-    remember(page)
     open_compare(page)
+    remember(page)
     assert recommendations(page) == ["Open…"]
-    page.locator(".tile", has_text="Two lines per pressure").click()
+    page.locator(".tile", has_text="Weaker than drawn").click()
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
     diagnosed(page)
     card = page.get_by_role("region", name="Mystery")
@@ -89,8 +90,8 @@ def test_a_mystery_is_solved_by_the_recommendations_alone(page: Page) -> None:
     assert state(page) == "adequate"
     expect(card).to_contain_text("Your diagnosis so far")
     card.get_by_role("button", name="Reveal what is hidden").click()
-    expect(card.locator(".revealed")).to_have_count(2)
-    expect(card.locator(".revealed.good")).to_have_count(2)
+    expect(card.locator(".revealed")).to_have_count(1)
+    expect(card.locator(".revealed.good")).to_have_count(1)
     expect(card.get_by_role("button")).to_have_count(0)
 
 
@@ -122,8 +123,13 @@ def checked(page: Page) -> float:
 
 
 def test_three_files_of_one_muscle_are_one_case(page: Page) -> None:
-    opened(page, *[file(f"run{n}.csv", measured(n)) for n in (1, 2, 3)])
-    expect(page.locator(".strip button.name")).to_have_text("run1.csv + 2")
+    open_compare(page)
+    with unanswered(page):
+        choose(page, *[file(f"run{n}.csv", measured(n)) for n in (1, 2, 3)])
+        use(page)
+        expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
+        expect(page.locator(".strip button.name")).to_have_text("run1.csv + 2")
+    remember(page)
     setup(page)
     page.get_by_role("radiogroup", name="Use of run3.csv").get_by_role("radio", name="Check").click()
     page.keyboard.press("Escape")
@@ -140,6 +146,13 @@ def test_three_files_of_one_muscle_are_one_case(page: Page) -> None:
     setup(page)
     page.get_by_role("radiogroup", name="Use of run3.csv").get_by_role("radio", name="Off").click()
     expect(page.locator("#validation-error")).to_have_count(0, timeout=20_000)
+
+
+WEIGHTS = """
+const { weightsOf } = await import("/js/views/compare/board/weights.js");
+const one = { rows: 100, autocorrelation: [0.25, 0.01, 0.3] };
+return weightsOf([{ ...one, error: 2.1, fitted: 1 }, null, { ...one, error: 2, fitted: 2 }], 1);
+"""
 
 
 def test_the_board_compares_pinned_models(page: Page, sweeps: FilePayload, tmp_path: Path) -> None:
@@ -159,13 +172,20 @@ def test_the_board_compares_pinned_models(page: Page, sweeps: FilePayload, tmp_p
     values = [float(text) for text in errors.all_inner_texts()]
     assert values[0] > 50 * NOISE
     assert values[1] == values[2]
+    weights = board.locator("tbody tr", has_text="Weight").locator("td b")
+    expect(weights).to_have_text(["< 0.1", "> 99.9", "> 99.9"])  # the case is the second pin: it counts once
+    # exp(-S/2) over their sum, S = n ln e^2 + k ln n; n = 100 / (1 + 2 * 0.25) independent rows of the best.
+    n = 100 / (1 + 2 * 0.25)
+    scores = [n * math.log(error**2) + k * math.log(n) for error, k in ((2.1, 1), (2.0, 2))]
+    share = 1 / (1 + math.exp((scores[0] - scores[1]) / 2))
+    assert run(page, WEIGHTS) == [pytest.approx(share), None, pytest.approx(1 - share)]
     rows = board.locator("tbody tr").count()
     board.get_by_label("Differences only").check()
     expect(board).to_contain_text(re.compile(r"\d+ equal rows hidden"))
     assert board.locator("tbody tr").count() < rows
     board.get_by_role("button", name="Compare the others with Ideal muscle").click()
     expect(board.locator("tbody tr").first).to_contain_text("−99 %")
-    board.get_by_role("button", name="Sort the models by Error", exact=True).click()
+    board.get_by_role("button", name="Error N RMS: sort the models").click()
     expect(head.nth(2)).to_contain_text("Ideal muscle")
     line = page.locator("#overlay-force .scatterlayer .tracepin0")
     board.get_by_role("button", name="Draw Ideal muscle in the overlay").click()
@@ -205,6 +225,15 @@ def test_the_model_becomes_a_muscle_whose_curves_show_how_sure_they_are(
     expect(page.locator("#force .scatterlayer .tracehigh0")).to_have_count(1)
     expect(page.locator("main")).to_contain_text("the model was measured up to")
 
+    # From the repaired model to the spread of its figures in three clicks.
+    page.get_by_role("button", name="Compare & diagnose", exact=True).click()
+    page.get_by_role("button", name="Tolerance").click()
+    page.get_by_role("button", name="Run 200 runs").click()
+    marked(page, '[data-study="done"]', 180_000)
+    answer = run(page, "return (await import('/js/views/studies/model.js')).answer.peek();")
+    assert answer["outcomes"] == {"completed": 200}
+    expect(page.get_by_role("region", name="Result", exact=True)).to_contain_text("200 completed")
+
 
 def test_probabilities_reasons_and_minutes_of_the_server_are_shown(page: Page, sweeps: FilePayload) -> None:
     def change(done: dict[str, Any]) -> None:
@@ -236,8 +265,8 @@ def tab_to(page: Page, wanted: str, most: int = 60) -> None:
 
 
 def test_a_whole_case_without_a_mouse(page: Page, sweeps: FilePayload) -> None:
-    remember(page)
     open_compare(page)
+    remember(page)
     choose(page, sweeps)  # the browser's own dialog
     expect(page.locator("dialog.import")).to_be_visible()
     tab_to(page, "dialog.import button.primary")
@@ -268,8 +297,8 @@ def test_a_whole_case_without_a_mouse(page: Page, sweeps: FilePayload) -> None:
 def test_a_whole_case_with_the_thumb(new_context: Callable[..., object], sweeps: FilePayload) -> None:
     context = new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     page: Page = context.new_page()  # type: ignore[attr-defined]
-    remember(page)
     open_compare(page)
+    remember(page)
     choose(page, sweeps)
     page.locator("dialog.import").get_by_role("button", name=re.compile("^Use th")).tap()
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)

@@ -23,6 +23,7 @@ from tests.frontend.comparing import (
     drop,
     error,
     file,
+    fitted,
     measured,
     opened,
     setup,
@@ -84,28 +85,28 @@ def test_from_the_empty_page_to_the_noise_in_five_clicks(page: Page, sweeps: Fil
 def test_all_at_once_undo_refit_and_one_step_taken_out(page: Page, sweeps: FilePayload) -> None:
     opened(page, sweeps)
     start = error(page)
-    noise = changed(page, page.locator("#add-all").click)
+    noise = fitted(page, page.locator("#add-all").click)
     assert noise <= 1.15 * NOISE
-    assert changed(page, lambda: page.keyboard.press("Control+z")) == start
+    assert fitted(page, lambda: page.keyboard.press("Control+z")) == start
     expect(page.locator(".path-table tr.past")).to_have_count(0)
-    assert changed(page, lambda: redo(page)) == noise
+    assert fitted(page, lambda: redo(page)) == noise
     # R fits again after a value was changed.
     value = page.locator(".model-card .parameter input").first
     value.fill("0.1")
-    assert changed(page, lambda: value.press("Enter")) > 5 * noise
+    assert fitted(page, lambda: value.press("Enter")) > 5 * noise
     page.locator("h1").click()
-    assert changed(page, lambda: page.keyboard.press("r")) == pytest.approx(noise, rel=0.05)
-    changed(page, lambda: page.keyboard.press("Control+z"))
-    assert changed(page, lambda: page.keyboard.press("Control+z")) == noise
+    assert fitted(page, lambda: page.keyboard.press("r")) == pytest.approx(noise, rel=0.05)
+    fitted(page, lambda: page.keyboard.press("Control+z"))
+    assert fitted(page, lambda: page.keyboard.press("Control+z")) == noise
     # One step is taken out; the steps after it stay and are fitted again.
     removed = changed(page, page.get_by_role("button", name="Take out Bladder elasticity").click)
     assert removed > 2 * noise
     expect(page.locator(".in-model")).to_have_count(2)
     expect(page.locator(".path-table tr:is(.past, .now)")).to_have_count(3)
-    again = changed(page, page.locator("#next-action").click)
+    again = fitted(page, page.locator("#next-action").click)
     assert again < removed
     back = page.locator(".path-table tr.past").first.get_by_role("button")
-    assert changed(page, back.click) == start
+    assert fitted(page, back.click) == start
     expect(page.locator(".path-table tr.past")).to_have_count(0)
 
 
@@ -216,8 +217,8 @@ def test_dropped_anywhere(page: Page, sweeps: FilePayload) -> None:
 
 
 def test_a_built_in_map_opens_with_one_click(page: Page) -> None:
-    remember(page)
     open_compare(page)
+    remember(page)
     expect(page.locator("#next-what")).to_have_text("Bring a measurement")
     page.locator(".tile", has_text="DMSP-20-300").click()
     expect(page.locator("#compare-preset")).to_have_value("DMSP-20")

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import pytest
 from playwright.sync_api import Page
 
 from tests.frontend.views import run
@@ -32,15 +31,6 @@ const until = async (test) => {
 };
 const state = (q) => [q.stage.peek(), q.answer.peek(), q.error.peek()?.message ?? null, q.stale.peek()];
 """
-
-
-@pytest.fixture
-def blank(page: Page) -> Page:
-    """A page of the server's origin without the program: modules are imported one by one."""
-    html = '<!doctype html><link rel="icon" href="data:,">'
-    page.route("**/blank.html", lambda route: route.fulfill(body=html, content_type="text/html"))
-    page.goto("/blank.html")
-    return page
 
 
 def ask(page: Page, script: str) -> Any:

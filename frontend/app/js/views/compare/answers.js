@@ -4,6 +4,7 @@ import { batch, computed, effect, signal } from "../../reactive.js";
 import { doc, edit, look, view } from "../../state.js";
 import { ApiError, fieldMessages, post, postForEvents } from "../../server/client.js";
 import { Memory, Question } from "../../server/question.js";
+import { caseId } from "./cases.js";
 import { seen } from "../../muscle/seen.js";
 import { musclesById } from "../../store.js";
 import { keyOf, used } from "./request.js";
@@ -201,8 +202,23 @@ export function again() {
 /** The message for a field of the request or for one inside it, by its path. */
 export const { field: faultField, within: messageFor } = fieldMessages(() => fault.value, (path) => path);
 
+/** Removes the answers to the case before, unless those of the new one are known: its plots are not those. */
+function forgetOtherCase() {
+  let last = caseId.peek();
+  effect(() => {
+    if (caseId.value === last) return;
+    last = caseId.value;
+    preview(null);
+    if (comparisons.get(keyOf(doc.peek().compare) ?? "") !== undefined) return;
+    for (const one of [comparison, comparisonBefore, comparisonFirst, comparisonAhead, diagnosisQuestion]) {
+      one.clear();
+    }
+  });
+}
+
 /** Starts asking; called once, when the view is built. It rests while another view is shown. */
 export function startComparing() {
+  forgetOtherCase();
   const isShown = () => view.value === "compare";
   comparison.follow(() => modelText.value, { delay: AFTER_MS, active: isShown });
   comparisonBefore.follow(() => previousText.value, { active: () => isCompared.value });

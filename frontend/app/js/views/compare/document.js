@@ -26,7 +26,7 @@ const MOST_STEPS = 40;
 export const IDEAL = "Ideal muscle", PROVIDED = "Start model";
 
 /** @returns {Compare} */
-const defaultCompare = () => ({
+export const newCompare = () => ({
   files: [],
   muscle: { preset: "DMSP-20", form: "braid", values: { nominal_length: 0.3 } },
   start: "ideal",
@@ -140,8 +140,8 @@ const CHECKS = {
 
 /** Reads the Compare part of a link or file; a missing part takes its default.
  * @param {unknown} raw @returns {Compare} @throws {Error} names the invalid part */
-function readCompare(raw) {
-  const start = defaultCompare();
+export function readCompare(raw) {
+  const start = newCompare();
   if (raw === undefined) return start;
   if (!isObject(raw)) throw new Error("“compare” is not an object");
   const known = Object.entries(raw).filter(([key]) => Object.hasOwn(CHECKS, key));
@@ -153,7 +153,7 @@ function readCompare(raw) {
   return { ...start, ...Object.fromEntries(known) };
 }
 
-addPart("compare", { start: defaultCompare, read: readCompare });
+addPart("compare", { start: newCompare, read: readCompare });
 
 /** What is said of the data now. @param {Compare} c @returns {import("../../types.js").Context} */
 export const contextOf = ({ files, decisions }) => ({ files, decisions });
@@ -216,6 +216,10 @@ export const withStartModel = (c, start = c.start) => ({
   brush: null,
   before: false,
 });
+
+/** What is known of a fitted value: where one fit does not give its standard error, another one.
+ * @param {Fit[string][string] | undefined} one @param {Fit[string][string] | undefined} other */
+export const surer = (one, other) => one?.stderr != null ? one : other ?? one;
 
 /** Standard errors of fitted values, and which of them are at a bound.
  * @param {Record<string, Record<string, import("./types.js").Fitted>>} parameters @returns {Fit} */

@@ -1,7 +1,8 @@
 // @ts-check
 // The Compare & diagnose view as the program sees it; its page is fetched when it is first shown.
 import { later } from "../../ui/later.js";
-import { view } from "../../state.js";
+import { goTo, view } from "../../state.js";
+import "./cases.js";
 import "./document.js";
 
 export { listenToDrops } from "./measurement/drop.js";
@@ -25,6 +26,15 @@ export const COMPARE_KEYS = [
     run: async () => (await import("./model/history.js")).refitByKey(),
   },
 ];
+
+/** Asks for a file that the server has no more. */
+export const chooseAgain = async () => {
+  goTo("compare");
+  (await import("./measurement/card.js")).chooseFiles();
+};
+
+/** What the command palette offers for the cases of the project. */
+export const caseCommands = async () => (await import("./case-menu.js")).caseCommands();
 
 /** @returns {import("../../ui/menu.js").Item[]} */
 export const compareExports = () => [

@@ -4,7 +4,7 @@ import { h, icon, mathml } from "../../dom.js";
 import { units } from "../../state.js";
 import { effectsById } from "../../store.js";
 import { ahead, answer, compare, diagnosis, preset, stale } from "./answers.js";
-import { fitOf } from "./document.js";
+import { fitOf, surer } from "./document.js";
 import { effectValues } from "../../muscle/preset.js";
 import { entries } from "./list/plan.js";
 import { state } from "./list/state.js";
@@ -26,7 +26,7 @@ function valuesNote(all, i) {
   const shown = ids.flatMap((id) => {
     const parameters = effectsById.value.get(id)?.parameters ?? [];
     return parameters.flatMap((p) => {
-      const fit = last.fit[id]?.[p.name] ?? found[id]?.[p.name], value = effects[id]?.[p.name];
+      const fit = surer(last.fit[id]?.[p.name], found[id]?.[p.name]), value = effects[id]?.[p.name];
       const now = answer.value?.parameters[id]?.[p.name];
       if (!fit || typeof value !== "number") return [];
       const s = parameterScale(p, units.value);

@@ -3,6 +3,7 @@
 // known and what comes next; under it plots, map and the list of what is missing.
 import { h } from "../../dom.js";
 import { computed, effect } from "../../reactive.js";
+import { missing } from "../../server/missing.js";
 import { answer, compare, fault, files, showToAtlas, stage, startComparing } from "./answers.js";
 import { boardCard } from "./board/card.js";
 import { ladderCard } from "./ladder.js";
@@ -26,7 +27,7 @@ import { residualCard } from "./where/residual.js";
 
 /** Why the newest comparison failed, in full: the strip has room for a line. */
 const faultWords = () =>
-  fault.value
+  fault.value && !missing.value.length
     ? h(
       "p",
       { class: "notice bad", role: "alert" },

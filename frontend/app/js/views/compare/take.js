@@ -1,6 +1,7 @@
 // @ts-check
 // Take it along: the model as it is now, in the formats that exist.
 import { h, icon } from "../../dom.js";
+import { studyTolerance } from "../../drive/study.js";
 import { signal } from "../../reactive.js";
 import { answer, stale } from "./answers.js";
 import {
@@ -34,7 +35,6 @@ const way = (symbol, name, note, run) =>
     "button",
     {
       type: "button",
-      "aria-label": name,
       title: note,
       disabled: () => !answer.value || stale.value || writing.value !== "",
       onclick: async () => {
@@ -45,6 +45,7 @@ const way = (symbol, name, note, run) =>
     },
     icon(symbol),
     h("b", null, () => writing.value === name ? "Writing…" : name),
+    " ",
     h("small", null, note),
   );
 
@@ -74,6 +75,12 @@ export const takeCard = () =>
       way("table", "Data", "CSV: every point with its residual", saveCsv),
       way("wave", "Plots", "PNG: one sheet", () => savePlots("png")),
       way("pin", "My preset", "your own muscle: its curves and runs show how sure they are", keepAsPreset),
+      way(
+        "flask",
+        "Tolerance",
+        "how much load, supply pressure and length matter: a Monte Carlo study",
+        () => studyTolerance("model"),
+      ),
       way("export", "Use in Design", "predict other conditions", useInDesign),
     ),
   );

@@ -2,7 +2,7 @@
 // The models of the board as columns: the pinned ones and the case itself; pinning, using, removing.
 import { computed } from "../../../reactive.js";
 import { answer, compare, diagnosis, editCompare, lookCompare, stale, steps } from "../answers.js";
-import { contextOf, fitOf, MOST_PINS } from "../document.js";
+import { contextOf, fitOf, MOST_PINS, surer } from "../document.js";
 import { effectsNow, go, here } from "../model/history.js";
 import { filesOf, isHere, pinnedAnswers } from "../pinned.js";
 import { titleOf } from "../words.js";
@@ -33,7 +33,18 @@ const effectCount = (n) => n ? `${n} effect${n > 1 ? "s" : ""}` : "start";
 const fitNow = () => {
   const result = diagnosis.value;
   const last = result && !result.verdict.effects.length ? fitOf(result.parameters) : {};
-  return { ...last, ...compare.value.fit };
+  const { fit } = compare.value, ids = [...new Set([...Object.keys(last), ...Object.keys(fit)])];
+  return Object.fromEntries(
+    ids.map((id) => [
+      id,
+      Object.fromEntries(
+        Object.keys({ ...last[id], ...fit[id] }).flatMap((name) => {
+          const known = surer(fit[id]?.[name], last[id]?.[name]);
+          return known ? [[name, known]] : [];
+        }),
+      ),
+    ]),
+  );
 };
 
 export const columns = computed(() => {

@@ -8,11 +8,12 @@ import { entries } from "../list/plan.js";
 import { likelyText } from "../list/entry.js";
 import { allSeries } from "../where/pictures.js";
 import { errorText, errorUnit, fitPercent, measuredText, parameterScale, titleOf } from "../words.js";
+import { weightsOf } from "./weights.js";
 
 /** @typedef {import("./columns.js").Column} Column */
 /** `texts`: value and what stands beside it; `numbers`: to sort by; `share`: of the baseline, for a difference.
  * @typedef {{label: string, unit: string, group: "error" | "effect" | "geometry", texts: [string, string][],
- *   numbers: (number | null)[], differs: boolean, compared: boolean}} Row */
+ *   numbers: (number | null)[], differs: boolean, compared: boolean, title?: string}} Row */
 
 /** @param {string} label @param {string} unit @param {(number | null)[]} numbers
  * @param {(x: number) => string} text @param {boolean} [compared] @returns {Row} */
@@ -23,6 +24,32 @@ function errorRow(label, unit, numbers, text, compared = true) {
 
 /** @param {[string, string][]} texts */
 const isDifferent = (texts) => new Set(texts.map(([text]) => text)).size > 1;
+
+const WEIGHT =
+  "Weight among these models, 100 % together: exp(−S/2), S = n ln(error²) + k ln n, with k fitted values and n " +
+  "independent rows. It says which of them the data favour, not that one of them is right.";
+
+/** @param {Column} c */
+const countOf = (c) => Object.values(c.fit).reduce((n, values) => n + Object.keys(values).length, 0);
+
+/** "97.2", "< 0.1", "> 99.9" @param {number} share */
+const shareText = (share) => share < 1e-3 ? "< 0.1" : share > 0.999 ? "> 99.9" : brief(100 * share);
+
+/** The weight of each model among those of the board; twice the same model counts once. Null: there is no second one.
+ * @param {Column[]} all @param {number | null} floor @returns {Row | null} */
+function weightRow(all, floor) {
+  const keys = all.map((c) => JSON.stringify([c.effects, c.comparison?.rmse]));
+  const weighed = all.map((c, i) => {
+    const found = c.comparison;
+    if (!found?.rmse || !c.fitted || keys.indexOf(keys[i]) < i) return null;
+    const autocorrelation = found.whiteness.autocorrelation.map((rho) => rho ?? 0);
+    return { error: found.rmse, fitted: countOf(c), rows: found.rows_used, autocorrelation };
+  });
+  const own = weightsOf(weighed, floor),
+    shares = all.map((c, i) => c.fitted ? own[keys.indexOf(keys[i])] : null);
+  if (own.every((w) => w === null)) return null;
+  return { ...errorRow("Weight", "% among these", shares, shareText, false), title: WEIGHT };
+}
 
 /** @param {Column[]} all @returns {Row[]} */
 function errorRows(all) {
@@ -35,9 +62,7 @@ function errorRows(all) {
   const fits = all.map((c) =>
     c.comparison ? fitPercent(allSeries(c.comparison).filter((s) => s.use !== "validation")) : null
   );
-  const counts = all.map((c) =>
-    Object.values(c.fit).reduce((n, values) => n + Object.keys(values).length, 0)
-  );
+  const weight = weightRow(all, floor);
   return [
     errorRow("Error", `${unit} RMS`, errors, asText),
     errorRow("Held-out error", unit, all.map((c) => c.holdout), asText),
@@ -45,7 +70,8 @@ function errorRows(all) {
     ...(floor && a?.unit !== "1"
       ? [errorRow("Error over noise", "×", errors.map((e) => e === null ? null : e / floor), brief, false)]
       : []),
-    errorRow("Fitted values", "", counts, String, false),
+    errorRow("Fitted values", "", all.map(countOf), String, false),
+    ...(weight ? [weight] : []),
   ];
 }
 
@@ -85,7 +111,9 @@ function effectRows(all) {
       });
       const only = names.length === 1;
       return {
-        label: only ? `${titleOf(id)}${likely(id)}` : `${titleOf(id)}: ${readable(name)}`,
+        label: only
+          ? `${titleOf(id)}${likely(id)}`
+          : `${titleOf(id)}: ${readable(name)}${name === names[0] ? likely(id) : ""}`,
         unit: s.unit,
         group: /** @type {const} */ ("effect"),
         texts,

@@ -1,9 +1,10 @@
 // @ts-check
 // The table of the open board: a column for each model, a row for each error, value and effect.
 import { h, icon } from "../../../dom.js";
-import { computed, signal } from "../../../reactive.js";
+import { computed, effect, signal } from "../../../reactive.js";
 import { downloadText, fileName, toCsv } from "../../../ui/table.js";
 import { compare } from "../answers.js";
+import { caseId } from "../cases.js";
 import { fitting } from "../model/history.js";
 import { mapOf } from "../where/map.js";
 import { isQuiet, mapScale, placeOf } from "../where/scale.js";
@@ -19,6 +20,7 @@ import { rowsOf } from "./rows.js";
 const sorted = signal(/** @type {{label: string, falling: boolean} | null} */ (null));
 /** The column that the others are compared with; its index. */
 const baseline = signal(/** @type {number | null} */ (null));
+effect(() => void (caseId.value, baseline.value = null)); // the columns of another case are others
 
 const order = computed(() => {
   const all = columns.value, by = sorted.value;
@@ -76,7 +78,7 @@ function head(c) {
         type: "button",
         class: "small",
         "aria-pressed": String(baseline.value === c.index),
-        "aria-label": `Compare the others with ${c.name}`,
+        "aria-label": `Baseline: compare the others with ${c.name}`,
         onclick: () => (baseline.value = baseline.peek() === c.index ? null : c.index),
       }, "Baseline"),
       isCase ? null : h("button", {
@@ -129,12 +131,13 @@ function line(row) {
         {
           type: "button",
           class: "sort",
-          "aria-label": `Sort the models by ${row.label}`,
+          "aria-label": `${row.label}${row.unit ? ` ${row.unit}` : ""}: sort the models`,
           "aria-pressed": String(isSorted),
+          title: row.title ?? null,
           onclick: sort,
         },
         row.label,
-        row.unit ? h("small", null, row.unit) : null,
+        row.unit ? [" ", h("small", null, row.unit)] : null,
         isSorted ? h("small", { "aria-hidden": "true" }, sorted.value?.falling ? "▼" : "▲") : null,
       ),
     ),

@@ -113,7 +113,7 @@ function question(entry, result, first) {
   return h(
     "li",
     { class: "entry-doubt", "data-hypothesis": entry.hypothesis },
-    h("h3", null, `${capitalized(entry.sentence)}.`),
+    h("h3", null, `${capitalized(entry.sentence).replace(/(\d) %/g, "$1\u00a0%")}.`),
     first ? proof(entry, result) : null,
     h(
       "div",

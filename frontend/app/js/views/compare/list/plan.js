@@ -85,13 +85,25 @@ export const soFar = computed(() =>
 /** What the history keeps of an entry's open choice. @param {Entry} entry */
 const open = ({ group, tells }) => group.length > 1 ? { twins: group, tells } : {};
 
+/** The values that were fitted before: a new effect fits them again, which changes their standard errors.
+ * @param {import("../../../types.js").Fit} fit @returns {import("../../../types.js").Fit} */
+const fittedAgain = (fit) =>
+  Object.fromEntries(
+    Object.entries(fit).map(([id, values]) => [
+      id,
+      Object.fromEntries(
+        Object.entries(values).map(([name, { at_bound }]) => [name, { stderr: null, at_bound }]),
+      ),
+    ]),
+  );
+
 /** The step of a candidate. @param {Candidate} c @returns {Step} */
 const stepOfCandidate = (c) => ({
   label: `+ ${titleOf(c.effect)}`,
   effects: c.model.effects,
   freed: c.freed,
   values: geometryOf(c.model),
-  fit: fitOf({ [c.effect]: c.parameters }),
+  fit: { ...fittedAgain(compare.peek().fit), ...fitOf({ [c.effect]: c.parameters }) },
   rmse: c.rmse,
   holdout: c.holdout_rmse,
 });

@@ -1,6 +1,7 @@
 // @ts-check
 // What is shown without a measurement: what this view does and ways to start.
 import { h } from "../../../dom.js";
+import { otherCases } from "../case-menu.js";
 import { openBuiltIn } from "./files.js";
 import { builtIn, chooseFiles } from "./card.js";
 import { mysteryList } from "./mysteries.js";
@@ -10,6 +11,7 @@ export function emptyCard() {
   return h(
     "section",
     { class: "card empty-state", "aria-label": "Start" },
+    otherCases,
     h("h2", null, "Which physical effect is your model missing?"),
     h(
       "p",

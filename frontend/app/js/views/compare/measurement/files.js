@@ -1,14 +1,16 @@
 // @ts-check
 // The measurement files of the comparison: imported, sent to the server, used or not.
-import { computed, effect, signal } from "../../../reactive.js";
+import { apart, computed, effect, signal } from "../../../reactive.js";
 import { doc, edit, view } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
 import { muscles, references, status } from "../../../store.js";
 import { MOST_FILES, withStartModel } from "../document.js";
 import { driveFor, needsDrive, startOf } from "../drive-document.js";
-import { compare, editCompare, files } from "../answers.js";
+import { caseId } from "../cases.js";
+import { again, chosen, compare, editCompare, fault, files } from "../answers.js";
 import { conditionsOf, muscleOf, presetNamed, withRestLength } from "../muscle-values.js";
-import { keep, measurement, missingFile } from "../../../server/measurements.js";
+import { keep, measurement } from "../../../server/measurements.js";
+import { cameBack, has, lacks, missing } from "../../../server/missing.js";
 
 /** @typedef {import("../types.js").FileInfo} FileInfo */
 /** @typedef {import("../types.js").Mapping} Mapping */
@@ -51,6 +53,24 @@ export async function addFiles(list) {
     if (answer) kept.push(answer);
   }
   if (!kept.length) return;
+  takeIn(kept.filter((one) => !isBack(one)), read);
+}
+
+/** Whether a file is one that the server lacked: then all that was said of it stays. @param {Kept} kept */
+function isBack({ info }) {
+  const lacked = missing.peek().some(({ id }) => id === info.id);
+  has([info.id]);
+  if (lacked) status.value = `${info.name} is back.`;
+  return lacked;
+}
+
+/** The missing file that this one is, read in another way. @param {Kept} kept */
+const insteadOf = ({ info }) =>
+  missing.peek().find(({ name, view }) => view === "compare" && name === info.name)?.id ?? null;
+
+/** Puts files into the case. @param {Kept[]} kept @param {Imported[]} read */
+function takeIn(kept, read) {
+  if (!kept.length) return;
   const there = files.peek().filter((f) => SHA256.test(f.id) && !kept.some(({ info }) => info.id === f.id));
   for (const { info } of kept.slice(Math.max(0, MOST_FILES - there.length))) {
     complain(info.name, `It is left out: ${MOST_FILES} files are compared at most.`);
@@ -58,7 +78,7 @@ export async function addFiles(list) {
   const names = kept.map(({ info }) => info.name).join(", ");
   edit((d) => ({
     ...d,
-    compare: kept.reduce((c, one) => withFile(c, one, null), d.compare),
+    compare: kept.reduce((c, one) => withFile(c, one, insteadOf(one)), d.compare),
   }), kept.length > 1 ? `${kept.length} measurements` : `measurement ${names}`);
   const like = read.find((one) => one.kept)?.kept;
   if (like) status.value = `Read like ${like.name}; the panel of files can undo that.`;
@@ -206,10 +226,26 @@ export function removeFile(id) {
 
 /** Fetches information about files that came with a link or an undo. */
 export function followFiles() {
+  let last = caseId.peek();
+  effect(() => {
+    if (caseId.value !== last) complaints.value = [];
+    last = caseId.value;
+  });
   const wanted = computed(() => files.value.map((f) => f.id).filter((id) => SHA256.test(id)).join(" "));
   effect(() => {
     if (view.value !== "compare") return;
+    cameBack.value;
     for (const id of wanted.value.split(" ")) if (id && !infos.peek().has(id)) fetchInfo(id);
+  });
+  effect(() => {
+    const at = fault.value?.status === 404
+      ? /^(?:body\.)?measurements\.(\d+)/.exec(fault.value.field ?? "")
+      : null;
+    const file = at && chosen.peek()[Number(at[1])];
+    if (file && SHA256.test(file.id)) sendAgain(file);
+  });
+  effect(() => {
+    if (cameBack.value && fault.peek()?.status === 404) apart(again);
   });
 }
 
@@ -221,6 +257,23 @@ async function fetchInfo(id) {
   } catch (error) {
     const file = files.peek().find((f) => f.id === id);
     if (!(error instanceof ApiError) || !file) return;
-    complain(file.name, missingFile(error));
+    if (error.status === 404) return lacks({ id, name: file.name, view: "compare" });
+    complain(file.name, error.words);
   }
+}
+
+/** Sends a file that the server has lost once more, if this page still has it; else the banner asks for it.
+ * @param {import("../../../types.js").Chosen} file */
+async function sendAgain({ id, name }) {
+  const source = sources.get(id);
+  sources.delete(id); // once: a server that loses it again has no room for it
+  try {
+    if (source && (await keep(source.file, source.mapping)).id === id) {
+      sources.set(id, source);
+      return again();
+    }
+  } catch (error) {
+    if (!(error instanceof ApiError)) throw error;
+  }
+  lacks({ id, name, view: "compare" });
 }

@@ -17,7 +17,7 @@ import {
 import { quantityField } from "../../../ui/field.js";
 import { fitting, refit, remove } from "./history.js";
 import { answer, compare, diagnosis, messageFor, patchCompare, preset } from "../answers.js";
-import { fitOf } from "../document.js";
+import { fitOf, surer } from "../document.js";
 import { effectValues } from "../../../muscle/preset.js";
 import { newTerm } from "./own-term.js";
 import { FORMULA, OWN_TERM, sigmaText, titleOf } from "../words.js";
@@ -43,7 +43,7 @@ const lastFit = computed(() =>
 
 /** @param {string} id @param {Field} p */
 function range(id, p) {
-  const s = scale(p), fit = compare.value.fit[id]?.[p.name] ?? lastFit.value[id]?.[p.name];
+  const s = scale(p), fit = surer(compare.value.fit[id]?.[p.name], lastFit.value[id]?.[p.name]);
   const asText = (/** @type {number} */ si) => number(toShown(si, s), s.digits);
   const bounds = Number.isFinite(p.lower)
     ? `${asText(p.lower)} … ${asText(p.upper)} ${s.unit}`.trim()

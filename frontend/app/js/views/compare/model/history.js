@@ -1,7 +1,7 @@
 // @ts-check
 // Changes of the model: effects added or removed, fits, steps back. Each is one undo step.
 import { signal } from "../../../reactive.js";
-import { edit } from "../../../state.js";
+import { doc, edit } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
 import { status } from "../../../store.js";
 import { answer, compare, diagnosis, fitWith, preset, preview } from "../answers.js";
@@ -69,7 +69,7 @@ const MOST_FITS = 4;
  * @param {Pick<Step, "label" | "effects" | "freed" | "values" | "context">} model @returns {Promise<Step | null>}
  * @throws {ApiError} why the server cannot fit it */
 export async function fittedStep(model) {
-  const c = compare.peek(), { effects } = model;
+  const c = compare.peek(), { effects } = model, { id } = doc.peek().cases;
   const freed = effects === null ? model.freed : model.freed.filter((name) => name.split(".")[0] in effects);
   if (!keyOf(c, { ...model, freed })) return null;
   let values = effects, tries = 0, atBound = true;
@@ -77,6 +77,7 @@ export async function fittedStep(model) {
   // The bounds of the constants of a formula depend on their start values: at a bound, the fit is continued.
   while (atBound && tries++ < MOST_FITS) {
     got = await fitWith(keyOf(c, { ...model, effects: values, freed }) ?? "");
+    if (doc.peek().cases.id !== id) return null;
     if (compare.peek() !== c && keyOf(compare.peek()) !== keyOf(c)) return null;
     values = fittedValues(values ?? {}, got);
     atBound = Object.values(got.parameters[OWN_TERM] ?? {}).some((p) => p.at_bound);

@@ -75,11 +75,13 @@ function fact(field) {
       class: `fact${one?.origin === "assumed" ? " assumed" : ""}`,
       "data-fact": field,
       title: `${title}: ${value}${one?.where ? ` · ${one.where}` : ""}`,
-      "aria-label": `${title}: ${value}${words ? `, ${words}` : ""}. Change`,
+      "aria-label": `${title}: ${value}${words ? `, ${words}` : ""}: change`,
       onclick: () => openSetup(field),
     },
     h("span", { class: "k" }, title),
+    " ",
     h("span", { class: "v" }, value),
+    " ",
     h("span", { class: "src" }, ...(words ? [icon(symbol), h("span", null, words)] : [])),
   );
 }

@@ -3,6 +3,7 @@
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { status } from "../../../store.js";
+import { missing } from "../../../server/missing.js";
 import { goToField } from "../../../ui/fault.js";
 import { again, answer, cancel, diagnosis, diagnosisError, fault, faultField, stale } from "../answers.js";
 import { openSetup, setupHas } from "../setup-panel.js";
@@ -39,6 +40,16 @@ const keyOf = (path) => path.replace(/^(muscle|effects)\./, "compare.").replace(
 
 /** @returns {Next} */
 function ofFault() {
+  const [gone] = missing.value;
+  if (gone) {
+    return {
+      tone: "warn",
+      what: "Choose the file again",
+      effect: `The server does not have ${gone.name}`,
+      label: "Open…",
+      run: chooseFiles,
+    };
+  }
   const field = faultField(), key = field && keyOf(field), words = fault.value?.words ?? "";
   const inPage = key !== null && !key.includes("measurement") && setupHas(key);
   return {
@@ -63,7 +74,7 @@ function ofContext() {
     tone: "warn",
     what: `Settle the ${subject(entry)} first`,
     effect: fallText(now, entry.rmse_after),
-    more: "with the effects it leaves",
+    more: "with effects",
     label: useLabel(entry),
     run: () => use(entry),
     bar: entry.rmse_after / (now || 1),
@@ -116,7 +127,7 @@ export const next = computed(() => {
       return {
         tone: "idle",
         what: "Bring a measurement",
-        effect: "a file of any laboratory: open or drop it",
+        effect: "Open a file, or drop it here",
         label: "Open…",
         run: chooseFiles,
       };
@@ -136,7 +147,7 @@ export const next = computed(() => {
       return {
         tone: "idle",
         what: "Looking for what is missing",
-        effect: triedText() || "Every effect of the catalogue is tried",
+        effect: triedText() || "All effects are tried",
         label: "Stop",
         run: cancel,
         primary: false,
@@ -169,8 +180,9 @@ export const next = computed(() => {
       return {
         tone: "good",
         what: "Nothing is missing",
-        effect: "The error is the noise",
-        more: floor === null || a?.unit === "1" ? "" : `${text(a?.rmse)} against ${text(floor)}`,
+        effect: floor === null || a?.unit === "1"
+          ? "The error is the noise"
+          : `${text(a?.rmse)}, noise ${text(floor)}`,
         label: "Take it along",
         run: showTake,
       };
@@ -179,7 +191,7 @@ export const next = computed(() => {
       return {
         tone: "warn",
         what: result ? nextMeasurement(result) : "",
-        effect: "No effect of the catalogue explains the rest",
+        effect: "No effect explains the rest",
         label: "Copy plan",
         run: async () => {
           if (!result) return;

@@ -4,6 +4,7 @@ import { h, svg } from "../../../dom.js";
 import { computed, effect, signal } from "../../../reactive.js";
 import { brief } from "../../../format.js";
 import { units } from "../../../state.js";
+import { caseId } from "../cases.js";
 import { ahead, answer, compare, diagnosis, stale, steps } from "../answers.js";
 import { state } from "../list/state.js";
 import { errorText, errorUnit } from "../words.js";
@@ -30,12 +31,14 @@ const counting = signal(false);
 
 /** Starts counting; called once. */
 function follow() {
-  let frame = 0;
+  let frame = 0, of = caseId.peek();
   effect(() => {
     const to = answer.value?.rmse ?? null, from = at.peek();
+    const isOther = of !== caseId.value; // the error of another case does not count down to this one
+    of = caseId.value;
     cancelAnimationFrame(frame);
     counting.value = false;
-    if (to === null || from === null || still.matches || from === to) return void (at.value = to);
+    if (to === null || from === null || still.matches || from === to || isOther) return void (at.value = to);
     const begun = performance.now();
     counting.value = true;
     const tick = (/** @type {number} */ now) => {

@@ -1,7 +1,9 @@
 // @ts-check
 // The strip that never scrolls: file, experiment, error, and the one next action.
 import { h, icon } from "../../../dom.js";
+import { missing } from "../../../server/missing.js";
 import { answer, chosen, files } from "../answers.js";
+import { caseMenu } from "../case-menu.js";
 import { state } from "../list/state.js";
 import { hasSource, importOnceMore, infos } from "../measurement/files.js";
 import { openSetup } from "../setup-panel.js";
@@ -27,6 +29,8 @@ const rows = () => {
   const a = answer.value;
   return a && files.value.length
     ? `${a.rows_used} of ${a.rows} rows used`
+    : missing.value.length
+    ? "not on the server"
     : files.value.length
     ? "being read"
     : "";
@@ -137,8 +141,9 @@ export function strip() {
       h(
         "p",
         { class: "lab" },
-        mark(1, () => files.value.length ? "done" : "now"),
-        "File",
+        mark(1, () => missing.value.length ? "warn" : files.value.length ? "done" : "now"),
+        h("span", { class: "unseen" }, "File"),
+        caseMenu(),
         h("span", { class: "space" }),
         changeButton(),
       ),
@@ -175,7 +180,7 @@ export const caseCard = () =>
   h(
     "section",
     { class: "card case-card", "aria-label": "File and experiment", hidden: () => !files.value.length },
-    h("div", { class: "card-head" }, h("h2", null, "File and experiment"), changeButton()),
+    h("div", { class: "card-head" }, h("h2", null, "File and experiment"), caseMenu(), changeButton()),
     ...fileLine(),
     facts(),
   );

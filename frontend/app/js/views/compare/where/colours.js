@@ -6,7 +6,8 @@ const COLOURS = {
   light: { zero: [244, 246, 248], low: [28, 95, 189], high: [194, 65, 12] },
   dark: { zero: [34, 44, 54], low: [106, 168, 255], high: [255, 138, 92] },
 };
-const DARK_INK = "#05090d", LIGHT_INK = "#ffffff";
+// Pure black and white: on any colour one of them has a contrast of at least √21 = 4.58, enough for WCAG AA (4.5).
+const DARK_INK = "#000000", LIGHT_INK = "#ffffff";
 
 /** The colour of a place on the scale. @param {number} share −1…1 of the full colour */
 export const tint = (share) => {
@@ -27,5 +28,5 @@ export function inkOn(share, dark) {
   const { zero, low, high } = COLOURS[dark ? "dark" : "light"], end = share < 0 ? low : high;
   const size = Math.min(1, Math.abs(share));
   const behind = luminance(zero.map((v, i) => v + (end[i] - v) * size));
-  return 1.05 / (behind + 0.05) > (behind + 0.05) / (luminance([5, 9, 13]) + 0.05) ? LIGHT_INK : DARK_INK;
+  return 1.05 / (behind + 0.05) > (behind + 0.05) / 0.05 ? LIGHT_INK : DARK_INK;
 }

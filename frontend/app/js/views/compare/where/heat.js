@@ -79,15 +79,23 @@ function walk(event) {
   if (event.shiftKey) choose(map, to.x, to.y, true);
 }
 
-/** A value of the map: the number of shown units, or a dot inside the noise.
- * @param {number | null} mean @param {Comparison} a @param {"" | "●" | "□"} way */
+/** The number of shown units that stands in a cell, a dot inside the noise, "" where there is no value.
+ * @param {number | null} mean @param {Comparison} a */
+function valueText(mean, a) {
+  const s = mapScale.value;
+  if (mean === null || !s) return "";
+  if (isQuiet(mean, s)) return "·";
+  const { factor } = channelScale(a.unit, a.predicted, units.value), size = Math.abs(mean) / factor;
+  const text = size >= 9.95 ? String(Math.round(size)) : brief(size).replace(/(\.\d)\d+$/, "$1");
+  return `${mean < 0 ? "−" : "+"}${text}`;
+}
+
+/** A value of the map. @param {number | null} mean @param {Comparison} a @param {"" | "●" | "□"} way */
 function value(mean, a, way) {
   const s = mapScale.value;
   if (mean === null || !s) return h("span", { class: "half none" });
   const quiet = isQuiet(mean, s);
   const share = quiet ? 0 : placeOf(mean, s), p = palette.value;
-  const { factor } = channelScale(a.unit, a.predicted, units.value), size = Math.abs(mean) / factor;
-  const text = size >= 9.95 ? String(Math.round(size)) : brief(size).replace(/(\.\d)\d+$/, "$1");
   return h(
     "span",
     {
@@ -95,7 +103,7 @@ function value(mean, a, way) {
       "data-way": way || null,
       style: `background:${tint(share)};color:${quiet ? "var(--soft)" : inkOn(share, p.dark)}`,
     },
-    quiet ? "·" : `${mean < 0 ? "−" : "+"}${text}`,
+    valueText(mean, a),
   );
 }
 
@@ -106,6 +114,18 @@ function describe(c, a, at, split) {
     ? `lengthening ${asText(c.up)}, shortening ${asText(c.down)}`
     : `mean ${asText(c.mean)}`;
   return `${at}: ${means}, RMS ${asText(c.rms)}, ${c.count} rows`;
+}
+
+/** The name of a cell: what stands in it comes first, as who speaks to the page says what is seen.
+ * @param {Cell} c @param {Comparison} a @param {string} at @param {boolean} split */
+function nameOf(c, a, at, split) {
+  const seen = (split ? [c.up, c.down] : [c.mean]).map((mean) => valueText(mean, a)).filter(Boolean);
+  const what = split ? "lengthening and shortening" : "mean";
+  return seen.every((text) => text === "·")
+    ? describe(c, a, at, split)
+    : `${seen.join(" ")}: ${what} at ${at}, RMS ${
+      errorText(c.rms, a.unit, a.predicted, units.value)
+    }, ${c.count} rows`;
 }
 
 /** @param {Comparison} a @param {Grid} map */
@@ -129,7 +149,6 @@ function table(a, map) {
         ? rangeText(map.y, range, system)
         : label(map.rows[iy])
     }, ${rangeText(map.x, columnRange(map, ix), system)}`;
-    const text = describe(c, a, where, map.split);
     return h(
       "td",
       null,
@@ -137,15 +156,15 @@ function table(a, map) {
         "button",
         {
           type: "button",
-          title: text,
-          "aria-label": text,
+          title: describe(c, a, where, map.split),
+          "aria-label": nameOf(c, a, where, map.split),
           "aria-pressed": () => String(isChosen(map, ix, iy)),
           "data-at": `${ix},${iy}`,
           tabindex: -1,
           onkeydown: walk,
           onclick: (/** @type {MouseEvent} */ e) => choose(map, ix, iy, e.shiftKey),
         },
-        ...(map.split ? [value(c.up, a, "●"), value(c.down, a, "□")] : [value(c.mean, a, "")]),
+        ...(map.split ? [value(c.up, a, "●"), " ", value(c.down, a, "□")] : [value(c.mean, a, "")]),
       ),
     );
   };

@@ -121,7 +121,7 @@ function tag() {
     {
       type: "button",
       class: "on-tag",
-      "aria-label": "Show all points",
+      "aria-label": `${ranges.join(", ")}: show all points`,
       title: "Show all points (Esc)",
       onclick: () => lookCompare({ brush: null }),
     },

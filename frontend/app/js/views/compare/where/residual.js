@@ -24,14 +24,14 @@ import { errorText, rangeText, rmsInside, VARIABLES } from "../words.js";
 
 /** @type {[Tab, string, string][]} */
 const TABS = [
-  ["contraction", "ε", "Residual over contraction"],
+  ["contraction", "ε", "ε: residual over contraction"],
   ["pressure", "Pressure", "Residual over pressure"],
   ["direction", "Direction", "Residual over direction"],
-  ["velocity", "Speed", "Residual over velocity"],
+  ["velocity", "Speed", "Residual over speed"],
   ["time", "Time", "Residual over time"],
-  ["histogram", "Histogram", "How often each size of residual occurs"],
+  ["histogram", "Histogram", "Histogram: how often each size of residual occurs"],
   ["autocorrelation", "Autocorrelation", "Autocorrelation of the residual"],
-  ["loops", "Loops", "Area of each loop of the residual"],
+  ["loops", "Loops", "Loops: area of each loop of the residual"],
 ];
 
 const host = h("div", {

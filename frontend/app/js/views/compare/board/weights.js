@@ -1,0 +1,37 @@
+// @ts-check
+// How the evidence of the data is divided among the models of the board. Pure functions.
+
+/** A model as it is weighed. `error`: its RMS; `fitted`: the number of its fitted values; `autocorrelation` of its
+ * residual at the lags 1, 2, …
+ * @typedef {{error: number, fitted: number, rows: number, autocorrelation: number[]}} Weighed */
+
+/** Correlation from which on readings count as independent. */
+const INDEPENDENT = 0.05;
+/** Smallest error that counts, as a share of the noise; less is chance. */
+const BELOW_NOISE = 0.5;
+
+/** Number of independent rows: n / (1 + 2 Σ ρ), summed up to the first small correlation; at least two.
+ * @param {Weighed} model */
+export function independentRows({ rows, autocorrelation }) {
+  const end = autocorrelation.findIndex((rho) => !(rho > INDEPENDENT));
+  const sum = (end < 0 ? autocorrelation : autocorrelation.slice(0, end)).reduce((all, rho) => all + rho, 0);
+  return Math.max(rows / (1 + 2 * sum), 2);
+}
+
+/** Weights exp(−S/2) of models over their sum, S = n ln e² + k ln n (Schwarz 1978) with the error e, the number k of
+ * fitted values and the number n of independent rows of the best model, the same for all; null: not comparable. They
+ * say which model these data favour among those shown, not that one of them is right.
+ * @param {(Weighed | null)[]} models fitted to the same rows @param {number | null} noise
+ * @returns {(number | null)[]} */
+export function weightsOf(models, noise) {
+  const known = models.filter((m) => m !== null);
+  const [best] = [...known].sort((a, b) => a.error - b.error);
+  if (known.length < 2 || known.some((m) => m.rows !== best.rows)) return models.map(() => null);
+  const n = independentRows(best), least = Math.max(BELOW_NOISE * (noise ?? 0), Number.MIN_VALUE);
+  const score = (/** @type {Weighed} */ m) =>
+    2 * n * Math.log(Math.max(m.error, least)) + m.fitted * Math.log(n);
+  const lowest = Math.min(...known.map(score));
+  const raw = models.map((m) => m === null ? null : Math.exp((lowest - score(m)) / 2));
+  const sum = raw.reduce((/** @type {number} */ all, w) => all + (w ?? 0), 0);
+  return raw.map((w) => w === null ? null : w / sum);
+}
