@@ -42,6 +42,11 @@ ARGUMENTS = (
     "--disable-sync",
     # Pages of one context share a process, and with it what was compiled: a page opens in half the time.
     "--process-per-site",
+    # A script that is parsed while it arrives is not looked for among what was compiled before: Plotly would
+    # be parsed again for each page. The rest is Playwright's own choice, which this switch replaces.
+    "--disable-features=ScriptStreaming,AvoidUnnecessaryBeforeUnloadCheckSync,DestroyProfileOnBrowserClose,"
+    "HttpsUpgrades,HttpsFirstBalancedModeAutoEnable,MediaRouter,PaintHolding,ThirdPartyStoragePartitioning,"
+    "OptimizationHints,NetworkTimeServiceQuerying,Translate",
 )
 
 # Limits in seconds. Playwright's host is out of reach on some machines and then hangs instead of refusing.

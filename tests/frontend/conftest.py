@@ -21,7 +21,7 @@ from playwright.sync_api import Browser, BrowserContext, Page
 from tests.frontend.browser import ARGUMENTS, NoBrowserError, find_or_get
 from tests.frontend.diagnoses import keep_in
 from tests.frontend.guard import PageGuard
-from tests.frontend.views import open_compare
+from tests.frontend.views import open_compare, run
 from tests.running_server import RunningServer
 
 _RESTING = '<title>resting</title><link rel="icon" href="data:,">'  # else the browser asks for /favicon.ico
@@ -122,6 +122,15 @@ def new_context(
     return create
 
 
+@pytest.fixture
+def blank(page: Page) -> Page:
+    """A page of the server's origin without the program: modules are imported one by one."""
+    page.route("**/blank.html", lambda route: route.fulfill(content_type="text/html", body=_RESTING))
+    page.goto("/blank.html")
+    page.unroute_all()  # with a route the browser asks for every module anew
+    return page
+
+
 @pytest.fixture(scope="module")
 def import_page(browser: Browser, browser_context_args: dict[str, Any], base_url: str) -> Iterator[Page]:
     """A page for the tests of the import of one module, which need not load it again for each of them."""
@@ -138,17 +147,15 @@ def case(import_page: Page, page_guard: PageGuard) -> Iterator[Page]:
     page_guard.watch(import_page.context)
     import_page.route("**/api/diagnoses", lambda route: None)
     yield import_page
-    import_page.evaluate(EMPTY)
+    run(import_page, EMPTY)
     import_page.unroute_all()
     import_page.set_viewport_size({"width": 1280, "height": 720})
     page_guard.leave(import_page.context)
 
 
 EMPTY = """
-async () => {
-  for (const dialog of document.querySelectorAll("dialog")) dialog.close();
-  localStorage.clear();
-  const { edit, readDoc } = await import("/js/state.js");
-  edit((d) => readDoc({ ...d, view: "compare", compare: undefined }), "empty");
-}
+for (const dialog of document.querySelectorAll("dialog")) dialog.close();
+localStorage.clear();
+const { edit, readDoc } = await import("/js/state.js");
+edit((d) => readDoc({ ...d, view: "compare", compare: undefined }), "empty");
 """

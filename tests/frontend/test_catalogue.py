@@ -19,6 +19,14 @@ def parts(page: Page) -> list[str]:
     return page.locator(".parts .part").all_inner_texts()
 
 
+@pytest.fixture
+def built_in_only(server: RunningServer) -> None:
+    """The catalogue without what tests before kept in the server they share."""
+    for path in server.presets.rglob("*.json"):
+        path.unlink()
+
+
+@pytest.mark.usefixtures("built_in_only")
 def test_sort_by_any_column(page: Page) -> None:
     open_catalogue(page)
     page.get_by_role("button", name="F max").click()
@@ -31,13 +39,14 @@ def test_sort_by_any_column(page: Page) -> None:
     assert parts(page)[0] in ("Festo DMSP-40", "Festo MAS-40")
 
 
+@pytest.mark.usefixtures("built_in_only")
 def test_filter_by_kind_maker_size_and_words(page: Page) -> None:
     open_catalogue(page)
     total = len(parts(page))
     enter(page, "from", "1.5 cm")
     enter(page, "to", "25")
-    expect(page.locator(".parts .part")).to_have_count(2)
-    assert set(parts(page)) == {"Festo DMSP-20", "Festo MAS-20"}
+    expect(page.locator(".parts .part")).to_have_count(3)
+    assert set(parts(page)) == {"Festo DMSP-20", "Festo MAS-20", "Muscle of the LAAS 7R arm"}
     page.get_by_label("Search the catalogue").fill("mas")
     expect(page.locator(".parts .part")).to_have_count(1)
     page.get_by_label("Search the catalogue").fill("nothing like this")
@@ -125,3 +134,22 @@ def test_the_atlas_shows_each_effect_and_puts_it_into_the_model(page: Page) -> N
     detail.get_by_role("button", name="Put it into my model").click()
     expect(page).to_have_title(re.compile("^Design"))
     expect(page.locator("[data-effect]", has_text="Coulomb friction").get_by_role("switch")).to_be_checked()
+
+
+def test_what_is_kept_is_renamed_deleted_and_restored(page: Page, server: RunningServer) -> None:
+    content = b"# kind: static\npressure_bar;length_mm;force_N\n1;300;100\n1;290;80\n1;280;50\n"
+    answer = page.request.put(f"{server.url}/api/measurements?name=kept-run.csv", data=content)
+    assert answer.ok
+    open_catalogue(page)
+    kept = page.get_by_role("region", name="Kept")
+    expect(kept).to_contain_text("kept-run.csv")
+    kept.get_by_role("button", name="Rename kept-run.csv").click()
+    kept.get_by_role("textbox", name="New name").fill("kept bench 3.csv")
+    page.keyboard.press("Enter")
+    kept.get_by_role("button", name="Delete kept bench 3.csv").click()
+    expect(kept).to_contain_text("Deleted “kept bench 3.csv”")
+    kept.get_by_role("button", name="Undo").click()
+    expect(kept.get_by_role("button", name="Delete kept bench 3.csv")).to_be_visible()
+    assert not violations(page)
+    kept.get_by_role("button", name="Delete kept bench 3.csv").click()
+    expect(kept.get_by_text("Deleted (1)")).to_be_visible()

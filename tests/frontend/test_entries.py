@@ -6,6 +6,7 @@ import re
 
 from playwright.sync_api import Page, expect
 
+from tests.frontend.axe import violations
 from tests.frontend.comparing import choose, diagnosed, file, measured, use
 from tests.frontend.views import open_compare
 
@@ -19,12 +20,13 @@ def test_a_wrong_rest_length_is_asked_about_and_used_in_one_click(page: Page) ->
     open_compare(page)
     choose(page, file("sweeps.csv", wrong()))
     use(page)
-    diagnosed(page, 60_000)
+    diagnosed(page, 180_000)
     asked = page.locator("#entry-questions")
     expect(asked).to_be_visible()
     expect(page.locator(".strip")).to_have_attribute("data-state", "context")
     expect(page.locator("#next-what")).to_have_text("Settle the rest length first")
     expect(page.locator(".found-missing")).to_have_count(0)  # no effect is ranked
+    assert violations(page) == []
     first = asked.locator(".entry-doubt").first
     expect(first).to_have_attribute("data-hypothesis", "rest_length")
     expect(first).to_contain_text(re.compile(r"Rest length (299|300)[.\d]* mm instead of 345 mm"))
@@ -32,14 +34,14 @@ def test_a_wrong_rest_length_is_asked_about_and_used_in_one_click(page: Page) ->
         first.get_by_role("button", name=re.compile("^Use (299|300)")).click()
     said = sent.value.post_data_json["measurements"][0]["experiment"]["rest_length"]
     assert said["origin"] == "suggested"
-    diagnosed(page, 60_000)
+    diagnosed(page, 180_000)
     expect(asked).to_have_count(0)
     expect(page.locator(".found-missing > li")).not_to_have_count(0)
     # It is a step of the case, and the strip says who said the length.
     expect(page.locator(".path-table")).to_contain_text("Rest length 300 mm")
     expect(page.locator(".strip [data-fact='rest_length']")).to_contain_text("you agreed")
     page.get_by_role("button", name="Undo").first.click()
-    expect(page.locator("#entry-questions")).to_be_visible(timeout=60_000)
+    expect(page.locator("#entry-questions")).to_be_visible(timeout=180_000)
     with page.expect_request("**/api/diagnoses") as kept:
         first.get_by_role("button", name=re.compile("is right$")).click()
     assert kept.value.post_data_json["keep"] == ["rest_length"]

@@ -11,8 +11,10 @@ from urllib.request import urlopen
 
 from playwright.sync_api import BrowserContext, Page, expect
 
+from tests.frontend.axe import violations
+from tests.frontend.comparing import measured, use
 from tests.frontend.guard import PageGuard
-from tests.frontend.views import enter, marked, open_catalogue, open_design, run
+from tests.frontend.views import enter, link_of, load, marked, open_catalogue, open_compare, open_design, run
 
 APP = Path(__file__).resolve().parents[2] / "frontend" / "app"
 
@@ -64,12 +66,12 @@ def test_views_that_are_not_shown_are_fetched_when_they_are(page: Page) -> None:
     asked: list[str] = []
     page.on("request", lambda request: asked.append(urlsplit(request.url).path))
     open_design(page)
-    pages = [f"/js/views/{view}/page.js" for view in ("transient", "compare", "catalogue")]
-    assert not set(pages) & set(asked)
-    for name, path in zip(("Transient", "Compare & diagnose", "Catalogue"), pages, strict=True):
+    pages = [f"/js/views/{view}/page.js" for view in ("transient", "compare", "catalogue", "studies")]
+    assert not [path for path in asked if path.endswith(tuple(pages))]
+    for name, path in zip(("Transient", "Compare & diagnose", "Catalogue", "Studies"), pages, strict=True):
         page.get_by_role("button", name=name, exact=True).click()
         expect(page.locator("main > div:visible")).not_to_contain_text("Loading")
-        assert path in asked
+        assert any(one.endswith(path) for one in asked)
 
 
 def test_a_server_that_is_gone_and_comes_back(page: Page, page_guard: PageGuard) -> None:
@@ -110,3 +112,76 @@ def test_an_answer_that_is_not_json(page: Page, page_guard: PageGuard) -> None:
     page.route("**/api/curves", lambda route: route.fulfill(status=418, body="<html>proxy</html>"))
     enter(page, "Braid angle", "24")
     expect(page.locator(".notice")).to_contain_text("status 418")
+
+
+LOST_TUBE = """
+const { edit } = await import('/js/state.js');
+const withTube = (t) => ({ ...t, drive: { ...t.drive, tube: { ...t.drive.tube, preset: "my-tube" } } });
+edit((d) => ({ ...d, view: "transient", transient: withTube(d.transient) }), "tube");
+"""
+
+
+def test_a_preset_that_the_server_has_no_more(page: Page, page_guard: PageGuard) -> None:
+    page_guard.allow("status of 422")
+    open_design(page)
+    with page.expect_response("**/api/simulations"):
+        run(page, LOST_TUBE)
+    banner = page.locator(".banner")
+    expect(banner).to_contain_text("The server does not have the tube “my-tube”")
+    expect(page.locator(".notice")).to_have_count(0)
+    page.keyboard.press("Control+z")
+    expect(banner).to_have_count(0)
+
+
+def test_a_measurement_that_the_server_has_no_more(
+    page: Page, page_guard: PageGuard, server_url: str, tmp_path: Path
+) -> None:
+    page_guard.allow("status of 4(04|22)")
+    refused = {"error": {"message": "no diagnosis in this test"}}
+    page.route("**/api/diagnoses", lambda route: route.fulfill(status=422, json=refused))
+    content = measured(1).encode()
+    path = tmp_path / "lost.csv"
+    path.write_bytes(content)
+
+    def lose() -> None:
+        kept = page.request.get(f"{server_url}/api/kept").json()["items"]
+        for one in (each for each in kept if each["name"] == "lost.csv"):
+            assert page.request.delete(f"{server_url}/api/kept/files/{one['id']}").ok
+
+    open_compare(page)
+    page.locator("#measurement-files").set_input_files(path)
+    use(page)
+    number, banner, strip = page.locator("#error-now"), page.locator(".banner"), page.locator(".strip")
+    expect(number).to_be_visible(timeout=20_000)
+    error = number.inner_text()
+
+    # While the page still has the file, it sends it again by itself.
+    lose()
+    with page.expect_response("**/api/measurements?*"):
+        run(page, "(await import('/js/views/compare/answers.js')).editCompare({ noise: 3 }, 'noise');")
+    expect(number).to_have_text(error, use_inner_text=True, timeout=20_000)
+    expect(banner).to_have_count(0)
+
+    # Later one banner says it, with what to do; the file of that name brings everything back.
+    link = link_of(page)
+    lose()
+    load(page, link)
+    expect(banner).to_contain_text("The server does not have “lost.csv”")
+    expect(banner.get_by_role("button", name="Restore")).to_be_visible()
+    expect(page.locator(".notice, .flag")).to_have_count(0)
+    expect(strip.locator("#next-what")).to_have_text("Choose the file again")
+    expect(page.locator("body")).not_to_contain_text("PUT")
+    assert violations(page) == []
+    page.get_by_role("button", name="Catalogue", exact=True).click()
+    with page.expect_file_chooser() as chooser:
+        banner.get_by_role("button", name="Choose the file…").click()
+    chooser.value.set_files(path)  # the answers to its import are known
+    expect(banner).to_have_count(0)
+    expect(number).to_have_text(error, use_inner_text=True, timeout=20_000)
+
+    # A deleted one is restored at a click, and so is what it holds.
+    lose()
+    load(page, link)
+    banner.get_by_role("button", name="Restore").click()
+    expect(banner).to_have_count(0)
+    expect(number).to_have_text(error, use_inner_text=True, timeout=20_000)

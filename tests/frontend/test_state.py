@@ -14,15 +14,6 @@ from tests.frontend.guard import PageGuard
 from tests.frontend.views import open_design, run
 
 
-@pytest.fixture
-def blank(page: Page) -> Page:
-    """A page of the server's origin without the program: modules are imported one by one."""
-    html = '<!doctype html><link rel="icon" href="data:,">'
-    page.route("**/blank.html", lambda route: route.fulfill(body=html, content_type="text/html"))
-    page.goto("/blank.html")
-    return page
-
-
 def test_effects_run_once_per_batch_and_stop(blank: Page) -> None:
     counts = run(
         blank,
@@ -231,7 +222,7 @@ def test_numbers_have_sensible_digits(blank: Page) -> None:
 
 PARTS = [
     "/js/muscle/document.js",
-    *(f"/js/views/{view}/index.js" for view in ("sizing", "transient", "compare", "catalogue")),
+    *(f"/js/views/{view}/index.js" for view in ("sizing", "transient", "compare", "catalogue", "studies")),
 ]
 
 

@@ -13,6 +13,12 @@ from tests.frontend.diagnoses import remember
 SIZES = ((1440, 1000), (1024, 800), (390, 844))
 REFUSED = "status of 422"  # what the console says when the server refuses an input
 
+# The page's modules lie under the name of the state of all files; by another path they would be others.
+_IMPORTED = """
+const main = document.querySelector("script[type=module]");
+const imported = (path) => import(main ? new URL(main.src).pathname.replace("/js/main.js", path) : path);
+"""
+
 
 def marked(page: Page, mark: str, within: float = 10_000) -> None:
     """Wait until the root of the page bears a mark.
@@ -65,10 +71,10 @@ def open_compare(page: Page) -> None:
 
 def open_compared(page: Page) -> None:
     """The Compare & diagnose view with a built-in measurement and its diagnosis."""
-    remember(page)
     open_compare(page)
+    remember(page)
     page.locator(".tile", has_text="DMSP-20-300").click()
-    marked(page, '[data-diagnosis="done"]', 60_000)
+    marked(page, '[data-diagnosis="done"]', 180_000)
     expect(page.locator("#overlay-force .js-line").first).to_be_attached(timeout=20_000)
 
 
@@ -117,7 +123,8 @@ def rmse(page: Page) -> float:
 
 def run(page: Page, script: str, argument: Any = None) -> Any:
     """Run the body of an async function in the page; its modules are there by ``await import('/js/…')``."""
-    return page.evaluate(f"async (argument) => {{ {script} }}", argument)
+    script = script.replace("import(", "imported(")
+    return page.evaluate(f"async (argument) => {{ {_IMPORTED} {script} }}", argument)
 
 
 def link_of(page: Page) -> str:

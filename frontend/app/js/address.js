@@ -1,24 +1,32 @@
 // @ts-check
 // The address of the page: its hash holds the whole document. Each view that is visited is an entry of the browser's
 // history; Back and Forward change the view and keep the work.
-import { fromHash, toHash } from "./link.js";
+import { fromHash, left, linkOf, PARTLY } from "./link.js";
 import { computed, effect } from "./reactive.js";
 import { doc, look, past } from "./state.js";
 import { status } from "./store.js";
+import { atCase } from "./views/compare/cases.js";
 
 const LINK_MS = 250;
 /** The last work of this browser. */
 const LAST = "mckibben-last";
+/** The whole work of this window while its address cannot hold it, for a reload. */
+const WHOLE = "mckibben-whole";
 
 /** What an entry of the history shows. @typedef {{view: string, mode: import("./types.js").Sizing["mode"],
- *   kind: string}} Place */
+ *   kind: string, case: number}} Place */
 /** @typedef {{hash: string, view: string, when: number}} Last */
 
 /** @param {import("./types.js").Doc} d @returns {Place} */
-const placeOf = (d) => ({ view: d.view, mode: d.sizing.mode, kind: d.catalogue.kind });
+const placeOf = (d) => ({
+  view: d.view,
+  mode: d.sizing.mode,
+  kind: d.catalogue.kind,
+  case: d.cases.id,
+});
 /** @param {import("./types.js").Doc} d @param {Place} p */
-const at = (d, { view, mode, kind }) => ({
-  ...d,
+const at = (d, { view, mode, kind, case: id }) => ({
+  ...atCase(d, id),
   view,
   sizing: { ...d.sizing, mode },
   catalogue: { ...d.catalogue, kind },
@@ -39,7 +47,9 @@ const session = (() => {
 /** Short addresses to be typed: `#catalogue`. @param {string} hash @returns {Place | null} */
 function named(hash) {
   const name = hash.slice(1), now = placeOf(doc.peek());
-  if (["design", "transient", "compare", "catalogue"].includes(name)) return { ...now, view: name };
+  if (["design", "transient", "compare", "catalogue", "studies"].includes(name)) {
+    return { ...now, view: name };
+  }
   if (name === "task" || name === "muscle") return { ...now, view: "design", mode: name };
   return name === "effects" ? { ...now, view: "catalogue", kind: name } : null;
 }
@@ -49,7 +59,8 @@ export async function readAddress() {
   const short = named(location.hash);
   if (short) return look((d) => at(d, short));
   try {
-    const linked = await fromHash(location.hash);
+    const whole = keptWhole(location.hash);
+    const linked = whole ? await fromHash(whole, Infinity) : await fromHash(location.hash);
     if (linked) doc.value = linked;
   } catch (error) {
     const why = /** @type {Error} */ (error).message;
@@ -71,11 +82,13 @@ export function writeAddress() {
     const state = doc.value;
     clearTimeout(timer);
     timer = setTimeout(async () => {
-      const hash = await toHash(state);
+      const { hash, whole, left: now } = await linkOf(state);
       if (state !== doc.peek()) return;
+      keepWhole(now ? { hash, whole } : null);
+      tell(now);
       written = hash;
-      history.replaceState(entry(), "", written);
-      if (past.peek().length) remember({ hash, view: state.view, when: Date.now() });
+      history.replaceState(entry(), "", written || location.pathname);
+      if (past.peek().length) remember({ hash: whole, view: state.view, when: Date.now() });
     }, LINK_MS);
   });
   addEventListener("popstate", ({ state }) => {
@@ -87,6 +100,36 @@ export function writeAddress() {
     if (history.state?.session === session || location.hash === "#main") return;
     if (location.hash !== written) readAddress();
   });
+}
+
+/** Says it when the address begins to leave out more. @param {import("./link.js").Left} now */
+function tell(now) {
+  if (now && now !== left.peek()) {
+    status.value =
+      `The link of this work ${PARTLY[now]}. Nothing is lost here: this window keeps all of it, ` +
+      "also over a reload; Project, Save keeps it for good.";
+  }
+  left.value = now;
+}
+
+/** @param {{hash: string, whole: string} | null} work null: the address holds all of it */
+function keepWhole(work) {
+  try {
+    if (work) sessionStorage.setItem(WHOLE, JSON.stringify(work));
+    else sessionStorage.removeItem(WHOLE);
+  } catch {
+    // No storage, or it is full: a reload shows what the address holds.
+  }
+}
+
+/** The whole work of which the address holds a part, if this window wrote it. @param {string} hash */
+function keptWhole(hash) {
+  try {
+    const kept = JSON.parse(sessionStorage.getItem(WHOLE) ?? "null");
+    return kept?.hash === hash && typeof kept.whole === "string" ? kept.whole : null;
+  } catch {
+    return null;
+  }
 }
 
 /** @param {Last} last */
@@ -111,7 +154,7 @@ export function lastWork() {
 
 /** @param {Last} last */
 export async function continueWith(last) {
-  const linked = await fromHash(last.hash).catch(() => null);
+  const linked = await fromHash(last.hash, Infinity).catch(() => null);
   if (linked) doc.value = linked;
   else status.value = "The last work cannot be read any more.";
 }

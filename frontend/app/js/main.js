@@ -4,6 +4,8 @@ import { continueWith, lastWork, readAddress, writeAddress } from "./address.js"
 import { designTab } from "./design-tab.js";
 import { append, h } from "./dom.js";
 import { fetchPlotly } from "./plots/library.js";
+import { projectCommands } from "./projects/menu.js";
+import { followProject } from "./projects/session.js";
 import { effect } from "./reactive.js";
 import { loadAll } from "./server/presets.js";
 import { share, shell } from "./shell.js";
@@ -12,10 +14,24 @@ import { setTheme } from "./plots/theme.js";
 import { redoAndReport, undoAndReport } from "./ui/history.js";
 import { control, listenToKeys, plain, showShortcuts } from "./ui/shortcuts.js";
 import { catalogueView } from "./views/catalogue/index.js";
-import { COMPARE_KEYS, compareExports, compareView, listenToDrops } from "./views/compare/index.js";
+import {
+  caseCommands,
+  chooseAgain,
+  COMPARE_KEYS,
+  compareExports,
+  compareView,
+  listenToDrops,
+} from "./views/compare/index.js";
 import { designExamples, designExports } from "./views/design/index.js";
 import { TASK_KEYS, taskFiles } from "./views/sizing/index.js";
-import { driveFiles, TRANSIENT_KEYS, transientExports, transientView } from "./views/transient/index.js";
+import { studiesView, studyExports } from "./views/studies/index.js";
+import {
+  chooseTrace,
+  driveFiles,
+  TRANSIENT_KEYS,
+  transientExports,
+  transientView,
+} from "./views/transient/index.js";
 
 /** The tabs. A new view is one line here. @type {import("./shell.js").View[]} */
 const TABS = [
@@ -26,9 +42,17 @@ const TABS = [
     build: transientView,
     exports: transientExports,
     files: [driveFiles],
+    choose: chooseTrace,
   },
-  { id: "compare", title: "Compare & diagnose", build: compareView, exports: compareExports },
+  {
+    id: "compare",
+    title: "Compare & diagnose",
+    build: compareView,
+    exports: compareExports,
+    choose: chooseAgain,
+  },
   { id: "catalogue", title: "Catalogue", build: catalogueView, exports: designExports },
+  { id: "studies", title: "Studies", build: studiesView, exports: studyExports },
 ];
 
 /** The command palette. */
@@ -37,6 +61,8 @@ async function palette() {
   const themes = /** @type {const} */ (["light", "dark", "system"]);
   const actions = [
     ...themes.map((theme) => ({ label: `Theme: ${theme}`, kind: "action", run: () => setTheme(theme) })),
+    ...projectCommands(),
+    ...await caseCommands(),
     { label: "Copy a link to this state", kind: "action", run: share },
     { label: "Keyboard shortcuts and reference", kind: "action", run: showKeys },
   ];
@@ -119,6 +145,7 @@ function start() {
   const last = lastWork();
   writeAddress();
   if (last) offerToContinue(last);
+  followProject(async () => (await import("./projects/dialogs.js")).askElsewhere());
   loadAll();
   requestAnimationFrame(() => setTimeout(fetchPlotly));
   setTimeout(() => import("./commands.js"), AT_REST_MS); // so that the palette opens before the next key

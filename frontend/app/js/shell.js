@@ -1,10 +1,12 @@
 // @ts-check
 // The bar above every view: tabs, undo, units, export, link, theme, help; and the status line.
 import { h, icon } from "./dom.js";
-import { toHash } from "./link.js";
+import { left, linkOf, PARTLY } from "./link.js";
 import { setTheme, themeChoice } from "./plots/theme.js";
+import { projectButton } from "./projects/menu.js";
 import { apart } from "./reactive.js";
 import { connection, look } from "./server/connection.js";
+import { deleted, lookForMissing, lostPresets, missing, restoreDeleted } from "./server/missing.js";
 import { loadAll } from "./server/presets.js";
 import { doc, edit, future, goTo, past, units, view } from "./state.js";
 import { outage, status } from "./store.js";
@@ -13,9 +15,9 @@ import { redoAndReport, undoAndReport } from "./ui/history.js";
 import { menuButton } from "./ui/menu.js";
 
 /** A tab. `exports`: what the Export menu offers besides the document; `files`: other JSON files that are opened
- * here.
+ * here; `choose`: asks for a measurement that the server has no more.
  * @typedef {{id: string, title: string, build: () => HTMLElement, exports: () => import("./ui/menu.js").Item[],
- *   files?: import("./ui/files.js").Opener[]}} View */
+ *   files?: import("./ui/files.js").Opener[], choose?: () => unknown}} View */
 
 /** @type {Record<import("./format.js").System, string>} */
 const SYSTEMS = { si: "SI", bar: "bar · mm", us: "US" };
@@ -29,12 +31,18 @@ const WORDS = {
 };
 
 export async function share() {
-  const url = new URL(location.href);
-  url.hash = await toHash(doc.peek());
-  history.replaceState(null, "", url);
+  const url = new URL(location.href), { hash, left: less } = await linkOf(doc.peek());
+  if (less === "all") {
+    status.value =
+      "This work is too long for a link. Export, Save JSON writes it to a file that opens here again.";
+    return;
+  }
+  url.hash = hash;
   try {
     await navigator.clipboard.writeText(url.href);
-    status.value = "Link copied: it holds the whole state of this page.";
+    status.value = less
+      ? `Link copied: it ${PARTLY[less]}. To hand on everything: Export, Save JSON.`
+      : "Link copied: it holds the whole state of this page.";
   } catch {
     // Without permission for the clipboard the link is shown, so that the user can copy it.
     const field = h("input", { type: "text", readonly: true, value: url.href, "aria-label": "Link" });
@@ -103,7 +111,7 @@ export function shell(views, { examples, help }) {
   };
   const bar = h(
     "header",
-    null,
+    { "data-view": () => view.value },
     h("h1", { class: "brand" }, mark(), "mckibben"),
     h(
       "nav",
@@ -125,6 +133,7 @@ export function shell(views, { examples, help }) {
       items: () =>
         views.map((v) => ({ label: v.title, checked: v.id === view.peek(), run: () => goTo(v.id) })),
     }),
+    projectButton(),
     menuButton({ label: ["Examples", icon("down")], name: "Examples", class: "quiet", items: examples }),
     h("span", { class: "space" }),
     historyButton(() => past.value.at(-1)?.label, "undo", undoAndReport, "Ctrl+Z"),
@@ -151,7 +160,11 @@ export function shell(views, { examples, help }) {
     }),
     h(
       "button",
-      { type: "button", onclick: share, title: "Copy a link that restores everything" },
+      {
+        type: "button",
+        onclick: share,
+        title: () => `Copy a link that ${left.value ? PARTLY[left.value] : "restores everything"}`,
+      },
       icon("share"),
       h("span", { class: "wide" }, "Share"),
     ),
@@ -166,6 +179,8 @@ export function shell(views, { examples, help }) {
   );
   const banner = () => {
     const now = connection.value;
+    if (now === "up" && !outage.value && missing.value.length) return missingBanner(views);
+    if (now === "up" && !outage.value && lostPresets.value.length) return lostBanner();
     const text = now === "up" ? outage.value : WORDS[now];
     return text
       ? h(
@@ -180,6 +195,49 @@ export function shell(views, { examples, help }) {
       : null;
   };
   return { bar, main, show, banner, status: h("p", { role: "status", class: "status" }, () => status.value) };
+}
+
+function lostBanner() {
+  const names = lostPresets.value.map(({ kind, id }) => `the ${kind} “${id}”`).join(" and ");
+  return h(
+    "div",
+    { class: "banner missing", role: "alert" },
+    icon("warn"),
+    h(
+      "span",
+      null,
+      `The server does not have ${names}: deleted, or it runs with another data folder. Choose another one in the `,
+      "inputs, or restore it in the Catalogue under Kept; the rest of your work stays.",
+    ),
+    h("button", { type: "button", onclick: loadAll }, "Look again"),
+  );
+}
+
+/** @param {View[]} views */
+function missingBanner(views) {
+  const names = [...new Set(missing.value.map(({ name }) => `“${name}”`))], one = names.length === 1;
+  const first = views.find(({ id }) => id === missing.value[0].view);
+  const run = (/** @type {() => Promise<unknown>} */ work) => () =>
+    work().catch((error) => (status.value = error.words ?? String(error)));
+  return h(
+    "div",
+    { class: "banner missing", role: "alert" },
+    icon("warn"),
+    h(
+      "span",
+      null,
+      `The server does not have ${names.join(", ")}: ${
+        one ? "it was" : "they were"
+      } deleted, or it runs with another `,
+      `data folder. Choose the file${
+        one ? "" : "s"
+      } again; the model and what you said of the experiment stay.`,
+    ),
+    h("button", { type: "button", onclick: () => first?.choose?.() }, `Choose the file${one ? "" : "s"}…`),
+    deleted.value.length
+      ? h("button", { type: "button", onclick: run(restoreDeleted) }, "Restore")
+      : h("button", { type: "button", onclick: run(lookForMissing) }, "Look again"),
+  );
 }
 
 function mark() {

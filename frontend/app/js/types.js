@@ -20,6 +20,7 @@
 /** @typedef {S["ExportFormat"]} ExportFormat */
 /** @typedef {S["CurvesAnswer"]} Curves */
 /** @typedef {S["InverseAnswer"]} Answer */
+/** @typedef {S["OrderCodeAnswer"]} OrderCode */
 /** @typedef {S["ComparisonAnswer"]} Comparison */
 /** @typedef {S["SimulationAnswer"]} Run */
 /** @typedef {S["MeasurementDetail"]} Measured */
@@ -28,11 +29,12 @@
 /** @typedef {{preset: string | null, form: Form, values: Record<string, number>}} Muscle */
 /** @typedef {"contraction" | "length" | "braid_angle"} Across */
 /** @typedef {"contraction" | "length" | "diameter" | "outer_diameter" | "outer_diameter_at_fixed_length" | "force"} Over */
+/** @typedef {"tangent" | "from_force" | "secant"} StiffnessOf */
 /** The Design view's part of the document; SI throughout.
  * @typedef {{muscle: Muscle, effects: Record<string, Record<string, number>> | null, pressures: number[],
  *   load: number, direction: -1 | 0 | 1, temperature: number, dead_volume: number,
  *   fixed_length: number | null, range: [number, number] | null, clipped: boolean, across: Across,
- *   over: Over,
+ *   over: Over, stiffness: StiffnessOf,
  *   reference: string | null}} Design */
 /** @typedef {{kind: string, search: string, maker: string, from: number | null, to: number | null,
  *   sort: string, descending: boolean, selected: string | null}} CatalogueFilter */
@@ -73,6 +75,12 @@
  *   over: string | null, channel: string | null, brush: Brush | null, before: boolean, twins: string[],
  *   tells: Telling[], pins: Pinned[], board: boolean, differing: boolean, traces: number[]}} Compare */
 
+/** Files, experiment and model under a name; `id` stays when it is renamed.
+ * @typedef {{id: number, name: string, compare: Compare}} Case */
+/** The cases of the document: number and name of the one at hand, which is the part "compare"; its place `at` among all;
+ * the others in order.
+ * @typedef {{id: number, name: string, at: number, rest: Case[]}} Cases */
+
 /** Supply, valve, tube, load, command, controller, …; numbers in SI. @typedef {Record<string, any>} Drive */
 /** How the load of a drive is arranged.
  * @typedef {"hanging" | "inclined" | "horizontal" | "lever" | "antagonist"} DriveArrangement */
@@ -94,8 +102,22 @@
  * @typedef {{mode: "muscle" | "task", arrangement: TaskArrangement, task: Task, selected: number,
  *   axes: [Aim, Aim]}} Sizing */
 
+/** A varied quantity of a study, in SI. `form`: a range, a list, or a distribution. `mean`: also the median or the most
+ * probable value. `least`, `most`: where a distribution is cut off.
+ * @typedef {{path: string, form: "range" | "logarithmic" | "values" | "uniform" | "triangular" | "normal" | "lognormal",
+ *   from: number | null, to: number | null, points: number, values: number[], mean: number | null,
+ *   deviation: number | null, log_deviation: number | null, least: number | null, most: number | null}} Varied */
+/** A figure of a study, in SI, with what is wanted of it.
+ * @typedef {{path: string, goal: "minimise" | "maximise" | null, at_least: number | null,
+ *   at_most: number | null}} Watched */
+/** @typedef {"grid" | "list" | "monte_carlo" | "latin_hypercube" | "sobol" | "morris" | "optimisation" | "robust"} StudyMethod */
+/** The part of the document about a study. `assumed`: the spread of the quantities is an assumption of this page.
+ * @typedef {{subject: "drive" | "task" | "model", quantities: Varied[], figures: Watched[], assumed: boolean,
+ *   method: {type: StudyMethod, runs: number, samples: number, trajectories: number, population: number,
+ *   generations: number, seed: number}}} Study */
+
 /** What undo steps through, links carry and saved files hold.
  * @typedef {{schema: 1, view: string, units: import("./format.js").System, design: Design, sizing: Sizing,
- *   transient: Transient, compare: Compare, catalogue: CatalogueFilter}} Doc */
+ *   transient: Transient, compare: Compare, cases: Cases, catalogue: CatalogueFilter, study: Study}} Doc */
 
 export {};

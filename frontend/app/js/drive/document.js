@@ -30,7 +30,16 @@ export const defaultDrive = () => ({
 const GAINS = new Set(["kp", "ki", "kd", "feed_forward"]);
 const PERCENT_PER_MM = 10;
 /** Texts that are names, not quantities. */
-const NAMES = new Set(["shape", "preset", "arrangement", "type", "interpolation", "title"]);
+const NAMES = new Set([
+  "shape",
+  "preset",
+  "arrangement",
+  "meter",
+  "valves",
+  "type",
+  "interpolation",
+  "title",
+]);
 
 /** SI units of the fields of drives and tasks, by their path; a text that does not fit stays for the server, which
  * says what is wrong with it. @type {Record<string, string>} */
@@ -38,6 +47,9 @@ const UNITS = {
   "supply.pressure": "Pa",
   "regulator.range": "Pa",
   "regulator.time": "s",
+  "regulator.damping": "1",
+  "regulator.band": "Pa",
+  "regulator.dead_band": "Pa",
   start_pressure: "Pa",
   supply_pressure: "Pa",
   "start.position": "m",
@@ -46,6 +58,15 @@ const UNITS = {
   "valve.critical_pressure_ratio": "1",
   "valve.exhaust_critical_pressure_ratio": "1",
   "valve.nominal_flow": "m^3/s",
+  "pwm.frequency": "Hz",
+  "pwm.min_on": "s",
+  "pwm.min_off": "s",
+  "flow_control.sonic_conductance": "m^3/(s*Pa)",
+  "flow_control.free_conductance": "m^3/(s*Pa)",
+  "flow_control.critical_pressure_ratio": "1",
+  "quick_exhaust.sonic_conductance": "m^3/(s*Pa)",
+  "quick_exhaust.critical_pressure_ratio": "1",
+  "quick_exhaust.band": "Pa",
   "tube.inside_diameter": "m",
   "tube.length": "m",
   "load.mass": "kg",
@@ -107,7 +128,8 @@ function converted(part, path, whole) {
   if (typeof part !== "string") return part;
   const si = siNumber(part, countedAt(whole, path));
   if (si === null) return part;
-  return GAINS.has(key) && /[a-z%]/i.test(part) ? si / PERCENT_PER_MM : si;
+  const ofPosition = GAINS.has(key) && !path.includes(".stiffness.");
+  return ofPosition && /[a-z%]/i.test(part) ? si / PERCENT_PER_MM : si;
 }
 
 /** Only numbers, texts, lists and objects, not nested deeply.
@@ -210,4 +232,12 @@ export function partsOfDrive(document, scenario) {
       phase: null,
     },
   };
+}
+
+/** The complete drive document, as the server and the command line read it.
+ * @param {Transient} t @param {object} muscle @param {object | null} effects @returns {Drive} */
+export function driveDocument(t, muscle, effects) {
+  const { command, controller, ...rest } = t.drive;
+  const driven = t.mode === "controller" ? { controller } : { command };
+  return { schema: 1, muscle, ...(effects ? { effects } : {}), ...rest, ...driven };
 }

@@ -6,12 +6,13 @@ import { axisTitle, extent, shown, steadyX } from "../plots/axes.js";
 /** @typedef {import("../types.js").Curves} Curves */
 /** @typedef {import("../types.js").Across} Across */
 /** @typedef {import("../types.js").Over} Over */
+/** @typedef {import("../types.js").StiffnessOf} StiffnessOf */
 /** @typedef {import("../types.js").Preset} Preset */
 /** @typedef {import("../format.js").System} System */
 /** @typedef {import("../format.js").Quantity} Quantity */
 /** What a plot of curves needs; `place`: the view, whose axis ranges are its own.
  * @typedef {{place: string, curves: Curves, across: Across, over: Over, system: System,
- *   reference: Preset | null}} View */
+ *   reference: Preset | null, definition?: StiffnessOf}} View */
 
 /** @type {Record<Across, {title: string, quantity: Quantity}>} */
 export const ACROSS = {
@@ -65,6 +66,16 @@ export const OVER = {
     quantity: "length",
   },
   force: { title: "Force at fixed length", axis: "Force", quantity: "force" },
+};
+
+/** Definitions of the stiffness with their formulas. @type {Record<StiffnessOf, {title: string, text: string}>} */
+export const STIFFNESS = {
+  tangent: { title: "tangent", text: "dF/dL at constant pressure; dashed with the valve closed" },
+  from_force: {
+    title: "of the force",
+    text: "6 L F/(3 L² − b²): of an ideal muscle with this force and length",
+  },
+  secant: { title: "secant", text: "F/(L − Lmin): straight from the length without force" },
 };
 
 /** Whether both ends are held, instead of a load that hangs. @param {Over} over */

@@ -2,7 +2,7 @@
 // The design: muscle, effects and operating conditions. Every view about the muscle shares this part of the
 // document.
 import { BAR } from "../format.js";
-import { OVER } from "./curve-axes.js";
+import { OVER, STIFFNESS } from "./curve-axes.js";
 import { computed } from "../reactive.js";
 import { addPart, doc, edit, look } from "../state.js";
 
@@ -24,6 +24,7 @@ export const defaultDesign = () => ({
   clipped: true,
   across: "contraction",
   over: "contraction",
+  stiffness: "tangent",
   reference: "auto",
 });
 
@@ -52,6 +53,7 @@ const DESIGN_CHECKS = {
   clipped: (x) => typeof x === "boolean",
   across: (x) => ["contraction", "length", "braid_angle"].includes(String(x)),
   over: (x) => Object.keys(OVER).includes(String(x)),
+  stiffness: (x) => Object.keys(STIFFNESS).includes(String(x)),
   reference: (x) => x === null || typeof x === "string",
 };
 

@@ -31,7 +31,16 @@ export function limitZones(v, range) {
   return zones;
 }
 
-/** @param {View} v @param {Palette} p @param {"force" | "stiffness" | "stiffness_closed"} what
+/** What a column of a table of the curves is called before its pressure. */
+const COLUMN_OF = {
+  force: "",
+  stiffness: "",
+  stiffness_closed: "closed valve, ",
+  stiffness_from_force: "of the force, ",
+  stiffness_secant: "secant, ",
+};
+
+/** @param {View} v @param {Palette} p @param {keyof typeof COLUMN_OF} what
  * @param {Quantity} quantity
  * @param {string} [dash] @returns {Trace[]} */
 export function curveFamily(v, p, what, quantity, dash) {
@@ -39,12 +48,12 @@ export function curveFamily(v, p, what, quantity, dash) {
   // A slack muscle has no stiffness; a line down to zero would look like a jump.
   const slack = (/** @type {number} */ i, /** @type {number} */ k) =>
     what !== "force" && v.curves.force[i][k] === 0;
-  return v.curves[what].map((row, i) => ({
+  return (v.curves[what] ?? []).map((row, i) => ({
     id: `${what}${i}`,
     x,
     y: shown(row.map((y, k) => slack(i, k) ? null : y), quantity, v.system),
     line: { color: pressureColour(shareOf(v.curves.pressure[i], v.curves), p), width: dash ? 1.5 : 2, dash },
-    column: `${what === "stiffness_closed" ? "closed valve, " : ""}${pressureName(v, v.curves.pressure[i])}`,
+    column: `${COLUMN_OF[what]}${pressureName(v, v.curves.pressure[i])}`,
   }));
 }
 

@@ -11,9 +11,9 @@ export class ApiError extends Error {
     this.hint = hint;
     this.status = status;
   }
-  /** Message and hint as sentences, without hints that name options of the command line. */
+  /** Message and hint as sentences, without hints for the command line or for programs. */
   get words() {
-    const hint = /(^|\s)--[a-z]/.test(this.hint ?? "") ? null : this.hint;
+    const hint = /(^|\s)(--[a-z]|(GET|PUT|POST|PATCH|DELETE) \/)/.test(this.hint ?? "") ? null : this.hint;
     return [this.message, hint].filter((text) => text != null && text !== "").map(sentence).join(" ");
   }
 }
@@ -59,7 +59,7 @@ const errorOf = (body, status) =>
   });
 
 /** @param {string} path @param {RequestInit} [init] */
-const request = async (path, init) => answerOf(await reach(path, init, false));
+export const request = async (path, init) => answerOf(await reach(path, init, false));
 
 /** @param {string} path @param {AbortSignal} [signal] */
 export const get = (path, signal) => request(path, { signal });
@@ -72,6 +72,16 @@ export const post = (path, body, signal) =>
     body: JSON.stringify(body),
     signal,
   });
+
+/** Changes something that is kept. @param {"POST" | "PATCH" | "DELETE"} method @param {string} path
+ * @param {unknown} [body] */
+export const send = (method, path, body) =>
+  request(
+    path,
+    body === undefined
+      ? { method }
+      : { method, headers: { "content-type": "application/json" }, body: JSON.stringify(body) },
+  );
 
 /** Sends a file as it is. @param {"PUT" | "POST"} method @param {string} path @param {Blob} file
  * @param {AbortSignal} [signal] */

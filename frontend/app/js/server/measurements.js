@@ -36,7 +36,3 @@ export const keep = (file, mapping = {}) => sendFile("PUT", `/api/measurements${
 /** A kept file with its columns. @param {string} id @param {AbortSignal} [signal]
  * @returns {Promise<S["MeasurementDetail"]>} */
 export const measurement = (id, signal) => get(`/api/measurements/${id}`, signal);
-
-/** What to say when a file that a document names cannot be fetched. @param {import("./client.js").ApiError} error */
-export const missingFile = (error) =>
-  error.status === 404 ? "This server does not have the file. Choose it once more." : error.words;

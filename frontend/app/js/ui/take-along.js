@@ -72,7 +72,7 @@ export async function openTakeAlong({ what, drive = false, body }) {
     h("p", { class: "error", role: "alert" }, () => message.value),
   );
   try {
-    list.append(...(await formats()).map(way));
+    list.append(...(await formats()).filter((format) => drive || format.muscles).map(way));
     list.querySelector("button")?.focus();
   } catch (error) {
     message.value = wordsOf(error);

@@ -9,6 +9,7 @@ import { quantityField } from "../../ui/field.js";
 import { atlas } from "./atlas/page.js";
 import { KIND_TITLES } from "./columns.js";
 import { detailPanel } from "./detail.js";
+import { keptCard } from "./kept.js";
 import { filter, partsTable, setFilter } from "./table.js";
 
 const kind = computed(() => filter.value.kind);
@@ -139,7 +140,7 @@ export function cataloguePage() {
   return h(
     "div",
     { class: () => `catalogue${isAtlas.value ? " with-atlas" : ""}` },
-    h("div", { class: "column" }, filterCard(), problemCard),
+    h("div", { class: "column" }, filterCard(), keptCard(), problemCard),
     h("div", { class: "column" }, h("div", { hidden: () => isAtlas.value }, partsTable()), list),
     h("div", { class: "column" }, h("div", { hidden: () => isAtlas.value }, detailPanel()), full),
   );

@@ -9,7 +9,7 @@ import { downloadText, fileName, toCsv } from "../../ui/table.js";
 import { openDrive } from "../../drive/open.js";
 import { openDesign } from "../../muscle/document.js";
 import { answeredTask, proposals, sizing } from "./model.js";
-import { requestOf } from "./document.js";
+import { requestOf } from "../../drive/task.js";
 import { AIMS, driveWords, limitName } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */

@@ -2,6 +2,7 @@
 // The task in the document: as /api/sizings takes it, numbers in SI, only what differs from the defaults; and what
 // is shown of the answer. The server checks what the numbers mean.
 import { inSi } from "../../drive/document.js";
+import { LEVER } from "../../drive/task.js";
 import { at, isObject, put } from "../../paths.js";
 import { computed } from "../../reactive.js";
 import { addPart, doc } from "../../state.js";
@@ -14,7 +15,6 @@ import { addPart, doc } from "../../state.js";
 /** @type {Aim[]} */
 export const AIM_NAMES = ["air", "time", "length", "reserve", "stiffness"];
 const ARRANGEMENTS = ["lift", "lever", "antagonist"];
-const LEVER = 0.5;
 const USUAL_PAIR = { angle: Math.PI / 3, torque: 2, inertia: 0.02 };
 
 /** @returns {Sizing} an example task: that of the preset lift-20kg */
@@ -32,17 +32,6 @@ const defaultSizing = () => ({
   selected: 0,
   axes: ["air", "time"],
 });
-
-/** The body of a request: without fields that the arrangement does not use, which stay in the document.
- * @param {Sizing} sizing @returns {Task} */
-export function requestOf({ arrangement, task }) {
-  const { pair, lever_ratio: ratio, ...load } = task.load ?? {};
-  const { stroke, speed, ...rest } = task;
-  if (arrangement === "antagonist") return { ...rest, load: { pair } };
-  const lever = arrangement === "lever" ? { lever_ratio: ratio ?? LEVER } : {};
-  const way = { ...(stroke === undefined ? {} : { stroke }), ...(speed === undefined ? {} : { speed }) };
-  return { ...rest, ...way, load: { ...load, ...lever } };
-}
 
 /** The same task in another arrangement, with the fields that arrangement requires.
  * @param {Sizing} sizing @param {Arrangement} arrangement @returns {Partial<Sizing>} */

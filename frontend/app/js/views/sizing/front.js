@@ -103,22 +103,23 @@ const legend = () =>
     },
   );
 
-/** Moves points apart that lie too close, each as little as possible.
+/** Moves points apart whose square marks would cover each other, along the axis on which that takes less.
  * @param {{x: number, y: number}[]} points */
 function spread(points) {
   const placed = points.map(({ x, y }, i) => ({ x: x + 1e-3 * i, y: y - 2e-3 * i }));
-  for (let round = 0; round < 60; round++) {
+  for (let round = 0; round < 400; round++) {
+    let moved = false;
     placed.forEach((a, i) =>
       placed.slice(0, i).forEach((b) => {
-        const dx = a.x - b.x, dy = a.y - b.y, far = Math.hypot(dx, dy);
-        if (far >= APART) return;
-        const push = (APART - far) / 2 / far;
-        a.x += dx * push;
-        a.y += dy * push;
-        b.x -= dx * push;
-        b.y -= dy * push;
+        const dx = a.x - b.x, dy = a.y - b.y, axis = Math.abs(dx) > Math.abs(dy) ? "x" : "y";
+        const away = a[axis] - b[axis], push = (APART - Math.abs(away)) / 2 * Math.sign(away);
+        if (Math.abs(away) >= APART) return;
+        moved = true;
+        a[axis] += push;
+        b[axis] -= push;
       })
     );
+    if (!moved) break;
   }
   return placed;
 }

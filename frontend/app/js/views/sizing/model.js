@@ -6,7 +6,8 @@ import { doc, edit, look } from "../../state.js";
 import { fieldMessages, postForEvents } from "../../server/client.js";
 import { Memory, Question } from "../../server/question.js";
 import { status } from "../../store.js";
-import { opened, requestOf } from "./document.js";
+import { requestOf } from "../../drive/task.js";
+import { opened } from "./document.js";
 import { at, put } from "../../paths.js";
 import { driveWords } from "./words.js";
 

@@ -47,7 +47,11 @@ function smallPicture(e) {
 function card(e, watch) {
   return h(
     "li",
-    { "data-effect-card": e.id, ref: (/** @type {HTMLElement} */ el) => watch.observe(el) },
+    {
+      class: () => chosen.value?.id === e.id ? "chosen" : null,
+      "data-effect-card": e.id,
+      ref: (/** @type {HTMLElement} */ el) => watch.observe(el),
+    },
     h(
       "button",
       {
