@@ -72,6 +72,16 @@ def test_curves_print_a_table(run: Run) -> None:
     assert "not read in a source" in err
 
 
+def test_curves_print_the_stiffness_when_asked(run: Run) -> None:
+    code, out, _ = run("curves", "--muscle", "paper", "--pressure", "6 bar", "--stiffness")
+    assert code == 0
+    rest = next(line for line in out.split("Stiffness of paper")[1].splitlines() if "50.0 mm" in line)
+    # 3 L P/(2 pi n^2) of the muscle of 100 mm is 13.00311 N/mm; at half the length n halves, so twice that.
+    assert [float(cell) for cell in rest.split()[-4:]] == pytest.approx(
+        [26.01, 129.7, 26.01, 21.29], abs=0.06
+    )
+
+
 @pytest.mark.parametrize("muscle", ["DMSP-20:500mm", "DMSP-20:500 mm", "dmsp-20:0.5 m"])
 def test_a_preset_takes_a_length(run: Run, muscle: str) -> None:
     assert json.loads(run("curves", "--muscle", muscle, "--json")[1])["geometry"]["nominal_length"] == 0.5

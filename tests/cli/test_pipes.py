@@ -86,9 +86,9 @@ def test_a_noise_has_a_unit(run: Run) -> None:
     file = write("a.csv", CSV)
     answers = [
         json.loads(run("diagnose", file, *FITTED, "--noise", noise, "--json")[1])
-        for noise in ("2", "2 N", "0.002 kN")
+        for noise in ("2", "0.002 kN")
     ]
-    assert [answer["noise_floor"]["rmse"] for answer in answers] == pytest.approx([2.0] * 3)
+    assert [answer["noise_floor"]["rmse"] for answer in answers] == pytest.approx([2.0] * 2)
     code, out, err = run("diagnose", file, *FITTED, "--noise", "2 mm")
     assert (code, out, err.count("\n")) == (2, "", 1)
     assert "--noise 2 mm" in err

@@ -50,6 +50,19 @@ def test_a_slack_muscle_has_no_tension_unless_asked_for() -> None:
     assert pushing < 0.0
 
 
+def test_stiffness_from_the_force_and_the_secant() -> None:
+    plain = mk.Model(**DRAWN).curves("3 bar")
+    assert plain.stiffness_from_force is None
+    assert plain.stiffness_secant is None
+    curves = mk.Model(**DRAWN).curves("3 bar", contraction_to="20 %", further_stiffness=True)
+    assert curves.stiffness_from_force == pytest.approx(curves.stiffness, rel=1e-9)
+    secant = curves.stiffness_secant
+    assert secant is not None
+    shortest = 0.3 / np.cos(radians(25.0)) / np.sqrt(3.0)
+    assert secant[0] == pytest.approx(curves.force[0] / (curves.length - shortest), rel=1e-9)
+    assert {"stiffness_from_force_N/m", "stiffness_secant_N/m"} <= set(curves.to_frame().columns)
+
+
 def test_friction_has_a_direction() -> None:
     model = mk.Model(**DRAWN).with_effect("coulomb_friction", force="10 N")
     shorter, mean, longer = model.force(pressure="3 bar", contraction="10 %", direction=[-1, 0, 1])

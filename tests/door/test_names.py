@@ -25,6 +25,7 @@ NAMES = {
     "Measurement",
     "Model",
     "Problem",
+    "Project",
     "__version__",
     "effects",
     "load",
@@ -38,6 +39,7 @@ NAMES = {
 CLASSES = (
     mk.Model,
     mk.Measurement,
+    mk.Project,
     mk.Drive,
     Curves,
     Comparison,

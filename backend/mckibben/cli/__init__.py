@@ -9,11 +9,11 @@ from __future__ import annotations
 import sys
 
 # In the order of the help.
-from mckibben.cli import studio_commands, data_commands, drive_commands  # isort: skip
+from mckibben.cli import studio_commands, data_commands, drive_commands, project_commands  # isort: skip
 from mckibben.cli.app import app
 from mckibben.cli.running import run_app
 
-__all__ = ["app", "data_commands", "drive_commands", "main", "studio_commands"]
+__all__ = ["app", "data_commands", "drive_commands", "main", "project_commands", "studio_commands"]
 
 
 def run(arguments: list[str]) -> int:

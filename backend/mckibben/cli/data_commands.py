@@ -124,6 +124,23 @@ def diagnose(
             "--schedule", metavar="FILE", help="Also write the set points of the next experiment (CSV)."
         ),
     ] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            "--out", metavar="FILE", help="Of a folder: also write the table of verdicts, .csv or .json."
+        ),
+    ] = None,
+    resume: Annotated[
+        bool, typer.Option("--resume", help="Of a folder: continue diagnoses of --out that were interrupted.")
+    ] = False,
+    scheduler: Annotated[
+        str | None,
+        typer.Option(
+            "--scheduler",
+            metavar="ADDRESS",
+            help="Of a folder: a Dask scheduler, tcp://host:8786; else this computer.",
+        ),
+    ] = None,
     use: Use = None,
     keep: Keep = None,
     sheet: Sheet = None,
@@ -141,9 +158,13 @@ def diagnose(
     effects: EffectsFolders = None,
     data: DataFolder = None,
 ) -> None:
-    """Which physical effect a model of measurements is missing, and what the data cannot distinguish."""
+    """Which physical effect a model of measurements is missing, and what the data cannot distinguish.
+
+    Of a folder: one line for each of its files, on this computer or on a cluster.
+    """
     from mckibben.application.file_options import file_options
     from mckibben.cli.diagnose import run
+    from mckibben.cli.diagnose_folder import FolderOptions
     from mckibben.cli.options import open_studio
 
     options = file_options(
@@ -171,6 +192,7 @@ def diagnose(
         save=save,
         save_preset=save_preset,
         schedule=schedule,
+        folder=FolderOptions(out, resume, scheduler),
     )
 
 

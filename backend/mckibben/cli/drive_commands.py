@@ -121,6 +121,12 @@ def study(
             "--scheduler", metavar="ADDRESS", help="A Dask scheduler, tcp://host:8786; else this computer."
         ),
     ] = None,
+    chunk: Annotated[
+        int | None,
+        typer.Option(
+            "--chunk", min=1, max=100_000, metavar="RUNS", help="Runs in a message to a worker; default 64."
+        ),
+    ] = None,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
@@ -136,5 +142,6 @@ def study(
         out=out,
         resume=resume,
         scheduler=scheduler,
+        chunk=chunk,
         as_json=as_json,
     )

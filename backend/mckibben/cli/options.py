@@ -99,6 +99,16 @@ EffectsFolders = Annotated[
 DataFolder = Annotated[
     Path | None, typer.Option("--data", metavar="DIR", help="Where measurements and saved presets are kept.")
 ]
+ProjectsAddress = Annotated[
+    str,
+    typer.Option(
+        "--projects",
+        metavar="URL",
+        envvar="MCKIBBEN_PROJECTS",
+        help="Database of the projects, e.g. postgresql://user@host/name; default: in the data folder.",
+        show_default=False,
+    ),
+]
 
 
 @dataclass(frozen=True, slots=True)

@@ -256,6 +256,7 @@ class Model(Savable, Exportable):
         load: Quantity | None = None,
         fixed_length: Quantity | None = None,
         unclipped: bool = False,
+        further_stiffness: bool = False,
     ) -> Curves:
         """Force, stiffness, volume and diameter over the contraction.
 
@@ -266,6 +267,7 @@ class Model(Savable, Exportable):
             load: constant load, for operating points [N].
             fixed_length: where the force is shown over the pressure [m].
             unclipped: whether to show what a slack muscle would push.
+            further_stiffness: whether to answer the stiffness that the force implies and the secant too.
 
         Raises:
             Problem: a pressure or range that cannot be used, a muscle without a length.
@@ -279,6 +281,7 @@ class Model(Savable, Exportable):
             optional_number(contraction_to, "1", "contraction_to"),
             optional_number(load, "N", "load"),
             optional_number(fixed_length, "m", "fixed_length"),
+            further_stiffness=further_stiffness,
         )
         return Curves(curves(question, self._studio), self.name)
 
