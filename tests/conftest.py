@@ -53,6 +53,8 @@ def pytest_configure(config: pytest.Config) -> None:
     """Keep the plugins' caches in the ignored folders of the checkout, not wherever pytest was started."""
     # Some containers forbid it; then each of the programs that tests start compiles all our modules again.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    # Compiled once for all workers and the programs that tests start; the key holds the sources.
+    os.environ["MCKIBBEN_CACHE"] = str(config.rootpath / ".pytest_cache" / "code")
     hypothesis.configuration.set_hypothesis_home_dir(config.rootpath / ".hypothesis")
     if config.option.benchmark_storage == "file://./.benchmarks":
         config.option.benchmark_storage = f"file://{config.rootpath}/.benchmarks"

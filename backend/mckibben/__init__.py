@@ -22,13 +22,14 @@ if TYPE_CHECKING:
     from mckibben.door.model import Model
     from mckibben.door.model_files import load
     from mckibben.door.problem import Problem
+    from mckibben.door.project import Project
     from mckibben.door.sizing import size
     from mckibben.door.study import study
     from mckibben.door.workspace import use_effects, use_presets
 
 __all__ = [
-    "Drive", "Measurement", "Model", "Problem", "__version__", "effects", "load", "presets", "read", "size",
-    "study", "use_effects", "use_presets",
+    "Drive", "Measurement", "Model", "Problem", "Project", "__version__", "effects", "load", "presets",
+    "read", "size", "study", "use_effects", "use_presets",
 ]  # fmt: skip
 
 _MODULES = {
@@ -36,6 +37,7 @@ _MODULES = {
     "Measurement": "measurement",
     "Model": "model",
     "Problem": "problem",
+    "Project": "project",
     "effects": "listing",
     "load": "model_files",
     "presets": "listing",

@@ -25,7 +25,7 @@ from mckibben.application.task_reading import catalogue_of, task_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
-from mckibben.simulation.integrate.engine import kernel
+from mckibben.simulation.integrate.engine import integrate, kernel
 from mckibben.simulation.outcome import Watch
 from mckibben.sizing import Sizing, size
 from mckibben.sizing.batch import Bench
@@ -46,24 +46,44 @@ def timed(work: Callable[[], Any]) -> tuple[Any, float, float]:
     return found, time.perf_counter() - began, time.process_time() - used
 
 
-def by_odeint(prepared: Prepared, rates: Callable[[list[float]], list[float]]) -> float:
-    """The stroke at the end of a run."""
-    line = prepared.timeline
-    state = prepared.start(prepared.parameters, prepared.inputs)
+def by_odeint(prepared: Prepared, rates: Callable[[list[float]], list[float]], events: np.ndarray) -> float:
+    """The stroke at the end of a run; it is told the ``events``."""
+    line, compiled = prepared.timeline, prepared.compiled
+    start = prepared.start(prepared.parameters)
+    state, switches = start.state.copy(), start.switches.copy()
+    stops, (stroke, speed) = compiled.stops(prepared.parameters), compiled.moved
     for index, inputs in enumerate(prepared.inputs):
         begin, end = line.times[index], line.times[index + 1]
-        rest = [*prepared.parameters.tolist(), *inputs.tolist()]
-        within = line.grid[(line.grid > begin) & (line.grid < end)]
-        found = odeint(
-            lambda y, t, rest=rest: rates([*y.tolist(), *rest]),
-            state,
-            np.concatenate([[begin], within, [end]]),
-            rtol=TOLERANCE,
-            atol=TOLERANCE * prepared.compiled.scales,
-            mxstep=100_000,
-        )
-        state = found[-1]
+        mine = events[(events[:, 0] >= begin) & (events[:, 0] < end)]
+        for instant, number, to in [*mine[:, :3], (end, -1, 0.0)]:
+            if instant > begin:
+                rest = [*prepared.parameters.tolist(), *inputs.tolist(), *switches.tolist()]
+                within = line.grid[(line.grid > begin) & (line.grid < instant)]
+                state = odeint(
+                    lambda y, t, rest=rest: rates([*y.tolist(), *rest]),
+                    state,
+                    np.concatenate([[begin], within, [instant]]),
+                    rtol=TOLERANCE,
+                    atol=TOLERANCE * compiled.scales,
+                    mxstep=100_000,
+                )[-1]
+                begin = instant
+            if number >= 0:
+                k = int(number)
+                switches[k] = to
+                if to == 1.0 and np.isfinite(stops[k]):
+                    state[stroke], state[speed] = stops[k], 0.0
     return float(state[0])
+
+
+def events_of(prepared: Prepared) -> np.ndarray:
+    """The events of a run; see `mckibben.simulation.integrate.problem.Solution`."""
+    line, start = prepared.timeline, prepared.start(prepared.parameters)
+    return integrate(
+        prepared.compiled, parameters=prepared.parameters, start=start.state, switches=start.switches,
+        restitution=prepared.drive.restitution, times=line.times, inputs=prepared.inputs, grid=line.grid,
+        tolerance=TOLERANCE, engine="rodas",
+    ).events  # fmt: skip
 
 
 def ratio(bench: Bench, designs: list[Design]) -> None:
@@ -73,7 +93,13 @@ def ratio(bench: Bench, designs: list[Design]) -> None:
     for item in prepared:
         written.setdefault(id(item.compiled), translated(item.compiled.model, "python"))
     _, ours, ours_used = timed(lambda: [bench.run(design) for design in designs])
-    _, theirs, theirs_used = timed(lambda: [by_odeint(item, written[id(item.compiled)]) for item in prepared])
+    events = [events_of(item) for item in prepared]
+    _, theirs, theirs_used = timed(
+        lambda: [
+            by_odeint(item, written[id(item.compiled)], rows)
+            for item, rows in zip(prepared, events, strict=True)
+        ]
+    )
     say(
         f"{len(designs)} transients, one thread: ours {ours:.2f} s ({ours_used:.2f} s of processor), odeint "
         f"{theirs:.2f} s ({theirs_used:.2f} s): {theirs_used / ours_used:.0f} times"
