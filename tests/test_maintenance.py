@@ -102,6 +102,6 @@ def test_files_and_commands_that_are_named_exist() -> None:
         text = (ROOT / document).read_text("utf-8")
         paths = re.findall(r"[`\s]((?:backend|frontend|tests|presets|\.ci)/[\w./]*\w)", text)
         paths += re.findall(r"`((?:physics|application|cli|server)/[\w./]+\.py)`", text)
-        roots = (ROOT, ROOT / "backend" / "mckibben")
+        roots = (ROOT, ROOT / "backend" / "mckibben", ROOT / "tests")
         absent = [path for path in paths if not any((root / path).exists() for root in roots)]
         assert not absent, f"{document}: {absent}"

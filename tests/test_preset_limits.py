@@ -141,6 +141,8 @@ MUSCLE_LIMITS: dict[str, dict[str, Check]] = {
 }
 # A valve is in no curve. Limit -> a value [bar] that the supply of 6 bar exceeds or misses.
 VALVE_LIMITS = {"max_pressure": 1.0, "min_pressure": 6.5}
+# In runs alone: a sizing does not modulate.
+SWITCHING_LIMITS = {"max_frequency"}
 
 
 def stated(studio: Studio, kind: str) -> set[str]:
@@ -157,7 +159,7 @@ def stated(studio: Studio, kind: str) -> set[str]:
 def test_every_limit_of_a_preset_is_checked_somewhere(studio: Studio) -> None:
     assert stated(studio, "muscles") == set(MUSCLE_LIMITS)
     assert all(set(places) == {"curves", "run", "sizing"} for places in MUSCLE_LIMITS.values())
-    assert stated(studio, "valves") == set(VALVE_LIMITS)
+    assert stated(studio, "valves") == set(VALVE_LIMITS) | SWITCHING_LIMITS
 
 
 @pytest.mark.parametrize("place", ["curves", "run", "sizing"])
@@ -190,6 +192,14 @@ def test_a_valve_for_other_pressures_is_rejected_and_flagged(tmp_path: Any, name
     wrong = [item for item in found.rejected if item.binding == "valve_pressure"]
     assert bool(wrong) is code
     assert all("narrow and PUN-H-6x1: the valve is made for" in item.why for item in wrong)
+
+
+@pytest.mark.parametrize(("carrier", "flagged"), [("330 Hz", False), ("400 Hz", True)])
+def test_a_carrier_above_what_the_valve_can_switch_is_flagged(
+    studio: Studio, carrier: str, flagged: bool
+) -> None:
+    codes = run_codes(studio, valve={"preset": "MHE2"}, pwm={"frequency": carrier, "valves": "one"})
+    assert ("over_valve_frequency" in codes) is flagged
 
 
 def test_parallel_muscles_share_the_hanging_mass_and_the_reason_says_it(studio: Studio) -> None:

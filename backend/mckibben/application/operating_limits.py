@@ -1,5 +1,5 @@
-"""Limits of a preset on what is done with the muscle and its valve: mass, temperature, supply pressure; and
-pressures that were probably meant in another unit.
+"""Limits of a preset on what is done with the muscle and its valve: mass, temperature, supply pressure,
+switching frequency; and pressures that were probably meant in another unit.
 """
 
 from __future__ import annotations
@@ -8,15 +8,17 @@ from collections.abc import Mapping
 from math import sin
 
 from mckibben.application.muscle_summary import Notice
-from mckibben.documents.drive_reading import AnnotatedDrive
+from mckibben.documents.drive_reading import AnnotatedDrive, ValveRating
 from mckibben.documents.start_model import StartModel
+from mckibben.simulation.command.pwm import PulseWidth
 from mckibben.simulation.drive.parts import Load
 
 GRAVITY = 9.80665  # m/s2
-OVER_MASS, OUTSIDE_TEMPERATURE, OUTSIDE_VALVE = (
+OVER_MASS, OUTSIDE_TEMPERATURE, OUTSIDE_VALVE, OVER_FREQUENCY = (
     "over_suspended_mass",
     "outside_temperature",
     "outside_valve_pressure",
+    "over_valve_frequency",
 )
 TINY_PRESSURE = "tiny_pressure"
 _LEAST_PRESSURE = 1e3  # Pa; no muscle moves below 0.01 bar, and people write up to some hundred kPa or psi
@@ -73,13 +75,30 @@ def temperature_notices(start: StartModel, temperature: float, field: str) -> li
 
 
 def valve_notices(annotated: AnnotatedDrive) -> list[Notice]:
-    """A supply pressure that the valve is not made for."""
-    rated, supply = annotated.rated_pressure, annotated.drive.supply_pressure
-    if rated is None:
+    """A supply pressure, and a carrier of pulse-width modulation, that the valve is not made for."""
+    rating = annotated.valve_rating
+    if rating is None:
         return []
-    low, high = rated.lowest, rated.highest
+    return [
+        *_pressure_outside(rating, annotated.drive.supply_pressure),
+        *_too_fast(rating, annotated.drive.pwm),
+    ]
+
+
+def _too_fast(rating: ValveRating, pwm: PulseWidth | None) -> list[Notice]:
+    highest = rating.highest_frequency
+    if pwm is None or highest is None or pwm.frequency <= highest * (1.0 + _HAIR):
+        return []
+    message = (
+        f"a carrier of {pwm.frequency:.4g} Hz; {rating.valve} can be switched at {highest:.4g} Hz at most"
+    )
+    return [Notice(OVER_FREQUENCY, message, "pwm.frequency")]
+
+
+def _pressure_outside(rating: ValveRating, supply: float) -> list[Notice]:
+    low, high = rating.lowest_pressure, rating.highest_pressure
     if (low is None or supply >= low * (1.0 - _HAIR)) and (high is None or supply <= high * (1.0 + _HAIR)):
         return []
     ends = " to ".join(f"{end / 1e5:.4g} bar" for end in (low, high) if end is not None)
-    message = f"the supply has {supply / 1e5:.4g} bar; {rated.valve} is made for {ends}"
+    message = f"the supply has {supply / 1e5:.4g} bar; {rating.valve} is made for {ends}"
     return [Notice(OUTSIDE_VALVE, message, "supply.pressure")]

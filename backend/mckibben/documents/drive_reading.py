@@ -40,12 +40,19 @@ _SHORTEST = 0.1  # shortest possible muscle, share of its nominal length
 
 
 @dataclass(frozen=True, slots=True)
-class RatedPressure:
-    """Supply pressures that a valve is made for, gauge [Pa]; None where its preset does not state one."""
+class ValveRating:
+    """What a valve is made for; None where its preset does not state it.
+
+    Attributes:
+        valve: id of its preset.
+        lowest_pressure, highest_pressure: of the supply, gauge [Pa].
+        highest_frequency: at which it can be switched [Hz].
+    """
 
     valve: str
-    lowest: float | None
-    highest: float | None
+    lowest_pressure: float | None
+    highest_pressure: float | None
+    highest_frequency: float | None
 
 
 @dataclass(frozen=True)
@@ -57,14 +64,14 @@ class AnnotatedDrive:
         start: its muscle with all effects.
         unverified: preset id -> names of its unverified values in use; without the muscle.
         notes: path in the document -> note.
-        rated_pressure: of the valve's preset; None without a preset.
+        valve_rating: from the valve's preset; None without a preset.
     """
 
     drive: Drive
     start: StartModel
     unverified: Mapping[str, tuple[str, ...]]
     notes: Mapping[str, str]
-    rated_pressure: RatedPressure | None = None
+    valve_rating: ValveRating | None = None
 
 
 def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False) -> AnnotatedDrive:
@@ -137,14 +144,15 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         for part in parts
         if (names := unverified_of(part, with_effects=document.effects is None))
     }
-    return AnnotatedDrive(drive, start, unverified, notes, _rated(valve_preset))
+    return AnnotatedDrive(drive, start, unverified, notes, _rating(valve_preset))
 
 
-def _rated(preset: ValvePreset | None) -> RatedPressure | None:
+def _rating(preset: ValvePreset | None) -> ValveRating | None:
     if preset is None:
         return None
-    ends = (preset.data.get(name) for name in ("min_pressure", "max_pressure"))
-    return RatedPressure(preset.id, *(None if end is None else end.si("Pa") for end in ends))
+    units = {"min_pressure": "Pa", "max_pressure": "Pa", "max_frequency": "Hz"}
+    stated = {name: preset.data[name].si(unit) for name, unit in units.items() if name in preset.data}
+    return ValveRating(preset.id, *(stated.get(name) for name in units))
 
 
 def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Part | None:
