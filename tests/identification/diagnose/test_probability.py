@@ -8,7 +8,15 @@ from math import exp, log, sqrt
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.probability import LIKELY, Evidence, Loss, loss, model_weights
+from mckibben.identification.diagnose.probability import (
+    LIKELY,
+    Evidence,
+    Loss,
+    log_preference,
+    log_weight,
+    loss,
+    model_weights,
+)
 from mckibben.identification.diagnose.score import score
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.fit_model import FitModel
@@ -51,6 +59,22 @@ def test_of_models_that_differ_in_freed_constants_the_best_counts() -> None:
     alone = model_weights([good], root, rows=ROWS, noise=1.0)
     together = model_weights([worse, good, worse], root, rows=ROWS, noise=1.0)
     assert together.weights == pytest.approx(alone.weights)
+
+
+def test_between_models_that_fit_alike_one_group_left_out_does_not_decide_alone() -> None:
+    """The first is better on every reading, the second on the groups left out: half of the evidence each."""
+    better = fitted(1.0, "prestress")
+    other = fitted(1.1, "force_offset")
+    lost = np.full(6, 1.0)
+    lost[3] = 4.0
+    better.__dict__["fold_squares"] = (lost,)
+    here, there = (log_weight(model, rows=ROWS, noise=1.0) for model in (better, other))
+    # ln h is ln(4)/6 on average beside ln(1.21)
+    assert here - there == pytest.approx(ROWS / 2.0 * (log(1.21) - log(4.0) / 6.0), abs=0.02)
+    assert here < there
+    here, there = (log_preference(model, rows=ROWS, noise=1.0) for model in (better, other))
+    assert here - there == pytest.approx(ROWS / 4.0 * (2.0 * log(1.21) - log(4.0) / 6.0), abs=0.02)
+    assert here > there
 
 
 def test_models_without_the_effects_of_the_start_do_not_count() -> None:

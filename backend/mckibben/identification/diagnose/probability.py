@@ -19,7 +19,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.identification.diagnose.score import score
+from mckibben.identification.diagnose.score import score, score_within
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.physics.effect import Effect
 
@@ -76,6 +76,15 @@ def model_weights(
 def log_weight(model: FittedModel, *, rows: float, noise: float | None) -> float:
     """Logarithm of a model's weight, up to a constant: prior odds of its effects and evidence."""
     return sum(map(_log_odds, model.fit_model.effects)) - 0.5 * score(model, rows=rows, noise=noise)
+
+
+def log_preference(model: FittedModel, *, rows: float, noise: float | None) -> float:
+    """Like `log_weight`, but half of the evidence is the error within the data.
+
+    Of two models that fit about as well, one group left out may prefer the worse law by chance.
+    """
+    evidence = score(model, rows=rows, noise=noise) + score_within(model, rows=rows, noise=noise)
+    return sum(map(_log_odds, model.fit_model.effects)) - 0.25 * evidence
 
 
 def _log_odds(effect: Effect) -> float:

@@ -62,8 +62,19 @@ def score(fitted_model: FittedModel, *, rows: float, noise: float | None) -> flo
         float(np.average(np.log(np.maximum(squares, floor)), weights=counts(labels)))
         for squares, labels in zip(fitted_model.fold_squares, fitted_model.folds, strict=True)
     ]
-    penalty = len(fitted_model.free) * float(np.log(rows)) + LEAST_SCORE * fitted_model.implausible
-    return rows * float(np.mean(ways)) + penalty + _complexity(fitted_model)
+    return rows * float(np.mean(ways)) + _penalty(fitted_model, rows)
+
+
+def score_within(fitted_model: FittedModel, *, rows: float, noise: float | None) -> float:
+    """The score S with the mean square of all rows in place of those left out: Schwarz's criterion."""
+    floor = (_BELOW_FLOOR * (noise or 0.0)) ** 2 + 1e-300
+    return rows * float(np.log(max(fitted_model.mean_square, floor))) + _penalty(fitted_model, rows)
+
+
+def _penalty(fitted_model: FittedModel, rows: float) -> float:
+    """Of free parameters, implausible ones and less simple kinds of effects."""
+    free = len(fitted_model.free) * float(np.log(rows))
+    return free + LEAST_SCORE * fitted_model.implausible + _complexity(fitted_model)
 
 
 def _complexity(fitted_model: FittedModel) -> float:

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.identification.diagnose.probability import log_weight
+from mckibben.identification.diagnose.probability import log_preference
 from mckibben.identification.diagnose.score import effective_rows
 from mckibben.identification.diagnose.search import exchanged
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -95,8 +95,8 @@ def likeliest(
             for other in others
             if other.fitted_model.implausible <= best.implausible and other.effect not in never
         ]
-        weights = [log_weight(o.fitted_model, rows=rows, noise=fitter.noise) for o in plausible]
-        if not weights or max(weights) <= log_weight(best, rows=rows, noise=fitter.noise):
+        weights = [log_preference(o.fitted_model, rows=rows, noise=fitter.noise) for o in plausible]
+        if not weights or max(weights) <= log_preference(best, rows=rows, noise=fitter.noise):
             break
         chosen = plausible[int(np.argmax(weights))]
         best = chosen.fitted_model

@@ -87,8 +87,10 @@ EFFECT = Effect(
             "1",
             default=0.02,
             lower=1.0e-3,
-            upper=0.06,
-            source=_WAY,
+            upper=0.25,
+            source=Source(
+                "break-away at 0.1-3 % of the nominal length; the last cells of a wide spread, later", "E"
+            ),
             description="Travel until the last cell slides, as a share of the nominal length.",
             fitted=False,
         ),
