@@ -422,3 +422,18 @@ def test_a_diagnosis_changes_none_of_its_arguments():
     assert vars(predictor) == before
     again = diagnose(predictor, start, catalogue=CATALOGUE)
     assert (again.added, again.best.rmse) == (first.added, first.best.rmse)
+
+
+def test_a_constant_without_a_slope_where_it_stands_is_found_where_it_has_one() -> None:
+    """The bladder touches bit by bit; the softness of the threshold is 0 by default, and has no slope there."""
+    random, rows = np.random.default_rng(3), []
+    for length in (0.29, 0.27, 0.25):
+        for share in np.linspace(0.02, 1.0, 40):
+            pressure = 4e5 * share**2
+            acting = pressure - 0.4e5 * (1.0 - np.exp(-pressure / 0.4e5))
+            force = hidden_force(acting, length) + random.normal(0.0, 1.0)
+            rows.append(f"{pressure / 1e5:.6f},{length * 1e3:.1f},{force:.3f}")
+    found = diagnosis(csv(rows, "pressure_bar,length_mm,force_N", "kind: static"), noise=1.0)
+    assert found.added == ("threshold_pressure",)
+    assert found.best.fit_model.number("threshold_pressure.softness") == pytest.approx(1.0, abs=0.1)
+    assert found.best.rmse < 1.1

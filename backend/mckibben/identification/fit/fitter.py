@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
+from functools import cache
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -19,6 +20,7 @@ _MOVED = 1e-3  # relative change of a parameter below which the fit has not left
 _USUAL = 0.01  # share of the range: size of a parameter that is off by default
 _STUCK = 0.999  # error over the error before, above which a fit is repeated from another start
 _LEAST_PROMISE = 0.02  # least first-order gain near the noise, share of the mean square
+_ELSEWHERE = (0.05, 0.2, 0.5)  # shares of the way to the farther bound at which a hidden constant is tried
 _PLACES = 12  # places tried of an effect that acts beyond some state only
 _NEAR_FLOOR = 1.2  # error over noise below which only effects with a clear gain of their own are tried
 
@@ -133,23 +135,48 @@ class Fitter:
         names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted and not p.reference}
         names -= fitted_model.freed | held_beside(self.geometry)
         hidden = self._blind(fitted_model.fit_model, names)
+        seen = self._seen_from(fitted_model, effect, hidden)
+        hidden -= set(seen)
         shown = names - hidden
         # What describes a part of the law that is off does not show until that part is there.
         together = {name: {name} | self._woken(fitted_model, effect, name, hidden) for name in sorted(shown)}
         names = set().union(*together.values())
         if not names:
             return []
-        whole = self.fit(fitted_model.fit_model, fitted_model.freed | names)
+
+        def fit(some: set[str]) -> FittedModel:
+            moved = sorted(some & set(seen))
+            start = fitted_model.fit_model.with_numbers(moved, [seen[name] for name in moved])
+            return self.fit(start, fitted_model.freed | some)
+
+        whole = fit(names)
         if len(names) == 1 or whole.implausible <= fitted_model.implausible:
             return [whole]
         stuck = {p.name for p, at in zip(whole.free, whole.at_bound, strict=True) if at}
         fewer = [names - stuck] if 1 < len(names - stuck) < len(names) else []
         singles = [{name} for name in together]
         groups = [group for group in together.values() if len(group) > 1]
-        return [
-            self.fit(fitted_model.fit_model, fitted_model.freed | some)
-            for some in (*fewer, *singles, *groups)
-        ]
+        return [fit(some) for some in (*fewer, *singles, *groups)]
+
+    def _seen_from(
+        self, fitted_model: FittedModel, effect: Effect, hidden: Collection[str]
+    ) -> dict[str, float]:
+        """Of the constants that change nothing at their present value, those that do elsewhere, and where.
+
+        A range of zero, say, has no slope: the place is taken that explains most of the residual.
+        """
+        places = {}
+        for name in sorted(hidden):
+            p, value = effect.parameter(name.partition(".")[2]), fitted_model.fit_model.number(name)
+            end = p.upper if p.upper - value > value - p.lower else p.lower
+            explained = self._explained(
+                fitted_model, lambda there, n=name: fitted_model.fit_model.with_numbers([n], [there])
+            )
+            tried = [value + share * (end - value) for share in _ELSEWHERE]
+            best = max(tried, key=explained)
+            if explained(best) > 0.0:
+                places[name] = best
+        return places
 
     def _woken(self, fitted_model: FittedModel, effect: Effect, name: str, hidden: set[str]) -> set[str]:
         """Of the hidden constants of an effect those that show once another one is not off."""
@@ -271,20 +298,31 @@ class Fitter:
             (place,) = places
             off = {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted}
             acting = effect.off | _between(effect, off)
-            basis, unexplained = self._unexplained(fitted_model)
-
-            def explained(value: float) -> float:
-                trial = self._trial_residual(
-                    fitted_model.fit_model.adding(effect, acting | {place.name: value})
-                )
-                column = fitted_model.residual - trial
-                rest = column - basis @ (basis.T @ column)
-                size = float(np.linalg.norm(rest))
-                return float(rest @ unexplained) / size if size > self._least else 0.0
-
+            explained = self._explained(
+                fitted_model,
+                lambda value: fitted_model.fit_model.adding(effect, acting | {place.name: value}),
+            )
             tried = [place.default, *np.linspace(place.lower, place.upper, _PLACES + 2)[1:-1].tolist()]
             known[effect.id] = {place.name: max(tried, key=explained)}
         return known[effect.id]
+
+    def _explained(
+        self, fitted_model: FittedModel, changed: Callable[[float], FitModel]
+    ) -> Callable[[float], float]:
+        """How much of the residual a change of the model explains, by the value that is changed.
+
+        0 where it changes nothing that the free parameters do not change as well.
+        """
+        basis, unexplained = self._unexplained(fitted_model)
+
+        @cache
+        def explained(value: float) -> float:
+            column = fitted_model.residual - self._trial_residual(changed(value))
+            rest = column - basis @ (basis.T @ column)
+            size = float(np.linalg.norm(rest))
+            return float(rest @ unexplained) / size if size > self._least else 0.0
+
+        return explained
 
     def _trial_residual(self, fit_model: FitModel) -> np.ndarray:
         return self.predictor.weighted(self.predictor.measured - self.predictor.trial(fit_model))
