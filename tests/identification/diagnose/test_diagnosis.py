@@ -425,7 +425,7 @@ def test_a_diagnosis_changes_none_of_its_arguments():
 
 
 def test_a_constant_without_a_slope_where_it_stands_is_found_where_it_has_one() -> None:
-    """The bladder touches bit by bit; the softness of the threshold is 0 by default, and has no slope there."""
+    """The bladder touches bit by bit: the softness of the threshold is 0 by default, without a slope."""
     random, rows = np.random.default_rng(3), []
     for length in (0.29, 0.27, 0.25):
         for share in np.linspace(0.02, 1.0, 40):

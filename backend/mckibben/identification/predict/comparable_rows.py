@@ -15,8 +15,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mckibben.identification.predict.jumps import jumps
 from mckibben.measurement.measurement import FORCE_KINDS, STROKES, Measurement, lengths
-from mckibben.measurement.motion import RecordedMotion, held_directions, motion_of
+from mckibben.measurement.motion import held_directions, motion_of
 from mckibben.measurement.settled import settled
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
@@ -24,11 +25,6 @@ from mckibben.physics.muscle import Muscle
 
 GRAVITY = 9.80665  # m/s2
 _LONGEST_SHARE = 0.9999  # longest length over the thread length, at which the braid locks
-# The velocity of a row counts as a jump if its uncertainty exceeds both
-_UNSURE = 5.0  # times the median uncertainty and
-_JUMP = 0.05  # times the speed of the neighbouring rows.
-_STILL = 0.25  # speed over that of both neighbours, below which the motion turns
-_SUDDEN = 4.0  # change of velocity over the changes before and after, above which it is a jump
 _NEW_LEVEL = 0.05  # change of the constant quantity from row to row, share of its range
 _FORGOTTEN = 0.15  # travel after which friction no longer depends on the history, share of the swept range
 _PAUSE = 3.0  # time step over the median one, above which the recording paused
@@ -38,7 +34,6 @@ _SHORT = 0.3  # share of the next step; a shorter one next to a reversal hides a
 _REAL_STEP = 0.3  # share of a usual step; smaller ones are noise at rest
 _PRESSED = ("isometric", "isotonic")  # kinds in which the pressure moves
 _PRESCRIBED = ("isobaric", "static")  # kinds in which the length is prescribed and moves
-_FEW = 0.1  # largest share of rows with jumps; above, the velocity is simply noisy
 
 
 @dataclass(frozen=True)
@@ -210,7 +205,7 @@ def _motion(
         velocity = moved.velocity
         if stroked and not moved.measured:
             length = lengths(measurement, nominal_length)
-            unsure = _jumps(columns["time"], length, moved, records_of(measurement))
+            unsure = jumps(columns["time"], length, moved, records_of(measurement))
             # The file does not show whether the muscle already moves at the start or after a pause.
             unsure[1:] |= _pauses(columns["time"], columns["group"])
             unsure |= _first_of_long(records_of(measurement))
@@ -284,42 +279,6 @@ def _unknown_history(measurement: Measurement, length: np.ndarray | None) -> np.
         until = int(np.argmax(moved)) if np.any(moved) else 0
         rows[first : first + min(until, (last - first) // 4)] = True
     return rows
-
-
-def _jumps(time: np.ndarray, length: np.ndarray, moved: RecordedMotion, records: np.ndarray) -> np.ndarray:
-    """Mask of the rows at which the velocity jumps within a record; empty if there are many.
-
-    These are rows whose velocity is far less certain than that of the others. Where the velocity changes
-    suddenly between two rows, it is the row nearer to the intersection of both straight lines.
-    """
-    unsure = _UNSURE * float(np.median(moved.velocity_sigma))
-    edges = [0, *(np.flatnonzero(np.diff(records)) + 1).tolist(), len(time)]
-    parts = [slice(first, last) for first, last in itertools.pairwise(edges)]
-    jumps = np.concatenate([
-        _jumps_within(time[part], length[part], moved.velocity[part], moved.velocity_sigma[part], unsure)
-        for part in parts
-    ])  # fmt: skip
-    return jumps if np.mean(jumps) < _FEW else np.zeros(len(jumps), bool)
-
-
-def _jumps_within(
-    time: np.ndarray, length: np.ndarray, velocity: np.ndarray, sigma: np.ndarray, unsure: float
-) -> np.ndarray:
-    """Mask of the rows of one record at which the velocity jumps, or is less certain than ``unsure``."""
-    speed = np.pad(np.abs(velocity), 1)
-    size = np.maximum(np.maximum(speed[:-2], speed[2:]), speed[1:-1])
-    jumps = np.isfinite(sigma) & (sigma > np.maximum(unsure, _JUMP * size))
-    jumps |= speed[1:-1] < _STILL * np.minimum(speed[:-2], speed[2:])
-    change = np.pad(np.abs(np.diff(velocity)), 1)
-    around = np.maximum(np.maximum(change[:-2], change[2:]), np.hypot(sigma[1:], sigma[:-1]))
-    sudden = np.flatnonzero(change[1:-1] > np.maximum(_SUDDEN * around, _JUMP * size[1:]))
-    step, lengthened = time[sudden + 1] - time[sudden], length[sudden + 1] - length[sudden]
-    before, after = velocity[sudden], velocity[sudden + 1]
-    intersection = (lengthened - after * step) / (
-        before - after
-    )  # time of the intersection after the first row [s]
-    jumps[sudden + (intersection > 0.5 * step)] = True
-    return jumps
 
 
 def _turning(direction: np.ndarray, records: np.ndarray) -> np.ndarray:

@@ -1,12 +1,16 @@
 r"""Friction that grows with pressure: the gas presses the threads together.
 
-.. math:: F = \mu_P\,P\,(P/P_r)^{q-1}\operatorname{sgn}\dot L, \quad P_r = 3\,\text{bar}
+.. math:: F = \mu_P\,P\left(\frac{P}{P_r}\right)^{q-1}\left(\frac{D}{D_0}\right)^m\operatorname{sgn}\dot L,
+   \quad P_r = 3\,\text{bar}
 
-With q = 1 it is Coulomb friction in proportion to pressure. Contacts that grow with their load have q < 1.
+With q = 1 and m = 0 it is Coulomb friction in proportion to pressure. Contacts that grow with their load
+have q < 1. Where the muscle is thicker, the gas presses more braid together: m = 1 follows the circumference,
+m = 2 the cross-section.
 """
 
-from mckibben.physics import ops
+from mckibben.physics import braid, ops
 from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
+from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
@@ -16,11 +20,21 @@ REFERENCE_PRESSURE = 3e5
 _LEAST_SHARE = 1e-6
 
 
-def friction(*, direction: Value, pressure: Value, area: Value, exponent: Value) -> Value:
-    """mu_P P (P/P_r)^(q-1) sgn(dL/dt) [N]; 0 at rest and at or below atmospheric pressure."""
+def friction(
+    *,
+    muscle: Muscle,
+    length: Value,
+    direction: Value,
+    pressure: Value,
+    area: Value,
+    exponent: Value,
+    diameter_power: Value,
+) -> Value:
+    """mu_P P (P/P_r)^(q-1) (D/D0)^m sgn(dL/dt) [N]; 0 at rest and at or below atmospheric pressure."""
+    thicker = braid.diameter(braid=muscle.braid, length=length) / muscle.braid_diameter
     above = ops.positive_part(pressure)
     share = ops.maximum(above / REFERENCE_PRESSURE, _LEAST_SHARE)
-    return area * above * share ** (exponent - 1.0) * direction
+    return area * above * share ** (exponent - 1.0) * thicker**diameter_power * direction
 
 
 _RANGE = Source("0.2-30 N/bar over the sizes, 2-6 N/bar for size 20", "E")
@@ -33,7 +47,8 @@ EFFECT = Effect(
     type="static",
     cause="The gas presses the threads onto each other and the bladder onto the threads. Their friction "
     "therefore grows with pressure, and so does the width of the force loop.",
-    equation=r"F_{fr} = \mu_P\,P\left(\frac{P}{P_r}\right)^{q-1}\operatorname{sgn}\dot L",
+    equation=r"F_{fr} = \mu_P\,P\left(\frac{P}{P_r}\right)^{q-1}\left(\frac{D}{D_0}\right)^m"
+    r"\operatorname{sgn}\dot L",
     parameters=(
         Parameter(
             "area",
@@ -55,6 +70,11 @@ EFFECT = Effect(
             upper=1.5,
             source=Source("2/3 for a Hertzian contact, 1 for rough surfaces (Bowden & Tabor)", "M"),
             description="Exponent of the friction over pressure; 1 is in proportion.",
+            fitted=False,
+        ),
+        Parameter(
+            *("diameter_power", "m", "1", 0.0, -1.0, 3.0, Source("1 circumference, 2 cross-section", "D")),
+            description="Exponent over the braid diameter; 0 is the same at every contraction.",
             fitted=False,
         ),
     ),
@@ -80,6 +100,7 @@ EFFECT = Effect(
     references=(
         Source("Chou & Hannaford, IEEE Trans. Robotics Autom. 12 (1996) 90", "M"),
         Source("Tondu, J. Intell. Mater. Syst. Struct. 23 (2012) 225", "M"),
+        Source("Davis & Caldwell, Int. J. Robotics Research 25 (2006) 359: contact of strands", "M"),
     ),
     examples=(
         Example(
@@ -99,6 +120,16 @@ EFFECT = Effect(
             {"area": 4e-5},
             _SIZE_20,
             {"length": 0.25, "pressure": 3e5, "direction": 1.0},
+        ),
+        Example(
+            "force_change",
+            # 12 (1 - (28/30 cos 25 deg)^2)/(sin 25 deg)^2
+            19.1129807,
+            1e-9,
+            _DEFINITION,
+            {"area": 4e-5, "diameter_power": 2.0},
+            _SIZE_20,
+            {"length": 0.28, "pressure": 3e5, "direction": 1.0},
         ),
     ),
 )
