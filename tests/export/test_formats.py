@@ -287,6 +287,43 @@ def test_names_of_files_are_checked(name):
         written(stated_source("DMSP-20", studio()), "matlab", name)
 
 
+@pytest.mark.parametrize(
+    ("form", "name"),
+    [
+        ("matlab", "end"), ("matlab", "evaluate"), ("matlab", "Raw"), ("matlab", "sqrt"), ("matlab", "rates"),
+        ("table", "function"), ("python", "numpy"), ("python", "Random"), ("python", "class"),
+        ("python", "lift-20"), ("c", "math"), ("modelica", "real"),
+    ],
+)  # fmt: skip
+def test_a_file_has_no_name_that_the_program_reads_as_something_else(form, name, tmp_path: Path):
+    """`numpy.py` would be imported in place of numpy, `evaluate.m` holds a function of that name."""
+    stated = stated_source("propneu-20" if form != "table" else "DMSP-20", studio())
+    with pytest.raises(InputError, match=f"-o: '{name}' cannot be the name of the file"):
+        write_export(ExportQuestion(stated, form), tmp_path / f"{name}.x", studio(), named="-o")
+    assert not list(tmp_path.iterdir())
+
+
+def test_latex_has_no_letter_that_its_fonts_lack():
+    """pdflatex stops at the first one."""
+    said = escaped("Ünïcöde Łódź ȷ Ƀ ơ Ǻ ŧ ŉ ſ ﬁ 日 µ – “x” 5 €")
+    assert said == r"Ünïcöde Łódź ? ? o A ? ? s f ? µ -- ``x'' 5 \texteuro{}"
+    every = escaped("".join(map(chr, range(0xA1, 0x3000))))
+    assert all(c < "\u0180" and c not in "ĦħĸĿŀŉŦŧſ" for c in every)
+
+
+@pytest.mark.skipif(shutil.which("pdflatex") is None, reason="LaTeX is not installed")
+def test_latex_compiles_with_any_title(tmp_path: Path):
+    odd = "".join(map(chr, range(0x21, 0x250)))
+    start = studio().start_model(
+        StatedMuscle(preset="DMSP-20"), {"custom": {"term": "-c*P_1", "c": 1.0, "P_1": 2.0}}
+    )
+    stated = Stated(start, odd)
+    write_export(ExportQuestion(stated, "latex"), tmp_path / "m.tex", studio())
+    command = ["pdflatex", "-interaction=nonstopmode", "-halt-on-error", "m.tex"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True)
+    assert done.returncode == 0, done.stdout.decode("latin1")[-2000:]
+
+
 def test_files_stand_beside_each_other_or_in_a_zip_and_nowhere_else(tmp_path: Path):
     stated = stated_source("DMSP-20", studio())
     assert write_export(ExportQuestion(stated, "c"), tmp_path / "m.c", studio()) == [

@@ -53,6 +53,7 @@ class Format:
         alternatives: whether its files are the same model in several forms: a path with the ending of one
             gets that one alone.
         identifier: whether the stem must be an identifier, because the program reads the file by its name.
+        reserved: stems, in lower case, that mean something else to that program.
         id: name of the file that declares it, set by `formats`.
     """
 
@@ -63,6 +64,7 @@ class Format:
     muscles: bool = True
     alternatives: bool = False
     identifier: bool = False
+    reserved: frozenset[str] = frozenset()
     id: str = ""
 
 

@@ -84,6 +84,12 @@ def checked_stem(stem: str, form: Format) -> str:
             field="name",
             hint=f"e.g. {words_of(stem)}",
         )
+    if stem.lower() in form.reserved:
+        raise InputError(
+            f"'{stem}' cannot be the name of the file: it is a word of the language or of a library of it",
+            field="name",
+            hint=f"e.g. {stem}_model",
+        )
     return stem
 
 
@@ -120,9 +126,12 @@ def write_export(
     form, stem = format_named(question.format), path.stem
     try:
         checked_stem(stem, form)
+        done = export(ExportQuestion(question.stated, question.format, stem), studio)
     except InputError as error:
+        if error.field != "name":
+            raise
         raise InputError(f"{named}: {error.message}", hint=error.hint) from error
-    done = _told(export(ExportQuestion(question.stated, question.format, stem), studio), remark)
+    done = _told(done, remark)
     if form.alternatives:
         wanted = [each for each in done.files if Path(each.name).suffix == path.suffix.lower()]
         if not wanted and path.suffix.lower() != ".zip":

@@ -10,6 +10,13 @@ from mckibben.export.language import C, words_of
 from mckibben.export.registry import ExportedFile, Format
 from mckibben.export.subject import Subject
 
+# Headers of the language and of Unix: one of such a name would be read in their place.
+_HEADERS = frozenset({
+    "assert", "complex", "ctype", "errno", "fenv", "float", "inttypes", "limits", "locale", "math", "setjmp",
+    "signal", "stdarg", "stdbool", "stddef", "stdint", "stdio", "stdlib", "string", "tgmath", "time",
+    "unistd", "wchar", "wctype",
+})  # fmt: skip
+
 
 def write(subject: Subject, stem: str) -> tuple[ExportedFile, ...]:
     """Source and header."""
@@ -58,4 +65,5 @@ FORMAT = Format(
     title="C99",
     note="header and source for a controller; of a drive its equations too",
     write=write,
+    reserved=_HEADERS,
 )

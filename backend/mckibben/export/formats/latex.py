@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Iterator
 from types import ModuleType
 
@@ -22,8 +23,15 @@ _MATHEMATICAL = {
     "²": "$^2$", "³": "$^3$", "°": r"$^\circ$", "·": r"$\cdot$", "±": r"$\pm$", "×": r"$\times$",
     "κ": r"$\kappa$", "ε": r"$\varepsilon$", "α": r"$\alpha$", "θ": r"$\theta$", "π": r"$\pi$",
     "γ": r"$\gamma$", "ψ": r"$\psi$", "→": r"$\to$", "≤": r"$\le$", "≥": r"$\ge$", "−": "$-$",
-    "…": r"\ldots{}",
+    "…": r"\ldots{}", "–": "--", "—": "---", "‘": "`", "’": "'", "“": "``", "”": "''", "μ": r"$\mu$",
+    "Ω": r"$\Omega$", "δ": r"$\delta$", "Δ": r"$\Delta$", "λ": r"$\lambda$", "ρ": r"$\rho$",
+    "σ": r"$\sigma$", "τ": r"$\tau$", "φ": r"$\varphi$", "ω": r"$\omega$", "√": r"$\surd$", "∞": r"$\infty$",
+    "≈": r"$\approx$", "€": r"\texteuro{}",
 }  # fmt: skip
+# Latin letters without a glyph in the T1 fonts, below U+0180; inputenc stops at them.
+_UNKNOWN = frozenset("ĦħĸĿŀŉŦŧſ")
+# Name, value, source and grade of the table of constants; together with their gaps as wide as the text.
+_COLUMNS = (*(rf">{{\raggedright\arraybackslash}}p{{{width}\textwidth}}" for width in (0.28, 0.24, 0.3)), "l")
 # What the symbols of the modules' equations are.
 _BRAID = r"with a thread of length $b$ that makes $n$ turns around the muscle, and the braid angle $\theta$."
 _COMPOSED = r"with the product $f$ of all factors of the force and the product $e$ of all of the elastomer."
@@ -46,8 +54,16 @@ def write(subject: Subject, stem: str) -> tuple[ExportedFile, ...]:
 
 
 def escaped(text: str) -> str:
-    """A text without any command: every character stands for itself."""
-    return "".join(_ESCAPED.get(c) or _MATHEMATICAL.get(c) or (c if c < "ɐ" else "?") for c in plain(text))
+    """A text without any command: every character stands for itself, or is a question mark."""
+    return "".join(_ESCAPED.get(c) or _MATHEMATICAL.get(c) or _letter(c) for c in plain(text))
+
+
+def _letter(character: str) -> str:
+    """The character, or its letter without accents, where the fonts of LaTeX have it."""
+    for each in (character, unicodedata.normalize("NFKD", character)[0]):
+        if each < "\u0180" and each not in _UNKNOWN:
+            return _ESCAPED.get(each, each)
+    return "?"
 
 
 def _lines(subject: Subject) -> Iterator[str]:
@@ -55,7 +71,7 @@ def _lines(subject: Subject) -> Iterator[str]:
     yield r"\documentclass{article}"
     yield r"\usepackage[T1]{fontenc}"
     yield r"\usepackage[utf8]{inputenc}"
-    yield r"\usepackage{amsmath,amssymb,longtable}"
+    yield r"\usepackage{amsmath,amssymb,array,longtable}"
     yield r"\begin{document}"
     yield rf"\section*{{{escaped(about.title)}}}"
     yield rf"Model \texttt{{{escaped(about.id)}}}, sha256 {{\tiny\texttt{{{about.hash}}}}}, by"
@@ -87,13 +103,14 @@ def _lines(subject: Subject) -> Iterator[str]:
         yield "The mass flow through a valve or tube:"
         yield equations_of(gas)
     yield r"\section*{Constants}"
-    yield r"\begin{longtable}{p{0.32\textwidth}lp{0.38\textwidth}l}"
+    yield r"\setlength{\LTleft}{0pt}\small"
+    yield r"\begin{longtable}{" + "".join(_COLUMNS) + "}"
     yield r"name & value & source & grade \\ \hline"
     for each in about.constants:
         unit = "" if each.unit == "1" else f" {escaped(each.unit)}"
         value = f"${_number(each.value)}${unit}"
-        yield rf"{escaped(each.name)} & {value} & {escaped(each.source)} & {escaped(each.grade)} \\"
-    yield r"\end{longtable}"
+        yield rf"{_breakable(each.name)} & {value} & {escaped(each.source)} & {escaped(each.grade)} \\"
+    yield r"\end{longtable}\normalsize"
     for title, sentences in (
         ("Origin", about.origin),
         ("Assumed", about.assumed),
@@ -106,6 +123,11 @@ def _lines(subject: Subject) -> Iterator[str]:
             yield from (rf"\item {escaped(sentence)}" for sentence in sentences)
             yield r"\end{itemize}"
     yield r"\end{document}"
+
+
+def _breakable(name: str) -> str:
+    """A name that may go on in the next line behind a point or an underscore."""
+    return re.sub(r"(\.|\\_)", r"\1\\allowbreak{}", escaped(name))
 
 
 def _number(value: float) -> str:

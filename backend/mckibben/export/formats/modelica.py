@@ -159,4 +159,10 @@ def _drive(runnable: RunnableDrive) -> Iterator[str]:
     yield "  end when;"
 
 
-FORMAT = Format(title="Modelica", note="the equations as text, not compiled here", write=write)
+FORMAT = Format(
+    title="Modelica",
+    note="the equations as text, not compiled here",
+    write=write,
+    # The class has the name of the file with a capital: these are types and libraries of the language.
+    reserved=frozenset({"real", "integer", "boolean", "string", "complex", "clock", "modelica"}),
+)

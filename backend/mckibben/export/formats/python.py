@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import sys
+
 from mckibben.export.language import PYTHON
 from mckibben.export.python_drive import DrivePython
 from mckibben.export.python_static import static_python
@@ -25,4 +27,11 @@ def write(subject: Subject, stem: str) -> tuple[ExportedFile, ...]:
     return (ExportedFile.of_text(f"{stem}.py", "\n".join(lines), "text/x-python; charset=utf-8"),)
 
 
-FORMAT = Format(title="Python", note="one file, numpy only; of a drive its equations too", write=write)
+FORMAT = Format(
+    title="Python",
+    note="one file, numpy only; of a drive its equations too",
+    write=write,
+    identifier=True,  # `import` knows no other names
+    # A file of such a name would be imported in place of the module, by numpy too.
+    reserved=PYTHON.reserved | {name.lower() for name in sys.stdlib_module_names},
+)

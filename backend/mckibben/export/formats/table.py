@@ -108,5 +108,6 @@ FORMAT = Format(
     note="force and pressure tables for a PLC, CSV and MATLAB, with their interpolation error",
     write=write,
     identifier=True,
+    reserved=MATLAB.reserved,
     drives=False,
 )
