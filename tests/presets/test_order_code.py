@@ -39,6 +39,8 @@ def test_what_does_not_begin_like_one_is_none(text: str) -> None:
         ("DMSP-20-300X-RM", "'300X'"),
         ("DMSP-20-0N", "'0N'"),
         ("DMSP-20-300N-R2", "'R2'"),
+        ("DMSP-20-300N-RN-CM", "'RN'"),
+        ("MAS-10-N-100-AA-MCX", "'MCX'"),
         ("MAS-10-N-long", "'Nlong'"),
     ],
 )

@@ -14,11 +14,15 @@ from mckibben.physics.errors import InputError, did_you_mean
 
 _LENGTH = re.compile(r"(?P<behind>\d+)N|N(?P<before>\d+)", re.IGNORECASE)
 _ORDERED = {"DMSP": "{preset}-{length}N", "MAS": "{preset}-N-{length}"}
-_FURTHER = re.compile(r"[A-Z]{1,6}", re.IGNORECASE)
 _CONNECTIONS = re.compile(r"M(?P<sides>[OC])F?(?P<limiter>[OK]?)")
 _SIDES = {"O": "connections on both sides", "C": "connection on one side, the other is closed"}
 _LIMITERS = {"O": "no force limiter", "K": "force limiter, whose lower force limit is not known"}
-_ALONE = {"AA": "membrane of chloroprene", **_LIMITERS}
+_ALONE = {
+    "AA": "membrane of chloroprene",
+    **_LIMITERS,
+    **dict.fromkeys(("RM", "AM", "CM"), "connection: it changes nothing of the model"),
+    **dict.fromkeys(("ER", "BG"), "accessory: it changes nothing of the model"),
+}
 _EXAMPLE = "e.g. DMSP-20-300N-RM-CM or MAS-10-N-100-AA-MCFK"
 
 
@@ -39,7 +43,7 @@ class OrderCode:
     @property
     def meanings(self) -> tuple[str, ...]:
         """What each of ``further`` says, by the type code of the maker's manual."""
-        return tuple(_meaning(part) for part in self.further)
+        return tuple(_meaning(part) or "" for part in self.further)
 
 
 def order_code(text: str, known: Collection[str]) -> OrderCode | None:
@@ -78,19 +82,22 @@ def order_code(text: str, known: Collection[str]) -> OrderCode | None:
             hint=f"300N; {_EXAMPLE}",
         )
     for number, part in enumerate(rest[1:], place + 1):
-        if _FURTHER.fullmatch(part) is None:
+        if _meaning(part.upper()) is None:
             raise InputError(
-                f"'{part}' in the order code {text} is not understood", field=f"code.{number}", hint=_EXAMPLE
+                f"'{part}' in the order code {text} is not understood",
+                field=f"code.{number}",
+                hint=f"{', '.join(_ALONE)}, and MC and MO with FK, K or O behind them; leave out any other",
             )
     return OrderCode(preset, length * 1e-3, tuple(part.upper() for part in rest[1:]))
 
 
-def _meaning(part: str) -> str:
+def _meaning(part: str) -> str | None:
+    """What a part behind the length says, None for an unknown one."""
     if part in _ALONE:
         return _ALONE[part]
     found = _CONNECTIONS.fullmatch(part)
     if found is None:
-        return "membrane, connection or accessory: it changes nothing of the model"
+        return None
     return "; ".join(filter(None, [_SIDES[found["sides"]], _LIMITERS.get(found["limiter"])]))
 
 
