@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from itertools import count
 
 import numpy as np
 import pytest
@@ -65,10 +66,30 @@ def test_the_drives_own_controller_comes_first() -> None:
     assert names == ["own", "rule", "refined"]
 
 
+def test_goals_that_another_mass_or_supply_misses_are_counted() -> None:
+    tries = count()
+    watch = Watch(cancelled=lambda: next(tries) > 25)
+    found = design(linearise(drive("regulator")), Goals(overshoot=0.05, settling=0.45), watch)
+    missed = [each for each in found.robust if not each.figures.meets]
+    assert found.refined.figures.meets
+    assert missed
+    said = next(text for text in found.remarks if "combinations" in text)
+    assert f"misses them in {len(missed)} of 9 combinations" in said
+    assert f"settled in {max(each.figures.settling or 0.0 for each in missed):.3g} s" in said
+
+
 def test_goals_that_cannot_be_met_are_said() -> None:
     found = design(linearise(drive("valve")), Goals(overshoot=0.0, settling=0.02))
     assert not found.refined.figures.meets
     assert found.remarks[0].startswith("no PID controller that was tried meets the goals")
+
+
+def test_a_loop_that_is_unstable_is_not_said_to_be_near() -> None:
+    """The undamped lift: no controller damps it, and its margins are those of an unstable loop."""
+    found = design(linearise(drive("propneu-20")), Goals(0.05, 0.8), Watch(cancelled=lambda: True))
+    assert not found.refined.margins.stable
+    assert sum("is unstable" in text for text in found.remarks) == 1
+    assert not any("of -1" in text for text in found.remarks)
 
 
 def test_a_search_that_is_ended_gives_the_best_so_far() -> None:

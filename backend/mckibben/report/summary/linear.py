@@ -160,6 +160,7 @@ def design_tables(result: LinearResult) -> Summary:
             ("settling time", lambda t: figure(t.figures.settling, unit=" s")),
             ("rise time", lambda t: figure(t.figures.rise, unit=" s")),
             ("time at the limits", lambda t: _percent(t.figures.saturated)),
+            ("linear loop", lambda t: "stable" if t.margins.stable else "unstable"),
             ("gain margin", lambda t: _decibel(t.margins.gain_margin)),
             ("phase margin", _phase_margin),
             ("meets the goals", lambda t: "yes" if t.figures.meets else "no"),

@@ -94,11 +94,20 @@ def design(linear: Linearisation, goals: Goals, watch: Watch | None = None) -> D
     trials.append(bench.trial("refined", best))
     if not trials[-1].figures.meets:
         remarks.append(_missed(trials[-1].figures, goals))
-    if trials[-1].margins.modulus_margin < LEAST_MODULUS - 0.01 or not trials[-1].margins.stable:
+    loop = trials[-1].margins
+    if not loop.stable:
         remarks.append(
-            f"the linear loop of the refined controller comes within {trials[-1].margins.modulus_margin:.2g} "
-            f"of -1, less than {LEAST_MODULUS:g}: it relies on what the linear model loses"
+            "the linear loop of the refined controller is unstable, and its margins say nothing: the drive "
+            "stays within bounds by what the linear model loses"
         )
+    elif loop.modulus_margin < LEAST_MODULUS - 0.01:
+        remarks.append(
+            f"the linear loop of the refined controller comes within {loop.modulus_margin:.2g} of -1, "
+            f"less than {LEAST_MODULUS:g}: it relies on what the linear model loses"
+        )
+    robust = tuple(bench.variations(best))
+    if trials[-1].figures.meets and not all(each.figures.meets for each in robust):
+        remarks.append(_not_robust(robust, goals))
     if bench.ended:
         remarks.append("the search was ended early; this is the best controller so far")
     return Design(
@@ -107,7 +116,7 @@ def design(linear: Linearisation, goals: Goals, watch: Watch | None = None) -> D
         ultimate_gain=None if ultimate is None else ultimate[0],
         ultimate_period=None if ultimate is None else ultimate[1],
         trials=tuple(bench.of_drive(trial) for trial in trials),
-        robust=tuple(bench.variations(best)),
+        robust=robust,
         evaluations=bench.runs,
         remarks=tuple(remarks),
     )
@@ -220,6 +229,23 @@ def _refined(
     except _Enough:
         pass
     return best[1]
+
+
+def _not_robust(robust: tuple[Variation, ...], goals: Goals) -> str:
+    """What is missed with another mass and supply, where the drive itself meets the goals."""
+    missed = [each for each in robust if not each.figures.meets]
+    worst = max(each.figures.overshoot for each in missed)
+    times = [each.figures.settling for each in missed]
+    late = max((each for each in times if each is not None), default=0.0)
+    settling = (
+        f"not settled within {2.0 * goals.settling:.3g} s"
+        if None in times
+        else f"settled in {late:.3g} s at worst"
+    )
+    return (
+        f"the drive as stated meets the goals, and misses them in {len(missed)} of {len(robust)} "
+        f"combinations of mass and supply: overshoot up to {worst * 100:.3g} %, {settling}"
+    )
 
 
 def _missed(figures: StepFigures, goals: Goals) -> str:

@@ -103,6 +103,7 @@ export function trialsTable(design) {
     ["settling time", (t) => figure(t.figures.settling, " s")],
     ["rise time", (t) => figure(t.figures.rise, " s")],
     ["time at the limits", (t) => percent(t.figures.saturated)],
+    ["linear loop", (t) => t.margins.stable ? "stable" : "unstable"],
     ["gain margin", (t) => decibels(t.margins.gain_margin)],
     ["phase margin", (t) => degrees(t.margins.phase_margin)],
     ["meets the goals", (t) => t.figures.meets ? "yes" : "no"],
