@@ -60,6 +60,28 @@ def test_from_the_drive_to_a_designed_controller(page: Page) -> None:
     assert violations(page) == []
 
 
+def test_another_channel_and_the_matrices(page: Page) -> None:
+    """The load on the force of the muscle: Bode diagram, words and table are of that channel."""
+    open_transient(page, START)
+    card = page.get_by_role("region", name="Linear view")
+    card.get_by_label("From which input").select_option("external force")
+    card.get_by_label("to which output").select_option("velocity")
+    answer = ask(page, "Linearise")
+    assert (answer["input"]["name"], answer["output"]["name"]) == ("load_force", "velocity")
+    expect(card.get_by_text("poles and zeros from external force to velocity")).to_be_visible()
+    expect(card.get_by_text("nonlinear, 0.981 N")).to_be_visible()
+    card.get_by_text("Matrices A, B, C, D").click()
+    rows = card.get_by_role("region", name="A and B").locator("tbody tr")
+    model = next(each for each in answer["models"] if each["primary"])
+    expect(rows).to_have_count(len(model["states"]))
+    heads = card.get_by_role("region", name="A and B").locator("thead th").all_inner_texts()
+    assert heads[-1] == "load_force (N)"
+    speed = [state["name"] for state in model["states"]].index("speed")
+    shown = rows.nth(speed).locator("td").last.inner_text().replace("−", "-")
+    assert float(shown) == pytest.approx(model["b"][speed][-1], rel=5e-3)
+    assert violations(page) == []
+
+
 def test_a_point_that_does_not_exist_is_a_sentence(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow("status of 422")
     open_transient(page, START)

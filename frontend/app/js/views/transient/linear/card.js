@@ -21,8 +21,17 @@ import {
   stop,
   takeOver,
 } from "./model.js";
+import { channelFields, channelText } from "./channel.js";
 import { gainSpec, legendOfBode, phaseSpec, stepSpec, trialLooks } from "./specs.js";
-import { marginsTable, modelsTable, polesTable, robustTable, TRIALS, trialsTable } from "./tables.js";
+import {
+  marginsTable,
+  matrixTables,
+  modelsTable,
+  polesTable,
+  robustTable,
+  TRIALS,
+  trialsTable,
+} from "./tables.js";
 
 /** @typedef {import("./model.js").PointKind} PointKind */
 /** @typedef {import("./specs.js").Entry} Entry */
@@ -169,6 +178,7 @@ function words() {
     answer.smooth
       ? "Nothing sticks or switches here in a way that the motion shows."
       : "Something sticks or switches here: each case has its model.",
+    ` Bode diagram, poles and zeros from ${channelText(answer)}.`,
     outdated.value ? h("b", null, " The drive has changed since.") : null,
   );
 }
@@ -243,6 +253,7 @@ function results() {
       h("summary", null, "What the linear models do not contain"),
       h("ul", { class: "plain muted" }, ...[...answer.lost, ...answer.notes].map((t) => h("li", null, t))),
     ),
+    h("details", null, h("summary", null, "Matrices A, B, C, D"), ...matrixTables(answer)),
   ];
 }
 
@@ -256,6 +267,7 @@ export function linearCard() {
     },
     h("div", { class: "card-head" }, h("h2", null, "Linear view and controller")),
     pointFields(),
+    channelFields(),
     goalFields(),
     words,
     h("div", { class: "linear-plots", hidden: () => !isShown.value }, chartCard(gain), chartCard(phase)),

@@ -14,6 +14,8 @@ import { documentNow, drive, mode } from "../model.js";
 
 /** Where the drive is linearised; the value is a text with a unit. */
 export const point = signal(/** @type {{kind: PointKind, value: string}} */ ({ kind: "middle", value: "" }));
+/** Input and output of Bode diagram, poles and zeros, by their names on the wire. */
+export const channel = signal({ input: "command", output: "position" });
 /** Goals of the design as texts. */
 export const goals = signal({ overshoot: "5 %", settling: "1 s", step: "", unsaturated: false });
 
@@ -36,6 +38,7 @@ export function linearise(withDesign) {
   question.ask(
     JSON.stringify({
       drive: document,
+      ...channel.peek(),
       ...(kind === "middle" ? {} : { at: { [kind]: value } }),
       ...(withDesign
         ? {

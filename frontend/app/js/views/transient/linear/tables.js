@@ -63,6 +63,36 @@ export function polesTable(answer) {
   ]);
 }
 
+/** Entries of a matrix differ by many powers of ten. @param {number} x */
+const entry = (x) =>
+  x !== 0 && (Math.abs(x) >= 1e5 || Math.abs(x) < 1e-3) ? x.toExponential(2).replace(/-/g, "−") : figure(x);
+
+/** The matrices of the model that loop and design use, their columns named by states and inputs.
+ * @param {Linear} answer */
+export function matrixTables(answer) {
+  const m = answer.models.find((each) => each.primary) ?? answer.models[0];
+  const named = (/** @type {{name: string, unit: string}[]} */ ports) =>
+    ports.map(({ name, unit }) => unit === "1" ? name : `${name} (${unit})`);
+  const states = named(m.states), inputs = named(m.inputs), outputs = named(m.outputs);
+  const part = (
+    /** @type {string} */ of,
+    /** @type {string[]} */ rows,
+    /** @type {number[][]} */ left,
+    /** @type {number[][]} */ right,
+  ) =>
+    table(
+      `${of}, ${m.name}`,
+      ["", ...states, ...inputs],
+      rows.map((row, i) => [row, ...[...left[i], ...right[i]].map(entry)]),
+    );
+  return [
+    h("p", { class: "hint" }, `${m.name}, SI: dx/dt = A x + B u, columns are states, then inputs`),
+    part("A and B", states, m.a, m.b),
+    h("p", { class: "hint" }, "y = C x + D u"),
+    part("C and D", outputs, m.c, m.d),
+  ];
+}
+
 /** @param {Linear} answer */
 export function modelsTable(answer) {
   const unit = ` ${answer.output.unit}`;
