@@ -75,6 +75,7 @@ def test_it_opens_in_about_its_actuating_time_which_the_preset_does_not_use(name
     assert opened is not None
     # 3.3, 4.1, 4.1, 4.6 and 6.4 ms beside 3.0, 4.2, 4.2, 4.8 and 5.2 ms.
     assert opened * 1e3 == pytest.approx(MPYE[name][1], rel=0.25)
+    assert f"opens to 90 % in {opened * 1e3:.1f} ms" in (valve(name).data["actuating_time"].note or "")
 
 
 def test_a_fast_switching_valve_has_the_flow_of_its_type_which_the_preset_does_not_use() -> None:

@@ -328,6 +328,14 @@ def test_a_compiler_that_fails_is_said_and_what_is_missing_too():
     assert done.remarks == ("The FMU has no binary for win64, the compiler failed: no such luck",)
 
 
+def test_a_compiler_that_takes_too_long_is_said_with_what_to_do(monkeypatch):
+    monkeypatch.setattr(build, "_SECONDS", 0.05)
+    slow = build.Compiler("win64", (("", ("sh", "-c", "exec sleep 20")),))
+    (said,) = build.built({"a.c": "int a;"}, "a", (slow,)).remarks
+    assert said.startswith("The FMU has no binary for win64, the compiler was stopped after")
+    assert said.endswith("export again")
+
+
 def test_a_macos_binary_of_two_architectures_has_the_head_that_apple_describes():
     parts = {"x86_64-macos": b"x" * 100, "aarch64-macos": b"a" * 20000}
     whole = build.universal(parts)

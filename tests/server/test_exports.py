@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import io
 import zipfile
+from typing import Any
 
 import pytest
 from fastapi.testclient import TestClient
 
+from mckibben.export.registry import formats
+from mckibben.server.jobs import JOBS
+from mckibben.server.routes import exports
 from tests.export.test_formats import SAVED
 
 MUSCLE = {"preset": "DMSP-20", "nominal_length": "300 mm"}
@@ -46,6 +50,24 @@ def test_several_files_come_as_a_zip_file(shared_client: TestClient) -> None:
     assert (
         shared_client.post("/api/exports", json={"as": "c", "drive": "propneu-20"}).content == answer.content
     )
+
+
+def test_what_needs_a_compiler_waits_in_the_queue_of_long_work(
+    shared_client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """In the server itself each such request would take a thread for as long as a compiler runs."""
+    asked: dict[str, tuple[str, bool]] = {}
+
+    async def whole(request: Any, kind: str, body: Any, *_: Any, quick: bool = False) -> bytes:
+        asked[body.format_id] = kind, quick
+        return b'{"name": "x", "media_type": "text/plain"}\nx'
+
+    monkeypatch.setattr(exports, "whole", whole)
+    for form in formats():
+        assert shared_client.post("/api/exports", json={"as": form, "drive": "propneu-20"}).text == "x"
+    queued = {form for form, (kind, quick) in asked.items() if not quick and JOBS[kind].lane == "long"}
+    assert queued == {"fmu", "fmu3"}
+    assert JOBS["compiled export"].time_limit >= 3 * 600.0  # three systems, the first time
 
 
 def test_a_fitted_model_keeps_its_range_and_its_files(shared_client: TestClient) -> None:

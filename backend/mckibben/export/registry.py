@@ -54,6 +54,7 @@ class Format:
             gets that one alone.
         identifier: whether the stem must be an identifier, because the program reads the file by its name.
         reserved: stems, in lower case, that mean something else to that program.
+        compiles: whether a compiler is run, which takes seconds, and minutes the first time.
         id: name of the file that declares it, set by `formats`.
     """
 
@@ -65,6 +66,7 @@ class Format:
     alternatives: bool = False
     identifier: bool = False
     reserved: frozenset[str] = frozenset()
+    compiles: bool = False
     id: str = ""
 
 

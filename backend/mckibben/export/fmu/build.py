@@ -15,7 +15,7 @@ from pathlib import Path
 
 FLAGS = ("-std=c99", "-O2", "-shared", "-fPIC", "-fvisibility=hidden", "-ffp-contract=off")
 _SUFFIX = {"linux64": ".so", "win64": ".dll", "darwin64": ".dylib"}
-_SECONDS = 300.0
+_SECONDS = 900.0  # Zig's first compilation for a system compiles the libraries of that system too
 _HOSTS = {"Linux": "linux64", "Darwin": "darwin64", "Windows": "win64"}
 # An old glibc, so that the binary runs on older systems too.
 _TARGETS = {
@@ -89,11 +89,7 @@ def built(
                 target: _compiled(sources, name, (*command, *FLAGS)) for target, command in compiler.commands
             }
         except (OSError, subprocess.SubprocessError) as error:
-            said = getattr(error, "stderr", None) or str(error)
-            first = (str(said).strip().splitlines() or ["no message"])[0]
-            remarks.append(
-                f"The FMU has no binary for {compiler.platform}, the compiler failed: {first[:200]}"
-            )
+            remarks.append(f"The FMU has no binary for {compiler.platform}, {_why(error)}")
             continue
         done.add(compiler.platform)
         if tuples:
@@ -115,6 +111,18 @@ def built(
             f"{' and '.join(missing)}; the extra 'fmu' (pip install 'mckibben[fmu]') compiles for them too."
         )
     return Built(binaries, tuple(remarks))
+
+
+def _why(error: OSError | subprocess.SubprocessError) -> str:
+    """What the user should know of a compiler that failed."""
+    if isinstance(error, subprocess.TimeoutExpired):
+        return (
+            f"the compiler was stopped after {error.timeout:.0f} s: the first time it compiles the libraries "
+            "of that system too, and keeps them; export again"
+        )
+    said = getattr(error, "stderr", None) or str(error)
+    first = (str(said).strip().splitlines() or ["no message"])[0]
+    return f"the compiler failed: {first[:200]}"
 
 
 def _tuple_of(name: str, target: str) -> str:

@@ -17,4 +17,5 @@ FORMAT = Format(
     title="FMU",
     note="FMI 2.0 for model exchange and co-simulation, with C sources",
     write=write,
+    compiles=True,
 )

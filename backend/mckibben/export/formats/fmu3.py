@@ -18,4 +18,5 @@ FORMAT = Format(
     title="FMU of FMI 3.0",
     note="FMI 3.0 for model exchange and co-simulation, for programs that read it",
     write=write,
+    compiles=True,
 )

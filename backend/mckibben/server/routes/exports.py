@@ -43,7 +43,11 @@ def list_formats() -> JsonAnswer:
 )
 async def write_export(body: ExportRequest, request: Request, studio: StudioDep, store: StoreDep) -> Response:
     """A muscle, a fitted model or a drive in a format; the file names model, sources, range and gaps."""
-    written = await whole(request, "export", body, studio, store, quick=not contained(request, body))
+    form = formats().get(body.format_id)
+    if form is not None and form.compiles:
+        written = await whole(request, "compiled export", body, studio, store)
+    else:
+        written = await whole(request, "export", body, studio, store, quick=not contained(request, body))
     about, _, content = written.partition(b"\n")
     file = orjson.loads(about)
     # The name is made of letters, digits, '-', '_' and '.'.
