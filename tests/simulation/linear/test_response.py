@@ -90,6 +90,17 @@ def test_zeros_are_those_of_the_transfer_function() -> None:
         assert abs(response) < 1e-6 * size
 
 
+def test_the_supply_of_a_closed_valve_acts_on_nothing() -> None:
+    """No pole shows, and the gain is 0: it was said to integrate, because the valve does."""
+    model = linearise(drive("propneu-20")).primary
+    poles, zeros_of = poles_of(model, "supply_pressure", "pressure")
+    assert poles
+    assert all(pole.cancelled for pole in poles)
+    assert zeros_of == []
+    assert static_gain(model, "supply_pressure", "pressure") == 0.0
+    assert static_gain(model, "command", "pressure") is None
+
+
 def test_poles_are_named() -> None:
     valve = linearise(drive("valve")).primary
     kinds = [pole.kind for pole in poles_of(valve, "command", "position")[0]]

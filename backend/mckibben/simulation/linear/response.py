@@ -13,6 +13,9 @@ from mckibben.simulation.linear.model import LinearModel
 
 Array = np.ndarray
 
+_USUAL = {"1": 1.0, "Pa": 1e5, "N": 100.0}  # usual sizes of inputs, by their unit
+_NOTHING = 1e-8  # share of the strongest input below which one does not act
+
 _FROM = 1e-4  # Hz; from here on the turns of a phase are counted
 _STANDS = 1e-6  # a pole slower than this is an integrator [rad/s]
 _SAME = 1e-5  # relative distance of a pole and a zero that cancel
@@ -81,8 +84,14 @@ def _scaled_channel(
 
 
 def poles_of(model: LinearModel, input_name: str, output_name: str) -> tuple[list[Pole], list[complex]]:
-    """The poles, and the zeros of a channel that cancel none of them; one of each complex pair."""
-    values, left = eigenvalues(model), list(zeros(model, input_name, output_name))
+    """The poles, and the zeros of a channel that cancel none of them; one of each complex pair.
+
+    An input that acts on nothing, as the supply on a closed valve, shows no pole.
+    """
+    values = eigenvalues(model)
+    if not _acts(model, input_name, output_name):
+        return [_pole(complex(value), cancelled=True) for value in values if value.imag >= 0.0], []
+    left = list(zeros(model, input_name, output_name))
     poles = []
     for value in values:
         near = [i for i, zero in enumerate(left) if abs(zero - value) <= _SAME * max(abs(value), 0.1)]
@@ -92,6 +101,15 @@ def poles_of(model: LinearModel, input_name: str, output_name: str) -> tuple[lis
             continue
         poles.append(_pole(complex(value), cancelled=bool(near)))
     return poles, [complex(zero) for zero in left if zero.imag >= -1e-9 * max(1.0, abs(zero))]
+
+
+def _acts(model: LinearModel, input_name: str, output_name: str) -> bool:
+    """Whether an input acts at all: a side of a valve is that of an opening which is not exactly 0."""
+    scales = np.array([_USUAL[port.unit] for port in model.inputs])
+    _, b, c, d = model.channel(input_name, output_name)
+    others = np.abs(model.b * scales).max(axis=1)
+    scale = _USUAL[next(port.unit for port in model.inputs if port.name == input_name)]
+    return bool(d != 0.0 or (np.any(np.abs(b) * scale > _NOTHING * others) and np.any(c)))
 
 
 def _pole(value: complex, *, cancelled: bool) -> Pole:
@@ -185,6 +203,8 @@ def _turns(model: LinearModel, input_name: str, output_name: str, lowest: float)
 
 def static_gain(model: LinearModel, input_name: str, output_name: str) -> float | None:
     """Gain at 0 Hz; None where the channel integrates."""
+    if not _acts(model, input_name, output_name):
+        return 0.0
     left = poles_of(model, input_name, output_name)[0]
     if any(pole.kind == "integrator" and not pole.cancelled for pole in left):
         return None
