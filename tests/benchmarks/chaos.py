@@ -166,6 +166,8 @@ def end() -> None:
                 )
                 trace = "TRACEBACK" if "Traceback" in server.output else "none"
                 _say(f"{name:13} {number.name:8} {took:5.2f} {told:3d} of {len(said)} {trace}")
+                if trace != "none":
+                    _say("..." + server.output.partition("Traceback")[2][:3000])
 
 
 def everything() -> None:

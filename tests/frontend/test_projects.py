@@ -39,6 +39,12 @@ def test_a_project_in_two_windows(context: BrowserContext, page_guard: PageGuard
     choose(two, "Open project…")
     expect(two.locator("table.projects")).to_contain_text("Lift, two windows")
     assert violations(two) == []
+    size = two.viewport_size
+    assert size is not None
+    two.set_viewport_size({"width": 390, "height": 844})
+    for what in ("Open", "Duplicate", "Delete"):
+        expect(two.get_by_role("button", name=f"{what} Lift, two windows")).to_be_in_viewport(ratio=1)
+    two.set_viewport_size(size)
     two.get_by_role("button", name="Open Lift, two windows").click()
     expect(two.get_by_role("combobox", name="Units")).to_have_value("si")
     change_units(two, "us")

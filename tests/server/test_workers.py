@@ -7,6 +7,7 @@ import contextlib
 import json
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -293,3 +294,35 @@ def test_a_free_worker_is_given_at_once() -> None:
         return tickets
 
     assert len(run_async(run())) == 2
+
+
+_TOO_LATE = """
+import _multiprocessing, multiprocessing, os, sys
+
+def main():
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(sys.argv[1:])
+    lock = context.Lock()
+    _multiprocessing.sem_unlink(lock._semlock.name)
+    process = context.Process(target=os.getpid, args=(lock,))
+    process.start()
+    process.join()
+    print(process.exitcode)
+    os._exit(0)
+
+if __name__ == "__main__":
+    main()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no fork server")
+@pytest.mark.parametrize(("loaded", "says"), [("mckibben.server.forked", False), ("json", True)])
+def test_a_worker_that_comes_too_late_ends_without_a_traceback(
+    tmp_path: Path, loaded: str, says: bool
+) -> None:
+    """The locks of its pool are gone; the other module shows that this is where Python would print one."""
+    script = tmp_path / "late.py"
+    script.write_text(_TOO_LATE, "utf-8")
+    ended = subprocess.run([sys.executable, script, loaded], capture_output=True, text=True, check=True)
+    assert ended.stdout == "1\n"
+    assert ("Traceback" in ended.stderr) == says, ended.stderr

@@ -337,7 +337,7 @@ class Workers:
             if self._pool is None:
                 context = multiprocessing.get_context("forkserver" if sys.platform != "win32" else "spawn")
                 if sys.platform != "win32":
-                    context.set_forkserver_preload(["mckibben.server.worker"])
+                    context.set_forkserver_preload(["mckibben.server.forked"])
                 self._listener = Listener(authkey=self._key)
                 threading.Thread(target=self._accept, args=(self._listener,), daemon=True).start()
                 self._pool = ProcessPool(
