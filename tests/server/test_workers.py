@@ -16,10 +16,14 @@ import urllib.request
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, get_args
 
 import pytest
+from starlette.testclient import TestClient
 
+from mckibben.server.app import create_app
+from mckibben.server.job import LaneName
 from mckibben.server.lane import BusyError
 from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.server.settings import Settings
@@ -294,6 +298,17 @@ def test_a_free_worker_is_given_at_once() -> None:
         return tickets
 
     assert len(run_async(run())) == 2
+
+
+def test_every_lane_starts_when_the_page_looks_at_measurements(settings: Settings) -> None:
+    """A comparison, the first that is asked then, would wait for its process to start."""
+    started: list[str] = []
+    app = create_app(settings)
+    app.state.workers = SimpleNamespace(start=lambda *names: started.extend(names))
+    assert (
+        TestClient(app, base_url=f"http://127.0.0.1:{settings.port}").get("/api/mysteries").status_code == 200
+    )
+    assert sorted(started) == sorted(get_args(LaneName))
 
 
 _TOO_LATE = """
