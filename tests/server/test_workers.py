@@ -247,6 +247,7 @@ def test_processes_that_take_no_jobs_are_replaced(
         monkeypatch.setattr("mckibben.server.workers._BEGINS_WITHIN", 8.0)
         try:
             assert await job() == first
+            assert workers._parked == []  # each would hold descriptors as long as the server runs
         finally:
             for pid in frozen:
                 with contextlib.suppress(ProcessLookupError):
