@@ -9,6 +9,9 @@ import sys
 import time
 from pathlib import Path
 
+# Whoever reaches a scheduler or a worker runs what he likes with it.
+_HERE = ("--host", "127.0.0.1")
+
 
 class LocalCluster:
     """A scheduler and two workers, each a process of its own.
@@ -20,11 +23,11 @@ class LocalCluster:
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
-        self._scheduler = self._start("scheduler", "--port", "0", "--dashboard-address", ":0",
+        self._scheduler = self._start("scheduler", *_HERE, "--port", "0", "--no-dashboard",
                                       "--scheduler-file", str(folder / "scheduler.json"))  # fmt: skip
         self.workers = [
-            self._start("worker", "--scheduler-file", str(folder / "scheduler.json"), "--nthreads", "1",
-                        "--no-nanny", "--no-dashboard")
+            self._start("worker", *_HERE, "--scheduler-file", str(folder / "scheduler.json"),
+                        "--nthreads", "1", "--no-nanny", "--no-dashboard")
             for _ in range(2)
         ]  # fmt: skip
         end = time.monotonic() + 60.0

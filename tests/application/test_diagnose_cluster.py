@@ -105,7 +105,6 @@ def test_two_workers_one_killed_give_the_verdicts_of_one_process(
     files = files_of(folder)
     alone = table(list(diagnose_each(files, ask, here(studio), Watch())))
     both = on_cluster(studio, cluster.address, again="again")
-    assert table(list(diagnose_each(files, ask, both, Watch()))) == alone
     found = []
     for verdict in diagnose_each(files, ask, both, Watch()):
         if not found:

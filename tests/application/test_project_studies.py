@@ -33,7 +33,7 @@ def made(tmp_path_factory: pytest.TempPathFactory, studio: Studio) -> tuple[Stud
     """A store in which the study is finished, and its table."""
     store = StudyStore(tmp_path_factory.mktemp("made"))
     question = study_question(read_study(SMALL), studio)
-    prepare(question, journal=store.of(question))(Watch())
+    prepare(question, journal=store.of(question))(Watch(time_limit=float("inf")))
     (found,), remarks = table_of(SMALL, store, studio)
     assert (found.runs, remarks) == (4, [])
     return store, found

@@ -17,11 +17,10 @@ from mckibben.documents.saved_model import read_saved_model
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
 from mckibben.resources import presets_folder
-from mckibben.simulation.outcome import Watch
 from mckibben.studies.journal import Journal
 from tests.application.local_cluster import LocalCluster
 from tests.application.test_keep import MODEL
-from tests.application.test_study import SHORT, question
+from tests.application.test_study import SHORT, patient, question
 
 pytest.importorskip("distributed", reason="needs the extra cluster: pip install 'mckibben[cluster]'")
 
@@ -40,9 +39,9 @@ def studio() -> Studio:
 
 def test_two_workers_one_killed_give_the_table_of_one_process(cluster: LocalCluster, studio: Studio) -> None:
     asked = question(studio, method={"type": "monte_carlo", "runs": 120, "seed": 3})
-    alone = prepare(asked)(Watch()).table
+    alone = prepare(asked)(patient()).table
     workers = on_cluster(asked, cluster.address)
-    both = prepare(asked, workers=workers, chunk=5)(Watch(time_limit=300.0))
+    both = prepare(asked, workers=workers, chunk=5)(patient())
     assert both.table == alone
     killed = []
 
@@ -51,7 +50,7 @@ def test_two_workers_one_killed_give_the_table_of_one_process(cluster: LocalClus
             killed.append(cluster.workers[0].pid)
             cluster.workers[0].kill()
 
-    one = prepare(asked, workers=workers, chunk=5)(Watch(found=kill_one, time_limit=300.0))
+    one = prepare(asked, workers=workers, chunk=5)(patient(found=kill_one))
     assert killed
     assert one.outcome == "completed"
     assert one.table == alone
@@ -67,11 +66,11 @@ def test_a_lost_scheduler_pauses_the_study(cluster: LocalCluster, studio: Studio
     workers = on_cluster(asked, cluster.address)
     with pytest.raises(InputError, match="scheduler is lost") as found:
         prepare(asked, workers=workers, chunk=2, journal=lambda: kept(False))(
-            Watch(found=lambda _: cluster.end())
+            patient(found=lambda _: cluster.end())
         )
     assert "--resume" in (found.value.hint or "")
-    again = prepare(asked, journal=lambda: kept(True))(Watch())
-    assert again.table == prepare(asked)(Watch()).table
+    again = prepare(asked, journal=lambda: kept(True))(patient())
+    assert again.table == prepare(asked)(patient()).table
 
 
 def test_what_a_cluster_refuses(studio: Studio, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -120,10 +120,7 @@ def memory() -> None:
         for some in chosen:
             if computed in (0, 500, 1000, 1500, STRUCTURES):
                 taken = processes(server)
-                _say(
-                    f"{computed:5d} {taken[server.pid] / 1e6:8.0f} {max(taken.values()) / 1e6:8.0f}",
-                    flush=True,
-                )
+                _say(f"{computed:5d} {taken[server.pid] / 1e6:8.0f} {max(taken.values()) / 1e6:8.0f}")
             if computed == STRUCTURES:
                 return
             body = {"muscle": {"preset": "DMSP-20"}, "pressures": ["2 bar"], "points": 5,
@@ -169,6 +166,8 @@ def end() -> None:
                 )
                 trace = "TRACEBACK" if "Traceback" in server.output else "none"
                 _say(f"{name:13} {number.name:8} {took:5.2f} {told:3d} of {len(said)} {trace}")
+                if trace != "none":
+                    _say("..." + server.output.partition("Traceback")[2][:3000])
 
 
 def everything() -> None:

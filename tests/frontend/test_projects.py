@@ -39,6 +39,12 @@ def test_a_project_in_two_windows(context: BrowserContext, page_guard: PageGuard
     choose(two, "Open project…")
     expect(two.locator("table.projects")).to_contain_text("Lift, two windows")
     assert violations(two) == []
+    size = two.viewport_size
+    assert size is not None
+    two.set_viewport_size({"width": 390, "height": 844})
+    for what in ("Open", "Duplicate", "Delete"):
+        expect(two.get_by_role("button", name=f"{what} Lift, two windows")).to_be_in_viewport(ratio=1)
+    two.set_viewport_size(size)
     two.get_by_role("button", name="Open Lift, two windows").click()
     expect(two.get_by_role("combobox", name="Units")).to_have_value("si")
     change_units(two, "us")
@@ -77,3 +83,29 @@ def test_a_project_in_two_windows(context: BrowserContext, page_guard: PageGuard
     one.get_by_role("button", name="Undo", exact=True).click()
     expect(one.locator("table.projects")).to_contain_text("Lift, two windows")
     expect(one.locator(".project-title")).to_have_text("Project")
+
+
+def test_work_of_the_last_moment_is_kept(context: BrowserContext, page_guard: PageGuard) -> None:
+    page_guard.allow("status of 409|ERR_FAILED")
+    page = opened(context.new_page())
+    choose(page, "Save as project…")
+    page.get_by_label("Title").fill("Lift, last moment")
+    page.keyboard.press("Enter")
+    expect(page.locator(".project-state.saved")).to_be_visible()
+    units = page.get_by_role("combobox", name="Units")
+
+    change_units(page, "si")
+    page.reload()  # before the address is written, and while the page saves what it leaves
+    page.wait_for_selector("html[data-ready]")
+    expect(units).to_have_value("si")
+    expect(page.locator(".project-state.saved")).to_be_visible()
+    page.wait_for_timeout(2500)  # it would be asked then
+    expect(page.get_by_role("dialog")).to_have_count(0)
+
+    page.route("**/api/projects/*", lambda route: route.abort())
+    change_units(page, "us")
+    expect(page.locator(".project-state.failed")).to_be_visible()
+    page.unroute_all(behavior="wait")
+    expect(page.locator(".project-state.saved")).to_be_visible(timeout=30_000)  # nothing was clicked
+    choose(page, "History…")
+    expect(page.locator(".versions li").first).to_contain_text("units US")

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
+import contextlib
 import os
 import shutil
 import subprocess
 import sys
+import tempfile
 from collections.abc import Iterator
 from pathlib import Path
+from uuid import uuid4
 
 import pytest
+from sqlalchemy import make_url
 
 from mckibben.projects.database import Database
 from mckibben.projects.store import ProjectStore
+
+#: Address of a PostgreSQL in which the tests may make databases.
+SERVER_VARIABLE = "MCKIBBEN_TEST_POSTGRESQL"
 
 
 def _programs() -> Path | None:
@@ -31,17 +38,34 @@ def _as_user(command: list[str]) -> None:
     subprocess.run(command, check=True, capture_output=True, timeout=60)
 
 
+@contextlib.contextmanager
+def _database_on(server: str) -> Iterator[str]:
+    """A database of this process alone on a server that runs already: others test there at the same time."""
+    import psycopg
+
+    name = f"test_{uuid4().hex}"
+    with psycopg.connect(server, autocommit=True) as connection:
+        connection.execute(f'CREATE DATABASE "{name}"')
+        yield make_url(server).set(database=name).render_as_string(hide_password=False)
+        connection.execute(f'DROP DATABASE "{name}" WITH (FORCE)')
+
+
 @pytest.fixture(scope="session")
-def postgresql(tmp_path_factory: pytest.TempPathFactory) -> Iterator[str]:
-    """Address of a server of this test run alone, reached through a socket in its own folder."""
+def postgresql() -> Iterator[str]:
+    """Address of a database on the server that `.ci/run` started, else on one of this test run alone."""
+    if server := os.environ.get(SERVER_VARIABLE):
+        with _database_on(server) as address:
+            yield address
+    else:
+        yield from _server_of_its_own()
+
+
+def _server_of_its_own() -> Iterator[str]:
+    """A server that is reached through a socket in its own folder."""
     programs = None if sys.platform == "win32" else _programs()
     if programs is None:
         pytest.skip("PostgreSQL is not installed (Debian and Ubuntu: apt-get install postgresql)")
-    import tempfile
-
-    folder = Path(
-        tempfile.mkdtemp(prefix="mckibben-pg-")
-    )  # short: a socket's path has at most 107 characters
+    folder = Path(tempfile.mkdtemp(prefix="mckibben-pg-"))  # short: of a socket's path at most 107 characters
     if os.getuid() == 0:
         shutil.chown(folder, "postgres")
     data = folder / "data"

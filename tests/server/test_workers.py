@@ -7,6 +7,7 @@ import contextlib
 import json
 import os
 import signal
+import subprocess
 import sys
 import threading
 import time
@@ -15,10 +16,14 @@ import urllib.request
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
-from typing import Any
+from types import SimpleNamespace
+from typing import Any, get_args
 
 import pytest
+from starlette.testclient import TestClient
 
+from mckibben.server.app import create_app
+from mckibben.server.job import LaneName
 from mckibben.server.lane import BusyError
 from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.server.settings import Settings
@@ -242,6 +247,7 @@ def test_processes_that_take_no_jobs_are_replaced(
         monkeypatch.setattr("mckibben.server.workers._BEGINS_WITHIN", 8.0)
         try:
             assert await job() == first
+            assert workers._parked == []  # each would hold descriptors as long as the server runs
         finally:
             for pid in frozen:
                 with contextlib.suppress(ProcessLookupError):
@@ -293,3 +299,46 @@ def test_a_free_worker_is_given_at_once() -> None:
         return tickets
 
     assert len(run_async(run())) == 2
+
+
+def test_every_lane_starts_when_the_page_looks_at_measurements(settings: Settings) -> None:
+    """A comparison, the first that is asked then, would wait for its process to start."""
+    started: list[str] = []
+    app = create_app(settings)
+    app.state.workers = SimpleNamespace(start=lambda *names: started.extend(names))
+    assert (
+        TestClient(app, base_url=f"http://127.0.0.1:{settings.port}").get("/api/mysteries").status_code == 200
+    )
+    assert sorted(started) == sorted(get_args(LaneName))
+
+
+_TOO_LATE = """
+import _multiprocessing, multiprocessing, os, sys
+
+def main():
+    context = multiprocessing.get_context("forkserver")
+    context.set_forkserver_preload(sys.argv[1:])
+    lock = context.Lock()
+    _multiprocessing.sem_unlink(lock._semlock.name)
+    process = context.Process(target=os.getpid, args=(lock,))
+    process.start()
+    process.join()
+    print(process.exitcode)
+    os._exit(0)
+
+if __name__ == "__main__":
+    main()
+"""
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="Windows has no fork server")
+@pytest.mark.parametrize(("loaded", "says"), [("mckibben.server.forked", False), ("json", True)])
+def test_a_worker_that_comes_too_late_ends_without_a_traceback(
+    tmp_path: Path, loaded: str, says: bool
+) -> None:
+    """The locks of its pool are gone; the other module shows that this is where Python would print one."""
+    script = tmp_path / "late.py"
+    script.write_text(_TOO_LATE, "utf-8")
+    ended = subprocess.run([sys.executable, script, loaded], capture_output=True, text=True, check=True)
+    assert ended.stdout == "1\n"
+    assert ("Traceback" in ended.stderr) == says, ended.stderr

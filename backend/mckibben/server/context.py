@@ -37,7 +37,7 @@ def _projects(request: Request) -> ProjectStore:
 
 async def _start_workers(request: Request) -> None:
     if request.app.state.workers is not None:
-        request.app.state.workers.start("long", "files")  # the third lane when a term is typed
+        request.app.state.workers.start("models", "files", "long")  # in the order in which a page asks them
 
 
 #: Of a route that is asked before long work: the workers start meanwhile.

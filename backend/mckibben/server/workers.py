@@ -27,7 +27,7 @@ from pebble import ProcessExpired, ProcessFuture, ProcessPool
 
 from mckibben.physics.errors import InputError
 from mckibben.server.jobs import JOBS
-from mckibben.server.lane import BusyError, Lane, Place
+from mckibben.server.lane import BusyError, Lane, Place, end_pool
 from mckibben.server.settings import Settings
 from mckibben.server.worker import Message, Refused, begin, perform
 
@@ -53,6 +53,7 @@ class Running:
         stopped: whether it shall end.
         again: how often it was given away once more because it did not begin.
         lost: whether the processes have stopped taking jobs, this one among them.
+        pool: that has it.
     """
 
     kind: str
@@ -63,6 +64,7 @@ class Running:
     stopped: bool = False
     again: int = 0
     lost: bool = False
+    pool: ProcessPool | None = None
 
 
 class Ticket:
@@ -160,7 +162,7 @@ class Workers:
         self._park()
         self._starter.shutdown(wait=False, cancel_futures=True)
         with ThreadPoolExecutor() as threads:
-            list(threads.map(lambda parked: _end(*parked), self._parked))
+            list(threads.map(lambda parked: end_pool(*parked), self._parked))
 
     def enter(self) -> Ticket:
         """A place in the queue, or a worker at once if one is free.
@@ -223,6 +225,7 @@ class Workers:
         def schedule() -> None:
             pool, listener = self._ready_pool()
             arguments = [kind, body, listener.address, self._key, running.number]
+            running.pool = pool
             running.future = pool.schedule(perform, args=arguments, timeout=JOBS[kind].ended_after)
             running.stopped = running.stopped or self.ending
             if running.stopped:  # meanwhile; what stopped it met the future that stood here before
@@ -237,6 +240,8 @@ class Workers:
                 self._starter.submit(lambda: (schedule(), follow()))
                 return
             self._running.pop(running.number, None)
+            if self._parked:
+                self._end_parked()
             running.news.put_nowait(None)
             ticket.leave()
 
@@ -327,17 +332,26 @@ class Workers:
                 self._pool.close()
                 self._pool = self._listener = None
 
+    def _end_parked(self) -> None:
+        """End parked processes of which nobody waits for a job any more: they hold descriptors."""
+        busy = {running.pool for running in self._running.values()}
+        with self._lock:
+            idle = [parked for parked in self._parked if parked[0] not in busy]
+            self._parked = [parked for parked in self._parked if parked[0] in busy]
+        for parked in idle:
+            threading.Thread(target=end_pool, args=parked, daemon=True).start()
+
     def _ready_pool(self) -> tuple[ProcessPool, Listener]:
         with self._lock:
             if self._pool is not None and not self._pool.active:
                 # A process that is killed while it waits for work breaks the pool; its jobs have ended then.
                 log.error("the workers are started again")
-                threading.Thread(target=_end, args=(self._pool, self._listener), daemon=True).start()
+                threading.Thread(target=end_pool, args=(self._pool, self._listener), daemon=True).start()
                 self._pool, self._listener = None, None
             if self._pool is None:
                 context = multiprocessing.get_context("forkserver" if sys.platform != "win32" else "spawn")
                 if sys.platform != "win32":
-                    context.set_forkserver_preload(["mckibben.server.worker"])
+                    context.set_forkserver_preload(["mckibben.server.forked"])
                 self._listener = Listener(authkey=self._key)
                 threading.Thread(target=self._accept, args=(self._listener,), daemon=True).start()
                 self._pool = ProcessPool(
@@ -381,12 +395,3 @@ class Workers:
 
 def _ending() -> InputError:
     return InputError("the server is ending", hint="start it again and repeat the request", code="stopped")
-
-
-def _end(pool: ProcessPool, listener: Listener | None) -> None:
-    if listener is not None:
-        with suppress(OSError):
-            listener.close()
-    pool.stop()
-    with suppress(RuntimeError, TimeoutError, OSError):
-        pool.join(_GRACE)

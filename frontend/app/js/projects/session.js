@@ -2,13 +2,14 @@
 // The project that is open in this window: saved by itself after each change, never over the work of another window.
 import { effect, signal } from "../reactive.js";
 import { ApiError } from "../server/client.js";
+import { returned } from "../server/connection.js";
 import * as server from "../server/projects.js";
 import { doc, edit, past, readDoc } from "../state.js";
 import { status } from "../store.js";
 
 /** @typedef {import("../server/projects.js").Info} Info */
 
-const REST_MS = 2000, KEPT = "mckibben-project";
+const REST_MS = 2000, AGAIN_MS = 30_000, KEPT = "mckibben-project";
 
 /** The open project; `version`: that of its last save here.
  * @type {import("../reactive.js").Signal<{id: string, title: string, version: number} | null>} */
@@ -51,9 +52,10 @@ function hold({ id, title, version }) {
   remember();
 }
 
-function remember() {
+/** For a reload. @param {{work: unknown}} [unsaved] */
+function remember(unsaved) {
   try {
-    if (open.peek()) sessionStorage.setItem(KEPT, JSON.stringify(open.peek()));
+    if (open.peek()) sessionStorage.setItem(KEPT, JSON.stringify({ ...open.peek(), ...unsaved }));
     else sessionStorage.removeItem(KEPT);
   } catch {
     // No storage: after a reload the project has to be opened again.
@@ -104,24 +106,44 @@ export async function saveNow(automatic) {
       automatic,
     });
     if (open.peek()?.id !== project.id) return;
-    saved = text;
-    hold(answer.project);
-    state.value = workOf(doc.peek()) === saved && !owed ? "saved" : "changed";
+    take(answer.project, text);
     if (!automatic) status.value = withRemarks(`Saved version ${answer.project.version}.`, answer.remarks);
     else if (answer.remarks.length) status.value = answer.remarks.join(" ");
-    if (state.peek() === "changed") schedule();
   } catch (error) {
     if (open.peek()?.id !== project.id) return;
     owed ??= owing;
     const { field, status: code } = /** @type {ApiError} */ (error);
     if (code === 409 && field === "base_version") {
+      if (await isThere(project.id, text)) return;
       state.value = "elsewhere";
       ask();
     } else {
       state.value = "failed";
-      if (!automatic) status.value = error instanceof ApiError ? error.words : String(error);
+      const why = error instanceof ApiError ? error.words : String(error);
+      status.value = automatic ? `“${project.title}” could not be saved. ${why}` : why;
+      // Deleted: it comes back only by hand. All else may pass by itself: a full disk, a database that restarts.
+      if (code !== 404) schedule(AGAIN_MS);
     }
   }
+}
+
+/** Whether what was to be saved is the last version already, and is taken as such: a page that is left saves
+ * while it goes and never hears the new version; two windows may have made the same change.
+ * @param {string} id @param {string} text */
+async function isThere(id, text) {
+  const there = await server.project(id).catch(() => null);
+  if (open.peek()?.id !== id) return true;
+  if (!there || workOf(readDoc(there.document)) !== text) return false;
+  take(there.project, text);
+  return true;
+}
+
+/** The last version there is the work of this window. @param {Info} info @param {string} text */
+function take(info, text) {
+  saved = text;
+  hold(info);
+  state.value = workOf(doc.peek()) === saved && !owed ? "saved" : "changed";
+  if (state.peek() === "changed") schedule();
 }
 
 /** Replaces what another window has saved by the work of this one. */
@@ -147,9 +169,10 @@ export function close() {
   remember();
 }
 
-function schedule() {
+/** @param {number} [rest] until it is saved [ms] */
+function schedule(rest = REST_MS) {
   clearTimeout(timer);
-  timer = setTimeout(() => saveNow(true), REST_MS);
+  timer = setTimeout(() => saveNow(true), rest);
 }
 
 /** Follows the document, and finds the project of this window again after a reload.
@@ -162,8 +185,14 @@ export function followProject(onElsewhere) {
     if (state.peek() !== "saving") state.value = "changed";
     schedule();
   });
-  addEventListener("pagehide", () => saveNow(true));
-  /** @type {{id: string, title: string, version: number} | null} */
+  effect(() => {
+    if (returned.value && state.peek() === "failed") schedule();
+  });
+  addEventListener("pagehide", () => {
+    if (open.peek() && workOf(doc.peek()) !== saved) remember({ work: doc.peek() });
+    saveNow(true);
+  });
+  /** @type {{id: string, title: string, version: number, work?: unknown} | null} */
   let last = null;
   try {
     last = JSON.parse(sessionStorage.getItem(KEPT) ?? "null");
@@ -171,10 +200,15 @@ export function followProject(onElsewhere) {
     return;
   }
   if (typeof last?.id !== "string" || typeof last.version !== "number") return;
-  open.value = last;
+  open.value = { id: last.id, title: last.title, version: last.version };
+  remember();
+  // The address is written after a pause: what was changed just before the page was left is not in it. (An
+  // address that was typed or followed is of other work.)
+  const [how] = /** @type {PerformanceNavigationTiming[]} */ (performance.getEntriesByType("navigation"));
+  if (last.work && how?.type !== "navigate") doc.value = readDoc(last.work);
   server.project(last.id).then((there) => {
-    if (there.project.version === last.version) saved = workOf(readDoc(there.document));
-    if (workOf(doc.peek()) === saved) state.value = "saved";
+    const text = workOf(readDoc(there.document));
+    if (there.project.version === last.version || text === workOf(doc.peek())) take(there.project, text);
     else schedule();
   }, (error) => error.status === 404 && close());
 }

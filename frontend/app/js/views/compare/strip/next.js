@@ -23,6 +23,9 @@ import { errorText, signed, titleOf } from "../words.js";
  *   run: () => unknown, name?: string, bar?: number | null, primary?: boolean,
  *   listeners?: Record<string, () => void>}} Next */
 
+/** Status of an answer: as many jobs wait as may. */
+const BUSY = 429;
+
 /** Names that keep their capital inside a sentence. */
 const NAMED =
   /^(?:[A-Z][a-z]+(?: |-)(?:friction|hysteresis|slip|effect|factor|wen)|Bouc|Dahl|Coulomb|Mullins|Maxwell)/i;
@@ -164,7 +167,7 @@ export const next = computed(() => {
     case "failed":
       return {
         tone: "warn",
-        what: "The diagnosis failed",
+        what: diagnosisError.value?.status === BUSY ? "The server is busy" : "The diagnosis failed",
         effect: diagnosisError.value?.words ?? "There is no answer.",
         label: "Try again",
         run: again,
