@@ -14,16 +14,16 @@ export const OWN_TERM = "custom", FORMULA = "term";
 export const titleOf = (id) =>
   id === OWN_TERM ? "Own term" : effectsById.value.get(id)?.title ?? readable(id);
 
-/** "62 % of the remaining residual is left to explain, it depends on pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
+/** "a, b and c" @param {string[]} names */
+const listed = (names) =>
+  names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
+
+/** "62 % of the squared residual is above the noise and depends on pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
 export function whatIsLeft({ unexplained_share: share, unexplained_in: names }) {
   const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? readable(name));
-  return where.length
-    ? `${brief(100 * share)} % of the remaining residual is left to explain, it depends on ${
-      where.join(" and ")
-    }`
-    : `${
-      brief(100 * share)
-    } % of the remaining residual is above the noise and depends on no measured variable`;
+  return `${brief(100 * share)}\u00a0% of the squared residual is above the noise and depends on ${
+    where.length ? listed(where) : "no measured variable"
+  }`;
 }
 
 /** The scale of a channel: a contraction is shown in percent.
@@ -48,6 +48,10 @@ export function errorText(si, unit, channel, system, withUnit = true) {
   const text = brief(si / channelScale(unit, channel, system).factor);
   return withUnit ? `${text}\u00a0${errorUnit(unit, channel, system)}`.trim() : text;
 }
+
+/** The error over the noise: "1.03", "6.7", "124". @param {number} ratio */
+export const overNoise = (ratio) =>
+  ratio < 1.15 ? ratio.toFixed(2) : ratio < 10 ? ratio.toFixed(1) : String(Math.round(ratio));
 
 /** Variables the residual is shown over, by their name in answers.
  * @type {Record<string, {title: string, quantity: Quantity, of: (s: Series) => (number | null)[] | null}>} */

@@ -33,13 +33,14 @@ export function plan({ verdict }) {
 }
 
 /** The place alone, of "look where it is largest: …". @param {string} text */
-const where = (text) => text.replace(/^[^:]*: */, "").replace(/ \([^)]*\)/g, "").replace(/\.$/, "");
+const where = (text) =>
+  text.replace(/^[^:]*: */, "").replace(/ \([^)]*\)/g, "").replace(/\.$/, "").replace(/(^| )-(?=\d)/g, "$1−");
 
 /** In few words, for the strip. @param {Diagnosis} result */
 export const nextMeasurement = (result) => {
   const look = result.verdict.where_to_look;
   return look
-    ? `Measure ${where(look).replace(/^contraction /, "ε ")} again`
+    ? `Measure ${where(look).split(" and ")[0].replace(/^contraction /, "ε ")} again`
     : capitalized(plan(result)[0].what);
 };
 
@@ -81,7 +82,9 @@ function showWorst(name) {
 /** @param {Diagnosis} result */
 export function unknown(result) {
   const { verdict, noise_floor: floor } = result, a = answer.value;
-  const over = floor.rmse && a?.rmse ? `, ${brief(a.rmse / floor.rmse)} × the noise` : "";
+  const over = result.unit !== "1" && floor.rmse && a?.rmse
+    ? `, ${brief(a.rmse / floor.rmse)} × the noise`
+    : "";
   const term = verdict.proposed_term, variable = verdict.unexplained_in.find((name) => name in VARIABLES);
   return [
     h(
@@ -105,7 +108,7 @@ export function unknown(result) {
         ? h(
           "p",
           { class: "why" },
-          `The values of the model fitted again alone leave ${
+          `Fitting the values of the model again leaves ${
             errorText(refits.value.rmse, result.unit, result.predicted, units.value)
           }.`,
         )
