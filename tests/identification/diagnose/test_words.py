@@ -143,7 +143,7 @@ def test_a_status_has_a_title(status: str, added: bool, title: str) -> None:
         (2.3, 0, 1, "it leaves 2.1 N; Creep, which is more common, leaves 2.3 N"),
         (2.05, 1, 1, "Creep is more common and fits as well, but only with values outside their usual range"),
         (2.05, 0, 2, "Creep is more common and fits as well, but needs more values"),
-        (2.1001, 0, 1, "Creep is more common and fits as well: nothing in these data decides between them"),
+        (2.1001, 0, 1, "Creep is more common and fits as well; nothing in these data decides between them"),
     ],
 )
 def test_the_applied_effect_has_a_reason_where_another_is_more_common(

@@ -144,7 +144,7 @@ def _against_the_likelier(result: Diagnosis, title: str, other: FittedModel) -> 
         return f"{title} is more common and fits as well, but only with values outside their usual range"
     if len(other.free) > len(result.lean.free):
         return f"{title} is more common and fits as well, but needs more values"
-    return f"{title} is more common and fits as well: nothing in these data decides between them"
+    return f"{title} is more common and fits as well; nothing in these data decides between them"
 
 
 def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
