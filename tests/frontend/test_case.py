@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import FilePayload, Page, expect
+from playwright.sync_api import FilePayload, Page, Route, expect
 
 from tests.frontend.comparing import (
     NOISE,
@@ -247,8 +247,16 @@ def test_probabilities_reasons_and_minutes_of_the_server_are_shown(page: Page, s
         refitted = {**first, "added": None, "refitted": True, "rmse": 0.8 * start["rmse"]}
         done["path"].insert(1, refitted)
 
+    raw: list[float] = []
+
+    def with_accuracy(route: Route) -> None:
+        body = route.fetch().json()
+        raw.append(body["rmse"])
+        route.fulfill(json={**body, "rmse_beyond_accuracy": body["rmse"] / 2})
+
     open_compare(page)
     alter(page, change)
+    page.route("**/api/comparisons", with_accuracy)
     choose(page, sweeps)
     use(page)
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
@@ -260,6 +268,9 @@ def test_probabilities_reasons_and_minutes_of_the_server_are_shown(page: Page, s
     expect(rows.locator(".tell").first).to_contain_text("Best simulated test: a ramp")
     expect(page.locator("#next-what")).to_have_text("Refit the values of the model")
     assert recommendations(page) == ["Refit", "Refit"]
+    # One number: the error that the diagnosis counts, without what the accuracy of the readings explains.
+    assert error(page) == pytest.approx(raw[0] / 2, rel=0.01)
+    expect(page.locator("#error-facts")).to_have_attribute("title", re.compile("RMS of all deviations"))
 
 
 def tab_to(page: Page, wanted: str, most: int = 60) -> None:

@@ -303,11 +303,11 @@ export function siOf(q) {
 }
 
 /** Words of keys that are written in another way. @type {Record<string, string>} */
-const WORDS = { displacement: "stroke", mooney: "Mooney", stribeck: "Stribeck" };
+const WORDS = { area: "force per pressure", displacement: "stroke", mooney: "Mooney", stribeck: "Stribeck" };
 
 /** A name of a document or request in words: "max_contraction" → "max contraction". @param {string} key */
 export const readable = (key) =>
-  key.replaceAll("_", " ").replace(/\b(?:displacement|mooney|stribeck)\b/g, (word) => WORDS[word]);
+  key.replaceAll("_", " ").replace(/\b(?:area|displacement|mooney|stribeck)\b/g, (word) => WORDS[word]);
 
 /** @param {string} text */
 export const capitalized = (text) => text.replace(/^./, (letter) => letter.toUpperCase());

@@ -1,6 +1,6 @@
 // @ts-check
 // Errors, ranges and names as the page writes them.
-import { effectsById } from "../../store.js";
+import { effectsById, presets } from "../../store.js";
 import { brief, number, plainScale, quantityOf, readable, scaleOf, toShown } from "../../format.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -24,6 +24,20 @@ export function whatIsLeft({ unexplained_share: share, unexplained_in: names }) 
   return `${brief(100 * share)}\u00a0% of the squared residual is above the noise and depends on ${
     where.length ? listed(where) : "no measured variable"
   }`;
+}
+
+/** @typedef {{value: number | string, unit: string}} Stated */
+
+/** A value of the experiment: "90 °", "155 mm", "DMSP-10". @param {Stated} stated @param {System} system */
+export function statedText({ value, unit }, system) {
+  if (typeof value === "string") {
+    const known = [...presets.value.muscles ?? [], ...presets.value.valves ?? []].find((p) => p.id === value);
+    return known?.id ?? value;
+  }
+  const quantity = unit === "1" ? "ratio" : unit ? quantityOf(unit) : null;
+  if (!quantity) return `${number(value, 3)} ${unit}`.trim();
+  const s = scaleOf(quantity, system);
+  return `${number(toShown(value, s), 1)}${s.unit === "°" ? "" : " "}${s.unit}`.trim();
 }
 
 /** The scale of a channel: a contraction is shown in percent.
@@ -62,6 +76,12 @@ export const VARIABLES = {
   direction: { title: "Direction", quantity: "number", of: (s) => s.direction },
   time: { title: "Time", quantity: "time", of: (s) => s.time },
   length: { title: "Length", quantity: "length", of: (s) => s.length },
+  // Known for the rows whose stroke is predicted; a range of it chooses all rows of other channels.
+  displacement: {
+    title: "Stroke",
+    quantity: "length",
+    of: (s) => s.channel === "displacement" ? s.measured : null,
+  },
 };
 
 /** @param {Series} s @param {string} name @returns {(number | null)[]} */

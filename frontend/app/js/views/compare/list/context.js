@@ -7,7 +7,7 @@ import { answer, chosen, compare, diagnosis, editCompare, stale } from "../answe
 import { withStep } from "../document.js";
 import { effectsNow, fittedStep, here, stamped, whileFitting } from "../model/history.js";
 import { decided } from "../request.js";
-import { errorText, measuredText } from "../words.js";
+import { errorText, measuredText, statedText } from "../words.js";
 
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
 /** @typedef {Diagnosis["context"][number]} Entry */
@@ -167,9 +167,9 @@ export function contextBlock(result) {
     h(
       "p",
       { class: "muted" },
-      `Effects are ranked once this is settled. Ranked now, ${
+      `Effects are ranked once this is settled. Ranked now, wrong ones could take the blame for ${
         inUnits((answer.value?.rmse ?? 0) - first.rmse_after, result)
-      } could be blamed on the wrong one.`,
+      }.`,
     ),
   );
 }
@@ -180,7 +180,9 @@ export function contextLine() {
   const kept = result?.context.filter((entry) => entry.kept) ?? [];
   const told = result?.assumptions ?? answer.value?.assumptions ?? [];
   const assumed = told.length ? told : Object.entries(answer.value?.experiment ?? {})
-    .flatMap(([field, one]) => one.origin === "assumed" ? [`${readable(field)} ${one.value}`] : []);
+    .flatMap(([field, one]) =>
+      one.origin === "assumed" ? [`${readable(field)} ${statedText(one, units.value)}`] : []
+    );
   return h(
     "p",
     { class: "context-line", title: assumed.join("\n") },

@@ -5,7 +5,7 @@ import { units } from "../../../state.js";
 import { brief, capitalized } from "../../../format.js";
 import { answer, lookCompare } from "../answers.js";
 import { proposedTerm } from "../model/own-term.js";
-import { errorText, titleOf, VARIABLES, whatIsLeft } from "../words.js";
+import { errorText, overNoise, titleOf, VARIABLES, whatIsLeft } from "../words.js";
 import { tellingText } from "./entry.js";
 import { refits } from "./plan.js";
 import { openChoices } from "./adequate.js";
@@ -40,7 +40,9 @@ const where = (text) =>
 export const nextMeasurement = (result) => {
   const look = result.verdict.where_to_look;
   return look
-    ? `Measure ${where(look).split(" and ")[0].replace(/^contraction /, "ε ")} again`
+    ? `Measure ${
+      where(look).split(" and ")[0].replace(/^contraction /, "ε ").replace(/ (?=\S+$)/, "\u00a0")
+    } again`
     : capitalized(plan(result)[0].what);
 };
 
@@ -53,10 +55,11 @@ function nearest(result) {
   const best = [...result.candidates].sort((a, b) => a.rmse - b.rmse)[0];
   if (!best) return "";
   const asText = (/** @type {number} */ si) => errorText(si, result.unit, result.predicted, units.value);
-  const worse = best.holdout_rmse >= result.baseline.holdout_rmse;
+  const worse = best.holdout_rmse >= result.baseline.holdout_rmse, floor = result.noise_floor.rmse;
+  const remains = floor && !worse ? `, ${overNoise(best.rmse / floor)} × the noise remains` : "";
   return `${best.title}: ${asText(result.baseline.rmse)} → ${asText(best.rmse)}, held-out ${
     asText(best.holdout_rmse)
-  }${worse ? ", which is no better" : ""}: not added`;
+  }${worse ? ", which is no better" : ""}: not added${remains}`;
 }
 
 const FEWEST_ROWS = 3;

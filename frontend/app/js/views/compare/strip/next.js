@@ -147,7 +147,7 @@ export const next = computed(() => {
       return {
         tone: "idle",
         what: "Looking for what is missing",
-        effect: triedText() || "Every effect of the catalogue is tried",
+        effect: triedText() || "Trying every effect",
         label: "Stop",
         run: cancel,
         primary: false,
