@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import FilePayload, Page, expect
+from playwright.sync_api import FilePayload, Page, Route, expect
 
 from tests.frontend.comparing import (
     NOISE,
@@ -241,10 +241,22 @@ def test_probabilities_reasons_and_minutes_of_the_server_are_shown(page: Page, s
         verdict["probabilities"] = dict.fromkeys(verdict["effects"], 0.974)
         verdict["applied"] = {verdict["effects"][0]: "it has the fewest values"}
         for experiment in verdict["experiments"]:
-            experiment["minutes"] = 10.0
+            experiment.update(minutes=10.0, separation=2.0, protocol="a ramp")
+        # The values of the model come closer when they are fitted again: that is done first.
+        start, first = done["path"][:2]
+        refitted = {**first, "added": None, "refitted": True, "rmse": 0.8 * start["rmse"]}
+        done["path"].insert(1, refitted)
+
+    raw: list[float] = []
+
+    def with_accuracy(route: Route) -> None:
+        body = route.fetch().json()
+        raw.append(body["rmse"])
+        route.fulfill(json={**body, "rmse_beyond_accuracy": body["rmse"] / 2})
 
     open_compare(page)
     alter(page, change)
+    page.route("**/api/comparisons", with_accuracy)
     choose(page, sweeps)
     use(page)
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
@@ -253,6 +265,12 @@ def test_probabilities_reasons_and_minutes_of_the_server_are_shown(page: Page, s
     expect(rows.locator(".likely")).to_have_text(["97 % likely"] * 3)
     expect(rows.first).to_contain_text("It has the fewest values")
     expect(rows.locator(".tell").first).to_contain_text("Would tell (10 min)")
+    expect(rows.locator(".tell").first).to_contain_text("Best simulated test: a ramp")
+    expect(page.locator("#next-what")).to_have_text("Refit the values of the model")
+    assert recommendations(page) == ["Refit", "Refit"]
+    # One number: the error that the diagnosis counts, without what the accuracy of the readings explains.
+    assert error(page) == pytest.approx(raw[0] / 2, rel=0.01)
+    expect(page.locator("#error-facts")).to_have_attribute("title", re.compile("RMS of all deviations"))
 
 
 def tab_to(page: Page, wanted: str, most: int = 60) -> None:

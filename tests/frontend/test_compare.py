@@ -52,6 +52,8 @@ def test_from_the_empty_page_to_the_noise_in_five_clicks(page: Page, sweeps: Fil
     expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
     diagnosed(page)
     assert shifts(page) == []  # nothing moved from the drop to the verdict
+    expect(page.locator(".file")).to_contain_text("sweeps.csv")
+    expect(page.locator("#compare-preset")).to_have_value("DMSP-20")
     start = error(page)
     assert start > 50 * NOISE
     path, next_ = [start], page.locator("#next-action")
@@ -206,16 +208,6 @@ def test_a_file_that_is_no_measurement_says_so(page: Page, page_guard: PageGuard
     assert run(page, "return document.querySelectorAll('.file').length;") == 0
 
 
-def test_dropped_anywhere(page: Page, sweeps: FilePayload) -> None:
-    page.goto("/")
-    expect(page.locator('#preset option[value="DMSP-20"]')).to_be_attached()
-    drop(page, {**sweeps, "name": "dropped.csv"})
-    use(page)
-    expect(page.locator(".file")).to_contain_text("dropped.csv")
-    expect(page.locator("#compare-preset")).to_have_value("DMSP-20")
-    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
-
-
 def test_a_built_in_map_opens_with_one_click(page: Page) -> None:
     open_compare(page)
     remember(page)
@@ -224,6 +216,11 @@ def test_a_built_in_map_opens_with_one_click(page: Page) -> None:
     expect(page.locator("#compare-preset")).to_have_value("DMSP-20")
     diagnosed(page)
     assert error(page) > 100
+    page.get_by_role("button", name="Area of each loop of the residual").click()
+    expect(page.locator(".brush-line")).to_contain_text("No loops in these data")
+    expect(page.locator("#residual")).to_be_hidden()
+    page.get_by_role("button", name="Residual over pressure").click()
+    expect(page.locator("#residual")).to_be_visible()
     expect(setup(page)).to_contain_text("60 of 126 rows; left out: 66 slack")
     page.get_by_role("button", name="Remove ").click()
     expect(page.locator("#next-what")).to_have_text("Bring a measurement")

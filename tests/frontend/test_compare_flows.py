@@ -80,7 +80,7 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     assert best.get_attribute("data-candidate") in hidden
     # Errors of the stroke are lengths, and shares of the stroke.
     errors = page.get_by_role("list", name="Error of each channel")
-    expect(errors).to_contain_text(re.compile(r"displacement [\d.]+.mm, [\d.]+ % of the stroke"))
+    expect(errors).to_contain_text(re.compile(r"stroke [\d.]+.mm, [\d.]+ % of the stroke"))
     before = page.locator("#error-now").inner_text()
     page.keyboard.press("Escape")  # the panel of files and experiment
     best.get_by_role("button", name=ADD).click()
@@ -208,17 +208,6 @@ def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePaylo
     expect(told).to_contain_text("within the noise")
     page.get_by_role("button", name="Autocorrelation of the residual").click()
     expect(page.locator("#white")).to_contain_text("residual is noise")
-
-
-def test_data_without_loops_say_so(page: Page) -> None:
-    open_compare(page)
-    page.locator(".tile", has_text="DMSP-20-300").click()
-    expect(page.locator("#error-now")).to_be_visible(timeout=20_000)
-    page.get_by_role("button", name="Area of each loop of the residual").click()
-    expect(page.locator(".brush-line")).to_contain_text("No loops in these data")
-    expect(page.locator("#residual")).to_be_hidden()
-    page.get_by_role("button", name="Residual over pressure").click()
-    expect(page.locator("#residual")).to_be_visible()
 
 
 def test_effects_that_data_cannot_tell_apart_stay_a_choice_after_success(

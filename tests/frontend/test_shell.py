@@ -52,11 +52,14 @@ def test_back_forward_reload_and_a_fresh_start(page: Page) -> None:
 
 def test_the_palette_and_the_tabs_of_a_narrow_window(page: Page) -> None:
     open_design(page)
-    for width in (701, 825, 1120):
+    page.get_by_role("button", name="Compare & diagnose", exact=True).click()  # the longest title
+    for width in (701, 781, 825, 1120):
         page.set_viewport_size({"width": width, "height": 800})
-        views = page.get_by_role("button", name="Design", exact=True)
+        views = page.get_by_role("button", name="Compare & diagnose", exact=True)
         expect(views).to_have_count(1)  # the tabs are a menu
         assert run(page, "return document.documentElement.scrollWidth - innerWidth;") <= 0, width
+        over = run(page, "const b = argument; return b.scrollWidth - b.clientWidth;", views.element_handle())
+        assert over <= 0, width
     views.click()
     expect(page.get_by_role("menuitemradio")).to_have_count(5)
     page.get_by_role("menuitemradio", name="Catalogue").click()

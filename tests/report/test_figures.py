@@ -7,6 +7,7 @@ import re
 
 import pytest
 
+from mckibben.physics.catalogue import default_catalogue
 from mckibben.report.figures import Scale, figure, plain, pretty, scale_of, variable, with_error
 
 
@@ -66,3 +67,13 @@ def test_units() -> None:
     assert scale_of("Pa", 2.8e4) == Scale("kPa", 1e3)
     assert variable("pressure")[1].of(3e5) == pytest.approx(3.0)
     assert scale_of("m").all([0.3, None]) == pytest.approx([300.0, math.nan], nan_ok=True)
+
+
+def test_values_of_effects_have_units_of_engineers() -> None:
+    shown = {
+        f"{effect.id}.{p.name}": plain(scale_of(p.unit, p.default).of(p.default))
+        for effect in default_catalogue().values()
+        for p in effect.parameters
+    }
+    assert shown["pressure_friction.area"] == "4.000"  # N/bar, not 0.00004 m2
+    assert [name for name, text in shown.items() if "\N{MIDDLE DOT}10" in text] == []

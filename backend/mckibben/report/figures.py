@@ -30,12 +30,22 @@ class Scale(NamedTuple):
 
 PLAIN = Scale("")
 
+_CONDUCTANCE = ("m^3/(s*Pa)", "m3/(s*Pa)")
+_LEAK = 1e-9  # m3/(s Pa); a valve has more
+
 #: SI unit -> display unit.
 _SCALES = {
     "m": Scale("mm", 1e-3),
     "rad": Scale("°", math.pi / 180.0),
     "m^3": Scale("cm³", 1e-6),
+    "m3": Scale("cm³", 1e-6),
     "m^3/(s*Pa)": Scale("l/(s·bar)", 1e-8),
+    "m3/(s*Pa)": Scale("l/(s·bar)", 1e-8),
+    "m2": Scale("N/bar", 1e-5),  # of parameters: friction per pressure
+    "N/m": Scale("N/mm", 1e3),
+    "m/N": Scale("mm/kN", 1e-6),
+    "1/N": Scale("%/kN", 1e-5),
+    "Pa*s/m3": Scale("bar/(l/s)", 1e8),
     "1": Scale(""),
     "SI": Scale("SI"),
 }
@@ -44,7 +54,7 @@ VARIABLES = {
     "pressure": ("pressure", Scale("bar", 1e5)),
     "contraction": ("contraction", Scale("%", 0.01)),
     "length": ("length", Scale("mm", 1e-3)),
-    "displacement": ("displacement", Scale("mm", 1e-3)),
+    "displacement": ("stroke", Scale("mm", 1e-3)),
     "diameter": ("diameter", Scale("mm", 1e-3)),
     "velocity": ("velocity", Scale("mm/s", 1e-3)),
     "force": ("force", Scale("N")),
@@ -63,10 +73,12 @@ def variable(name: str) -> tuple[str, Scale]:
 
 
 def scale_of(unit: str, value: float | None = None) -> Scale:
-    """Display unit of an SI unit; for pascals it depends on the value: Pa, kPa or MPa."""
+    """Display unit of an SI unit; of pressures and conductances it depends on the value: Pa, kPa or MPa."""
     if unit == "Pa":
         size = abs(value or 0.0)
         return Scale("MPa", 1e6) if size >= 1e5 else Scale("kPa", 1e3) if size >= 100.0 else Scale("Pa")
+    if unit in _CONDUCTANCE and 0.0 < abs(value or 0.0) < _LEAK:
+        return Scale("ml/(s·bar)", 1e-11)
     return _SCALES.get(unit) or Scale(pretty(unit))
 
 

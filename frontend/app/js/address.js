@@ -107,7 +107,7 @@ function tell(now) {
   if (now && now !== left.peek()) {
     status.value =
       `The link of this work ${PARTLY[now]}. Nothing is lost here: this window keeps all of it, ` +
-      "also over a reload; Project, Save keeps it for good.";
+      "also after a reload; Project, Save keeps it for good.";
   }
   left.value = now;
 }

@@ -302,8 +302,12 @@ export function siOf(q) {
   return known ? q.value * known[1] + (known[2] ?? 0) : q.value;
 }
 
+/** Words of keys that are written in another way. @type {Record<string, string>} */
+const WORDS = { area: "force per pressure", displacement: "stroke", mooney: "Mooney", stribeck: "Stribeck" };
+
 /** A name of a document or request in words: "max_contraction" → "max contraction". @param {string} key */
-export const readable = (key) => key.replaceAll("_", " ");
+export const readable = (key) =>
+  key.replaceAll("_", " ").replace(/\b(?:area|displacement|mooney|stribeck)\b/g, (word) => WORDS[word]);
 
 /** @param {string} text */
 export const capitalized = (text) => text.replace(/^./, (letter) => letter.toUpperCase());

@@ -112,7 +112,7 @@ SENTENCES = {
     ),
     "Missing: Creep (97 %). "
     "With it the error falls from 40 to 2.1 N, the noise of the data (2 N). These data "
-    "cannot tell Creep from Leak. The model holds Creep: without these data it is the likeliest of them, "
+    "cannot tell Creep from Leak. The model holds Creep: it is the most common of them: "
     "every rubber relaxes when it is held.": result(
         "ambiguous", 40.0, 2.1, "creep", alternatives=(SimpleNamespace(of="creep", effect="leak"),)
     ),
@@ -137,14 +137,23 @@ def test_a_status_has_a_title(status: str, added: bool, title: str) -> None:
     assert title_of(status, added=added) == title
 
 
-def test_the_applied_effect_has_a_reason_from_the_data_where_another_is_likelier_beforehand() -> None:
-    other = SimpleNamespace(of="leak", effect="creep", fitted_model=SimpleNamespace(rmse=2.3))
+@pytest.mark.parametrize(
+    ("rmse", "implausible", "free", "reason"),
+    [
+        (2.3, 0, 1, "it leaves 2.1 N; Creep, which is more common, leaves 2.3 N"),
+        (2.05, 1, 1, "Creep is more common and fits as well, but only with values outside their usual range"),
+        (2.05, 0, 2, "Creep is more common and fits as well, but needs more values"),
+        (2.1001, 0, 1, "Creep is more common and fits as well; nothing in these data decides between them"),
+    ],
+)
+def test_the_applied_effect_has_a_reason_where_another_is_more_common(
+    rmse: float, implausible: int, free: int, reason: str
+) -> None:
+    model = SimpleNamespace(rmse=rmse, implausible=implausible, free=[None] * free)
+    other = SimpleNamespace(of="leak", effect="creep", fitted_model=model)
     found = result("ambiguous", 40.0, 2.1, "leak", alternatives=(other,))
-    reasons = applied_reasons(found, CATALOGUE)
-    assert reasons == {
-        "leak": "its error of 2.1 N is a little lower than the 2.3 N of Creep, which is likelier without "
-        "these data"
-    }
+    found.lean = SimpleNamespace(rmse=found.lean.rmse, implausible=0, free=[None])
+    assert applied_reasons(found, CATALOGUE) == {"leak": reason}
 
 
 def test_a_correction_is_said_with_its_errors_and_probability() -> None:

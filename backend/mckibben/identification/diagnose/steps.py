@@ -85,18 +85,36 @@ def path_to(
         vent: zero error of the gauge, read from the vented muscle before the search.
     """
     steps = [PathStep(None, start)]
-    if vent is not None:
-        steps.append(PathStep(vent.effect.id, root))
-    elif root.free:
+    if vent is None and root.free:
         steps.append(PathStep(None, root, refitted=True))
     fitted_model, remaining = root, [e for e in best.fit_model.effects if e.id not in set(root.fit_model.ids)]
+    added = []
     while len(remaining) > 1:
         trials = [(effect, fitter.adding(fitted_model, effect)) for effect in remaining]
         effect, fitted_model = min(trials, key=lambda pair: pair[1].rmse)
-        steps.append(PathStep(effect.id, fitted_model))
+        added.append(PathStep(effect.id, fitted_model))
         remaining.remove(effect)
     if remaining:
-        steps.append(PathStep(remaining[0].id, best))
+        added.append(PathStep(remaining[0].id, best))
     elif best is not root:
-        steps.append(PathStep(None, best))  # further constants were freed
-    return tuple(steps)
+        added.append(PathStep(None, best))  # further constants were freed
+    if vent is not None:
+        added = _with_vent(fitter, start, root, added, vent)
+    return (*steps, *added)
+
+
+def _with_vent(
+    fitter: Fitter, start: FittedModel, root: FittedModel, added: Sequence[PathStep], vent: GaugeZero
+) -> list[PathStep]:
+    """The steps with that of the zero error of the gauge, where it first lowers the error.
+
+    Its value is read and not fitted, so beside a model that lacks an effect it may raise the error.
+    """
+    before, after = start, root
+    steps: list[PathStep] = []
+    for number, step in enumerate(added):
+        if after.rmse <= before.rmse:
+            return [*steps, PathStep(vent.effect.id, after), *added[number:]]
+        before, after = fitter.dropping(step.fitted_model, vent.effect.id), step.fitted_model
+        steps.append(PathStep(step.added, before))
+    return [*steps, PathStep(vent.effect.id, after)]

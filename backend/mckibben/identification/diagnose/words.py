@@ -8,6 +8,7 @@ from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.verdict import Status, is_force
+from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.physics.effect import Effect
 
 _REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned
@@ -126,16 +127,24 @@ def applied_reasons(result: Diagnosis, catalogue: Mapping[str, Effect]) -> dict[
         own = catalogue[item.effect].prior
         likelier = max(others, key=lambda effect: effect.prior.share, default=None)
         if likelier is None or likelier.prior.share <= own.share:
-            reasons[item.effect] = f"without these data it is the likeliest of them, {own.why}"
+            reasons[item.effect] = f"it is the most common of them: {own.why}"
         else:
-            unit, scale = _unit_of(result)
-            errors = {a.effect: a.fitted_model.rmse for a in result.alternatives if a.of == item.effect}
-            here, there = scale * result.lean.rmse, scale * errors[likelier.id]
-            reasons[item.effect] = (
-                f"its error of {here:.4g} {unit} is a little lower than the {there:.4g} {unit} of "
-                f"{likelier.title}, which is likelier without these data"
-            )
+            other = next(a for a in result.alternatives if (a.of, a.effect) == (item.effect, likelier.id))
+            reasons[item.effect] = _against_the_likelier(result, likelier.title, other.fitted_model)
     return reasons
+
+
+def _against_the_likelier(result: Diagnosis, title: str, other: FittedModel) -> str:
+    """Why the model does not hold the alternative that is more common."""
+    unit, scale = _unit_of(result)
+    here, there = (f"{scale * model.rmse:.3g}" for model in (result.lean, other))
+    if here != there and result.lean.rmse < other.rmse:
+        return f"it leaves {here} {unit}; {title}, which is more common, leaves {there} {unit}"
+    if other.implausible > result.lean.implausible:
+        return f"{title} is more common and fits as well, but only with values outside their usual range"
+    if len(other.free) > len(result.lean.free):
+        return f"{title} is more common and fits as well, but needs more values"
+    return f"{title} is more common and fits as well; nothing in these data decides between them"
 
 
 def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:

@@ -122,7 +122,7 @@ def _units(evidence: Evidence) -> list[Question]:
             asked.append(
                 Question(
                     f"unit of {channel}",
-                    f"{what}; is its unit {' or '.join([*better[:2], unit])}",
+                    f"{what}. Is its unit {' or '.join([*better[:2], unit])}?",
                     column_option(channel, bare_name(column), hint),
                     column.header,
                     hint,

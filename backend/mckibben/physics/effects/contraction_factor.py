@@ -122,7 +122,7 @@ EFFECT = Effect(
         energy="conservative",
     ),
     confused_with=(
-        Twin("end_caps", "two muscle lengths: with end caps k - 1 falls as 1/L0"),
+        Twin("end_caps", "two muscle lengths: with end caps k − 1 falls as 1/L₀"),
         Twin("bladder_elasticity", "several pressures: the bladder's share does not grow with pressure"),
         Twin("linear_elasticity", "several pressures: the elastic share does not grow with pressure"),
     ),

@@ -68,7 +68,7 @@ EFFECT = Effect(
         energy="conservative",
     ),
     confused_with=(
-        Twin("contraction_factor", "two muscle lengths: with end caps k - 1 falls as 1/L0"),
+        Twin("contraction_factor", "two muscle lengths: with end caps k − 1 falls as 1/L₀"),
         Twin("length_offset", "gauge blocks, or two muscle lengths"),
         Twin("bladder_elasticity", "several pressures: the bladder's share does not grow with pressure"),
     ),

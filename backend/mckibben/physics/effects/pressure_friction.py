@@ -58,7 +58,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=5.0e-4,
             source=_RANGE,
-            description="Half the width of the force loop per pressure, at 3 bar; 1 N/bar is 10 mm2.",
+            description="Half the width of the force loop per pressure, at 3 bar.",
             off=0.0,
         ),
         Parameter(

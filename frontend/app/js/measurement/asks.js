@@ -25,7 +25,12 @@ export const questionList = (m) =>
     return h(
       "fieldset",
       { class: `ask${q.stops ? "" : " may-wait"}`, "data-about": q.about },
-      h("legend", null, icon(q.stops ? "warn" : "info"), h("span", null, `${capitalized(q.text)}.`)),
+      h(
+        "legend",
+        null,
+        icon(q.stops ? "warn" : "info"),
+        h("span", null, `${capitalized(q.text)}${q.text.endsWith("?") ? "" : "."}`),
+      ),
       q.stops || answers.length
         ? h(
           "div",
@@ -62,7 +67,7 @@ export function unreadList(m) {
   const rows = [
     ...p.unread,
     ...[...asked].flatMap((column) =>
-      column && !listed.includes(column) ? [{ column, why: "it has to be answered for" }] : []
+      column && !listed.includes(column) ? [{ column, why: "it needs an answer" }] : []
     ),
   ];
   if (!rows.length) {

@@ -104,7 +104,7 @@ function rowsTable(m, placed) {
         h(
           "tr",
           null,
-          h("td", { class: "row lead" }, raw.head_moves ? "Drag the handle to the row of the names" : ""),
+          h("td", { class: "row lead" }, raw.head_moves ? "Drag the handle to the header row" : ""),
           ...places.map((place) => headCell(m, columns.get(place), raw.also.includes(place))),
         ),
       )
@@ -130,7 +130,7 @@ function rowsTable(m, placed) {
             isHead && raw.head_moves
               ? headHandle(m, raw)
               : isHead
-              ? `head ${row}`
+              ? `header ${row}`
               : isUnits
               ? `units ${row}`
               : row,
@@ -210,7 +210,7 @@ function headHandle(m, raw) {
       },
     },
     icon("grip"),
-    `head ${head}`,
+    `header ${head}`,
   );
   return handle;
 }

@@ -261,7 +261,7 @@ export async function askElsewhere() {
     ? `Version ${there.revision.version} (“${there.revision.label}”) was saved there on ${
       when(there.revision.saved)
     }.`
-    : "It could not be looked at.";
+    : "It could not be read.";
   /** @param {() => Promise<unknown>} work */
   const choose = (work) => () =>
     session.attempt(async () => {

@@ -42,12 +42,18 @@ const GLANCE_MS = 90;
 /** Without a fit. @type {Memory<Comparison>} */
 const comparisons = new Memory(REMEMBERED);
 
-/** @param {string} text @param {AbortSignal} [signal] @returns {Promise<Comparison>} */
-const compareWith = (text, signal) => post("/api/comparisons", { ...JSON.parse(text), fit: false }, signal);
+/** A comparison whose error is the one that the diagnosis counts, so that both are one number.
+ * @param {string} text @param {boolean} fit @param {AbortSignal} [signal] @returns {Promise<Comparison>} */
+async function comparisonOf(text, fit, signal) {
+  const got = await post("/api/comparisons", { ...JSON.parse(text), fit }, signal);
+  return { ...got, rmse: got.rmse_beyond_accuracy ?? got.rmse, rmse_of_all: got.rmse };
+}
 
-/** The parameters of a model fitted to the data. @param {string} text @param {AbortSignal} [signal]
- * @returns {Promise<Comparison>} */
-export const fitWith = (text, signal) => post("/api/comparisons", { ...JSON.parse(text), fit: true }, signal);
+/** @param {string} text @param {AbortSignal} [signal] */
+const compareWith = (text, signal) => comparisonOf(text, false, signal);
+
+/** The parameters of a model fitted to the data. @param {string} text @param {AbortSignal} [signal] */
+export const fitWith = (text, signal) => comparisonOf(text, true, signal);
 
 const modelText = computed(() => keyOf(compare.value));
 const comparison = new Question(compareWith, { memory: comparisons, patience: 0 });

@@ -166,7 +166,11 @@ export function ladderCard() {
             "tr",
             { class: "waiting", "aria-hidden": "true" },
             h("th", null, h("i", { class: "bone" })),
-            h("td", { colspan: 4 }),
+            // One cell for each column: a wider one would add a column where "held-out" is not shown.
+            h("td", null),
+            h("td", null),
+            h("td", { class: "held" }),
+            h("td", { class: "undo" }),
           )
         )
         : []),

@@ -6,7 +6,8 @@
 /** A model as requests take it.
  * @typedef {{effects: Effects, muscle?: Record<string, any> | null}} Model */
 /** @typedef {S["FittedParameter"]} Fitted */
-/** @typedef {S["ComparisonAnswer"]} Comparison */
+/** `rmse`: the error that the diagnosis counts, without what the accuracy of the readings explains; `rmse_of_all`:
+ * with it. @typedef {S["ComparisonAnswer"] & {rmse_of_all: number | null}} Comparison */
 /** @typedef {S["ComparisonSeries"]} Series */
 /** @typedef {S["HeatMap"]} HeatMap */
 /** @typedef {S["ResidualProfile"]} Where */

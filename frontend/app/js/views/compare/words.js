@@ -1,6 +1,6 @@
 // @ts-check
 // Errors, ranges and names as the page writes them.
-import { effectsById } from "../../store.js";
+import { effectsById, presets } from "../../store.js";
 import { brief, number, plainScale, quantityOf, readable, scaleOf, toShown } from "../../format.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -14,16 +14,30 @@ export const OWN_TERM = "custom", FORMULA = "term";
 export const titleOf = (id) =>
   id === OWN_TERM ? "Own term" : effectsById.value.get(id)?.title ?? readable(id);
 
-/** "62 % of the remaining residual is left to explain, it depends on pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
+/** "a, b and c" @param {string[]} names */
+const listed = (names) =>
+  names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
+
+/** "62 % of the squared residual is above the noise and depends on pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
 export function whatIsLeft({ unexplained_share: share, unexplained_in: names }) {
   const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? readable(name));
-  return where.length
-    ? `${brief(100 * share)} % of the remaining residual is left to explain, it depends on ${
-      where.join(" and ")
-    }`
-    : `${
-      brief(100 * share)
-    } % of the remaining residual is above the noise and depends on no measured variable`;
+  return `${brief(100 * share)}\u00a0% of the squared residual is above the noise and depends on ${
+    where.length ? listed(where) : "no measured variable"
+  }`;
+}
+
+/** @typedef {{value: number | string, unit: string}} Stated */
+
+/** A value of the experiment: "90 °", "155 mm", "DMSP-10". @param {Stated} stated @param {System} system */
+export function statedText({ value, unit }, system) {
+  if (typeof value === "string") {
+    const known = [...presets.value.muscles ?? [], ...presets.value.valves ?? []].find((p) => p.id === value);
+    return known?.id ?? value;
+  }
+  const quantity = unit === "1" ? "ratio" : unit ? quantityOf(unit) : null;
+  if (!quantity) return `${number(value, 3)} ${unit}`.trim();
+  const s = scaleOf(quantity, system);
+  return `${number(toShown(value, s), 1)}${s.unit === "°" ? "" : " "}${s.unit}`.trim();
 }
 
 /** The scale of a channel: a contraction is shown in percent.
@@ -49,6 +63,10 @@ export function errorText(si, unit, channel, system, withUnit = true) {
   return withUnit ? `${text}\u00a0${errorUnit(unit, channel, system)}`.trim() : text;
 }
 
+/** The error over the noise: "1.03", "6.7", "124". @param {number} ratio */
+export const overNoise = (ratio) =>
+  ratio < 1.15 ? ratio.toFixed(2) : ratio < 10 ? ratio.toFixed(1) : String(Math.round(ratio));
+
 /** Variables the residual is shown over, by their name in answers.
  * @type {Record<string, {title: string, quantity: Quantity, of: (s: Series) => (number | null)[] | null}>} */
 export const VARIABLES = {
@@ -58,6 +76,12 @@ export const VARIABLES = {
   direction: { title: "Direction", quantity: "number", of: (s) => s.direction },
   time: { title: "Time", quantity: "time", of: (s) => s.time },
   length: { title: "Length", quantity: "length", of: (s) => s.length },
+  // Known for the rows whose stroke is predicted; a range of it chooses all rows of other channels.
+  displacement: {
+    title: "Stroke",
+    quantity: "length",
+    of: (s) => s.channel === "displacement" ? s.measured : null,
+  },
 };
 
 /** @param {Series} s @param {string} name @returns {(number | null)[]} */

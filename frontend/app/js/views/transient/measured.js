@@ -125,7 +125,7 @@ export function measuredCard() {
         "button",
         { type: "button", class: "drop", onclick: () => input.click() },
         h("span", null, isSending.value ? "Reading…" : "Choose a CSV file, or drop it here"),
-        h("small", null, "time, pressure, displacement"),
+        h("small", null, "time, pressure, stroke"),
       ),
     summary,
     h("p", { class: "error", role: "alert" }, complaint),

@@ -7,7 +7,15 @@ import { answer, diagnosis } from "../answers.js";
 import { entries } from "../list/plan.js";
 import { likelyText } from "../list/entry.js";
 import { allSeries } from "../where/pictures.js";
-import { errorText, errorUnit, fitPercent, measuredText, parameterScale, titleOf } from "../words.js";
+import {
+  errorText,
+  errorUnit,
+  fitPercent,
+  measuredText,
+  overNoise,
+  parameterScale,
+  titleOf,
+} from "../words.js";
 import { weightsOf } from "./weights.js";
 
 /** @typedef {import("./columns.js").Column} Column */
@@ -68,7 +76,9 @@ function errorRows(all) {
     errorRow("Held-out error", unit, all.map((c) => c.holdout), asText),
     errorRow("Fit", "%, 100 is perfect", fits, brief, false),
     ...(floor && a?.unit !== "1"
-      ? [errorRow("Error over noise", "×", errors.map((e) => e === null ? null : e / floor), brief, false)]
+      ? [
+        errorRow("Error over noise", "×", errors.map((e) => e === null ? null : e / floor), overNoise, false),
+      ]
       : []),
     errorRow("Fitted values", "", all.map(countOf), String, false),
     ...(weight ? [weight] : []),

@@ -2,14 +2,14 @@
 // Nothing is missing: what that rests on, what was chosen without proof, what this file never tested.
 import { h, icon } from "../../../dom.js";
 import { goTo, units } from "../../../state.js";
-import { withUnit } from "../../../format.js";
+import { capitalized, scaleOf, withUnit } from "../../../format.js";
 import { answer } from "../answers.js";
 import { useInDesign } from "../exports.js";
 import { exchange } from "../model/steps.js";
 import { fitting } from "../model/history.js";
 import { errorText, titleOf } from "../words.js";
 import { tellings, twinChoice } from "./entry.js";
-import { openSteps } from "./state.js";
+import { openSteps, wideNoise } from "./state.js";
 
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
 
@@ -55,13 +55,14 @@ function covered({ envelope }) {
   );
   const texts = known.map(([key, name]) => {
     const range = envelope[key], q = quantities[/** @type {keyof typeof quantities} */ (key)];
-    return `${name} ${withUnit(range.least, q, system)} to ${withUnit(range.most, q, system)}`;
+    const unit = scaleOf(q, system).unit, least = withUnit(range.least, q, system);
+    return `${name} ${least.replace(new RegExp(`\u00a0${unit}$`), "")} to ${withUnit(range.most, q, system)}`;
   });
   return h(
     "section",
     { class: "list-part", "aria-label": "Measured range" },
     h("h3", null, "It holds where it was measured"),
-    h("p", { class: "why" }, `${texts.join(", ")}.`),
+    h("p", { class: "why" }, `${capitalized(texts.join(", "))}.`),
     untested.length
       ? h("p", { class: "why" }, `Never varied in this file: ${untested.map(([, name]) => name).join(", ")}.`)
       : null,
@@ -76,7 +77,7 @@ function covered({ envelope }) {
 
 /** @param {Diagnosis} result */
 export function adequate(result) {
-  const a = answer.value;
+  const a = answer.value, wide = wideNoise.value;
   const asText = (/** @type {number | null | undefined} */ si) =>
     errorText(si, result.unit, result.predicted, units.value);
   return [
@@ -91,7 +92,15 @@ export function adequate(result) {
         h(
           "p",
           null,
-          `${asText(a?.rmse)} is the noise of the data, held-out ${asText(result.baseline.holdout_rmse)}. `,
+          wide
+            ? `${asText(a?.rmse)} is of the size of the noise: ${
+              asText(wide.low)
+            } between neighbouring readings, ${asText(wide.high)} in all. Held-out ${
+              asText(result.baseline.holdout_rmse)
+            }. `
+            : `${asText(a?.rmse)} is the noise of the data, held-out ${
+              asText(result.baseline.holdout_rmse)
+            }. `,
           "No effect left lowers it by more than chance.",
         ),
       ),

@@ -9,7 +9,7 @@ import { fitting } from "../model/history.js";
 import { errorText, rangeText } from "../words.js";
 import { adequate, openChoices } from "./adequate.js";
 import { contextBlock, contextLine } from "./context.js";
-import { entryRow, skeletonRow, soFarRow } from "./entry.js";
+import { entryRow, refitRow, skeletonRow, soFarRow } from "./entry.js";
 import { addAll, entries, refits, soFar } from "./plan.js";
 import { hasSketches } from "./sketch.js";
 import { insideOf } from "./selection.js";
@@ -143,10 +143,8 @@ function body() {
         h("p", { class: "unseen", id: "verdict-status" }, result.verdict.title),
         question(),
         hasSketches.value ? key() : null,
+        refits.value ? refitRow(refits.value, result.baseline.rmse, noise()) : null,
         h("ol", { class: "plain found-missing" }, ...rows()),
-        refits.value && !entries.value.length
-          ? quiet("The values of the model fit better after a refit.")
-          : null,
         allRow(),
         result.verdict.status === "unknown_effect" ? quiet(`${result.verdict.sentence}`) : null,
         openChoices(),
@@ -174,7 +172,9 @@ const aside = () => {
   const result = diagnosis.value;
   const { waiting } = progress.value;
   if (state.value === "running" && waiting) return waitingWords(waiting);
-  if (state.value === "running") return `${triedText()} · order may still change`;
+  if (state.value === "running") {
+    return [triedText(), "the order may still change"].filter(Boolean).join(" · ");
+  }
   if (state.value === "context") return "entries first";
   if (state.value === "verdict" && result) {
     const n = entries.value.length;

@@ -7,7 +7,7 @@ import { answer, chosen, compare, diagnosis, editCompare, stale } from "../answe
 import { withStep } from "../document.js";
 import { effectsNow, fittedStep, here, stamped, whileFitting } from "../model/history.js";
 import { decided } from "../request.js";
-import { errorText, measuredText } from "../words.js";
+import { errorText, measuredText, statedText } from "../words.js";
 
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
 /** @typedef {Diagnosis["context"][number]} Entry */
@@ -41,11 +41,24 @@ export const asked = ({ context }) => context.filter((entry) => entry.asked);
 const valueOf = (entry) =>
   typeof entry.value === "number" ? asText(entry.value, entry.unit) : entry.value ?? "";
 
-/** What is said wrong, in few words: "the rest length". @param {Entry} entry */
-export const subject = (entry) => entry.hypothesis.replaceAll("_", " ");
+/** Whether an entry is a way of reading a column, and not a value. @param {Entry} entry */
+const isReading = (entry) => typeof entry.value === "string" && entry.stated === null;
 
-/** What the button of an entry says: the same in the strip and in the list. @param {Entry} entry */
-export const useLabel = (entry) => `Use ${valueOf(entry)}`;
+/** What is said wrong, in few words: "rest length", "unit of the force". @param {Entry} entry */
+export function subject(entry) {
+  if (!isReading(entry)) return entry.hypothesis.replaceAll("_", " ");
+  const words = String(entry.value), column = readable(entry.field);
+  if (/^(absolute|gauge)$/.test(words)) return "reference of the pressure";
+  return `${/^(not )?in /.test(words) ? "unit" : "sign"} of the ${column}`;
+}
+
+/** What the button of an entry says, the same in the strip and in the list: "Use 300 mm", "Read force in lbf".
+ * @param {Entry} entry */
+export function useLabel(entry) {
+  if (!isReading(entry)) return `Use ${valueOf(entry)}`;
+  const [words] = String(entry.value).split(/:| and not /), column = readable(entry.field);
+  return `Read ${column} ${/^(absolute|gauge)$/.test(words) ? `as ${words}` : words}`;
+}
 
 /** The decisions about the present files with one more. @param {"use" | "keep"} kind @param {string} hypothesis */
 function withDecision(kind, hypothesis) {
@@ -71,7 +84,7 @@ function changeOf(entry) {
 export const use = (entry) =>
   whileFitting(async () => {
     const change = changeOf(entry), history = stamped();
-    const label = capitalized(`${subject(entry)} ${valueOf(entry)}`);
+    const label = isReading(entry) ? useLabel(entry) : capitalized(`${subject(entry)} ${valueOf(entry)}`);
     const values = change.muscle?.values ?? compare.peek().muscle.values;
     const context = {
       files: change.files ?? compare.peek().files,
@@ -93,6 +106,7 @@ const inUnits = (si, result) => errorText(si, result.unit, result.predicted, uni
 function proof(entry, result) {
   const end = result.path.at(-1)?.rmse ?? null;
   const stated = entry.stated === null ? "As stated" : `With ${asText(entry.stated, entry.unit)}`;
+  const other = isReading(entry) ? String(entry.value).replace(/^/, "Read ") : `With ${valueOf(entry)}`;
   const estimate = typeof entry.value === "number" && entry.stderr !== null
     ? ` The data say ${measuredText(entry.value, entry.stderr, scaleOfUnit(entry.unit))}.`
     : "";
@@ -101,7 +115,7 @@ function proof(entry, result) {
     { class: "proof" },
     `${stated} the best set of effects stops at `,
     h("b", null, inUnits(end, result)),
-    `. With ${valueOf(entry)} it reaches `,
+    `. ${other} it reaches `,
     h("b", null, inUnits(entry.rmse_after, result)),
     `.${estimate}`,
   );
@@ -153,9 +167,9 @@ export function contextBlock(result) {
     h(
       "p",
       { class: "muted" },
-      `Effects are ranked once this is settled. Ranked now, ${
+      `Effects are ranked once this is settled. Ranked now, wrong ones could take the blame for ${
         inUnits((answer.value?.rmse ?? 0) - first.rmse_after, result)
-      } could be blamed on the wrong one.`,
+      }.`,
     ),
   );
 }
@@ -166,7 +180,9 @@ export function contextLine() {
   const kept = result?.context.filter((entry) => entry.kept) ?? [];
   const told = result?.assumptions ?? answer.value?.assumptions ?? [];
   const assumed = told.length ? told : Object.entries(answer.value?.experiment ?? {})
-    .flatMap(([field, one]) => one.origin === "assumed" ? [`${readable(field)} ${one.value}`] : []);
+    .flatMap(([field, one]) =>
+      one.origin === "assumed" ? [`${readable(field)} ${statedText(one, units.value)}`] : []
+    );
   return h(
     "p",
     { class: "context-line", title: assumed.join("\n") },

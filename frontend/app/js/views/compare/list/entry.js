@@ -6,10 +6,10 @@ import { effectsById } from "../../../store.js";
 import { brief, capitalized, number, readable } from "../../../format.js";
 import { aboutButton } from "../../../muscle/effects.js";
 import { answer, preview, stale } from "../answers.js";
-import { fitting } from "../model/history.js";
+import { fitting, refit } from "../model/history.js";
 import { errorText, titleOf } from "../words.js";
 import { equationBox } from "./equation.js";
-import { add, addCandidate, choose, modelOf } from "./plan.js";
+import { add, addCandidate, choose, modelOf, refits } from "./plan.js";
 import { insideOf } from "./selection.js";
 import { drawSketch, hasSketches, sketches } from "./sketch.js";
 import { valueList } from "./values.js";
@@ -30,6 +30,9 @@ const signedText = (si) => `${si < 0 ? "−" : "+"}${asText(Math.abs(si))}`;
 /** "31.8 → 15.0 N" @param {number} from @param {number} to */
 export const fallText = (from, to) => `${asText(from, false)} → ${asText(to)}`;
 
+/** What is to be done where the values of the model do not fit best. */
+export const REFIT = "Refit the values of the model";
+
 const CORRECTION =
   "Not called missing: a slightly inexact form of the effects above would explain as much. " +
   "The model keeps it because it predicts left-out groups better with it.";
@@ -38,17 +41,54 @@ const CORRECTION =
 export const likelyText = (probability) =>
   `${probability >= 0.995 ? "> 99" : Math.max(1, Math.round(100 * probability))} % likely`;
 
-/** @param {Telling} t */
-export function tellingText(t) {
-  const told = t.declared ? `${capitalized(t.declared).replace(/\.$/, "")}.` : "";
-  if (t.separation !== null && t.separation >= 1) {
-    return `${told} Best simulated test: ${t.protocol}, difference ${brief(t.separation)}\u00a0σ.`.trim();
-  }
-  return told || "No simulated force test tells them apart.";
+/** A text of the catalogue as a sentence. @param {string} text */
+const sentence = (text) => `${capitalized(text).replace(/\.$/, "")}.`;
+
+const NO_TEST = "No test that this rig can run tells them";
+
+/** A title without what it says in brackets. @param {string} id */
+const plainTitle = (id) => titleOf(id).replace(/ \([^)]*\)$/, "");
+
+/** Whether a test was simulated that separates the two; its minutes are those of that test.
+ * @param {Telling} t */
+const isDecided = (t) => (t.separation ?? 0) >= 1;
+
+/** "Would tell (10 min): " of a pair; with more than two effects in the group, which pair is meant.
+ * @param {Telling} t @param {boolean} several */
+function tellingLead(t, several) {
+  const time = isDecided(t) && t.minutes !== null
+    ? ` (${number(t.minutes, t.minutes < 3 ? 1 : 0)}\u00a0min)`
+    : "";
+  return `${several ? t.pair.map(plainTitle).join(" or ") : "Would tell"}${time}: `;
 }
 
-/** What would tell the effects of a group apart. @param {Telling[]} tells */
-export const tellings = (tells) =>
+/** @param {Telling} t */
+export function tellingText(t) {
+  const declared = t.declared ? sentence(t.declared) : "";
+  return isDecided(t)
+    ? `${declared} Best simulated test: ${t.protocol}, difference ${brief(t.separation ?? 0)}\u00a0σ.`.trim()
+    : declared || `${NO_TEST} apart.`;
+}
+
+/** What would tell the effects of a group apart; those that nothing does are one line. @param {Telling[]} all */
+export const tellings = (all) => {
+  const tells = all.filter((t) => t.declared || isDecided(t)), never = all.filter((t) => !tells.includes(t));
+  const names = [...new Set(never.map((t) => plainTitle(t.pair[1])))];
+  return [
+    ...testsOf(tells, all.length > 1),
+    never.length
+      ? h(
+        "p",
+        { class: "tell" },
+        icon("flask"),
+        h("span", null, `${NO_TEST} apart: ${[plainTitle(never[0].pair[0]), ...names].join(", ")}.`),
+      )
+      : null,
+  ];
+};
+
+/** @param {Telling[]} tells @param {boolean} several whether the pair must be named */
+const testsOf = (tells, several) =>
   tells.map((t) =>
     h(
       "p",
@@ -57,11 +97,7 @@ export const tellings = (tells) =>
       h(
         "span",
         null,
-        h(
-          "b",
-          null,
-          `Would tell${t.minutes === null ? "" : ` (${number(t.minutes, t.minutes < 3 ? 1 : 0)} min)`}: `,
-        ),
+        h("b", null, tellingLead(t, several)),
         tellingText(t),
       ),
     )
@@ -141,7 +177,7 @@ export function entryRow(entry, index, noise) {
   const inside = insideOf(effect);
   return h(
     "li",
-    { class: `missing${index ? "" : " first"}`, "data-candidate": chosen },
+    { class: `missing${index || refits.value ? "" : " first"}`, "data-candidate": chosen },
     h(
       "div",
       { class: "missing-head" },
@@ -167,20 +203,20 @@ export function entryRow(entry, index, noise) {
       ),
       h("button", {
         type: "button",
-        class: index ? "" : "primary",
+        class: index || refits.value ? "" : "primary",
         "aria-label": `Add ${title}`,
         disabled: () => stale.value || fitting.value,
         onclick: () => add(entry),
         ...glance(() => modelOf(entry), `+ ${title}`),
       }, "Add"),
     ),
-    h("p", { class: "why" }, capitalized(known?.signature?.text ?? entry.candidate?.why ?? "")),
+    h("p", { class: "why" }, sentence(known?.signature?.text ?? entry.candidate?.why ?? "")),
     inside === null ? null : h(
       "p",
       { class: "inside" },
       `Would explain ${signedText(inside.mean)} of the ${signedText(inside.seen)} there.`,
     ),
-    entry.reason ? h("p", { class: "why" }, capitalized(entry.reason)) : null,
+    entry.reason ? h("p", { class: "why" }, sentence(entry.reason)) : null,
     entry.correction ? h("p", { class: "why" }, CORRECTION) : null,
     group.length > 1
       ? h(
@@ -193,6 +229,33 @@ export function entryRow(entry, index, noise) {
     details(entry),
   );
 }
+
+/** The model's own values fit better after a refit: the first thing to do where it is so.
+ * @param {import("../types.js").PathStep} step @param {number} from @param {number | null} noise */
+export const refitRow = (step, from, noise) =>
+  h(
+    "div",
+    { class: "missing first refit" },
+    h("div", { class: "missing-head" }, h("h3", null, REFIT)),
+    h(
+      "div",
+      { class: "missing-row plain" },
+      h(
+        "div",
+        { class: "missing-numbers" },
+        h("b", null, fallText(from, step.rmse)),
+        track(from, step.rmse, noise),
+        h("small", null, `held-out ${asText(step.holdout_rmse)}`),
+      ),
+      h("button", {
+        type: "button",
+        class: "primary",
+        disabled: () => stale.value || fitting.value,
+        onclick: refit,
+      }, "Refit"),
+    ),
+    h("p", { class: "why" }, "No new effect: the values that are in the model come closer to the data."),
+  );
 
 /** The best so far, while the others are tried. @param {Candidate} c */
 export const soFarRow = (c) =>

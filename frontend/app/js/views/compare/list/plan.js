@@ -3,11 +3,12 @@
 import { computed, signal } from "../../../reactive.js";
 import { ahead, candidates, compare, diagnosis, stage } from "../answers.js";
 import { fitOf } from "../document.js";
-import { fittedStep, geometryOf, go, takeFitted, whileFitting } from "../model/history.js";
+import { effectsNow, fittedStep, geometryOf, go, takeFitted, whileFitting } from "../model/history.js";
 import { exchanged } from "../model/steps.js";
 import { titleOf } from "../words.js";
 
 /** @typedef {import("../../../types.js").Step} Step */
+/** @typedef {import("../../../types.js").Effects} Effects */
 /** @typedef {import("../../../types.js").Telling} Telling */
 /** @typedef {import("../types.js").Candidate} Candidate */
 /** @typedef {import("../types.js").PathStep} PathStep */
@@ -111,13 +112,49 @@ const stepOfCandidate = (c) => ({
 /** Adds an effect that was tried. @param {Candidate} c */
 export const addCandidate = (c) => go([stepOfCandidate(c)], `add ${titleOf(c.effect)}`);
 
-/** Adds an entry, alone; a chosen twin that was not tried by itself is fitted. @param {Entry} entry */
+/** Whether a model is the one of now with one more effect. @param {Effects} effects @param {string} added */
+const addsOnly = (effects, added) => {
+  const now = effectsNow();
+  return Object.keys(effects).every((id) => id === added || id in now);
+};
+
+/** The model of now with an entry's effect, as it was found in the model of its step.
+ * @param {Entry} entry @returns {Effects} */
+const withOnly = ({ chosen, effect, step }) => ({
+  ...effectsNow(),
+  [chosen]: exchanged(step.model.effects, effect, chosen)[chosen],
+});
+
+/** An entry's effect is tried alone, and in the proposal beside those above it. Where that fit is better, alone
+ * ended in a worse minimum. */
+const BETTER = 0.999;
+
+/** Whether the model of an entry's step is the one of now with its effect, and fitted better than the candidate.
+ * @param {Entry} entry */
+const isStepBetter = ({ chosen, effect, candidate, step }) =>
+  chosen === effect && addsOnly(step.model.effects, chosen) &&
+  !(candidate && addsOnly(candidate.model.effects, chosen) && candidate.rmse * BETTER <= step.rmse);
+
+/** Adds an entry, alone: as it was tried or, where it was not tried alone, fitted. @param {Entry} entry */
 export function add(entry) {
   const { chosen, candidate, step } = entry, title = titleOf(chosen);
-  if (candidate) return go([{ ...stepOfCandidate(candidate), ...open(entry) }], `add ${title}`);
-  return whileFitting(() =>
-    takeFitted(exchanged(step.model.effects, entry.effect, chosen), `add ${title}`, `+ ${title}`, open(entry))
-  );
+  if (isStepBetter(entry)) {
+    const result = diagnosis.peek(), isLast = step === ahead.peek().at(-1);
+    return go([{
+      label: `+ ${title}`,
+      effects: step.model.effects,
+      freed: step.freed,
+      values: geometryOf(step.model),
+      fit: isLast && result ? fitOf(result.parameters) : fittedAgain(compare.peek().fit),
+      rmse: step.rmse,
+      holdout: step.holdout_rmse,
+      ...open(entry),
+    }], `add ${title}`);
+  }
+  if (candidate && addsOnly(candidate.model.effects, chosen)) {
+    return go([{ ...stepOfCandidate(candidate), ...open(entry) }], `add ${title}`);
+  }
+  return whileFitting(() => takeFitted(withOnly(entry), `add ${title}`, `+ ${title}`, open(entry)));
 }
 
 /** Adds every effect the diagnosis found missing, in one undo step. */
@@ -154,8 +191,13 @@ export function addAll() {
 }
 
 /** The model of an entry added alone, for a look at it. @param {Entry} entry */
-export const modelOf = ({ candidate, step, effect, chosen }) => ({
-  effects: candidate?.model.effects ?? exchanged(step.model.effects, effect, chosen),
-  freed: candidate?.freed ?? step.freed,
-  values: candidate ? geometryOf(candidate.model) : compare.peek().muscle.values,
-});
+export const modelOf = (entry) => {
+  const { candidate, chosen, step } = entry, better = isStepBetter(entry);
+  const tried = !better && candidate && addsOnly(candidate.model.effects, chosen) ? candidate : null;
+  const model = tried?.model ?? (better ? step.model : null);
+  return {
+    effects: model?.effects ?? withOnly(entry),
+    freed: tried?.freed ?? step.freed,
+    values: model ? geometryOf(model) : compare.peek().muscle.values,
+  };
+};

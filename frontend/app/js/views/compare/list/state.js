@@ -26,6 +26,17 @@ export const state = computed(() => {
   return status === "adequate" ? "adequate" : "unknown";
 });
 
+const WIDE = 1.15;
+
+/** The noise of an adequate model from the scatter of neighbouring readings to all that no variable explains, SI, where
+ * the two differ; else null. */
+export const wideNoise = computed(() => {
+  const interval = diagnosis.value?.noise_floor.interval;
+  if (state.value !== "adequate" || !interval) return null;
+  const [low, high] = interval;
+  return high > WIDE * low ? { low, high } : null;
+});
+
 /** Whether an open choice among effects was made in a step so far. */
 export const openSteps = computed(() => {
   const { history, twins, tells, label, effects } = compare.value;

@@ -5,7 +5,7 @@ import { units } from "../../../state.js";
 import { brief, capitalized } from "../../../format.js";
 import { answer, lookCompare } from "../answers.js";
 import { proposedTerm } from "../model/own-term.js";
-import { errorText, titleOf, VARIABLES, whatIsLeft } from "../words.js";
+import { errorText, overNoise, titleOf, VARIABLES, whatIsLeft } from "../words.js";
 import { tellingText } from "./entry.js";
 import { refits } from "./plan.js";
 import { openChoices } from "./adequate.js";
@@ -33,13 +33,16 @@ export function plan({ verdict }) {
 }
 
 /** The place alone, of "look where it is largest: …". @param {string} text */
-const where = (text) => text.replace(/^[^:]*: */, "").replace(/ \([^)]*\)/g, "").replace(/\.$/, "");
+const where = (text) =>
+  text.replace(/^[^:]*: */, "").replace(/ \([^)]*\)/g, "").replace(/\.$/, "").replace(/(^| )-(?=\d)/g, "$1−");
 
 /** In few words, for the strip. @param {Diagnosis} result */
 export const nextMeasurement = (result) => {
   const look = result.verdict.where_to_look;
   return look
-    ? `Measure ${where(look).replace(/^contraction /, "ε ")} again`
+    ? `Measure ${
+      where(look).split(" and ")[0].replace(/^contraction /, "ε ").replace(/ (?=\S+$)/, "\u00a0")
+    } again`
     : capitalized(plan(result)[0].what);
 };
 
@@ -52,10 +55,11 @@ function nearest(result) {
   const best = [...result.candidates].sort((a, b) => a.rmse - b.rmse)[0];
   if (!best) return "";
   const asText = (/** @type {number} */ si) => errorText(si, result.unit, result.predicted, units.value);
-  const worse = best.holdout_rmse >= result.baseline.holdout_rmse;
+  const worse = best.holdout_rmse >= result.baseline.holdout_rmse, floor = result.noise_floor.rmse;
+  const remains = floor && !worse ? `, ${overNoise(best.rmse / floor)} × the noise remains` : "";
   return `${best.title}: ${asText(result.baseline.rmse)} → ${asText(best.rmse)}, held-out ${
     asText(best.holdout_rmse)
-  }${worse ? ", which is no better" : ""}: not added`;
+  }${worse ? ", which is no better" : ""}: not added${remains}`;
 }
 
 const FEWEST_ROWS = 3;
@@ -81,7 +85,9 @@ function showWorst(name) {
 /** @param {Diagnosis} result */
 export function unknown(result) {
   const { verdict, noise_floor: floor } = result, a = answer.value;
-  const over = floor.rmse && a?.rmse ? `, ${brief(a.rmse / floor.rmse)} × the noise` : "";
+  const over = result.unit !== "1" && floor.rmse && a?.rmse
+    ? `, ${brief(a.rmse / floor.rmse)} × the noise`
+    : "";
   const term = verdict.proposed_term, variable = verdict.unexplained_in.find((name) => name in VARIABLES);
   return [
     h(
@@ -105,7 +111,7 @@ export function unknown(result) {
         ? h(
           "p",
           { class: "why" },
-          `The values of the model fitted again alone leave ${
+          `Fitting the values of the model again leaves ${
             errorText(refits.value.rmse, result.unit, result.predicted, units.value)
           }.`,
         )

@@ -110,6 +110,12 @@ export function mysteryCard() {
   );
 }
 
+const MOST_LETTERS = 120;
+
+/** The first words of a story. @param {string} story */
+const beginning = (story) =>
+  story.length <= MOST_LETTERS ? story : `${story.slice(0, MOST_LETTERS).replace(/[\s,;.:]*\s\S*$/, "")}…`;
+
 /** Buttons that open a mystery. */
 export function mysteryList() {
   if (!mysteries.value.length) return null;
@@ -125,7 +131,7 @@ export function mysteryList() {
           "button",
           { type: "button", class: "tile", onclick: () => openMystery(m) },
           h("b", null, m.title),
-          h("small", null, m.story.length > 120 ? `${m.story.slice(0, 118)}…` : m.story),
+          h("small", null, beginning(m.story)),
         )
       ),
     ),

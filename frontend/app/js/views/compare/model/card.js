@@ -41,9 +41,21 @@ const lastFit = computed(() =>
   diagnosis.value?.verdict.effects.length === 0 ? fitOf(diagnosis.value.parameters) : {}
 );
 
+const MOST_DIGITS = 5;
+
+/** @param {string} id @param {Field} p */
+const fitOfField = (id, p) => surer(compare.value.fit[id]?.[p.name], lastFit.value[id]?.[p.name]);
+
+/** The scale of a value, with the digits that its standard error allows. @param {string} id @param {Field} p */
+function fittedScale(id, p) {
+  const s = scale(p), sigma = (fitOfField(id, p)?.stderr ?? 0) / s.factor;
+  const places = sigma > 0 ? 1 - Math.floor(Math.log10(sigma)) : 0;
+  return places > s.digits ? { ...s, digits: Math.min(places, MOST_DIGITS) } : s;
+}
+
 /** @param {string} id @param {Field} p */
 function range(id, p) {
-  const s = scale(p), fit = surer(compare.value.fit[id]?.[p.name], lastFit.value[id]?.[p.name]);
+  const s = scale(p), fit = fitOfField(id, p);
   const asText = (/** @type {number} */ si) => number(toShown(si, s), s.digits);
   const bounds = Number.isFinite(p.lower)
     ? `${asText(p.lower)} … ${asText(p.upper)} ${s.unit}`.trim()
@@ -73,7 +85,7 @@ function parameterField(id, p) {
       quantity: quantityOf(p.unit, p.name),
       slider: false,
       strict: Number.isFinite(p.lower),
-      scale: () => scale(p),
+      scale: () => fittedScale(id, p),
       bounds: Number.isFinite(p.lower) ? () => [p.lower, p.upper] : undefined,
       get: value,
       put: (si, done) => {

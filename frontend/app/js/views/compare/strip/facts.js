@@ -2,14 +2,15 @@
 // What the experiment was made with, each value with who says it; a click changes it in place.
 import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
-import { muscles, presets } from "../../../store.js";
-import { capitalized, number, quantityOf, readable, scaleOf, toShown } from "../../../format.js";
+import { muscles } from "../../../store.js";
+import { capitalized, readable } from "../../../format.js";
 import { answer, chosen, compare } from "../answers.js";
 import { infos } from "../measurement/files.js";
 import { presetNamed } from "../muscle-values.js";
 import { openSetup } from "../setup-panel.js";
+import { statedText } from "../words.js";
 
-/** @typedef {{value: number | string, unit: string, origin: string, where: string}} Stated */
+/** @typedef {import("../words.js").Stated & {origin: string, where: string}} Stated */
 
 /** Field -> title; shown in this order. */
 const FIELDS = { muscle: "Muscle", rest_length: "Rest length", load: "Load", supply: "Supply" };
@@ -24,18 +25,6 @@ const ORIGINS = {
 
 /** @type {[Parameters<typeof icon>[0], string]} */
 const NOBODY = ["file", ""];
-
-/** @param {Stated} stated */
-function valueText({ value, unit }) {
-  if (typeof value === "string") {
-    const known = [...presets.value.muscles ?? [], ...presets.value.valves ?? []].find((p) => p.id === value);
-    return known?.id ?? value;
-  }
-  const quantity = unit && unit !== "1" ? quantityOf(unit) : unit === "1" ? "ratio" : null;
-  if (!quantity) return `${number(value, 3)} ${unit}`.trim();
-  const s = scaleOf(quantity, units.value);
-  return `${number(toShown(value, s), 1)} ${s.unit}`.trim();
-}
 
 /** What the answer says of a field; before it, what the view takes. @param {string} field @returns {Stated | null} */
 function stated(field) {
@@ -66,7 +55,7 @@ const specimenSaysMuscle = () =>
 /** @param {string} field */
 function fact(field) {
   const title = FIELDS[/** @type {keyof typeof FIELDS} */ (field)] ?? capitalized(readable(field));
-  const one = stated(field), value = one ? valueText(one) : "–";
+  const one = stated(field), value = one ? statedText(one, units.value) : "–";
   const [symbol, words] = one ? ORIGINS[one.origin] ?? ORIGINS.you : NOBODY;
   return h(
     "button",

@@ -8,9 +8,9 @@ import { goToField } from "../../../ui/fault.js";
 import { again, answer, cancel, diagnosis, diagnosisError, fault, faultField, stale } from "../answers.js";
 import { openSetup, setupHas } from "../setup-panel.js";
 import { asked, subject, use, useLabel } from "../list/context.js";
-import { fallText, glance } from "../list/entry.js";
+import { fallText, glance, REFIT } from "../list/entry.js";
 import { add, entries, modelOf, refits } from "../list/plan.js";
-import { share, state } from "../list/state.js";
+import { share, state, wideNoise } from "../list/state.js";
 import { triedText } from "../list/tried.js";
 import { copyPlan, nextMeasurement } from "../list/unknown.js";
 import { chooseFiles } from "../measurement/card.js";
@@ -90,10 +90,10 @@ function ofVerdict() {
   if (values) {
     return {
       tone: "",
-      what: "Fit the values of the model again",
+      what: REFIT,
       effect: fallText(now, values.rmse),
       more: change(now, values.rmse),
-      label: "Fit",
+      label: "Refit",
       run: refit,
       bar: values.rmse / (now || 1),
     };
@@ -150,7 +150,7 @@ export const next = computed(() => {
       return {
         tone: "idle",
         what: "Looking for what is missing",
-        effect: triedText() || "All effects are tried",
+        effect: triedText() || "Trying every effect",
         label: "Stop",
         run: cancel,
         primary: false,
@@ -177,7 +177,7 @@ export const next = computed(() => {
     case "verdict":
       return ofVerdict();
     case "adequate": {
-      const floor = result?.noise_floor.rmse ?? null;
+      const floor = result?.noise_floor.rmse ?? null, wide = wideNoise.value;
       const text = (/** @type {number | null | undefined} */ si) =>
         errorText(si, a?.unit ?? "N", a?.predicted ?? "force", units.value);
       return {
@@ -185,6 +185,8 @@ export const next = computed(() => {
         what: "Nothing is missing",
         effect: floor === null || a?.unit === "1"
           ? "The error is the noise"
+          : wide
+          ? `${text(a?.rmse)}, noise ${text(wide.low)} to ${text(wide.high)}`
           : `${text(a?.rmse)}, noise ${text(floor)}`,
         label: "Take it along",
         run: showTake,

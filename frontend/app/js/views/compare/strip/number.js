@@ -6,8 +6,8 @@ import { brief } from "../../../format.js";
 import { units } from "../../../state.js";
 import { caseId } from "../cases.js";
 import { ahead, answer, compare, diagnosis, stale, steps } from "../answers.js";
-import { state } from "../list/state.js";
-import { errorText, errorUnit } from "../words.js";
+import { state, wideNoise } from "../list/state.js";
+import { errorText, errorUnit, overNoise } from "../words.js";
 
 const COUNT_MS = 450;
 const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -51,12 +51,11 @@ function follow() {
   });
 }
 
-/** The error over the noise: "1.03", "6.7", "124". */
+/** The error over the noise in words. */
 const ratio = () => {
   const error = answer.value?.rmse, floor = noise.value;
   if (error == null || !floor) return null;
-  const x = error / floor;
-  return x < 1.15 ? x.toFixed(2) : x < 10 ? x.toFixed(1) : String(Math.round(x));
+  return overNoise(error / floor);
 };
 
 const WIDTH = 196, HEIGHT = 62;
@@ -107,7 +106,7 @@ export function course() {
 const spoken = computed(() => {
   const a = answer.value;
   if (!a || stale.value) return "";
-  const times = ratio();
+  const times = wideNoise.value ? null : ratio();
   return `Error ${asText(a.rmse)}${times ? `, ${times} times the noise` : ""}`;
 });
 
@@ -123,6 +122,16 @@ const ofStroke = computed(() => {
 /** The held-out error of the model. */
 export const heldOut = () =>
   compare.value.holdout ?? diagnosis.value?.baseline.holdout_rmse ?? answer.value?.holdout_rmse ?? null;
+
+const NOTABLE = 1.01;
+
+/** What the error leaves out, where the accuracy of the readings explains a part. */
+const beyond = () => {
+  const a = answer.value, all = a?.rmse_of_all ?? 0;
+  return a?.rmse && all > NOTABLE * a.rmse
+    ? `. RMS of all deviations: ${asText(all)}; the accuracy of the readings explains the rest`
+    : "";
+};
 
 export function errorNumber() {
   follow();
@@ -147,16 +156,19 @@ export function errorNumber() {
       {
         class: "sub",
         id: "error-facts",
-        title: "Held-out: whole groups of readings are predicted by a model fitted to the others",
+        title: () =>
+          `Held-out: whole groups of readings are predicted by a model fitted to the others${beyond()}`,
       },
       () => {
         const times = ratio(), held = heldOut(), check = answer.value?.validation?.rmse ?? null;
-        const isScaled = answer.value?.unit === "1";
+        const isScaled = answer.value?.unit === "1", wide = isScaled ? null : wideNoise.value;
         return [
-          times && !isScaled
+          wide
+            ? `noise ${asText(wide.low)} to ${asText(wide.high)}`
+            : times && !isScaled
             ? `${times} × noise`
             : isScaled
-            ? "of all channels"
+            ? "all channels"
             : answer.value
             ? "noise not known"
             : "",
@@ -164,7 +176,7 @@ export function errorNumber() {
           h(
             "span",
             { class: "more" },
-            held === null || check !== null || ofStroke.value ? "" : ` · held-out ${asText(held)}`,
+            held === null || check !== null || ofStroke.value ? "" : ` · held-out ${asText(held, !isScaled)}`,
           ),
           check === null ? null : h("span", { id: "validation-error" }, ` · check ${asText(check)}`),
         ];

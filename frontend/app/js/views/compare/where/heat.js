@@ -17,7 +17,7 @@ import { isQuiet, mapScale, marksOf, placeOf } from "./scale.js";
 /** @typedef {[number, number]} Range */
 
 /** Height of all rows together, and of a row at least and at most. */
-const ROWS_PX = 272, LEAST_PX = 24, MOST_PX = 90;
+const ROWS_PX = 272, LEAST_PX = 24, MOST_PX = 128;
 
 const grid = computed(() => shown.value ? mapOf(shown.value) : null);
 
@@ -243,7 +243,7 @@ const aside = () => {
       ys ? scaleOf(ys.quantity, units.value).unit : ""
     }`;
   }
-  return `mean residual, ${unit}${map.split ? " · ● lengthening, □ shortening" : ""}`;
+  return map.split ? `mean, ${unit} · ● lengthening, □ shortening` : `mean residual, ${unit}`;
 };
 
 export function whereCard() {

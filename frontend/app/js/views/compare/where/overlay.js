@@ -46,7 +46,7 @@ const overChoice = () =>
       h(
         "option",
         { value: name, selected: name === over.value },
-        `over ${VARIABLES[name].title.toLowerCase()}`,
+        `over ${name === "contraction" ? "ε" : VARIABLES[name].title.toLowerCase()}`,
       )
     ));
 

@@ -60,6 +60,9 @@ export const isQuiet = (mean, { sigma }) => sigma !== null && Math.abs(mean) < N
 export const placeOf = (r, { most, sigma }) =>
   sigma ? Math.asinh(r / (LINEAR * sigma)) / Math.asinh(most / (LINEAR * sigma)) : r / most;
 
+/** Marks beyond this place would run into those of the ends. */
+const ENDS_FREE = 0.66;
+
 /** Marks of a scale in shown units, with their places: zero, some round values, both ends.
  * @param {Scale} s @param {number} factor SI per shown unit @returns {{at: number, text: string}[]} */
 export function marksOf(s, factor) {
@@ -70,7 +73,7 @@ export function marksOf(s, factor) {
     for (const step of [5, 1]) {
       const value = (step * power) / 10;
       const place = placeOf(value * factor, s), last = round.at(-1);
-      if (value < 0.7 * end && place > 0.16 && (!last || last.place - place > 0.24) && place < 0.74) {
+      if (value < 0.7 * end && place > 0.16 && (!last || last.place - place > 0.24) && place < ENDS_FREE) {
         round.push({ value, place });
       }
     }

@@ -1,7 +1,7 @@
 // @ts-check
 // What the overlay shows: measured points and model lines.
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../../../plots/axes.js";
-import { capitalized, number, scaleOf, toShown } from "../../../format.js";
+import { capitalized, number, readable, scaleOf, toShown } from "../../../format.js";
 import { pressureColour } from "../../../plots/theme.js";
 import { channelScale, column, isInside, VARIABLES } from "../words.js";
 
@@ -129,7 +129,7 @@ export function overlaySpec(v, p) {
   });
   const [xLow, xHigh] = extent(v.series.map((one) => x(column(one, v.over))));
   const [low, high] = extent([...v.series.flatMap((one) => [y(one.measured), y(one.predicted)]), [0]]);
-  const name = capitalized(v.channel);
+  const name = capitalized(readable(v.channel));
   return {
     x: {
       title: axisTitle(title, quantity, system),
@@ -149,6 +149,8 @@ export function overlaySpec(v, p) {
 
 /** Lines whose ends are this share of the axis apart end together. */
 const TOGETHER = 0.2;
+/** Room of a name beside its line, and of each letter of it. */
+const ROOM_PX = 8, LETTER_PX = 8;
 
 /** The pressure of each line: at the right ends where they end together, else where they begin.
  * @param {View} v @param {string[]} tints @param {(values: (number | null)[]) => (number | null)[]} x
@@ -173,7 +175,7 @@ function names(v, tints, x, y) {
   const span = Math.max(...all) - Math.min(...all);
   const together = Math.max(...right) - Math.min(...right) <= TOGETHER * span;
   return {
-    ...(together ? { room: 52 } : {}),
+    ...(together ? { room: ROOM_PX + LETTER_PX * Math.max(...ends.map((e) => e.text.length)) } : {}),
     labels: ends.map(({ start, end, text, color }) => ({ ...(together ? end : start), text, color })),
   };
 }

@@ -83,7 +83,7 @@ export function paperCard() {
       "p",
       { class: "flag note" },
       icon("info"),
-      h("span", null, "The drive was changed since the scenario was loaded."),
+      h("span", null, "The drive has changed since the scenario was loaded."),
     ),
     h(
       "div",

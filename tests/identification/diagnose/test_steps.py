@@ -1,0 +1,55 @@
+"""The path of single steps, where the zero error of the gauge is read and not fitted."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import Any
+
+import pytest
+
+from mckibben.identification.diagnose.steps import path_to
+
+#: Error of the model with these effects; "zero" is the zero error of the gauge.
+ERRORS = {
+    "": 65.6, "wall": 4.9, "friction": 64.0, "wall friction": 3.1,
+    "zero": 68.0, "wall zero": 2.3, "friction zero": 67.0, "wall friction zero": 1.06,
+}  # fmt: skip
+
+
+def model(names: str, errors: dict[str, float]) -> Any:
+    """A fitted model of these effects."""
+    ids = tuple(sorted(names.split(), key=["wall", "friction", "zero"].index))
+    effects = [SimpleNamespace(id=name) for name in ids]
+    return SimpleNamespace(
+        rmse=errors[" ".join(ids)], free=(1,), fit_model=SimpleNamespace(ids=ids, effects=effects)
+    )
+
+
+def fitter(errors: dict[str, float]) -> Any:
+    """One that looks errors up."""
+
+    def adding(one: Any, effect: Any) -> Any:
+        return model(" ".join((*one.fit_model.ids, effect.id)), errors)
+
+    def dropping(one: Any, name: str) -> Any:
+        return model(" ".join(each for each in one.fit_model.ids if each != name), errors)
+
+    return SimpleNamespace(adding=adding, dropping=dropping)
+
+
+@pytest.mark.parametrize(
+    ("changed", "steps"),
+    [
+        ({}, [(None, 65.6), ("wall", 4.9), ("zero", 2.3), ("friction", 1.06)]),
+        ({"zero": 60.0}, [(None, 65.6), ("zero", 60.0), ("wall", 2.3), ("friction", 1.06)]),
+        ({"wall zero": 5.0}, [(None, 65.6), ("wall", 4.9), ("friction", 3.1), ("zero", 1.06)]),
+    ],
+)
+def test_no_step_raises_the_error_for_the_zero_error_of_the_gauge(
+    changed: dict[str, float], steps: list[tuple[str | None, float]]
+) -> None:
+    errors = {**ERRORS, **changed}
+    zero: Any = SimpleNamespace(effect=SimpleNamespace(id="zero"))
+    whole = model("wall friction zero", errors)
+    path = path_to(fitter(errors), model("", errors), model("zero", errors), whole, zero)
+    assert [(step.added, step.fitted_model.rmse) for step in path] == steps
