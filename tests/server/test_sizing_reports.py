@@ -283,7 +283,7 @@ NONE = {"specimens": 0}
         ({"load": {"mass": "5 kg"}, "stroke": "20 mm"}, ["Lift 5 kg by 20 mm, with 6 bar", "Lift 5 kg"]),
         (
             {"load": {"spring": "500 N/m", "force": "5 N", "inclination": 0}, "stroke": "40 mm"},
-            ["No mass is moved", "a spring of 500 N/m and 5 N"],
+            ["No mass is moved", "a spring of 0.5 N/mm and 5 N"],
         ),
         (
             {"load": {"mass": "9 kg", "counterweight": "4 kg", "lever_ratio": 0.5}, "stroke": "40 mm"},
