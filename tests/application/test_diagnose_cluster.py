@@ -23,7 +23,7 @@ from tests.application.local_cluster import LocalCluster
 from tests.cli.conftest import write
 from tests.cli.test_diagnose import BRAID, rubbing
 
-FILES = 4
+FILES = 3
 
 
 @pytest.fixture(scope="module")

@@ -20,7 +20,7 @@ _MOVED = 1e-3  # relative change of a parameter below which the fit has not left
 _USUAL = 0.01  # share of the range: size of a parameter that is off by default
 _STUCK = 0.999  # error over the error before, above which a fit is repeated from another start
 _LEAST_PROMISE = 0.02  # least first-order gain near the noise, share of the mean square
-_ELSEWHERE = (0.05, 0.2, 0.5)  # shares of the way to the farther bound at which a hidden constant is tried
+_ELSEWHERE = (0.1, 0.4)  # shares of the way to the farther bound at which a hidden constant is tried
 _PLACES = 12  # places tried of an effect that acts beyond some state only
 _NEAR_FLOOR = 1.2  # error over noise below which only effects with a clear gain of their own are tried
 
