@@ -66,8 +66,11 @@ def score(fitted_model: FittedModel, *, rows: float, noise: float | None) -> flo
 
 
 def score_within(fitted_model: FittedModel, *, rows: float, noise: float | None) -> float:
-    """The score S with the mean square of all rows in place of those left out: Schwarz's criterion."""
-    floor = (_BELOW_FLOOR * (noise or 0.0)) ** 2 + 1e-300
+    """The score S with the mean square of all rows in place of those left out: Schwarz's criterion.
+
+    An error below the noise counts as the noise: further constants can follow it, and say nothing by that.
+    """
+    floor = (noise or 0.0) ** 2 + 1e-300
     return rows * float(np.log(max(fitted_model.mean_square, floor))) + _penalty(fitted_model, rows)
 
 

@@ -87,7 +87,7 @@ EFFECT = Effect(
             "1",
             default=0.02,
             lower=1.0e-3,
-            upper=0.25,
+            upper=0.1,
             source=Source(
                 "break-away at 0.1-3 % of the nominal length; the last cells of a wide spread, later", "E"
             ),
