@@ -170,3 +170,33 @@ def test_examples_in_docstrings_hold(module: str) -> None:
     results = doctest.testmod(importlib.import_module(module))
     assert results.attempted > 0
     assert results.failed == 0, "see the captured output"
+
+
+def marked_examinations() -> Iterator[tuple[str, str]]:
+    """Place of each mark ``pytest.mark.examination``, and the short test that it names."""
+    for file in python_files(ROOT / "tests"):
+        if "mark.examination(" not in text_of(file):
+            continue
+        for node in ast.walk(ast.parse(text_of(file))):
+            if isinstance(node, ast.Call) and ast.unparse(node.func) == "pytest.mark.examination":
+                beside = ast.literal_eval(node.args[0])
+                yield f"{name(file)}:{node.lineno}", beside if "::" in beside else f"{name(file)}::{beside}"
+
+
+def in_the_suite(test: str) -> bool:
+    """Whether ``tests/file.py::test_name`` exists and runs every time, some of its parameters at least."""
+    path, _, function = test.partition("::")
+    if not (ROOT / path).is_file():
+        return False
+    found = [node for node in ast.parse(text_of(ROOT / path)).body if isinstance(node, ast.FunctionDef)]
+    marks = {node.name: [ast.unparse(mark) for mark in node.decorator_list] for node in found}
+    return function in marks and not any(
+        mark.startswith("pytest.mark.examination") for mark in marks[function]
+    )
+
+
+def test_every_examination_has_a_short_test_beside_it() -> None:
+    marks = list(marked_examinations())
+    assert marks
+    missing = [f"{place}: {beside}" for place, beside in marks if not in_the_suite(beside)]
+    assert not missing, "name a test that runs every time and makes the same claim:\n" + "\n".join(missing)

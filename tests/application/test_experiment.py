@@ -201,6 +201,7 @@ def test_a_zero_error_that_all_specimens_share_is_an_effect(studio: Studio) -> N
     assert "Fitted to the other specimens alone" in result.verdict.sentence
 
 
+@pytest.mark.examination("test_specimens_of_several_lengths_are_diagnosed_together")
 def test_each_specimen_has_an_angle_of_its_own_where_fits_may_change_it(studio: Studio) -> None:
     """Braids of two hoses, 0.35 degrees steeper and flatter than stated: a matter of the specimens."""
     own = (0.006, -0.006)

@@ -89,6 +89,7 @@ print(json.dumps([table["largest.force"] for table in tables]))
 """
 
 
+@pytest.mark.examination("test_the_table_is_the_same_to_the_last_digit_whatever_the_chunk")
 def test_threads_that_compile_the_equations_give_the_same_digits(studio):
     """In a new process both threads want the equations at once; a process that has compiled others agrees."""
     study = STUDY | {"method": {"type": "monte_carlo", "runs": 64, "seed": 3}}

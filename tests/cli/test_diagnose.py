@@ -96,6 +96,7 @@ def test_what_cannot_be_told_apart_comes_with_an_experiment(run: Run) -> None:
     assert "muscle removed" in err
 
 
+@pytest.mark.examination("test_a_freed_geometry_and_a_stated_noise")
 def test_the_start_model_is_ideal_named_or_the_presets(run: Run) -> None:
     file, muscle = rubbing(), write("m.json", BRAID)
 
@@ -138,6 +139,9 @@ def test_the_model_goes_back_into_compare(run: Run) -> None:
     assert again["baseline"]["rmse"] == pytest.approx(answer["path"][-1]["rmse"], rel=1e-6)
 
 
+@pytest.mark.examination(
+    "tests/server/test_diagnoses.py::test_an_unknown_effect_brings_a_term_that_can_be_sent_back"
+)
 def test_a_proposed_term_goes_back_into_compare(run: Run) -> None:
     def growing(*, kappa: float, direction: float, **_: float) -> float:
         return 3000.0 * kappa**2 * direction
@@ -214,6 +218,7 @@ def test_beside_a_measured_command_the_drive_needs_none(run: Run, lifted: str) -
         assert "add a command column" in line
 
 
+@pytest.mark.examination("tests/server/test_diagnoses.py::test_a_transient_is_told_channel_by_channel")
 def test_a_trace_is_diagnosed_with_its_drive(run: Run, lifted: str) -> None:
     """Every fifth row with the noise of sensors: the damping is found, or a twin of it is named with it."""
     lines = Path(lifted).read_text("utf-8").splitlines()
@@ -317,6 +322,7 @@ def test_bad_input_is_one_line_that_says_what_would_be_right(run: Run, name: str
         assert word in line
 
 
+@pytest.mark.examination("tests/server/test_diagnoses.py::test_a_wrong_rest_length_is_asked_about_first")
 def test_a_wrong_rest_length_is_asked_about_and_answered(run: Run) -> None:
     file, long = rubbing(), write("long.json", {**BRAID, "nominal_length": "345 mm"})
     code, _, err = run("diagnose", file, "--muscle", long)

@@ -56,12 +56,15 @@ def true_case(name: str) -> tuple[str, str]:
     return write(file, content), write("start.json", start)
 
 
+LONG = pytest.mark.examination("test_the_numbers_of_a_diagnosis_come_back_on_every_way")
+
+
 @pytest.mark.parametrize(
     ("name", "freed"),
     [
         ("contraction-factor-diameter", ["contraction_factor.excess"]),
-        ("pair-bladder-prestress-isometric", ["bladder_elasticity.mooney_constant"]),
-        ("leak-rests", ["leak.laminar_share"]),
+        pytest.param("pair-bladder-prestress-isometric", ["bladder_elasticity.mooney_constant"], marks=LONG),
+        pytest.param("leak-rests", ["leak.laminar_share"], marks=LONG),
     ],
 )
 def test_the_numbers_of_a_diagnosis_come_back_on_every_way(run: Run, name: str, freed: list[str]) -> None:
@@ -171,6 +174,7 @@ def test_a_model_predicts_pressures_and_a_length_that_it_was_not_fitted_to(run: 
     assert "rest lengths up to 400 mm: the model was measured at 250 mm" in longer["messages"]
 
 
+@pytest.mark.examination("test_a_model_predicts_pressures_and_a_length_that_it_was_not_fitted_to")
 def test_a_transient_model_predicts_a_motion_that_it_was_not_fitted_to(run: Run) -> None:
     """Trained on the filling and the rest after it; the whole trace, with the venting, is predicted."""
     file, start = true_case("leak-rests")
@@ -188,6 +192,7 @@ def test_a_transient_model_predicts_a_motion_that_it_was_not_fitted_to(run: Run)
     assert f"{model['effects']['leak']['conductance']:.5g}" in out
 
 
+@pytest.mark.examination("test_the_numbers_of_a_diagnosis_come_back_on_every_way")
 def test_several_lengths_and_a_typed_term_come_back(run: Run) -> None:
     """The length is that of each file; the text of the term is part of the model."""
     write("a.csv", specimen(0.25, seed=1))
@@ -235,6 +240,7 @@ def test_a_load_that_nobody_stated_is_that_of_the_fit(run: Run) -> None:
     assert heavier == pytest.approx(answer["path"][-1]["rmse"], rel=0.05)
 
 
+@pytest.mark.examination("test_a_named_effect_keeps_the_numbers_of_preset_or_document")
 def test_options_override_the_saved_model(run: Run) -> None:
     file = rubbing(c10=0.4e6)
     _, model = saved(run, file, "--muscle", write("m.json", BRAID))

@@ -16,6 +16,8 @@ from typing import Any
 
 from playwright.sync_api import Error, Page, Route
 
+from tests.one_at_a_time import one_at_a_time
+
 _PATH = "**/api/diagnoses"
 _STREAM = "text/event-stream"
 _DONE = b"event: done"
@@ -23,6 +25,8 @@ _WITHIN = 150_000  # ms; on a busy machine a drive takes its time
 
 #: Folder of the answers; `keep_in` sets it.
 _folder: Path | None = None
+#: Questions of this process that are on their way.
+_asking: set[Path] = set()
 
 
 def keep_in(folder: Path) -> None:
@@ -70,7 +74,7 @@ def _answer(route: Route, changed: Callable[[bytes], bytes]) -> None:
     # The page ends the stream itself as soon as it has the result, so the whole answer is only to be had by
     # asking for it.
     kept = _kept(route.request.post_data or "")
-    with suppress(Error):  # the page was closed meanwhile, or no longer wants the answer
+    with suppress(Error), _asked_once(kept):  # an error: the page was closed, or no longer wants the answer
         if kept.exists():
             body = kept.read_bytes()
         else:
@@ -83,6 +87,20 @@ def _answer(route: Route, changed: Callable[[bytes], bytes]) -> None:
             partial.write_bytes(body)
             partial.replace(kept)
         route.fulfill(content_type=_STREAM, body=changed(body))
+
+
+@contextmanager
+def _asked_once(kept: Path) -> Iterator[None]:
+    """What another worker is asking already is waited for; in one process it would wait for itself."""
+    if kept in _asking:
+        yield
+        return
+    _asking.add(kept)
+    try:
+        with one_at_a_time(kept.with_suffix(".lock")):
+            yield
+    finally:
+        _asking.remove(kept)
 
 
 def _kept(asked: str) -> Path:

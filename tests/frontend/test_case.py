@@ -95,6 +95,9 @@ def test_a_mystery_is_solved_by_the_recommendations_alone(page: Page) -> None:
     expect(card.get_by_role("button")).to_have_count(0)
 
 
+@pytest.mark.examination(
+    "tests/frontend/test_compare.py::test_from_the_empty_page_to_the_noise_in_five_clicks"
+)
 @needs_corpus
 def test_a_logger_file_of_a_laboratory_in_five_clicks_to_the_verdict(page: Page) -> None:
     open_design(page)
@@ -122,6 +125,9 @@ def checked(page: Page) -> float:
     return float(re.findall(r"[\d.]+", page.locator("#validation-error").inner_text())[0])
 
 
+@pytest.mark.examination(
+    "tests/frontend/test_import_experiment.py::test_each_of_several_files_has_its_rest_length"
+)
 def test_three_files_of_one_muscle_are_one_case(page: Page) -> None:
     open_compare(page)
     with unanswered(page):
@@ -203,6 +209,7 @@ def test_the_board_compares_pinned_models(page: Page, sweeps: FilePayload, tmp_p
     expect(head).to_have_count(2)
 
 
+@pytest.mark.examination("tests/cli/test_saved_model.py::test_a_diagnosed_model_becomes_a_muscle_of_the_user")
 def test_the_model_becomes_a_muscle_whose_curves_show_how_sure_they_are(
     page: Page, sweeps: FilePayload, page_guard: PageGuard
 ) -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.frontend.axe import violations
@@ -140,6 +141,7 @@ return [{NAMES}.length, doc.peek().compare.history.length];
 """
 
 
+@pytest.mark.examination("test_several_cases_in_one_document")
 def test_work_too_long_for_a_link_is_kept_and_the_page_says_what_the_link_holds(page: Page) -> None:
     open_design(page)
     title = re.compile("Copy a link that holds only the open case")

@@ -226,6 +226,7 @@ def test_a_built_in_map_opens_with_one_click(page: Page) -> None:
     expect(page.locator("#next-what")).to_have_text("Bring a measurement")
 
 
+@pytest.mark.examination("tests/frontend/test_cases.py::test_several_cases_in_one_document")
 def test_the_link_restores_data_model_and_history(page: Page, sweeps: FilePayload) -> None:
     opened(page, sweeps)
     changed(page, page.locator("#add-all").click)
@@ -266,6 +267,7 @@ def test_data_and_residuals_as_csv(page: Page, sweeps: FilePayload, tmp_path: Pa
     assert re.search(r"force|length|pressure from .* \(measured\)", code)
 
 
+@pytest.mark.examination("tests/frontend/test_sizing.py::test_cancel_keeps_what_was_there")
 def test_a_diagnosis_can_be_cancelled_and_asked_for_again(page: Page, sweeps: FilePayload) -> None:
     open_compare(page)
     page.route("**/api/diagnoses", lambda route: None)  # never answered

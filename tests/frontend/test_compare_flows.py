@@ -52,6 +52,7 @@ def own_term(page: Page) -> Locator:
     return page.get_by_role("textbox", name="Formula of your own term")
 
 
+@pytest.mark.examination("test_a_mystery_with_a_drive_brings_it_along")
 def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     made = case("flow-steps")
     (text,) = made.files.values()
@@ -102,6 +103,7 @@ def test_a_mystery_with_a_drive_brings_it_along(page: Page) -> None:
     expect(page.locator(".measurements")).to_contain_text("1000 of 1301 rows; left out: 301 in between")
 
 
+@pytest.mark.examination("tests/server/test_reports.py::test_figures_are_those_of_the_comparison")
 def test_the_report_is_one_file_that_says_it_all(page: Page, sweeps: FilePayload, tmp_path: Path) -> None:
     opened(page, sweeps)
     changed(page, page.locator("#add-all").click)
@@ -236,6 +238,7 @@ def test_effects_that_data_cannot_tell_apart_stay_a_choice_after_success(
     expect(open_.get_by_role("radio", name="Prestress of the bladder")).to_be_checked()
 
 
+@pytest.mark.examination("tests/frontend/test_layout.py::test_every_width")
 def test_no_equation_is_cut_without_a_way_to_see_it(page: Page) -> None:
     page.set_viewport_size({"width": 1440, "height": 1000})
     open_compared(page)

@@ -134,6 +134,7 @@ def test_a_file_that_is_no_document_is_refused_in_words(page: Page, tmp_path: Pa
     expect(page.locator(".status")).to_contain_text("version 9")
 
 
+@pytest.mark.examination("test_the_whole_flow")
 def test_pictures_and_tables_are_saved(page: Page) -> None:
     open_design(page)
     svg = Path(download(page, "Plots as SVG").path()).read_text()
@@ -370,6 +371,9 @@ def test_save_as_my_preset(page: Page, page_guard: PageGuard) -> None:
 FIGURES = ["5", "6", "7", "9", "10a", "10b", "11a", "11b", "12a", "12b", "13"]
 
 
+@pytest.mark.examination(
+    "tests/frontend/test_transient.py::test_a_scenario_brings_its_drive_and_the_printed_figures"
+)
 def test_the_figures_of_the_paper(page: Page) -> None:
     open_design(page)
     for figure in FIGURES:
@@ -387,6 +391,7 @@ def test_the_figures_of_the_paper(page: Page) -> None:
     assert first == pytest.approx([64.39, 193.16, 386.31], abs=0.01)
 
 
+@pytest.mark.examination("test_the_whole_flow")
 def test_the_stiffness_has_three_definitions(page: Page) -> None:
     open_design(page)
     choice = page.get_by_label("Definition of the stiffness", exact=True)

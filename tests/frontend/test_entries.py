@@ -8,16 +8,20 @@ from playwright.sync_api import Page, expect
 
 from tests.frontend.axe import violations
 from tests.frontend.comparing import choose, diagnosed, file, measured, use
+from tests.frontend.diagnoses import remember
 from tests.frontend.views import open_compare
 
 
 def wrong() -> str:
-    """The measurement of the other tests, whose muscle of 300 mm is said to have 345 mm."""
-    return measured(1).replace("nominal_length: 300 mm", "nominal_length: 345 mm")
+    """A measurement with a prestress, whose muscle of 300 mm is said to have 345 mm."""
+    return measured(1, points=20, c10=0.0, friction=0.0).replace(
+        "nominal_length: 300 mm", "nominal_length: 345 mm"
+    )
 
 
 def test_a_wrong_rest_length_is_asked_about_and_used_in_one_click(page: Page) -> None:
     open_compare(page)
+    remember(page)
     choose(page, file("sweeps.csv", wrong()))
     use(page)
     diagnosed(page, 180_000)

@@ -91,6 +91,7 @@ def values_to_see(preview: dict[str, Any]) -> list[tuple[str, str]]:
     return found
 
 
+@pytest.mark.examination("test_every_question_is_answered_in_the_view")
 @needs_corpus
 def test_a_run_of_a_valve_asks_for_its_valve(case: Page) -> None:
     """A recording that says muscle, length, load and supply, but not the valve."""
@@ -115,6 +116,7 @@ def test_a_run_of_a_valve_asks_for_its_valve(case: Page) -> None:
     expect(case.get_by_role("region", name="Rig").get_by_label("Valve")).to_have_value("MHE2")
 
 
+@pytest.mark.examination("test_from_a_dropped_file_to_the_first_comparison")
 @needs_corpus
 def test_whatever_nobody_said_is_visible_for_every_file_of_the_corpus(case: Page) -> None:
     seen = 0

@@ -60,6 +60,7 @@ def test_from_the_drive_to_a_designed_controller(page: Page) -> None:
     assert violations(page) == []
 
 
+@pytest.mark.examination("test_from_the_drive_to_a_designed_controller")
 def test_another_channel_and_the_matrices(page: Page) -> None:
     """The load on the force of the muscle: Bode diagram, words and table are of that channel."""
     open_transient(page, START)

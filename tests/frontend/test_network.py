@@ -9,6 +9,7 @@ from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import urlopen
 
+import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
 from tests.frontend.axe import violations
@@ -133,6 +134,7 @@ def test_a_preset_that_the_server_has_no_more(page: Page, page_guard: PageGuard)
     expect(banner).to_have_count(0)
 
 
+@pytest.mark.examination("test_a_preset_that_the_server_has_no_more")
 def test_a_measurement_that_the_server_has_no_more(
     page: Page, page_guard: PageGuard, server_url: str, tmp_path: Path
 ) -> None:

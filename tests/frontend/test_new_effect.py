@@ -35,6 +35,7 @@ def blocked_force(page: Page) -> int:
     return int(next(figure for figure in figures if len(figure) > 2 and "." not in figure))
 
 
+@pytest.mark.examination("tests/frontend/test_design.py::test_effects_come_from_the_server")
 def test_the_example_of_the_readme_appears_and_acts(page: Page, server: RunningServer) -> None:
     page.goto(f"{server.url}/")  # in full: the base URL is that of the other tests' server
     marked(page, "[data-drawn]")

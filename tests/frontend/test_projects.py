@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import pytest
 from playwright.sync_api import BrowserContext, Page, expect
 
 from tests.frontend.axe import violations
@@ -85,6 +86,7 @@ def test_a_project_in_two_windows(context: BrowserContext, page_guard: PageGuard
     expect(one.locator(".project-title")).to_have_text("Project")
 
 
+@pytest.mark.examination("test_a_project_in_two_windows")
 def test_work_of_the_last_moment_is_kept(context: BrowserContext, page_guard: PageGuard) -> None:
     page_guard.allow("status of 409|ERR_FAILED")
     page = opened(context.new_page())

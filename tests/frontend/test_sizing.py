@@ -169,6 +169,7 @@ def test_the_list_says_what_the_server_found(page: Page) -> None:
     expect(page.get_by_role("dialog", name="Unverified values")).to_contain_text(proposals[2]["valve"])
 
 
+@pytest.mark.examination("test_the_list_says_what_the_server_found")
 def test_trade_offs(page: Page) -> None:
     open_task(page)
     _, answer = searched(page)
@@ -212,6 +213,7 @@ def test_open_in_design_is_one_step(page: Page) -> None:
     assert stored(page)["design"] == before
 
 
+@pytest.mark.examination("test_the_list_says_what_the_server_found")
 def test_a_lever_and_a_pair(page: Page) -> None:
     open_task(page)
     page.get_by_role("radio", name="Lever", exact=True).click()
@@ -314,6 +316,7 @@ def test_cancel_keeps_what_was_there(page: Page) -> None:
     expect(page.locator(".chosen-drive")).to_contain_text("no specimens were simulated")
 
 
+@pytest.mark.examination("test_open_in_design_is_one_step")
 def test_undo_brings_back_task_and_drives(page: Page) -> None:
     open_task(page)
     searched(page)
@@ -356,6 +359,7 @@ def run_hash(page: Page, document: dict[str, Any]) -> str:
     return run(page, "return (await import('/js/link.js')).toHash(argument);", document)
 
 
+@pytest.mark.examination("test_open_in_design_is_one_step")
 def test_the_drives_survive_a_look_at_another_view(page: Page) -> None:
     open_task(page)
     propose_button(page).click()
@@ -463,6 +467,7 @@ def test_the_task_can_be_saved_for_the_command_line_and_opened(page: Page) -> No
     assert len(Path(table.value.path()).read_text("utf-8").splitlines()) == 1 + rows(page).count()
 
 
+@pytest.mark.examination("test_open_in_design_is_one_step")
 def test_whatever_leads_to_the_muscle_shows_the_muscle(page: Page) -> None:
     open_task(page)
     page.get_by_role("button", name="Examples", exact=True).click()

@@ -71,6 +71,7 @@ def test_from_a_drive_to_the_spread_of_its_figures(page: Page) -> None:
         assert run(page, TOO_SMALL) == [], width
 
 
+@pytest.mark.examination("test_from_a_drive_to_the_spread_of_its_figures")
 def test_a_grid_sorted_pinned_and_opened(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow(REFUSED)
     load(page, "#studies")

@@ -93,6 +93,7 @@ def test_the_first_run_is_complete_and_has_figures(page: Page, server_url: str) 
     expect(page.locator("#run-phase .js-line")).to_have_count(16)
 
 
+@pytest.mark.examination("test_the_first_run_is_complete_and_has_figures")
 def test_a_heavier_load_takes_longer(page: Page) -> None:
     open_transient(page)
     before = figure(page, "Positioning time")
@@ -145,6 +146,7 @@ def as_server(text: str, reference: Reference | None) -> float | None:
         return None
 
 
+@pytest.mark.examination("test_a_scenario_brings_its_drive_and_the_printed_figures")
 def test_units_of_drive_documents_are_read_and_every_scenario_runs(page: Page) -> None:
     open_transient(page)
     texts = [
@@ -340,6 +342,7 @@ def test_pin_and_difference(page: Page) -> None:
     expect(table).to_be_hidden()
 
 
+@pytest.mark.examination("test_the_link_restores_the_zoomed_phase_plot")
 def test_the_link_restores_drive_window_and_pins(page: Page) -> None:
     open_transient(page)
     rerun(page, lambda: enter(page, "Mass", "42"))
@@ -495,6 +498,7 @@ def arrange(page: Page, how: str) -> None:
     rerun(page, lambda: page.get_by_label("Arrangement", exact=True).select_option(how))
 
 
+@pytest.mark.examination("test_a_joint_follows_angle_and_stiffness")
 def test_an_antagonist_pair_turns_a_pulley(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow(REFUSED)
     open_transient(page)
@@ -565,6 +569,7 @@ def test_a_joint_follows_angle_and_stiffness(page: Page) -> None:
     expect(page.locator(".transient .notice")).to_be_hidden()
 
 
+@pytest.mark.examination("test_a_joint_follows_angle_and_stiffness")
 def test_each_arrangement_has_its_fields_and_runs(page: Page) -> None:
     open_transient(page)
     own = ("Inclination", "Lever ratio", "Pulley radius")
@@ -655,6 +660,7 @@ def test_tables_as_instruments_write_them(page: Page) -> None:
     assert "1000 of them are kept" in thinned["words"]
 
 
+@pytest.mark.examination("test_pin_and_difference")
 def test_pinned_runs_are_as_fine_as_the_run(page: Page, server_url: str) -> None:
     open_transient(page)
     page.get_by_role("button", name="Pin this run").click()
@@ -691,6 +697,7 @@ def test_pinned_runs_are_as_fine_as_the_run(page: Page, server_url: str) -> None
     assert len(inside) < 20  # what the pin had before the window changed
 
 
+@pytest.mark.examination("test_pin_and_difference")
 def test_another_window_ends_what_pinned_runs_were_asked_for(page: Page) -> None:
     open_transient(page)
     page.get_by_role("button", name="Pin this run").click()
@@ -750,6 +757,7 @@ def test_the_link_restores_the_zoomed_phase_plot(page: Page) -> None:
     other.close()
 
 
+@pytest.mark.examination("test_dragging_chooses_a_window_for_all_plots")
 def test_a_window_never_outlasts_the_run(page: Page) -> None:
     open_transient(page)
     window = page.get_by_label("Window from, in seconds")

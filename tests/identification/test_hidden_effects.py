@@ -12,31 +12,24 @@ from tests.benchmarks.diagnosis import diagnosed
 from tests.truth.generate import case
 
 FOUND = (
-    "bladder-eight-chain-isotonic",
     "threshold-isometric",
     "end-caps-isobaric",
-    "threads-isometric",
     "coulomb-isobaric",
-    "coulomb-isotonic",
     "pressure-zero-isobaric",
     "force-zero-isobaric",
     "length-zero-diameter",
-    "pressure-scale-map",
     "delay-pulses",
 )
 TOGETHER = (
     "pair-bladder-ends-isobaric",
     "pair-bladder-length-zero-map",
-    "triple-bladder-prestress-coulomb-isobaric",
 )
 NOTHING = (
     "nothing-isobaric",
     "nothing-thread-form-map",
-    "nothing-isotonic",
-    "nothing-diameter",
     "nothing-steps",
 )
-UNKNOWN = ("unknown-ripple-isobaric", "unknown-magnet-map")
+UNKNOWN = ("unknown-magnet-map",)
 
 
 @pytest.mark.parametrize("name", FOUND)

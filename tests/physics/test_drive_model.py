@@ -136,9 +136,7 @@ def test_every_effect_alone_gives_finite_equations_that_vanish_when_off(effect: 
     np.testing.assert_allclose(got, want, rtol=1e-9, atol=1e-12)
 
 
-@pytest.mark.parametrize(
-    ("tube", "regulator", "pair"), [(True, False, False), (False, True, False), (True, False, True)]
-)
+@pytest.mark.parametrize(("tube", "regulator", "pair"), [(False, True, False), (True, False, True)])
 def test_all_effects_at_once_give_a_finite_jacobian(tube: bool, regulator: bool, pair: bool) -> None:
     on_muscle = {"flow_control": True, "quick_exhaust": tube}
     model = DriveModel(DriveStructure(tuple(EFFECTS), tube=tube, regulator=regulator, pair=pair, **on_muscle))

@@ -78,6 +78,7 @@ def problems(file: Hostile, read: Read) -> list[str]:
     return [f"{file.name}: {what}: {told[:600]}" for what in found]
 
 
+@pytest.mark.examination("test_a_server_refuses_them_and_goes_on")
 def test_they_are_refused_in_words_and_take_little_memory(tmp_path: Path) -> None:
     found = read_elsewhere(tmp_path, {file.name: file.content for file in hostile()})
     wrong = [problem for file in hostile() for problem in problems(file, found[file.name])]

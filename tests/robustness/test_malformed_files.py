@@ -114,6 +114,7 @@ def wrong_reading(client: TestClient, variant: Variant, identity: str) -> list[s
     return problems
 
 
+@pytest.mark.examination("test_300_malformed_files")
 def test_a_preview_of_them_never_fails(client: TestClient, tmp_path: Path) -> None:
     for number, variant in enumerate(VARIANTS):
         response = client.post(

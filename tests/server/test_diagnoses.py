@@ -312,6 +312,7 @@ def test_a_transient_is_told_channel_by_channel(client: TestClient, lifted: str)
     assert shown["rmse"] > 2 * known["rmse"]
 
 
+@pytest.mark.examination("tests/cli/test_saved_model.py::test_a_transient_brings_its_whole_drive")
 def test_the_model_of_a_transient_is_a_drive_that_a_comparison_takes(client: TestClient) -> None:
     made = case("leak-rests")
     ((name, content),) = made.files.items()
@@ -546,6 +547,9 @@ def test_the_published_description_has_all_of_it(app: FastAPI) -> None:
     json.dumps(document)
 
 
+@pytest.mark.examination(
+    "tests/identification/diagnose/test_diagnosis.py::test_the_maps_of_martens_and_boblan_from_the_ideal_muscle"
+)
 def test_a_preset_and_its_map(client: TestClient) -> None:
     response = post(client, PATH, {"muscle": {"preset": "DMSP-20"}, "measurement": "martens-dmsp-20-300"})
     assert response.status_code == 200, response.text
@@ -613,6 +617,9 @@ def test_an_accepted_entry_is_fitted_and_its_origin_is_a_suggestion(client: Test
     assert not any(entry["asked"] for entry in used["context"])
 
 
+@pytest.mark.examination(
+    "tests/identification/diagnose/test_contest.py::test_kept_it_is_told_but_not_asked_about"
+)
 def test_a_kept_entry_is_told_and_not_asked(client: TestClient, rubbing: str) -> None:
     kept = diagnose(client, measurement=rubbing, muscle=LONG, keep=["rest_length"])
     (entry,) = [entry for entry in kept["context"] if entry["hypothesis"] == "rest_length"]

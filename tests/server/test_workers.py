@@ -143,6 +143,7 @@ def test_a_killed_worker_takes_its_own_job_alone(served: RunningServer) -> None:
     assert send(served, "/api/diagnoses", QUICK)[0] == 200
 
 
+@pytest.mark.examination("test_a_killed_worker_takes_its_own_job_alone")
 def test_an_idle_worker_that_is_killed_costs_no_job(served: RunningServer) -> None:
     assert send(served, "/api/diagnoses", QUICK)[0] == 200
     for pid in workers_of(served):
@@ -224,6 +225,7 @@ def test_the_server_ends_under_work_and_leaves_no_process(
         assert "the server is ending" in told[0]  # as the last event, or as the answer if it had not begun
 
 
+@pytest.mark.examination("test_a_killed_worker_takes_its_own_job_alone")
 def test_processes_that_take_no_jobs_are_replaced(
     tmp_path: Path, compiled_kernels: None, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -117,6 +117,7 @@ def test_a_thicker_braid_is_a_twin_of_a_stronger_force() -> None:
     assert "braid_diameter" in {entry.entry.hypothesis for entry in result.context}
 
 
+@pytest.mark.examination("test_a_wrong_rest_length_beside_an_elastic_wall_is_asked_about_first")
 def test_a_wall_that_no_rubber_fits_is_asked_about() -> None:
     """A tenth of the wall: the modulus would have to be ten times that of the hidden wall, 4.7 MPa."""
     result = diagnosis(MUSCLE._replace(wall_thickness=0.18e-3), c10=0.468e6)

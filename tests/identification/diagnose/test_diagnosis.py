@@ -304,6 +304,7 @@ def test_a_smooth_unknown_effect_is_proposed_as_a_short_term():
     assert found.predictor.rmse(found.predictor.residual(start)) < 1.2
 
 
+@pytest.mark.examination("test_a_ripple_is_an_unknown_effect_told_with_its_place_but_without_a_formula")
 def test_a_catalogued_part_is_found_beside_an_unknown_one():
     def both(**state: float) -> float:
         return coulomb(**state) + ripple(**state)  # type: ignore[arg-type]
@@ -389,10 +390,17 @@ def test_a_time_limit_ends_it():
 # --- measured
 
 
-@pytest.mark.parametrize("free", [(), ("braid_angle",)], ids=["given geometry", "free braid angle"])
+LONG = pytest.mark.examination("test_the_maps_of_martens_and_boblan_from_the_ideal_muscle")
+
+
 @pytest.mark.parametrize(
-    ("sample", "preset", "nominal_length"),
-    [("DMSP-20-300", "DMSP-20", 0.3), ("DMSP-10-250", "DMSP-10", 0.25)],
+    ("sample", "preset", "nominal_length", "free"),
+    [
+        ("DMSP-20-300", "DMSP-20", 0.3, ()),
+        pytest.param("DMSP-20-300", "DMSP-20", 0.3, ("braid_angle",), marks=LONG),
+        pytest.param("DMSP-10-250", "DMSP-10", 0.25, (), marks=LONG),
+        pytest.param("DMSP-10-250", "DMSP-10", 0.25, ("braid_angle",), marks=LONG),
+    ],
 )
 def test_the_maps_of_martens_and_boblan_from_the_ideal_muscle(sample, preset, nominal_length, free):
     path = DATA / f"{sample}_force_map.csv"
