@@ -18,8 +18,8 @@ _ALL: dict[str, Any] = {
     "rules": {"label-content-name-mismatch": {"enabled": True}, "target-size": {"enabled": True}}
     | {rule: {"enabled": False} for rule in _COLOURS},
 }
-# Rows of a table, points of a plot, lines of a list are coloured by one pattern each: the colours of two of each
-# kind are looked at. All of them were two thirds of the work.
+# Rows of a table, points of a plot, lines of a list are coloured by one pattern each: the colours of two of
+# each kind are looked at. All of them were two thirds of the work.
 _REPEATED = """
 for (const child of document.querySelectorAll("[data-repeated]")) child.removeAttribute("data-repeated");
 for (const parent of document.querySelectorAll("main, main *, dialog *")) {

@@ -43,7 +43,7 @@ def wall_force(contraction: float, c10: float) -> float:
 def measured(seed: int, *, points: int = POINTS, c10: float = C10, friction: float = FRICTION) -> str:
     """A file of slow sweeps, shortening and lengthening, with three effects the ideal muscle lacks.
 
-    One diagnosis of it takes 5 s of processor time; with the prestress alone and half the points less than 1 s.
+    Its diagnosis takes 5 s of processor time; with the prestress alone and half the points less than 1 s.
     """
     draw = random.Random(seed)
     text = io.StringIO()
