@@ -50,8 +50,14 @@ def test_ruff_format(tmp_path: Path) -> None:
     check([sys.executable, "-m", "ruff", "format", "--check", "--no-cache", *PYTHON], tmp_path)
 
 
-def test_pyright(tmp_path: Path) -> None:
-    check([sys.executable, "-m", "pyright", "--pythonpath", sys.executable], tmp_path)
+def test_types(tmp_path: Path) -> None:
+    check([sys.executable, "-m", "ty", "check", "--python", sys.prefix, "--no-progress"], tmp_path)
+
+
+def test_types_of_the_public_names(tmp_path: Path) -> None:
+    """By pyright, strict where pyproject.toml says so; `python -m tests.benchmarks.types` does all files."""
+    door = ("backend/mckibben/__init__.py", "backend/mckibben/door", "tests/door/script.py")
+    check([sys.executable, "-m", "pyright", "--pythonpath", sys.executable, *door], tmp_path)
 
 
 def test_layers(tmp_path: Path) -> None:

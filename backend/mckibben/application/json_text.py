@@ -24,7 +24,7 @@ _AT_ONCE = 500_000  # numbers of an array; one call for more would hold the inte
 def _keys(kind: type) -> tuple[tuple[str, str], ...]:
     """Key and field of each entry of a dataclass."""
     renamed: Mapping[str, tuple[str, ...]] = getattr(kind, "JSON_KEYS", {})
-    names = [field.name for field in fields(kind)]
+    names = [field.name for field in fields(kind)]  # type: ignore
     return tuple((key, name) for name in names for key in renamed.get(name, (name,)))
 
 

@@ -44,7 +44,7 @@ def stated_condition(kind: str, value: float | str) -> Condition:
         number = si(value, _UNITS[kind], reference="gauge" if kind == "pressure" else None)
     except InputError as error:
         raise InputError(f"{kind}: {error.message}", field="at", hint=error.hint) from error
-    return Condition(kind, number)  # type: ignore[arg-type]
+    return Condition(kind, number)  # type: ignore
 
 
 def goals_of(text: str) -> Goals:

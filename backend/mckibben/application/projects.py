@@ -106,9 +106,9 @@ def packed(projects: ProjectStore, identity: str) -> tuple[str, bytes]:
             document = projects.open(identity, each.version).document
             archive.writestr(f"history/{each.version}.json", json.dumps(document, ensure_ascii=False))
         for entry, file in zip(about["files"], files, strict=True):
-            archive.writestr(entry["file"], file.content)
+            archive.writestr(str(entry["file"]), file.content)
         for entry, study in zip(about["studies"], studies, strict=True):
-            archive.writestr(entry["file"], study.content)
+            archive.writestr(str(entry["file"]), study.content)
     return f"{_plain(project.summary.title)}.mckibben.zip", buffer.getvalue()
 
 

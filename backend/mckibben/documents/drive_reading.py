@@ -87,7 +87,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
             ``field`` is the path in the document.
     """
     valve_preset = _preset(studio, "valves", document.valve.preset, "valve.preset")
-    tube_preset = _preset(studio, "tubes", document.tube and document.tube.preset, "tube.preset")
+    tube_preset = _preset(studio, "tubes", document.tube.preset if document.tube else None, "tube.preset")
     fittings = [
         _preset(studio, "fittings", name, f"fittings.{index}") for index, name in enumerate(document.fittings)
     ]

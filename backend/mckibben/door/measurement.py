@@ -315,7 +315,7 @@ def _options(
 
 def _length_of(channel: str, values: ArrayLike) -> int:
     try:
-        return len(values)  # type: ignore[arg-type]
+        return len(values)  # type: ignore
     except TypeError:
         raise InputError(f"{channel}: is no array", hint="one value for each row") from None
 

@@ -160,7 +160,7 @@ class StatedModel:
         muscle = self._muscle_document(start, studio)
         document: dict[str, Any] = {"schema": 1, "kind": "model"}
         if self.saved is not None:
-            document = self.saved.to_document()
+            document = dict[str, Any](self.saved.to_document())
             changed = document["muscle"] != muscle or document["effects"] != effects
             if not changed:
                 return self.saved

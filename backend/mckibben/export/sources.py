@@ -200,7 +200,10 @@ class Sources:
         parts: list[Any] = [] if muscle is None else [muscle]
         document = self.document
         if document is not None:
-            named = [("valves", document.valve.preset), ("tubes", document.tube and document.tube.preset)]
+            named = [
+                ("valves", document.valve.preset),
+                ("tubes", document.tube.preset if document.tube else None),
+            ]
             named += [("fittings", name) for name in document.fittings]
             parts += [self.studio.library.get(kind, name) for kind, name in named if name]
         return parts

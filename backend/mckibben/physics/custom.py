@@ -82,7 +82,7 @@ def custom_effect(term: str, stated: Mapping[str, float] | None = None) -> Effec
         raise refused("the term is empty", hint="e.g. -c*sign(v)*P")
     if len(term) > _LONGEST:
         raise refused(f"the term has {len(term)} characters, at most {_LONGEST}")
-    if odd := term[_USABLE.match(term).end() :]:  # type: ignore[union-attr] - it matches the empty text
+    if odd := term[_USABLE.match(term).end() :]:  # type: ignore - it matches the empty text
         raise refused(f"{_character_name(odd[0])} cannot be part of a term", hint=_ALLOWED)
     try:
         tree = ast.parse(term.strip().replace("^", "**"), mode="eval")
@@ -223,7 +223,7 @@ def _parameter(name: str, value: float, source: Source) -> Parameter:
 def _declare(function: Callable[..., Value], names: list[str]) -> None:
     # An effect's functions request their inputs by the names of their keyword-only arguments.
     arguments = [Argument(name, Argument.KEYWORD_ONLY) for name in names]
-    function.__signature__ = CallSignature(arguments)  # type: ignore[attr-defined]
+    function.__signature__ = CallSignature(arguments)  # type: ignore
 
 
 def _node(node: ast.expr, names: dict[str, None], depth: int) -> TermFunction:

@@ -66,7 +66,7 @@ def _at_the_end_of_a_motion(
         return function(**{name: states[name] if name in states else given[name] for name in wanted})
 
     names = dict.fromkeys([*(name for name in wanted if name not in reached), "direction"])
-    at_direction.__signature__ = inspect.Signature(  # type: ignore[attr-defined]
+    at_direction.__signature__ = inspect.Signature(  # type: ignore
         [inspect.Parameter(name, inspect.Parameter.KEYWORD_ONLY) for name in names]
     )
     return at_direction

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import builtins
 import json
 import os
 import re
@@ -77,7 +78,7 @@ class PresetLibrary:
         """Names of the kinds: muscles, valves, …"""
         return tuple(KINDS)
 
-    def list(self, kind: str) -> list[Preset]:
+    def list(self, kind: str) -> builtins.list[Preset]:
         """All valid presets of a kind, sorted by id with numbers in their natural order.
 
         Raises:
@@ -129,7 +130,7 @@ class PresetLibrary:
         preset = self.get("muscles", preset_id)
         return cast(MusclePreset, preset)
 
-    def problems(self, kind: str | None = None) -> list[LibraryProblem]:
+    def problems(self, kind: str | None = None) -> builtins.list[LibraryProblem]:
         """Files that were not loaded, of one kind or of all; with those of the user that lie elsewhere."""
         kinds = KINDS if kind is None else [kind]
         for name in kinds:

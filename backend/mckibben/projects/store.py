@@ -6,6 +6,7 @@ that it began with, and is refused where the project has a later one.
 
 from __future__ import annotations
 
+import builtins
 import json
 import time
 from collections.abc import Iterable, Sequence
@@ -66,7 +67,7 @@ class ProjectStore:
         """Close the database."""
         self._database.close()
 
-    def list(self, *, deleted: bool = False) -> list[ProjectSummary]:
+    def list(self, *, deleted: bool = False) -> builtins.list[ProjectSummary]:
         """All projects, the one changed last first; or those in the bin."""
         with self._database.session() as session:
             chosen = ProjectRow.deleted.is_not(None) if deleted else ProjectRow.deleted.is_(None)
@@ -102,7 +103,7 @@ class ProjectStore:
         with self._database.session() as session:
             return opened(session, identity, version)
 
-    def files(self, identity: str) -> list[StoredFile]:
+    def files(self, identity: str) -> builtins.list[StoredFile]:
         """The measurement files of a project, with their content."""
         with self._database.session() as session:
             row_of(session, identity)
@@ -114,7 +115,7 @@ class ProjectStore:
             )
             return [StoredFile(row.measurement, row.name, data, row.mapping) for row, data in rows]
 
-    def studies(self, identity: str) -> list[StoredStudy]:
+    def studies(self, identity: str) -> builtins.list[StoredStudy]:
         """The study tables of a project, the one saved last first."""
         with self._database.session() as session:
             row_of(session, identity)

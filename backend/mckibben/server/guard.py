@@ -64,7 +64,7 @@ class GuardedProtocol(H11Protocol):
         self._taking: asyncio.TimerHandle | None = None
         self._heard, self._served = 0.0, False
 
-    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override] - as uvicorn
+    def connection_made(self, transport: asyncio.Transport) -> None:  # pyright: ignore - as uvicorn
         """Take the connection, in the place of another one if there are too many."""
         super().connection_made(transport)
         self._heard = self.loop.time()
@@ -139,7 +139,7 @@ class GuardedProtocol(H11Protocol):
             self._end(b"503 Service Unavailable", b"too many connections")
             return
         victim = min(waiting, key=lambda other: other._worth(self._heard))
-        self.connections.discard(victim)  # type: ignore[arg-type] - a protocol of uvicorn
+        self.connections.discard(victim)  # pyright: ignore - a protocol of uvicorn
         victim.transport.abort()
 
     def _worth(self, now: float) -> tuple[int, bool, float]:
@@ -158,7 +158,7 @@ class GuardedProtocol(H11Protocol):
                 b"HTTP/1.1 %s\r\ncontent-type: application/json\r\nconnection: close\r\nretry-after: 1\r\n"
                 b"content-length: %d\r\n\r\n%s" % (status, len(body), body)
             )
-        self.connections.discard(self)  # type: ignore[arg-type] - a protocol of uvicorn
+        self.connections.discard(self)  # pyright: ignore - a protocol of uvicorn
         self.transport.close()
 
 

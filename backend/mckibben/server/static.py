@@ -49,7 +49,7 @@ class _Frontend(StaticFiles):
 
     def file_response(self, *args: object, **kwargs: object) -> Response:
         """The file, or 304 when the browser has it already."""
-        answer = super().file_response(*args, **kwargs)  # type: ignore[arg-type]
+        answer = super().file_response(*args, **kwargs)  # type: ignore
         answer.headers["cache-control"] = self._kept
         return answer
 

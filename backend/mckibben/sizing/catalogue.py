@@ -30,7 +30,7 @@ class CataloguePart:
 
     id: str
     effects: tuple[Effect, ...] = ()
-    values: Values = ()  # type: ignore[assignment]  # always given with effects
+    values: Values = ()  # type: ignore  # always given with effects
     unverified: tuple[str, ...] = ()
 
 

@@ -84,7 +84,7 @@ class OptimisationPlan:
 
         count = len(self.variables)
         checks = 1 + sum(np.isfinite([limit.at_least, limit.at_most]).sum() for limit in self.limits)
-        problem = Problem(
+        problem = Problem(  # type: ignore - told from outside, it evaluates nothing
             n_var=count,
             n_obj=len(self.goals),
             n_ieq_constr=int(checks),

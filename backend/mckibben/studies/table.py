@@ -98,5 +98,6 @@ class StudyTable:
         for index, figure in enumerate(self.figures):
             values = self.values[:, index].tolist()
             columns[figure.path] = [None if value != value else value for value in values]
-        columns["outcome"], columns["message"] = list(self.outcomes), list(self.messages)
+        columns["outcome"] = [*self.outcomes]
+        columns["message"] = [*self.messages]
         return columns

@@ -195,7 +195,7 @@ def _loaded(model: FitModel, pressure: float) -> ComparableRows:
 
 
 def _task(runs: list[RigRun], model: FitModel) -> ComparableRows:
-    return _warm(experiment_of("", runs, model).predictor.task)  # type: ignore[attr-defined]
+    return _warm(experiment_of("", runs, model).predictor.task)  # type: ignore
 
 
 def _blocked_force(model: FitModel, pressure: float) -> float:

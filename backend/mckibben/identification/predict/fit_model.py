@@ -41,7 +41,7 @@ class FitModel:
 
     muscle: Muscle
     effects: tuple[Effect, ...] = ()
-    values: Mapping[str, Mapping[str, float]] = ()  # type: ignore[assignment]
+    values: Mapping[str, Mapping[str, float]] = ()  # type: ignore
     load: float = 0.0
     assumed: frozenset[str] = frozenset()
     supply_factor: float = 1.0

@@ -259,7 +259,7 @@ def _typed(value: Any, kind: type, key: str) -> Any:
     if value is None:
         return None
     if not isinstance(value, kind) or (kind is int and isinstance(value, bool)):
-        names = {str: "a text", int: "a whole number", bool: "true or false"}
+        names: dict[type, str] = {str: "a text", int: "a whole number", bool: "true or false"}
         raise _refused(key, f"is not {names[kind]}", None)
     return value
 

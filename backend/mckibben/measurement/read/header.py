@@ -19,7 +19,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import is_unit, meaning
 
 #: Words of a header -> channel; the case of a single letter counts only between t (time) and T (temperature).
-SYNONYMS = {
+SYNONYMS: dict[str, str] = {
     word: channel
     for channel, words in {
         "time": "time t",

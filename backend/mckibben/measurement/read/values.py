@@ -162,7 +162,7 @@ def _absolute_seconds(cell: Cell) -> tuple[float, bool] | None:
     if not isinstance(cell, str) or not _CLOCK.fullmatch(cell.strip()):
         return None
     text = cell.strip()
-    day, rest = re.match(rf"({_DAY})?[T ]*(.*)", text).groups()  # type: ignore[union-attr]
+    day, rest = re.match(rf"({_DAY})?[T ]*(.*)", text).groups()  # type: ignore
     found = re.match(
         r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,:]([0-9]{1,9}))?)?\s*([aApP][mM])?", rest or "0:00"
     )

@@ -219,5 +219,5 @@ def _flow(text: str, number: int, depth: int) -> tuple[Any, str]:
             raise YamlError(number)
         return found, rest[1:]
     quoted = re.match(r"""("[^"]*"|'[^']*')""", text)
-    plain_end = quoted.end() if quoted else re.match(r"[^,\]}]*", text).end()  # type: ignore[union-attr]
+    plain_end = quoted.end() if quoted else re.match(r"[^,\]}]*", text).end()  # type: ignore
     return _scalar(text[:plain_end]), text[plain_end:]

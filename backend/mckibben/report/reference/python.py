@@ -85,7 +85,7 @@ def _entry(name: str, item: object, anchors: Anchors) -> Html:
 
 
 def _call(name: str, function: object, *, bound: bool) -> Html:
-    lines = signature(name, function, bound=bound)  # type: ignore[arg-type]
+    lines = signature(name, function, bound=bound)  # type: ignore
     if function is not None and getattr(function, "__name__", "") == "__init__":
         lines[-1] = lines[-1].removesuffix(" -> None")
     return tag("pre", "\n".join(lines), class_="signature", tabindex="0")

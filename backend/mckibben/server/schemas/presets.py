@@ -64,7 +64,7 @@ _ANSWERS = (
     _answer(DrivePreset, "DriveAnswer"),
     _answer(TaskPreset, "TaskAnswer"),
 )
-PresetAnswer = Annotated[Union[_ANSWERS], Field(discriminator="kind")]  # noqa: UP007 - built from a tuple
+PresetAnswer = Annotated[Union[_ANSWERS], Field(discriminator="kind")]  # type: ignore  # noqa: UP007 - built from a tuple
 
 
 class PresetProblem(Strict):
@@ -80,5 +80,5 @@ class PresetsAnswer(Strict):
     """All presets of one kind, and the files that could not be loaded."""
 
     kind: PresetKind = Field(description="The requested kind.")
-    presets: list[PresetAnswer] = Field(description="The presets, by id.")  # type: ignore[valid-type]
+    presets: list[PresetAnswer] = Field(description="The presets, by id.")  # pyright: ignore
     problems: list[PresetProblem] = Field(description="Preset files that could not be loaded.")

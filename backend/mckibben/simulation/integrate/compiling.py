@@ -26,5 +26,5 @@ def one_at_a_time(function: Callable[P, T]) -> Callable[P, T]:
             return function(*args, **kwargs)
 
     update_wrapper(alone, function)
-    alone.__wrapped__ = getattr(function, "__wrapped__", function)  # pyright: ignore[reportFunctionMemberAccess]
+    alone.__wrapped__ = getattr(function, "__wrapped__", function)  # type: ignore
     return alone

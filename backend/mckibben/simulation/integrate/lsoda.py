@@ -68,7 +68,7 @@ class _Run:
         def value(_time: float, y: np.ndarray) -> float:
             return float(self.codes.guards(self.at(y))[number] + least)
 
-        value.terminal, value.direction = True, -1.0  # type: ignore[attr-defined]
+        value.terminal, value.direction = True, -1.0  # type: ignore
         return value
 
     def change(self, number: int, now: float) -> None:

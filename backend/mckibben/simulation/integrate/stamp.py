@@ -21,7 +21,7 @@ def stamped_with(*modules: ModuleType, also: object = "") -> Callable[[Compiled]
     mark = zlib.crc32(sources + repr(also).encode())
 
     def stamp(function: Compiled) -> Compiled:
-        function.__qualname__ += f"_{mark:08x}"
+        function.__qualname__ += f"_{mark:08x}"  # type: ignore - a function has one
         return function
 
     return stamp

@@ -52,7 +52,7 @@ def _built_in(effect: Effect) -> bool:
     """Whether the equations of an effect are in the sources of the physics, and in nothing else."""
     return all(
         (code := getattr(function, "__code__", None)) is not None
-        and function.__closure__ is None
+        and getattr(function, "__closure__", None) is None
         and _PHYSICS in Path(code.co_filename).parents
         for function in effect.slots.values()
     )
@@ -66,7 +66,7 @@ def _declaration(effect: Effect) -> tuple[object, ...]:
         effect.needs,
         [parameter.name for parameter in effect.parameters],
         [(state.name, state.initial) for state in effect.states],
-        sorted((slot, function.__qualname__) for slot, function in effect.slots.items()),
+        sorted((slot, getattr(function, "__qualname__", "")) for slot, function in effect.slots.items()),
     )
 
 

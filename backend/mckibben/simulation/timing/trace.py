@@ -51,14 +51,14 @@ class Trace:
     pressure: Array
     force: Array
     mass_flow: Array
-    contact: NDArray[np.bool_] = None  # type: ignore[assignment]  # always an array after construction
-    choked: NDArray[np.int_] = None  # type: ignore[assignment]
-    supply_mass_flow: Array = None  # type: ignore[assignment]
-    exhaust_mass_flow: Array = None  # type: ignore[assignment]
-    supplied: Array = None  # type: ignore[assignment]
-    vented: Array = None  # type: ignore[assignment]
+    contact: NDArray[np.bool_] = None  # type: ignore  # always an array after construction
+    choked: NDArray[np.int_] = None  # type: ignore
+    supply_mass_flow: Array = None  # type: ignore
+    exhaust_mass_flow: Array = None  # type: ignore
+    supplied: Array = None  # type: ignore
+    vented: Array = None  # type: ignore
     charge: Array | None = None
-    tube_charge: Array = None  # type: ignore[assignment]
+    tube_charge: Array = None  # type: ignore
     impacts: tuple[Impact, ...] = ()
 
     def __post_init__(self) -> None:

@@ -39,7 +39,7 @@ def without_deviations(grid: Grid) -> Rewritten | None:
 
 def _mean(cells: object, column: int) -> str | None:
     """The mean in a cell; None = it holds no deviation."""
-    row = list(cells)  # type: ignore[call-overload]
+    row = list(cells)  # type: ignore
     cell = row[column] if column < len(row) else None
     found = _CELL.fullmatch(cell) if isinstance(cell, str) else None
     return None if found is None else found[1]

@@ -64,7 +64,7 @@ def _begins_a_number(cell: str) -> bool:
 def _row(
     cells: object, units: dict[int, str], style: NumberStyle, seen: dict[int, Counter[str]]
 ) -> list[Cell]:
-    row: list[Cell] = list(cells)  # type: ignore[call-overload]
+    row: list[Cell] = list(cells)  # type: ignore
     for column, unit in units.items():
         cell = row[column] if column < len(row) else None
         found = quantity_of(cell) if isinstance(cell, str) else None
