@@ -31,31 +31,33 @@ for (const parent of document.querySelectorAll("main, main *, dialog *")) {
   }
 }
 """
-_ONCE_EACH = {"exclude": [["[data-repeated]"]]}
+_REPEATED_ONES = [["[data-repeated]"]]
 
 
-def violations(page: Page) -> list[str]:
-    """What axe objects to in the page as it stands, and to its colours in the other theme."""
+def violations(page: Page, within: str = "body") -> list[str]:
+    """What axe objects to in the page as it stands, and to its colours in the other theme.
+
+    Args:
+        within: the only part that is looked at, as a CSS selector: a dialog, a panel, a menu just opened.
+    """
     theme = page.locator("html").get_attribute("data-theme")
-    found = _objections(page, _ALL, theme) + _colours(page, theme)
+    found = _objections(page, _ALL, theme, {"include": [[within]]}) + _colours(page, theme, within)
     other = "light" if theme == "dark" else "dark"
     page.emulate_media(color_scheme=other)
     marked(page, f'[data-theme="{other}"]')
-    found += _colours(page, other)
+    found += _colours(page, other, within)
     page.emulate_media(color_scheme="dark" if theme == "dark" else "light")
     marked(page, f'[data-theme="{theme}"]')
     return found
 
 
-def _colours(page: Page, theme: str | None) -> list[str]:
+def _colours(page: Page, theme: str | None, within: str) -> list[str]:
     options = {"resultTypes": ["violations"], "runOnly": {"type": "rule", "values": [*_COLOURS]}}
     run(page, _REPEATED)
-    return _objections(page, options, theme, _ONCE_EACH)
+    return _objections(page, options, theme, {"include": [[within]], "exclude": _REPEATED_ONES})
 
 
-def _objections(
-    page: Page, options: dict[str, Any], theme: str | None, context: dict[str, Any] | None = None
-) -> list[str]:
+def _objections(page: Page, options: dict[str, Any], theme: str | None, context: dict[str, Any]) -> list[str]:
     """Each rule that is broken, with the first place where it is."""
     broken = Axe().run(page, context=context, options=options).response["violations"]
     return [f"{rule['id']} ({theme}): {rule['nodes'][0]['html'][:160]}" for rule in broken]

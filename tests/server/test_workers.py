@@ -35,7 +35,7 @@ DIAGNOSIS = {
     "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
     "measurement": "martens-dmsp-20-300",
 }
-QUICK = DIAGNOSIS | {"noise": 60.0}  # nothing is above it, so nothing is searched
+QUICK = DIAGNOSIS | {"effects": {}, "noise": 400.0}  # nothing is above it, so nothing is searched
 CURVES = {"muscle": {"preset": "DMSP-20"}}
 UNKNOWN = DIAGNOSIS | {"measurement": "0" * 64}
 TERM = {"custom": {"term": "c*L", "c": 1.0}}
