@@ -187,6 +187,7 @@ def test_specimens_of_several_lengths_are_diagnosed_together(studio: Studio) -> 
     assert among <= {each.effect for each in alone.not_tried}
 
 
+@pytest.mark.examination("test_specimens_of_several_lengths_are_diagnosed_together")
 def test_a_zero_error_that_all_specimens_share_is_an_effect(studio: Studio) -> None:
     """The same sensor, 5 N off for every length: no matter of mounting, and a new specimen shows it again."""
     texts = [specimen(length, zero=5.0, walled=False, seed=n) for n, length in enumerate((0.2, 0.4))]

@@ -123,6 +123,9 @@ def test_a_freed_geometry_and_a_stated_noise(run: Run) -> None:
     assert np.degrees(angle["value"]) == pytest.approx(25.5, abs=0.05)
 
 
+@pytest.mark.examination(
+    "tests/cli/test_saved_model.py::test_the_numbers_of_a_diagnosis_come_back_on_every_way"
+)
 def test_the_model_goes_back_into_compare(run: Run) -> None:
     file, muscle = rubbing(c10=0.4e6), write("m.json", BRAID)
     answer = answer_of(run("diagnose", file, "--muscle", muscle, "--free", "braid_angle", "--json"))

@@ -141,6 +141,7 @@ def test_the_document_says_where_the_model_comes_from(run: Run) -> None:
     assert "braid_angle" in again["parameters"]["geometry"]
 
 
+@pytest.mark.examination("test_the_document_says_where_the_model_comes_from")
 def test_what_was_assumed_for_a_model_is_said_again(run: Run) -> None:
     """A preset's default length that nobody stated, and an assumed wall."""
     file = write("short.csv", "\n".join(

@@ -281,6 +281,7 @@ def test_a_diagnosis_can_be_cancelled_and_asked_for_again(page: Page, sweeps: Fi
     diagnosed(page)
 
 
+@pytest.mark.examination("tests/frontend/test_design.py::test_messages_stand_at_the_field")
 def test_an_impossible_muscle_says_so_at_its_field(
     page: Page, page_guard: PageGuard, sweeps: FilePayload
 ) -> None:

@@ -322,6 +322,9 @@ def test_verdicts_name_the_limit(page: Page) -> None:
     expect(page.locator(".verdicts .flag.bad").first).to_be_visible()
 
 
+@pytest.mark.examination(
+    "tests/server/test_inverse.py::test_pressure_and_contraction_are_inverse_to_each_other"
+)
 def test_inverse_questions(page: Page) -> None:
     open_design(page)
     card = page.get_by_role("region", name="Inverse calculation")
@@ -344,6 +347,9 @@ def no_presets_left(server: RunningServer) -> Iterator[None]:
         path.unlink()
 
 
+@pytest.mark.examination(
+    "tests/frontend/test_catalogue.py::test_what_is_kept_is_renamed_deleted_and_restored"
+)
 @pytest.mark.usefixtures("no_presets_left")
 def test_save_as_my_preset(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow("status of 4")

@@ -258,6 +258,7 @@ def test_a_mapping_is_remembered_for_the_next_file_of_its_kind(case: Page) -> No
     expect(panel(case).locator(".kept")).to_have_count(0)
 
 
+@pytest.mark.examination("test_files_of_two_kinds_are_two_questions")
 def test_ten_files_of_a_kind_are_one_question(case: Page) -> None:
     choose(case, *[laboratory(f"run{n}.csv", scale=1 + n / 100, rest="250 mm") for n in range(10)])
     expect(case.get_by_role("dialog", name="How 10 files are read")).to_be_visible()
@@ -404,6 +405,7 @@ def test_a_head_that_leaves_no_table_can_be_moved_back(case: Page, page_guard: P
     expect(panel(case).get_by_role("alert")).to_have_count(0)
 
 
+@pytest.mark.examination("test_from_a_dropped_file_to_the_first_comparison")
 def test_a_transient_trace_is_imported_the_same_way(page: Page) -> None:
     page.goto("/")
     page.get_by_role("button", name="Transient", exact=True).click()

@@ -446,6 +446,7 @@ def test_every_field_of_a_task_has_its_default_and_a_reason(page: Page) -> None:
     assert shown == set(fields)
 
 
+@pytest.mark.examination("test_a_link_restores_the_task_and_an_old_one_still_opens")
 def test_the_task_can_be_saved_for_the_command_line_and_opened(page: Page) -> None:
     open_task(page)
     asked, _ = searched(page)
@@ -483,6 +484,7 @@ def test_whatever_leads_to_the_muscle_shows_the_muscle(page: Page) -> None:
     expect(page.locator("#preset")).to_be_visible()
 
 
+@pytest.mark.examination("test_a_link_restores_the_task_and_an_old_one_still_opens")
 def test_the_views_stay_apart(page: Page) -> None:
     """Switching is a step of the document, and the muscle's own page is untouched by the task."""
     page.goto("/")

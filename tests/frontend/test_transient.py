@@ -221,6 +221,7 @@ def test_shapes_and_controller(page: Page) -> None:
     expect(page.locator(".transient .notice")).to_be_hidden()
 
 
+@pytest.mark.examination("test_shapes_and_controller")
 def test_another_valve_brings_its_dead_time(page: Page) -> None:
     open_transient(page)
     own = page.locator(".transient [data-effect].on")
@@ -832,6 +833,7 @@ return { page: document.documentElement.scrollWidth - innerWidth, small,
 """
 
 
+@pytest.mark.examination("tests/frontend/test_layout.py::test_every_width")
 def test_no_sideways_scroll_and_large_targets(page: Page) -> None:
     open_transient(page)
     page.get_by_role("button", name="Pin this run").click()

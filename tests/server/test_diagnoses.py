@@ -230,6 +230,9 @@ def test_an_unknown_effect_brings_a_term_that_can_be_sent_back(client: TestClien
     assert "custom" not in {c["effect"] for c in further["candidates"]}
 
 
+@pytest.mark.examination(
+    "tests/identification/diagnose/test_diagnosis.py::test_a_ripple_is_an_unknown_effect_told_with_its_place_but_without_a_formula"
+)
 def test_an_unknown_effect_without_a_short_formula_is_told_with_its_place(client: TestClient) -> None:
     rows = cycle_rows(ripple, noise=1.0, each=40)
     waved = upload(client, "waved", text(rows, CYCLE_HEADER, "kind: isobaric"))
@@ -245,6 +248,7 @@ def test_an_unknown_effect_without_a_short_formula_is_told_with_its_place(client
 # --- what is asked
 
 
+@pytest.mark.examination("tests/cli/test_diagnose.py::test_several_files_are_diagnosed_together")
 def test_several_measurements_and_one_to_judge_by(client: TestClient, rubbing: str, other: str) -> None:
     both = diagnose(client, measurements=[{"id": rubbing}, {"id": other, "use": "fit"}])
     assert both["rows"] == 400
