@@ -19,7 +19,8 @@ from mckibben.physics.effect import Effect
 _MOVED = 1e-3  # relative change of a parameter below which the fit has not left its start
 _USUAL = 0.01  # share of the range: size of a parameter that is off by default
 _STUCK = 0.999  # error over the error before, above which a fit is repeated from another start
-_LEAST_PROMISE = 0.02  # least first-order gain near the noise, share of the mean square
+# Least first-order gain, share of the mean square, and near the noise: what improves a score has more.
+_LEAST_PROMISE, _LEAST_NEAR_FLOOR = 0.01, 0.02
 _LEAST_FREED = 0.03  # least first-order gain of freed constants, share of the mean square
 _ELSEWHERE = (0.1, 0.4)  # shares of the way to the farther bound at which a hidden constant is tried
 _PLACES = 12  # places tried of an effect that acts beyond some state only
@@ -219,7 +220,8 @@ class Fitter:
         """Effects in the order of their first-order gain, the largest first."""
         gains = self.gains(fitted_model, effects)
         unexplained = self._unexplained(fitted_model)[1]
-        least = _LEAST_PROMISE * float(unexplained @ unexplained) if self.near_floor(fitted_model) else 0.0
+        share = _LEAST_NEAR_FLOOR if self.near_floor(fitted_model) else _LEAST_PROMISE
+        least = share * float(unexplained @ unexplained)
         order = sorted(effects, key=lambda effect: -gains[effect.id])
         return [effect for effect in order if gains[effect.id] > least]
 

@@ -23,6 +23,7 @@ from mckibben.simulation.integrate.many import integrate_many
 from mckibben.simulation.statics.model import StaticModel
 
 TOLERANCE = 1e-6
+_MOTION = ("stroke_reading", "force_reading", "stroke", "speed")  # what a run under a measured pressure gives
 
 
 def driven_force(
@@ -181,24 +182,67 @@ def driven_motion(
     Returns:
         ``stroke_reading`` [m], ``force_reading`` [N] and ``stroke``, ``speed`` at each time.
     """
-    compiled = compiled_driven(drive.model.effects, motion=True)
-    table = constants_of(drive) | {"temperature": drive.temperature}
-    steps = _steps(time)
-    external = external_force(drive).value(time - time[0])
-    inputs = {
-        "pressure": pressure[:-1],
-        "pressure_slope": np.diff(pressure) / steps,
-        "external_force": external[:-1],
-        "external_force_slope": np.diff(external) / steps,
-        "begin": time[:-1],
-    }
-    names = [state.name for state in compiled.model.states]
-    start = np.array([state.initial or 0.0 for state in compiled.model.states])
-    low, high = drive.stops
-    start[names.index("clock")], start[names.index("stroke")] = time[0], min(max(stroke, low), high)
-    outputs = _run(compiled, table, inputs, start, time, tolerance, drive.restitution)
-    outputs["force_reading"] = skewed(drive.model, time, outputs["force_reading"])
-    return {name: outputs[name] for name in ("stroke_reading", "force_reading", "stroke", "speed")}
+    (found,) = driven_motions([drive], time=time, pressure=pressure, stroke=stroke, tolerance=tolerance)
+    if isinstance(found, InputError):
+        raise found
+    return found
+
+
+def driven_motions(
+    drives: Sequence[Drive],
+    *,
+    time: np.ndarray,
+    pressure: np.ndarray,
+    stroke: float,
+    tolerance: float = TOLERANCE,
+) -> list[dict[str, np.ndarray] | InputError]:
+    """`driven_motion` of drives that differ in numbers only, side by side; each as it would be alone.
+
+    An error in the place of a drive that does not follow the record.
+    """
+    first = drives[0]
+    compiled = compiled_driven(first.model.effects, motion=True)
+    steps, names = _steps(time), [state.name for state in compiled.model.states]
+    parameters, starts, packed = [], [], []
+    for drive in drives:
+        table = constants_of(drive) | {"temperature": drive.temperature}
+        external = external_force(drive).value(time - time[0])
+        inputs = {
+            "pressure": pressure[:-1],
+            "pressure_slope": np.diff(pressure) / steps,
+            "external_force": external[:-1],
+            "external_force_slope": np.diff(external) / steps,
+            "begin": time[:-1],
+        }
+        start = np.array([state.initial or 0.0 for state in compiled.model.states])
+        low, high = drive.stops
+        start[names.index("clock")], start[names.index("stroke")] = time[0], min(max(stroke, low), high)
+        constants = np.array([table[name] for name in compiled.model.parameters])
+        columns, at_rest = _packed(compiled, inputs)
+        settle(compiled, start, constants, at_rest)
+        parameters.append(constants)
+        starts.append(start)
+        packed.append(columns)
+    solutions = integrate_many(
+        compiled,
+        parameters=np.array(parameters),
+        starts=np.array(starts),
+        times=time,
+        inputs=np.array(packed),
+        grid=time,
+        tolerance=tolerance,
+        columns=_MOTION,
+        restitution=first.restitution,
+    )
+    found: list[dict[str, np.ndarray] | InputError] = []
+    for number, drive in enumerate(drives):
+        if solutions.outcomes[number] is not Outcome.COMPLETED:
+            found.append(_unfollowed(time, int(solutions.written[number]), solutions.outcomes[number]))
+            continue
+        outputs = dict(zip(_MOTION, solutions.rows[number].T.copy(), strict=True))
+        outputs["force_reading"] = skewed(drive.model, time, outputs["force_reading"])
+        found.append(outputs)
+    return found
 
 
 def _run(
@@ -208,7 +252,6 @@ def _run(
     start: np.ndarray,
     time: np.ndarray,
     tolerance: float,
-    restitution: float = 0.0,
 ) -> dict[str, np.ndarray]:
     model = compiled.model
     parameters = np.array([table[name] for name in model.parameters])
@@ -223,7 +266,6 @@ def _run(
         grid=np.ascontiguousarray(time, dtype=float),
         tolerance=tolerance,
         engine=engine_by_size(len(packed_inputs)),
-        restitution=restitution,
     )
     if solution.outcome is not Outcome.COMPLETED:
         raise _unfollowed(time, len(solution.rows), solution.outcome)
