@@ -19,7 +19,9 @@ from mckibben.physics.effect import Effect
 _MOVED = 1e-3  # relative change of a parameter below which the fit has not left its start
 _USUAL = 0.01  # share of the range: size of a parameter that is off by default
 _STUCK = 0.999  # error over the error before, above which a fit is repeated from another start
-_LEAST_PROMISE = 0.02  # least first-order gain near the noise, share of the mean square
+# Least first-order gain, share of the mean square, and near the noise: what improves a score has more.
+_LEAST_PROMISE, _LEAST_NEAR_FLOOR = 0.01, 0.02
+_LEAST_FREED = 0.03  # least first-order gain of freed constants, share of the mean square
 _ELSEWHERE = (0.1, 0.4)  # shares of the way to the farther bound at which a hidden constant is tried
 _PLACES = 12  # places tried of an effect that acts beyond some state only
 _NEAR_FLOOR = 1.2  # error over noise below which only effects with a clear gain of their own are tried
@@ -144,11 +146,15 @@ class Fitter:
         if not names:
             return []
 
-        def fit(some: set[str]) -> FittedModel:
-            moved = sorted(some & set(seen))
-            start = fitted_model.fit_model.with_numbers(moved, [seen[name] for name in moved])
-            return self.fit(start, fitted_model.freed | some)
+        def moved(some: set[str]) -> FitModel:
+            there = sorted(some & set(seen))
+            return fitted_model.fit_model.with_numbers(there, [seen[name] for name in there])
 
+        def fit(some: set[str]) -> FittedModel:
+            return self.fit(moved(some), fitted_model.freed | some)
+
+        if not self._would_matter(fitted_model, moved(names), names):
+            return []
         whole = fit(names)
         if len(names) == 1 or whole.implausible <= fitted_model.implausible:
             return [whole]
@@ -157,6 +163,21 @@ class Fitter:
         singles = [{name} for name in together]
         groups = [group for group in together.values() if len(group) > 1]
         return [fit(some) for some in (*fewer, *singles, *groups)]
+
+    def _would_matter(self, fitted_model: FittedModel, moved: FitModel, names: set[str]) -> bool:
+        """Whether freeing constants may lower the error, by the linear model of their changes.
+
+        Of the constants whose freeing improves a score, the least promising ones promise a share of the mean
+        square four times as large.
+        """
+        basis, unexplained = self._unexplained(fitted_model)
+        free = [p for p in free_numbers(moved, (), names) if p.name in names]
+        columns = self.predictor.weighted(self.predictor.linearised(moved, free)[1])
+        columns = columns[:, np.any(columns, axis=0)]
+        if not np.all(np.isfinite(columns)):
+            return True
+        whole = fitted_model.mean_square * len(fitted_model.residual)
+        return _gain(columns, basis, unexplained) > _LEAST_FREED * whole
 
     def _seen_from(
         self, fitted_model: FittedModel, effect: Effect, hidden: Collection[str]
@@ -199,7 +220,8 @@ class Fitter:
         """Effects in the order of their first-order gain, the largest first."""
         gains = self.gains(fitted_model, effects)
         unexplained = self._unexplained(fitted_model)[1]
-        least = _LEAST_PROMISE * float(unexplained @ unexplained) if self.near_floor(fitted_model) else 0.0
+        share = _LEAST_NEAR_FLOOR if self.near_floor(fitted_model) else _LEAST_PROMISE
+        least = share * float(unexplained @ unexplained)
         order = sorted(effects, key=lambda effect: -gains[effect.id])
         return [effect for effect in order if gains[effect.id] > least]
 

@@ -8,7 +8,7 @@ By the implicit function theorem,
 
 from __future__ import annotations
 
-from collections.abc import Hashable, Mapping, Sequence
+from collections.abc import Callable, Hashable, Mapping, Sequence
 from copy import copy
 
 import numpy as np
@@ -19,7 +19,7 @@ from mckibben.identification.predict.memory import HISTORIES, Memory, remembers,
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
-from mckibben.simulation.statics.compiled import INPUTS, compiled_state
+from mckibben.simulation.statics.compiled import INPUTS, CompiledState, compiled_state
 from mckibben.simulation.statics.model import settle
 
 State = Mapping[str, np.ndarray]
@@ -42,12 +42,19 @@ class Evaluation:
         self._memory = Memory(task)
         self._known_history: str | None = None
         self._histories: dict[Hashable, str] = {}
+        self._without_derivatives = False
 
     def after(self, history: str) -> Evaluation:
         """The same with one of `HISTORIES` for every model."""
         pinned = copy(self)
         pinned._known_history = history
         return pinned
+
+    def without_derivatives(self) -> Evaluation:
+        """The same for structures that are evaluated only: of all candidates, they would be a hundred."""
+        quick = copy(self)
+        quick._without_derivatives = True
+        return quick
 
     def history(self, fit_model: FitModel) -> str:
         """What went before the records, of `HISTORIES`: that with which the forces fit best.
@@ -71,6 +78,7 @@ class Evaluation:
         task = self.task
         scored = ~task.turning if np.any(~task.turning) else slice(None)
         misfit = {}
+        self._memory.together([(fit_model, before) for before in HISTORIES.values()])
         with np.errstate(all="ignore"):
             for name, before in HISTORIES.items():
                 force = self._at(fit_model, (), self._state(fit_model, before), before)[0]["force"]
@@ -109,17 +117,35 @@ class Evaluation:
             before = HISTORIES[self.history(fit_model)]
             return self._at(fit_model, names, state, before)
 
+    def by_length(
+        self, fit_model: FitModel, state: State
+    ) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
+        """Force and its slope over the length as functions of the lengths [m], for a search of lengths."""
+        compiled, _ = self._compiled(fit_model, ())
+        constants = compiled.pack(fit_model.muscle, fit_model.values)
+
+        def at(length: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            with np.errstate(all="ignore"):
+                out, _ = settle(compiled, constants, {**state, "length": length})
+            return out["force"], out["force_by_length"]
+
+        return at
+
+    def _compiled(self, fit_model: FitModel, names: Sequence[str]) -> tuple[CompiledState, tuple[str, ...]]:
+        """The structure with derivatives, and by what: at least by the names."""
+        effects = sorted_effects(fit_model.effects)
+        memory = any(map(remembers, effects))
+        few = len(self.task.measured) <= _FEW_ROWS and not self._without_derivatives
+        gradient_by = _derivatives(effects, names, memory) if few else tuple(names)
+        return compiled_state(effects, gradient_by, memory=memory, quick=True), gradient_by
+
     def _at(
         self, fit_model: FitModel, names: Sequence[str], state: State | None, before: float
     ) -> tuple[dict[str, np.ndarray], np.ndarray]:
         moved = self._memory.by_parameters(fit_model, names, before)
-        effects = sorted_effects(fit_model.effects)
-        memory = any(map(remembers, effects))
         inner = [name for name in names if name != LOAD]
         inner += sorted({state for rates in moved.values() for state in rates})
-        few = len(self.task.measured) <= _FEW_ROWS
-        gradient_by = _derivatives(effects, inner, memory) if few else tuple(inner)
-        compiled = compiled_state(effects, gradient_by, memory=memory, quick=True)
+        compiled, gradient_by = self._compiled(fit_model, inner)
         constants = compiled.pack(fit_model.muscle, fit_model.values)
         out, raw = settle(compiled, constants, state or self._state(fit_model, before))
         picked = [gradient_by.index(name) for name in inner]

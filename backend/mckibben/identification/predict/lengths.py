@@ -83,9 +83,10 @@ def _balance(
     first = task.measured if task.channel == "length" else np.full(len(task.measured), rest)
     length = np.clip(first, low, high)
     load = _load(task.state["load"], fit_model, state, length)
+    force_at = evaluation.by_length(fit_model, state)
     for _ in range(_NEWTON_STEPS):
-        out, _ = evaluation.at(fit_model, (), {**state, "length": length})
-        excess, slope = out["force"] - load, out["force_by_length"]
+        force, slope = force_at(length)
+        excess = force - load
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.where(slope > 0.0, excess / slope, np.sign(excess))
         limit = _LARGEST_STEP * rest

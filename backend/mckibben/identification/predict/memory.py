@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from mckibben.identification.predict.comparable_rows import ComparableRows
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import ROOM_TEMPERATURE
-from mckibben.simulation.drive.driven import driven_states
+from mckibben.simulation.drive.driven import driven_states_of_many
 from mckibben.simulation.statics.model import StaticModel
 
 _KEPT = 128  # trajectories in the cache; the oldest are dropped
@@ -34,6 +35,15 @@ def remembers_before(effect: Effect) -> bool:
     return remembers(effect) and any(state.sliding for state in effect.states)
 
 
+class _Wanted(NamedTuple):
+    """A trajectory of an effect's states: what it depends on, as a key and as values."""
+
+    key: tuple
+    fit_model: FitModel
+    effects: tuple[Effect, ...]
+    before: float
+
+
 class Memory:
     """Trajectories of the states of effects over the rows, cached for models that share them.
 
@@ -54,25 +64,40 @@ class Memory:
 
     def states(self, fit_model: FitModel, before: float = 0.0) -> dict[str, np.ndarray]:
         """Value of each state ("effect.state") at each row, after one of `HISTORIES`."""
-        sensors = tuple(e for e in fit_model.effects if any(slot in e.slots for slot in _SENSORS))
-        trajectories: dict[str, np.ndarray] = {}
-        for effect in filter(remembers, fit_model.effects):
-            effects = (effect, *(sensor for sensor in sensors if sensor is not effect))
-            values = {e.id: dict(fit_model.values[e.id]) for e in effects}
-            past = before if remembers_before(effect) else 0.0
-            key = (fit_model.muscle, past, *(self._key(e, values[e.id]) for e in effects))
-            if key not in self._kept:
-                if len(self._kept) >= _KEPT:
-                    self._kept.pop(next(iter(self._kept)))
-                self._kept[key] = self._run(StaticModel.of(fit_model.muscle, effects, values), effect, past)
-            trajectories |= self._kept[key]
-        return trajectories
+        return self.together([(fit_model, before)])[0]
+
+    def together(self, wanted: Sequence[tuple[FitModel, float]]) -> list[dict[str, np.ndarray]]:
+        """The states of models with the same effects after their histories; unknown ones side by side."""
+        found: list[dict[str, np.ndarray]] = [{} for _ in wanted]
+        effects = wanted[0][0].effects
+        sensors = [e for e in effects if any(slot in e.slots for slot in _SENSORS)]
+        for effect in filter(remembers, effects):
+            chosen = (effect, *(sensor for sensor in sensors if sensor is not effect))
+            past = remembers_before(effect)
+            runs = [
+                _Wanted(
+                    (model.muscle, before * past, *(self._key(e, model.values[e.id]) for e in chosen)),
+                    model,
+                    chosen,
+                    before * past,
+                )
+                for model, before in wanted
+            ]
+            missing = list({run.key: run for run in runs if run.key not in self._kept}.values())
+            if missing:
+                trajectories = self._run(missing, effect)
+                self._kept |= {run.key: states for run, states in zip(missing, trajectories, strict=True)}
+            for states, run in zip(found, runs, strict=True):
+                states |= self._kept[run.key]
+        while len(self._kept) > _KEPT:
+            self._kept.pop(next(iter(self._kept)))
+        return found
 
     def by_parameters(
         self, fit_model: FitModel, names: Sequence[str], before: float = 0.0
     ) -> dict[str, dict[str, np.ndarray]]:
         """Derivatives of the states by the named parameters that affect them: name -> state -> rows."""
-        derivatives: dict[str, dict[str, np.ndarray]] = {}
+        changed: dict[str, tuple[FitModel, float]] = {}  # name -> the model with it changed, and by how much
         for name in names:
             effect_id, _, parameter = name.partition(".")
             effect = next((e for e in fit_model.effects if e.id == effect_id), None)
@@ -82,42 +107,57 @@ class Memory:
             here = fit_model.number(name)
             step = _STEP * max(abs(here), 0.01 * (declared.upper - declared.lower))
             other = here + step if here + step <= declared.upper else here - step
-            first = self.states(fit_model, before)
-            last = self.states(fit_model.with_numbers([name], [other]), before)
-            derivatives[name] = {
-                state: (last[state] - first[state]) / (other - here)
+            changed[name] = fit_model.with_numbers([name], [other]), other - here
+        if not changed:
+            return {}
+        models = [fit_model, *(model for model, _ in changed.values())]
+        first, *others = self.together([(model, before) for model in models])
+        return {
+            name: {
+                state: (last[state] - first[state]) / difference
                 for state in first
-                if state.startswith(f"{effect_id}.")
+                if state.startswith(f"{name.partition('.')[0]}.")
             }
-        return derivatives
+            for (name, (_, difference)), last in zip(changed.items(), others, strict=True)
+        }
 
     @staticmethod
-    def _key(effect: Effect, values: dict[str, float]) -> tuple:
+    def _key(effect: Effect, values: Mapping[str, float]) -> tuple:
         wanted = effect.wanted("rates") if remembers(effect) else tuple(values)
         return (effect.id, *(values[name] for name in values if name in wanted))
 
-    def _run(self, model: StaticModel, effect: Effect, before: float) -> dict[str, np.ndarray]:
+    def _run(self, runs: Sequence[_Wanted], effect: Effect) -> list[dict[str, np.ndarray]]:
         task = self._task
+        names = [f"{effect.id}.{state.name}" for state in effect.states]
         rest = {f"{effect.id}.{state.name}": state.initial for state in effect.states}
-        trajectories = {name: np.full(len(task.measured), value) for name, value in rest.items()}
+        found = [{name: np.full(len(task.measured), value) for name, value in rest.items()} for _ in runs]
         clock = task.time if task.time is not None else np.arange(len(task.measured), dtype=float)
+        models = [
+            StaticModel.of(model.muscle, effects, {e.id: model.values[e.id] for e in effects})
+            for _, model, effects, _ in runs
+        ]
         for rows in self._records:
-            along = before * self._first_motion(rows) if before else 0.0
-            states = driven_states(
-                model,
+            motion = self._first_motion(rows) if any(run.before for run in runs) else 0.0
+            states = driven_states_of_many(
+                models,
+                names,
                 time=clock[rows],
                 pressure=task.state["pressure"][rows],
                 length=task.state["length"][rows],
                 temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
-                begin={
-                    f"{effect.id}.{state.name}": along * state.sliding
-                    for state in effect.states
-                    if state.sliding and along
-                },
+                begins=[
+                    {
+                        f"{effect.id}.{state.name}": run.before * motion * state.sliding
+                        for state in effect.states
+                        if state.sliding and run.before * motion
+                    }
+                    for run in runs
+                ],
             )
-            for name in trajectories:
-                trajectories[name][rows] = states[name]
-        return trajectories
+            for trajectories, of_run in zip(found, states, strict=True):
+                for name in names:
+                    trajectories[name][rows] = of_run[name]
+        return found
 
     def _first_motion(self, rows: np.ndarray) -> float:
         """1 if a record begins with a lengthening, -1 with a shortening, 0 without a motion.

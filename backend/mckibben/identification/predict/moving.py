@@ -7,9 +7,9 @@ are scaled by their noise.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from copy import copy
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -17,15 +17,21 @@ from mckibben.identification.predict.comparable_rows import records_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.folds import FEWEST
 from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.moving_records import (
+    MOST_ROWS,
+    Record,
+    record_of,
+    recorded_channels,
+    stroke_of,
+)
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor, farther
-from mckibben.measurement.measurement import STROKES, Measurement, lengths
+from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.noise import noise_floor
 from mckibben.measurement.settled import settled
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
-from mckibben.simulation.command.signals import TableSignal
-from mckibben.simulation.drive.driven import driven_motion
+from mckibben.simulation.drive.driven import driven_motions
 from mckibben.simulation.drive.neighbours import neighbours
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import simulate
@@ -33,10 +39,6 @@ from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.statics.model import StaticModel
 
-_MOST_ROWS = 1000  # per record; more are thinned evenly
-_FEW_LEVELS = 0.2  # share of rows at which the command changes, up to which it is held between changes
-_FIRST_ROWS = 50  # most rows for the start pressure
-_NOT_VENTED = 30e3  # Pa from the documented start pressure; less may be a zero error of the gauge
 _LOST = 1e3  # residual after a run has stopped early, over the noise
 _READINGS = {"pressure": "pressure_reading", "displacement": "stroke_reading", "force": "force_reading"}
 # Derivatives side by side: relative step, fewest parameters, and the number of runs that take as long as the
@@ -48,33 +50,6 @@ _AIR = (
     "extra_volume", "heat", "leakage", "command_delay", "opening", "fill_conductance", "exhaust_conductance",
     "tube_conductance", "supply",
 )  # fmt: skip
-
-
-class Recorded(TableSignal):
-    """A measured command; if the first row is not 0, the command is switched on at that row."""
-
-    shape = "recorded"
-
-    @property
-    def before(self) -> float:
-        """Command before the first row: 0 if the first row fills, because the muscle was at rest."""
-        return min(float(self.values[0]), 0.0)
-
-
-@dataclass(frozen=True)
-class Record:
-    """One uninterrupted run: the drive as documented, its times from 0, and the measured pressure."""
-
-    drive: Drive
-    time: np.ndarray
-    pressure: np.ndarray | None
-    stroke: float
-    rows: np.ndarray
-
-    @property
-    def segments(self) -> int:
-        """Pieces of the command, at each of which the integration starts afresh."""
-        return len(self.drive.command.segments(self.drive.duration).slopes)
 
 
 class TransientPredictor(Predictor):
@@ -97,7 +72,7 @@ class TransientPredictor(Predictor):
         columns = measurement.columns
         self.kind = measurement.kind
         self.commanded = "command" in columns
-        recorded = _channels(measurement, drive, commanded=self.commanded)
+        recorded = recorded_channels(measurement, drive, commanded=self.commanded)
         if not recorded:
             raise InputError(
                 f"{measurement.name}: a transient without a command column needs a displacement",
@@ -107,7 +82,7 @@ class TransientPredictor(Predictor):
             )
         labels = records_of(measurement)
         self._records = [
-            _record(measurement, drive, np.flatnonzero((labels == label) & measurement.usable))
+            record_of(measurement, drive, np.flatnonzero((labels == label) & measurement.usable))
             for label in np.unique(labels)
         ]
         if "pressure" not in columns and not self.commanded:
@@ -128,7 +103,7 @@ class TransientPredictor(Predictor):
         if data.repeated:
             self.excluded["repeated rows"] = data.repeated
         if between := int(np.count_nonzero(measurement.usable)) - count:
-            self.excluded[f"in between ({_MOST_ROWS} rows of each run are compared, evenly spread)"] = between
+            self.excluded[f"in between ({MOST_ROWS} rows of each run are compared, evenly spread)"] = between
         for number, (name, unit, values) in enumerate(recorded):
             sweeps = [np.flatnonzero(labels == label) for label in np.unique(labels)]
             full_scale = float(np.max(np.abs(values)))
@@ -150,7 +125,7 @@ class TransientPredictor(Predictor):
         self.folds = (_blocks(self._records, len(recorded)),)
         time = np.concatenate([record.time for record in self._records])
         others = {name: columns[name][rows] for name in ("pressure", "command") if name in columns}
-        stroke = _stroke(measurement, drive)
+        stroke = stroke_of(measurement, drive)
         if stroke is not None:
             others |= {"displacement": stroke[rows], "velocity": -np.gradient(stroke, columns["time"])[rows]}
         self.inputs = {name: np.tile(v, len(recorded)) for name, v in {"time": time, **others}.items()}
@@ -212,15 +187,38 @@ class TransientPredictor(Predictor):
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """The channels of all records, stacked; far from the measurement after a run has stopped early."""
+        return self._stacked([self._run(_drive_with(fit_model, record), record) for record in self._records])
+
+    def _stacked(self, readings: Sequence[Mapping[str, np.ndarray]]) -> np.ndarray:
+        """The channels of the readings of all records; far from the measurement where there are none."""
         parts: list[list[np.ndarray]] = [[] for _ in self.channels]
-        for record in self._records:
-            readings = self._run(_drive_with(fit_model, record), record)
+        for record, of_record in zip(self._records, readings, strict=True):
             for part, channel in zip(parts, self.channels, strict=True):
-                values = readings.get(channel.name, np.empty(0))
+                values = of_record.get(channel.name, np.empty(0))
                 lost = np.full(len(record.rows) - len(values), np.nan)
                 part.append(np.concatenate([values, lost]))
         predicted = np.concatenate([np.concatenate(part) for part in parts])
         return np.where(np.isfinite(predicted), predicted, self.measured + _LOST * self._noises())
+
+    def _alone_side_by_side(self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray) -> np.ndarray:
+        """One-sided differences of runs under the measured pressure: all in one call, each as if alone."""
+        changed = [self.ends(fit_model, parameter, self.step) for parameter in free]
+        others = [farther(*ends) for ends in changed]
+        models = [
+            fit_model.with_numbers([parameter.name], [other])
+            for parameter, other in zip(free, others, strict=True)
+        ]
+        readings = [
+            self._motions([_drive_with(model, record) for model in models], record)
+            for record in self._records
+        ]
+        columns = [
+            (self._stacked(of_model) - here) / (other - value)
+            for of_model, other, (value, _, _) in zip(
+                zip(*readings, strict=True), others, changed, strict=True
+            )
+        ]
+        return np.column_stack(columns)
 
     def differences(
         self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None
@@ -229,7 +227,9 @@ class TransientPredictor(Predictor):
 
         That gives smooth differences from much smaller steps, but each structure is compiled for it first.
         """
-        if here is None or not self.commanded or not self._many_runs(fit_model, len(free)):
+        if here is not None and free and not self.commanded:
+            return self._alone_side_by_side(fit_model, free, here)
+        if here is None or not self._many_runs(fit_model, len(free)):
             return super().differences(fit_model, free, here)
         changed = [self.ends(fit_model, parameter, _STEP_TOGETHER) for parameter in free]
         others = [farther(*ends) for ends in changed]
@@ -296,13 +296,25 @@ class TransientPredictor(Predictor):
                     return {}
                 results = run.outputs
             else:
-                assert record.pressure is not None  # noqa: S101 - checked by the constructor
-                results = driven_motion(
-                    drive, time=record.time, pressure=record.pressure, stroke=record.stroke
-                )
+                return self._motions([drive], record)[0]
         except InputError:  # values of the fit that no drive can have
             return {}
-        return {name: results[output] for name, output in _READINGS.items() if output in results}
+        return _named(results)
+
+    @staticmethod
+    def _motions(drives: Sequence[Drive], record: Record) -> list[dict[str, np.ndarray]]:
+        """Readings of drives under the measured pressure; none of one that does not follow it."""
+        assert record.pressure is not None  # noqa: S101 - checked by the constructor
+        try:
+            runs = driven_motions(drives, time=record.time, pressure=record.pressure, stroke=record.stroke)
+        except InputError:  # values of the fit that no drive can have
+            return [{} for _ in drives]
+        return [{} if isinstance(run, InputError) else _named(run) for run in runs]
+
+
+def _named(outputs: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
+    """The readings by the names of their channels."""
+    return {name: outputs[output] for name, output in _READINGS.items() if output in outputs}
 
 
 def _drive_with(fit_model: FitModel, record: Record) -> Drive:
@@ -315,74 +327,6 @@ def _drive_with(fit_model: FitModel, record: Record) -> Drive:
 def _fast(effect: Effect) -> bool:
     """Whether a state of the drive becomes infinitely fast when the effect is off."""
     return "drive_rates" in effect.slots
-
-
-def _stroke(measurement: Measurement, drive: Drive) -> np.ndarray | None:
-    if not any(name in measurement.columns for name in STROKES):
-        return None
-    if "displacement" in measurement.columns:
-        return measurement.columns["displacement"]
-    return drive.muscle.nominal_length - lengths(measurement, drive.muscle.nominal_length)
-
-
-def _channels(
-    measurement: Measurement, drive: Drive, *, commanded: bool
-) -> list[tuple[str, str, np.ndarray]]:
-    columns = measurement.columns
-    channels = []
-    if commanded and "pressure" in columns:
-        channels.append(("pressure", "Pa", columns["pressure"]))
-    stroke = _stroke(measurement, drive)
-    if stroke is not None:
-        channels.append(("displacement", "m", stroke))
-    if "force" in columns and (commanded or stroke is not None):
-        channels.append(("force", "N", columns["force"]))
-    return channels
-
-
-def _record(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Record:
-    columns, conditions = measurement.columns, measurement.conditions
-    if len(rows) < 3:
-        raise InputError(f"{measurement.name}: a run of {len(rows)} rows is too short", field="time")
-    if len(rows) > _MOST_ROWS:
-        rows = rows[np.unique(np.linspace(0, len(rows) - 1, _MOST_ROWS).astype(int))]
-    time = columns["time"][rows] - columns["time"][rows[0]]
-    load = drive.load
-    if "load_mass" in conditions:
-        load = replace(load, mass=float(conditions["load_mass"]))
-    if "load_force" in conditions:
-        load = replace(load, force=float(conditions["load_force"]))
-    changed: dict = {"duration": float(time[-1]), "load": load, "controller": None, "reference": None}
-    if "supply_pressure" in conditions:
-        changed["supply_pressure"] = float(conditions["supply_pressure"])
-    if "command" in columns:
-        changed["command"] = _command(columns["time"], columns["command"], rows)
-    pressure = columns["pressure"][rows] if "pressure" in columns else None
-    if pressure is not None and "command" in columns:
-        changed["start_pressure"] = _start_pressure(drive, pressure, columns["command"][rows])
-    stroke = _stroke(measurement, drive)
-    return Record(
-        replace(drive, **changed), time, pressure, 0.0 if stroke is None else float(stroke[rows[0]]), rows
-    )
-
-
-def _start_pressure(drive: Drive, pressure: np.ndarray, command: np.ndarray) -> float:
-    """Measured pressure before the valve first moves if clearly not the documented one, else that [Pa]."""
-    closed = command[0] == 0.0
-    resting = int(np.argmax(command != 0.0)) or len(command) if closed else 1
-    measured = float(np.median(pressure[: min(resting, _FIRST_ROWS)]))
-    return measured if abs(measured - drive.start_pressure) > _NOT_VENTED else drive.start_pressure
-
-
-def _command(time: np.ndarray, command: np.ndarray, rows: np.ndarray) -> Recorded:
-    """The measured command: held between changes if they are few, else interpolated linearly."""
-    part = slice(rows[0], rows[-1] + 1)
-    t, u = time[part] - time[part.start], command[part]
-    changes = np.flatnonzero(np.diff(u) != 0.0) + 1
-    if len(changes) > _FEW_LEVELS * len(u):
-        return Recorded(times=t, values=u, interpolation="linear")
-    kept = np.concatenate([[0], changes])
-    return Recorded(times=t[kept], values=u[kept], interpolation="hold")
 
 
 def _blocks(records: Sequence[Record], channels: int) -> np.ndarray:

@@ -102,7 +102,9 @@ class QuasistaticPredictor(Predictor):
             return self.predict(fit_model, clipped=False)
         values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in self._wide}
         wide = replace(fit_model, effects=self._wide, values=values)
-        return self.after(("rest",)).predict(wide, clipped=False)
+        quick = self.after(("rest",))
+        quick._evaluation = quick._evaluation.without_derivatives()
+        return quick.predict(wide, clipped=False)
 
     def history(self, fit_model: FitModel) -> tuple[str, ...]:
         """See `Evaluation.history`."""

@@ -10,6 +10,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.identification.residual.forest import Forest
+
 _MOST_ROWS = 2000  # for the regression; more are thinned
 _BLOCK = 12  # rows that are left out together
 _FOLDS = 5
@@ -33,8 +35,6 @@ class ResidualStructure:
 
 def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualStructure:
     """The part of a residual that a regression without physics predicts, and from which variables."""
-    from sklearn.ensemble import ExtraTreesRegressor  # 1 s import, not paid at start
-
     names = [name for name in variables if name != "group"]
     if not names or len(residual) < 40 or not np.any(residual):
         return ResidualStructure(0.0, ())
@@ -51,14 +51,13 @@ def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Resi
         out = fold == label
         if not np.any(out) or np.all(out):
             continue
-        model = ExtraTreesRegressor(_TREES, min_samples_leaf=4, max_features=1.0, random_state=_SEED)
-        model.fit(table[~out], target[~out])
+        forest = Forest(table[~out], target[~out], trees=_TREES, random=random)
         inputs = np.tile(
             table[out], (len(names) + 1, 1, 1)
         )  # copy i has variable i shuffled, the last copy none
         for column in range(len(names)):
             inputs[column, :, column] = random.permutation(inputs[column, :, column])
-        predicted = model.predict(inputs.reshape(-1, len(names))).reshape(len(names) + 1, -1)
+        predicted = forest.predict(inputs.reshape(-1, len(names))).reshape(len(names) + 1, -1)
         shuffled[:, out], left[out] = target[out] - predicted[:-1], target[out] - predicted[-1]
     whole = float(np.mean(target**2))
     share = max(0.0, 1.0 - float(np.mean(left**2)) / whole)

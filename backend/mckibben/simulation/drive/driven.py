@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -19,9 +19,11 @@ from mckibben.simulation.integrate.engine import (
     engine_by_size,
     integrate,
 )
+from mckibben.simulation.integrate.many import integrate_many
 from mckibben.simulation.statics.model import StaticModel
 
 TOLERANCE = 1e-6
+_MOTION = ("stroke_reading", "force_reading", "stroke", "speed")  # what a run under a measured pressure gives
 
 
 def driven_force(
@@ -72,20 +74,99 @@ def driven_states(
     """
     compiled = compiled_driven(model.effects, motion=False)
     table = {"temperature": temperature, **_geometry(model), **_named(model)}
+    inputs, start = _held_inputs(time, pressure, length), _start(compiled, time, begin or {})
+    return _run(compiled, table, inputs, start, time, tolerance)
+
+
+def driven_states_of_many(
+    models: Sequence[StaticModel],
+    names: Sequence[str],
+    *,
+    time: np.ndarray,
+    pressure: np.ndarray,
+    length: np.ndarray,
+    begins: Sequence[Mapping[str, float]],
+    temperature: float = ROOM_TEMPERATURE,
+    tolerance: float = TOLERANCE,
+) -> list[dict[str, np.ndarray]]:
+    """Some states along one record of models with the same effects: the numbers of `driven_states`, at once.
+
+    Args:
+        models: with the same effects.
+        names: of the states wanted ("effect.state").
+        time, pressure, length: the record.
+        begins: of each model, states that do not begin at rest.
+        temperature: [K].
+        tolerance: relative error per step.
+
+    Raises:
+        InputError: as for `driven_force`.
+    """
+    if engine_by_size(len(time) - 1) != "rodas":
+        return [
+            driven_states(
+                model, time=time, pressure=pressure, length=length, temperature=temperature,
+                tolerance=tolerance, begin=begin,
+            )
+            for model, begin in zip(models, begins, strict=True)
+        ]  # fmt: skip
+    compiled = compiled_driven(models[0].effects, motion=False)
+    tables = [{"temperature": temperature, **_geometry(model), **_named(model)} for model in models]
+    parameters = np.array([[table[name] for name in compiled.model.parameters] for table in tables])
+    inputs = _held_inputs(time, pressure, length)
+    packed_inputs, at_rest = _packed(compiled, inputs)
+    starts = np.array([_start(compiled, time, begin) for begin in begins])
+    for start, constants in zip(starts, parameters, strict=True):
+        settle(compiled, start, constants, at_rest)
+    solutions = integrate_many(
+        compiled,
+        parameters=parameters,
+        starts=starts,
+        times=time,
+        inputs=packed_inputs,
+        grid=time,
+        tolerance=tolerance,
+        columns=names,
+    )
+    for outcome, written in zip(solutions.outcomes, solutions.written, strict=True):
+        if outcome is not Outcome.COMPLETED:
+            raise _unfollowed(time, int(written), outcome)
+    return [dict(zip(names, rows.T.copy(), strict=True)) for rows in solutions.rows]
+
+
+def _held_inputs(time: np.ndarray, pressure: np.ndarray, length: np.ndarray) -> dict[str, np.ndarray]:
     steps = _steps(time)
-    inputs = {
+    return {
         "pressure": pressure[:-1],
         "pressure_slope": np.diff(pressure) / steps,
         "length": length[:-1],
         "length_slope": np.diff(length) / steps,
         "begin": time[:-1],
     }
+
+
+def _start(compiled: CompiledDrive, time: np.ndarray, begin: Mapping[str, float]) -> np.ndarray:
+    names = [state.name for state in compiled.model.states]
     start = np.array([state.initial or 0.0 for state in compiled.model.states])
     start[0] = time[0]
-    names = [state.name for state in compiled.model.states]
-    for name, value in (begin or {}).items():
+    for name, value in begin.items():
         start[names.index(name)] = value
-    return _run(compiled, table, inputs, start, time, tolerance)
+    return start
+
+
+def _packed(compiled: CompiledDrive, inputs: Mapping[str, np.ndarray]) -> tuple[np.ndarray, np.ndarray]:
+    """The inputs of each segment, and those of the first one without slopes."""
+    names = compiled.model.inputs
+    packed = np.column_stack([inputs[name] for name in names])
+    return packed, packed[0] * ~np.array([name.endswith("_slope") for name in names])
+
+
+def _unfollowed(time: np.ndarray, written: int, outcome: Outcome) -> InputError:
+    return InputError(
+        f"the model does not follow this record beyond {time[max(written - 1, 0)]:.4g} s",
+        field="effects",
+        hint=outcome.value,
+    )
 
 
 def driven_motion(
@@ -101,24 +182,67 @@ def driven_motion(
     Returns:
         ``stroke_reading`` [m], ``force_reading`` [N] and ``stroke``, ``speed`` at each time.
     """
-    compiled = compiled_driven(drive.model.effects, motion=True)
-    table = constants_of(drive) | {"temperature": drive.temperature}
-    steps = _steps(time)
-    external = external_force(drive).value(time - time[0])
-    inputs = {
-        "pressure": pressure[:-1],
-        "pressure_slope": np.diff(pressure) / steps,
-        "external_force": external[:-1],
-        "external_force_slope": np.diff(external) / steps,
-        "begin": time[:-1],
-    }
-    names = [state.name for state in compiled.model.states]
-    start = np.array([state.initial or 0.0 for state in compiled.model.states])
-    low, high = drive.stops
-    start[names.index("clock")], start[names.index("stroke")] = time[0], min(max(stroke, low), high)
-    outputs = _run(compiled, table, inputs, start, time, tolerance, drive.restitution)
-    outputs["force_reading"] = skewed(drive.model, time, outputs["force_reading"])
-    return {name: outputs[name] for name in ("stroke_reading", "force_reading", "stroke", "speed")}
+    (found,) = driven_motions([drive], time=time, pressure=pressure, stroke=stroke, tolerance=tolerance)
+    if isinstance(found, InputError):
+        raise found
+    return found
+
+
+def driven_motions(
+    drives: Sequence[Drive],
+    *,
+    time: np.ndarray,
+    pressure: np.ndarray,
+    stroke: float,
+    tolerance: float = TOLERANCE,
+) -> list[dict[str, np.ndarray] | InputError]:
+    """`driven_motion` of drives that differ in numbers only, side by side; each as it would be alone.
+
+    An error in the place of a drive that does not follow the record.
+    """
+    first = drives[0]
+    compiled = compiled_driven(first.model.effects, motion=True)
+    steps, names = _steps(time), [state.name for state in compiled.model.states]
+    parameters, starts, packed = [], [], []
+    for drive in drives:
+        table = constants_of(drive) | {"temperature": drive.temperature}
+        external = external_force(drive).value(time - time[0])
+        inputs = {
+            "pressure": pressure[:-1],
+            "pressure_slope": np.diff(pressure) / steps,
+            "external_force": external[:-1],
+            "external_force_slope": np.diff(external) / steps,
+            "begin": time[:-1],
+        }
+        start = np.array([state.initial or 0.0 for state in compiled.model.states])
+        low, high = drive.stops
+        start[names.index("clock")], start[names.index("stroke")] = time[0], min(max(stroke, low), high)
+        constants = np.array([table[name] for name in compiled.model.parameters])
+        columns, at_rest = _packed(compiled, inputs)
+        settle(compiled, start, constants, at_rest)
+        parameters.append(constants)
+        starts.append(start)
+        packed.append(columns)
+    solutions = integrate_many(
+        compiled,
+        parameters=np.array(parameters),
+        starts=np.array(starts),
+        times=time,
+        inputs=np.array(packed),
+        grid=time,
+        tolerance=tolerance,
+        columns=_MOTION,
+        restitution=first.restitution,
+    )
+    found: list[dict[str, np.ndarray] | InputError] = []
+    for number, drive in enumerate(drives):
+        if solutions.outcomes[number] is not Outcome.COMPLETED:
+            found.append(_unfollowed(time, int(solutions.written[number]), solutions.outcomes[number]))
+            continue
+        outputs = dict(zip(_MOTION, solutions.rows[number].T.copy(), strict=True))
+        outputs["force_reading"] = skewed(drive.model, time, outputs["force_reading"])
+        found.append(outputs)
+    return found
 
 
 def _run(
@@ -128,12 +252,10 @@ def _run(
     start: np.ndarray,
     time: np.ndarray,
     tolerance: float,
-    restitution: float = 0.0,
 ) -> dict[str, np.ndarray]:
     model = compiled.model
     parameters = np.array([table[name] for name in model.parameters])
-    packed_inputs = np.column_stack([inputs[name] for name in model.inputs])
-    at_rest = packed_inputs[0] * ~np.array([name.endswith("_slope") for name in model.inputs])
+    packed_inputs, at_rest = _packed(compiled, inputs)
     settle(compiled, start, parameters, at_rest)
     solution = integrate(
         compiled,
@@ -144,14 +266,9 @@ def _run(
         grid=np.ascontiguousarray(time, dtype=float),
         tolerance=tolerance,
         engine=engine_by_size(len(packed_inputs)),
-        restitution=restitution,
     )
     if solution.outcome is not Outcome.COMPLETED:
-        raise InputError(
-            f"the model does not follow this record beyond {time[len(solution.rows) - 1]:.4g} s",
-            field="effects",
-            hint=solution.outcome.value,
-        )
+        raise _unfollowed(time, len(solution.rows), solution.outcome)
     columns = (*(state.name for state in model.states), *model.output_names)
     return dict(zip(columns, solution.rows.T, strict=True))
 

@@ -1,0 +1,120 @@
+"""The runs of a transient measurement: the drive of each as documented, its times and what was measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.measurement.measurement import STROKES, Measurement, lengths
+from mckibben.physics.errors import InputError
+from mckibben.simulation.command.signals import TableSignal
+from mckibben.simulation.drive.parts import Drive
+
+#: Most rows of a run; more are thinned evenly.
+MOST_ROWS = 1000
+_FEW_LEVELS = 0.2  # share of rows at which the command changes, up to which it is held between changes
+_FIRST_ROWS = 50  # most rows for the start pressure
+_NOT_VENTED = 30e3  # Pa from the documented start pressure; less may be a zero error of the gauge
+
+
+class Recorded(TableSignal):
+    """A measured command; if the first row is not 0, the command is switched on at that row."""
+
+    shape = "recorded"
+
+    @property
+    def before(self) -> float:
+        """Command before the first row: 0 if the first row fills, because the muscle was at rest."""
+        return min(float(self.values[0]), 0.0)
+
+
+@dataclass(frozen=True)
+class Record:
+    """One uninterrupted run: the drive as documented, its times from 0, and the measured pressure."""
+
+    drive: Drive
+    time: np.ndarray
+    pressure: np.ndarray | None
+    stroke: float
+    rows: np.ndarray
+
+    @property
+    def segments(self) -> int:
+        """Pieces of the command, at each of which the integration starts afresh."""
+        return len(self.drive.command.segments(self.drive.duration).slopes)
+
+
+def stroke_of(measurement: Measurement, drive: Drive) -> np.ndarray | None:
+    """Contraction stroke of each row [m]; None where no length was measured."""
+    if not any(name in measurement.columns for name in STROKES):
+        return None
+    if "displacement" in measurement.columns:
+        return measurement.columns["displacement"]
+    return drive.muscle.nominal_length - lengths(measurement, drive.muscle.nominal_length)
+
+
+def recorded_channels(
+    measurement: Measurement, drive: Drive, *, commanded: bool
+) -> list[tuple[str, str, np.ndarray]]:
+    """Name, SI unit and readings of each channel that a run predicts."""
+    columns = measurement.columns
+    channels = []
+    if commanded and "pressure" in columns:
+        channels.append(("pressure", "Pa", columns["pressure"]))
+    stroke = stroke_of(measurement, drive)
+    if stroke is not None:
+        channels.append(("displacement", "m", stroke))
+    if "force" in columns and (commanded or stroke is not None):
+        channels.append(("force", "N", columns["force"]))
+    return channels
+
+
+def record_of(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Record:
+    """The run of some rows.
+
+    Raises:
+        InputError: it is too short.
+    """
+    columns, conditions = measurement.columns, measurement.conditions
+    if len(rows) < 3:
+        raise InputError(f"{measurement.name}: a run of {len(rows)} rows is too short", field="time")
+    if len(rows) > MOST_ROWS:
+        rows = rows[np.unique(np.linspace(0, len(rows) - 1, MOST_ROWS).astype(int))]
+    time = columns["time"][rows] - columns["time"][rows[0]]
+    load = drive.load
+    if "load_mass" in conditions:
+        load = replace(load, mass=float(conditions["load_mass"]))
+    if "load_force" in conditions:
+        load = replace(load, force=float(conditions["load_force"]))
+    changed: dict = {"duration": float(time[-1]), "load": load, "controller": None, "reference": None}
+    if "supply_pressure" in conditions:
+        changed["supply_pressure"] = float(conditions["supply_pressure"])
+    if "command" in columns:
+        changed["command"] = _command(columns["time"], columns["command"], rows)
+    pressure = columns["pressure"][rows] if "pressure" in columns else None
+    if pressure is not None and "command" in columns:
+        changed["start_pressure"] = _start_pressure(drive, pressure, columns["command"][rows])
+    stroke = stroke_of(measurement, drive)
+    return Record(
+        replace(drive, **changed), time, pressure, 0.0 if stroke is None else float(stroke[rows[0]]), rows
+    )
+
+
+def _start_pressure(drive: Drive, pressure: np.ndarray, command: np.ndarray) -> float:
+    """Measured pressure before the valve first moves if clearly not the documented one, else that [Pa]."""
+    closed = command[0] == 0.0
+    resting = int(np.argmax(command != 0.0)) or len(command) if closed else 1
+    measured = float(np.median(pressure[: min(resting, _FIRST_ROWS)]))
+    return measured if abs(measured - drive.start_pressure) > _NOT_VENTED else drive.start_pressure
+
+
+def _command(time: np.ndarray, command: np.ndarray, rows: np.ndarray) -> Recorded:
+    """The measured command: held between changes if they are few, else interpolated linearly."""
+    part = slice(rows[0], rows[-1] + 1)
+    t, u = time[part] - time[part.start], command[part]
+    changes = np.flatnonzero(np.diff(u) != 0.0) + 1
+    if len(changes) > _FEW_LEVELS * len(u):
+        return Recorded(times=t, values=u, interpolation="linear")
+    kept = np.concatenate([[0], changes])
+    return Recorded(times=t[kept], values=u[kept], interpolation="hold")
