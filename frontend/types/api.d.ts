@@ -2863,7 +2863,7 @@ export interface components {
       maximum: number | null;
       /** Why the column cannot be used as its header states. */
       why: string | null;
-      /** Who says the unit: file, you, or proposed from the range; null = not used. */
+      /** Who says the unit: file, you, proposed from the range, or assumed; null = not used. */
       unit_origin: string | null;
       /** Where the unit stands, apart from the header. */
       unit_where: string | null;
@@ -3659,7 +3659,7 @@ export interface components {
       key: string;
       /** In SI, or a text. */
       value: string | number | null;
-      /** file or you. */
+      /** file or you; assumed: a unit that was taken as proposed. */
       origin: string;
       /** Line or cell of the file; empty for the user's own. */
       where: string;

@@ -6,7 +6,7 @@ import re
 from typing import Any
 
 import pytest
-from playwright.sync_api import FilePayload, Locator, Page, expect
+from playwright.sync_api import FilePayload, Locator, Page, Response, expect
 
 from tests.frontend.comparing import choose, drop, error, setup, use
 from tests.frontend.guard import PageGuard
@@ -38,6 +38,12 @@ def read_anew(page: Page) -> Any:
     return page.expect_response("**/api/measurements/preview*")
 
 
+def of_a_file(response: Response) -> bool:
+    """The comparison with a file, not that of the Design view with its preset, which may come meanwhile."""
+    asked = response.request.post_data_json if response.url.endswith("/api/comparisons") else {}
+    return any(re.fullmatch("[0-9a-f]{64}", str(one.get("id"))) for one in asked.get("measurements", []))
+
+
 @needs_corpus
 def test_from_a_dropped_file_to_the_first_comparison(page: Page) -> None:
     """A new user with a file of a laboratory: at most five actions, none of which is taken back."""
@@ -53,7 +59,7 @@ def test_from_a_dropped_file_to_the_first_comparison(page: Page) -> None:
     expect(dialog.locator("[data-field='experiment.muscle'] .origin.from-file")).to_have_text("file: line 2")
     expect(dialog.locator("[data-field='experiment.rest_length'] input")).to_have_value("250 mm")
     actions += answer_everything(page)
-    with page.expect_response("**/api/comparisons") as answer:
+    with page.expect_response(of_a_file) as answer:
         accept_button(page).click()
     actions += 1
     assert actions <= 5
@@ -68,6 +74,41 @@ def test_from_a_dropped_file_to_the_first_comparison(page: Page) -> None:
     expect(page.locator(".file")).to_contain_text("360 of 360 rows")
     # An ideal braid is too strong by hundreds of newtons at most; a wrong unit or length would be far off.
     assert error(page) < 400
+
+
+@needs_corpus
+def test_a_logger_that_calls_milliseconds_seconds_in_five_actions(case: Page) -> None:
+    """What its readings rule out is assumed to be what they show, and the strip says so."""
+    path = CORPUS.parents[1] / "logger_S001P001.TXT"
+    choose(case, {"name": path.name, "mimeType": "text/csv", "buffer": path.read_bytes()})
+    dialog = panel(case)
+    actions = 1
+    said = (("muscle", "DMSP-10"), ("rest_length", "155 mm"), ("load", "0.3 kg"))
+    for field, value in said:
+        entry = dialog.locator(f"#experiment-{field}")
+        if field == "muscle":
+            entry.select_option(value)
+        else:
+            entry.fill(value)
+            entry.press("Tab")
+        actions += 1
+    expect(dialog.locator(".ask.assumed")).to_contain_text("Is its unit ms or s?")
+    expect(dialog.locator("th[data-column='t (s)']")).to_contain_text("ms is assumed")
+    with case.expect_response(of_a_file) as answer:
+        accept_button(case).click()
+    actions += 1
+    assert actions <= 5
+    assert "assuming ms as the unit of column 't (s)'" in answer.value.json()["assumptions"][0]
+    facts = case.locator(".strip .facts")
+    for field, value in said:
+        expect(facts.locator(f"[data-fact='{field}']")).to_contain_text(value)
+    also = facts.locator("[data-fact='assumed']")
+    expect(also).to_contain_text("assumed!")
+    expect(also).to_have_accessible_name(re.compile("Unit of time ms"))
+    also.click()
+    with read_anew(case):
+        dialog.locator(".ask.assumed").get_by_role("button", name="ms").click()  # confirmed
+    expect(dialog.locator("th[data-column='t (s)']")).to_contain_text("unit from you")
 
 
 def values_to_see(preview: dict[str, Any]) -> list[tuple[str, str]]:
@@ -484,7 +525,7 @@ def test_every_question_is_answered_in_the_view(case: Page, made: OpenFile) -> N
                 tick.first.click()
             else:
                 answers = asks.first.get_by_role("button")
-                words = [text.removesuffix("proposed") for text in answers.all_inner_texts()]
+                words = [re.sub(r"\s*(proposed|assumed)$", "", text) for text in answers.all_inner_texts()]
                 said = " ".join(made.options)
                 right = [n for n, text in enumerate(words) if text.partition(" [")[0].strip() in said]
                 answers.nth(right[0] if right else 0).click()

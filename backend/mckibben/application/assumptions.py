@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from mckibben.measurement.accuracy import CHANNELS
 from mckibben.measurement.experiment import ACCURACY, FIELDS, Experiment, ExperimentValue, needed, shown_value
-from mckibben.measurement.measurement import Measurement
+from mckibben.measurement.measurement import UNIT_OF, Measurement
 from mckibben.physics.errors import InputError
 
 
@@ -16,7 +16,7 @@ class Assumption:
     """A value that a test of this kind needs, that nobody said, and that was assumed.
 
     Attributes:
-        field: of the experiment.
+        field: of the experiment; "unit of time" of a column.
         words: what is assumed, "a rest length of 300 mm, the preset's".
         option: what says otherwise on the command line.
         files: names of the measurements; empty for all.
@@ -54,7 +54,10 @@ def assumptions_of(tests: Sequence[tuple[Measurement, Experiment]]) -> tuple[Ass
             found.setdefault((name, words), []).append(measurement.name)
     result = []
     for (name, words), files in found.items():
-        option = "--accuracy" if name.startswith(ACCURACY) else FIELDS[name].option.split(" ")[0]
+        if name.startswith(UNIT_OF):
+            option = "--column"
+        else:
+            option = "--accuracy" if name.startswith(ACCURACY) else FIELDS[name].option.split(" ")[0]
         if option == "--experiment":
             option = f'--experiment "{name}=..."'
         result.append(Assumption(name, words, option, () if len(files) == len(tests) else tuple(files)))
@@ -75,6 +78,11 @@ def refuse_assumptions(
         InputError: the first thing that is not stated, with what states it.
     """
     for name, words in _assumed(measurement, values):
+        if name.startswith(UNIT_OF):
+            raise InputError(
+                f"{measurement.name}: the {name} is not stated (without --strict: {words})",
+                hint=f'--column "{name.removeprefix(UNIT_OF)}=... [unit]"',
+            )
         declared = FIELDS[name]
         raise InputError(
             f"{measurement.name}: {declared.title.lower()} is not stated (without --strict: {words})",
@@ -85,7 +93,11 @@ def refuse_assumptions(
 
 def _assumed(measurement: Measurement, values: Experiment) -> list[tuple[str, str]]:
     """(field, words) of what a test of this kind needs and nobody said."""
-    words = []
+    words = [
+        (one.key, f"{one.value} as the unit of {one.where}")
+        for one in measurement.stated
+        if one.key.startswith(UNIT_OF) and one.origin == "assumed"
+    ]
     for name in needed(measurement.kind, measurement.columns):
         value = values.get(name)
         if value is None:

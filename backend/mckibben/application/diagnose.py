@@ -163,6 +163,7 @@ def _result(
 ) -> DiagnosisResult:
     titles = {name: effect.title for name, effect in catalogue.items()}
     predictor, best, start = diagnosis.predictor, diagnosis.best, question.start
+    residual = diagnosis.path[-1].fitted_model.residual  # of the best model, as a comparison shows it
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
     muscle = best.fit_model.muscle
     envelope = envelope_of(question.specimens, predictor, best.fit_model)
@@ -183,7 +184,7 @@ def _result(
             diagnosis.noise_how,
             None if diagnosis.noise_interval is None else list(diagnosis.noise_interval),
         ),
-        channels=channel_misfits(predictor, best.residual * predictor.scale),
+        channels=channel_misfits(predictor, residual * predictor.scale),
         where=list(diagnosis.where),
         candidates=[
             replace(
@@ -232,7 +233,7 @@ def _result(
         experiment=with_accepted(common_experiment(question), question.accepted, best.fit_model),
         unread=question.unread,
         assumptions=[assumption.message for assumption in question.assumptions],
-        specimens=specimen_results(question, predictor, best.residual, best, diagnosis.left_out),
+        specimens=specimen_results(question, predictor, residual, best, diagnosis.left_out),
         absorbed=list(diagnosis.absorbed),
         context=doubtful_entries(diagnosis.context, titles),
         envelope=envelope,

@@ -55,8 +55,15 @@ class MeasuredChannel(NamedTuple):
     source_unit: str
 
 
+#: Begin of the key of a stated value that is the unit of a channel.
+UNIT_OF = "unit of "
+
+
 class StatedValue(NamedTuple):
-    """A condition of the test: value in SI or text, who says it (``file`` or ``you``), and where."""
+    """A condition of the test: value in SI or text, who says it, and where.
+
+    ``origin`` is ``file`` or ``you``, or ``assumed`` for a unit that was taken as proposed (`UNIT_OF`).
+    """
 
     key: str
     value: float | str

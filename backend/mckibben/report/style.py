@@ -70,7 +70,8 @@ pre { background: var(--tint); padding: 8px 12px; white-space: pre-wrap;
   h2, h3, caption { break-after: avoid; }
   figure, .callout, .tiles, tr, .equation, .whole, dl, li { break-inside: avoid; }
   table.short { break-inside: avoid; }
-  thead { display: table-header-group; }
+  /* A head never stands alone at the foot of a page. */
+  thead { display: table-header-group; break-after: avoid; }
   .scroll { overflow: visible; }
   .callout, .equation, pre, svg { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }

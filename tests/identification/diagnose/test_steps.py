@@ -34,7 +34,8 @@ def fitter(errors: dict[str, float]) -> Any:
     def dropping(one: Any, name: str) -> Any:
         return model(" ".join(each for each in one.fit_model.ids if each != name), errors)
 
-    return SimpleNamespace(adding=adding, dropping=dropping)
+    exact = SimpleNamespace(reading_errors=())
+    return SimpleNamespace(adding=adding, dropping=dropping, predictor=exact)
 
 
 @pytest.mark.parametrize(

@@ -38,6 +38,7 @@ def result(
         root=SimpleNamespace(rmse=before if refitted is None else refitted, free=refitted is not None),
         best=SimpleNamespace(rmse=after),
         lean=SimpleNamespace(rmse=after),
+        path=(SimpleNamespace(fitted_model=SimpleNamespace(rmse=after), refitted=False, correction=False),),
         added=added,
         noise=noise,
         noise_interval=None if highest is None else Interval(noise or 0.0, highest),

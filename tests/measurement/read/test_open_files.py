@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable
 from dataclasses import replace
 from pathlib import Path
@@ -9,9 +10,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+from mckibben.application.assumptions import assumptions_of, refuse_assumptions
 from mckibben.measurement.read import Correction, preview, read_measurement, spoken_correction
+from mckibben.measurement.read.correction import read_correction
 from mckibben.physics.errors import InputError
-from tests.measurement.read.open_files import WRITERS, OpenFile
+from tests.measurement.read.open_files import WRITERS, OpenFile, milliseconds
 
 ROUNDING = 1e-4  # of the largest value; the files hold four decimals
 
@@ -77,6 +80,21 @@ def test_a_real_logger_that_calls_milliseconds_seconds() -> None:
     found = preview(path.read_bytes(), path.name)
     assert [question.about for question in found.questions if question.stops] == ["unit of time"]
     assert found.questions[0].option == '--column "time=t [ms]"'
+
+
+def test_a_unit_that_is_assumed_is_said_wherever_one_that_is_stated_is_not() -> None:
+    file = milliseconds()
+    choice = {"channel": "time", "unit": "ms"}
+    readings = {}
+    for assumed in (False, True):
+        said = read_correction(json.dumps({"columns": {"t (s)": {**choice, "assumed": assumed}}}))
+        readings[assumed] = read_measurement(file.data, file.name, said)
+    np.testing.assert_array_equal(readings[True].columns["time"], readings[False].columns["time"])
+    assert assumptions_of([(readings[False], {})]) == ()
+    (assumption,) = assumptions_of([(readings[True], {})])
+    assert assumption.message == "assuming ms as the unit of column 't (s)': --column says otherwise"
+    with pytest.raises(InputError, match="the unit of time is not stated"):
+        refuse_assumptions(readings[True], {}, lambda name: name)
 
 
 def test_tests_that_only_look_odd_are_not_asked_about() -> None:

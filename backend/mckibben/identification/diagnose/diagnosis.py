@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
+from mckibben.identification.diagnose.as_compared import as_compared
 from mckibben.identification.diagnose.contest import WrongEntry, contest
 from mckibben.identification.diagnose.corrections import Correction, refined, without_corrections
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
@@ -73,7 +75,8 @@ class Diagnosis:
             where an effect is unknown.
         where: the start model's residual over each variable.
         left_where: the best model's residual over each variable.
-        candidates: single additions, the best first.
+        candidates: single additions, the best first; their errors, and those of the path, are those that a
+            comparison with each model shows.
         path: steps to the best model; each adds the effect that lowers the error most, corrections last.
         best: the best model, with the corrections that it keeps.
         lean: the same without corrections.
@@ -311,6 +314,7 @@ def _diagnose(
             basis=best.jacobian[:, best.inner],
             weigh=predictor.weighted,
         )
+    shown = partial(as_compared, predictor)
     designer = Designer.of(predictor, lean, level) if exchangeable else Designer((), level)
     pairs, designs = next_measurements(designer, lean, exchangeable, catalogue)
     progress.share = 0.95
@@ -323,8 +327,8 @@ def _diagnose(
         noise_interval=None if status == "unknown_effect" else noise_interval(best, fitter.noise, remaining),
         where=tuple(where),
         left_where=tuple(profiles(best.residual, variables, predictor.folds[0])),
-        candidates=tuple(ranked),
-        path=path,
+        candidates=tuple(replace(one, fitted_model=shown(one.fitted_model)) for one in ranked),
+        path=tuple(replace(step, fitted_model=shown(step.fitted_model)) for step in path),
         best=best,
         lean=lean,
         fit=fit,

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from mckibben.identification.diagnose.as_compared import as_compared
 from mckibben.identification.diagnose.gauge_zero import GaugeZero
 from mckibben.identification.diagnose.reason import ResidualTraits, why
 from mckibben.identification.diagnose.score import effective_rows, score
@@ -91,7 +92,7 @@ def path_to(
     added = []
     while len(remaining) > 1:
         trials = [(effect, fitter.adding(fitted_model, effect)) for effect in remaining]
-        effect, fitted_model = min(trials, key=lambda pair: pair[1].rmse)
+        effect, fitted_model = min(trials, key=lambda pair: _shown_error(fitter, pair[1]))
         added.append(PathStep(effect.id, fitted_model))
         remaining.remove(effect)
     if remaining:
@@ -113,8 +114,13 @@ def _with_vent(
     before, after = start, root
     steps: list[PathStep] = []
     for number, step in enumerate(added):
-        if after.rmse <= before.rmse:
+        if _shown_error(fitter, after) <= _shown_error(fitter, before):
             return [*steps, PathStep(vent.effect.id, after), *added[number:]]
         before, after = fitter.dropping(step.fitted_model, vent.effect.id), step.fitted_model
         steps.append(PathStep(step.added, before))
     return [*steps, PathStep(vent.effect.id, after)]
+
+
+def _shown_error(fitter: Fitter, fitted: FittedModel) -> float:
+    """The error that a comparison with the model shows."""
+    return as_compared(fitter.predictor, fitted).rmse

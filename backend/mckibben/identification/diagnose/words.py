@@ -50,8 +50,9 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     titles = {name: effect.title for name, effect in catalogue.items()}
     scaled = result.predictor.unit == "1"
     unit, scale = _unit_of(result)
-    before, after = scale * result.start.rmse, scale * result.lean.rmse
-    refitted = scale * result.root.rmse
+    reached = [step.fitted_model for step in result.path if not step.correction]
+    before, after = scale * result.start.rmse, scale * reached[-1].rmse
+    refitted = scale * next((s.fitted_model for s in result.path if s.refitted), result.root).rmse
     names = _joined([_likely(result, name, titles) for name in result.added])
     noise = None if result.noise is None else scale * result.noise
     highest = noise if result.noise_interval is None else scale * result.noise_interval.high

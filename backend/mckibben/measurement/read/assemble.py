@@ -10,7 +10,14 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.kind import FORCE_KINDS
-from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES, Measurement, StatedValue, build
+from mckibben.measurement.measurement import (
+    CHANNEL_UNITS,
+    STROKES,
+    UNIT_OF,
+    Measurement,
+    StatedValue,
+    build,
+)
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.air import air_questions, column_of_air
 from mckibben.measurement.read.cells import CellTable, Skip
@@ -275,14 +282,20 @@ def _why_unread(meaning: Meaning, index: int) -> str:
 def stated_values(
     source: RawTable, meaning: Meaning, conditions: Mapping[str, float | str], correction: Correction
 ) -> tuple[StatedValue, ...]:
-    """What the test was, each value with its origin."""
+    """What the test was, each value with its origin; units that were assumed are ``unit of <channel>``."""
     where = {key_of(note.key)[0]: note.where for note in notes_with_constants(source, meaning)}
-    return tuple(
+    said = (
         StatedValue(key, value, "you", "")
         if correction.conditions.get(key) is not None
         else StatedValue(key, value, "file", where.get(key, ""))
         for key, value in conditions.items()
     )
+    units = (
+        StatedValue(f"{UNIT_OF}{column.use}", column.unit, "assumed", f"{source.noun} '{column.header}'")
+        for column in meaning.columns
+        if column.unit_origin == "assumed" and column.unit is not None
+    )
+    return (*said, *units)
 
 
 def _evidence(

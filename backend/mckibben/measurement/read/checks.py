@@ -79,7 +79,7 @@ def _units(evidence: Evidence) -> list[Question]:
     for channel, column in evidence.used.items():
         if (
             channel not in evidence.channels
-            or column.unit_origin == "you"
+            or column.unit_origin in ("you", "assumed")
             or channel in ("group", "direction")
         ):
             continue

@@ -35,7 +35,7 @@ _PARTS = (
     "columns", "kind", "conditions", "bad_rows", "sheet", "head", "column", "ignore", "rest_length", "load",
     "supply", "strict", "accuracy", "experiment",
 )  # fmt: skip
-_CHOICE_KEYS = ("channel", "unit", "absolute", "sign", "scale")
+_CHOICE_KEYS = ("channel", "unit", "absolute", "sign", "scale", "assumed")
 _COLUMN = re.compile(r"\s*([a-z_]+)\s*=\s*([+-]?)\s*(.*?)\s*")
 _WITH_UNIT = re.compile(r"(.+?)\s*\[([^\[\]]*)\]")
 _EXAMPLE = 'e.g. {"columns": {"p1": {"channel": "pressure", "unit": "bar"}}, "kind": "isobaric"}'
@@ -47,6 +47,7 @@ class Choice:
 
     ``sign`` -1: the file counts it the other way, as a force that is negative when the muscle pulls.
     ``scale``: of a signal in V, mA or counts, ``0-10 V = 0-10 bar``; ``unit`` is the one that it leads to.
+    ``assumed``: nobody said the unit, it was taken as proposed; every answer then says so.
     """
 
     channel: str
@@ -54,6 +55,7 @@ class Choice:
     absolute: bool | None = None
     sign: int = 1
     scale: str | None = None
+    assumed: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +88,8 @@ class Correction:
             else {
                 key: value
                 for key in _CHOICE_KEYS
-                if (value := getattr(choice, key)) is not None and (key, value) != ("sign", 1)
+                if (value := getattr(choice, key)) is not None
+                and (key, value) not in (("sign", 1), ("assumed", False))
             }
             for header, choice in self.columns.items()
         }
@@ -322,6 +325,7 @@ def _choice(value: Any, key: str) -> Choice | None:
         raise _refused(f"{key}.sign", "is neither 1 nor -1", "-1: the file counts it the other way")
     if absolute is not None and not isinstance(absolute, bool):
         raise _refused(f"{key}.absolute", "is not true or false", "true: above vacuum, false: gauge")
+    assumed = bool(_typed(given.get("assumed"), bool, f"{key}.assumed"))
     if unit is None:
         return Choice(channel, None, absolute, int(sign))
     if not isinstance(unit, str):
@@ -333,7 +337,7 @@ def _choice(value: Any, key: str) -> Choice | None:
         text = str(error)
         problem = f"'{unit[:40]}' cannot be used: {text}"
         raise _refused(f"{key}.unit", problem, f"a unit such as {CHANNEL_UNITS.get(channel, '1')}") from error
-    return Choice(channel, unit, marked if absolute is None else absolute, int(sign))
+    return Choice(channel, unit, marked if absolute is None else absolute, int(sign), None, assumed)
 
 
 def _scaled(scale: Any, channel: str, given: Mapping[str, Any], key: str) -> Choice:

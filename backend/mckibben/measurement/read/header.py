@@ -267,7 +267,8 @@ def _chosen(index: int, header: str, choice: Choice | None, apart: str | None) -
     if choice is None:
         return None
     unit, absolute = choice.unit, choice.absolute
-    origin = "file" if unit is None else "you"
+    who = "assumed" if choice.assumed else "you"
+    origin = "file" if unit is None else who
     if unit is None and choice.channel in CHANNEL_UNITS:
         try:
             guess = _column(index, _with(header, apart), header, "column", [])
@@ -284,7 +285,7 @@ def _chosen(index: int, header: str, choice: Choice | None, apart: str | None) -
             unit, absolute = guess.unit, guess.absolute if absolute is None else absolute
     name = header or f"column {index + 1}"
     return HeaderColumn(
-        index, name, choice.channel, unit, absolute, sign=choice.sign, origin="you", unit_origin=origin
+        index, name, choice.channel, unit, absolute, sign=choice.sign, origin=who, unit_origin=origin
     )
 
 

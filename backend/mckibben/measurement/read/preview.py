@@ -35,7 +35,7 @@ _POINTS = 400  # most values of a channel in the picture of a preview
 class PreviewColumn:
     """One column of the file; ``channel`` None = not used, ``unit`` None = SI; ``why``: what is wrong.
 
-    ``unit_origin``: who says the unit, ``file``, ``you`` or ``proposed`` from the range of the numbers, None
+    ``unit_origin``: who says the unit, ``file``, ``you``, ``assumed`` or ``proposed`` from the numbers, None
     without a channel; ``unit_where``: where the file says it, apart from the header; ``sign`` -1: the file
     counts it the other way; ``unread``: why nothing is read from it; ``place``: its cell in the rows of the
     file, None where it stands in none.

@@ -152,6 +152,5 @@ def _effect(name: str, material: SizingMaterial, chosen: Chosen) -> Html:
         heading(effect.title),
         paragraph(effect.cause),
         tag("div", formula(effect.equation, block=True), class_="equation"),
-        table(columns, rows) if rows else None,
-        class_="whole",
+        table(columns, rows, whole=False) if rows else None,
     )

@@ -54,7 +54,9 @@ class StatedCondition(Strict):
 
     key: str = Field(examples=["nominal_length"], description="Name of the condition.")
     value: str | float | None = Field(description="In SI, or a text.")
-    origin: str = Field(description="file or you.", examples=["file"])
+    origin: str = Field(
+        description="file or you; assumed: a unit that was taken as proposed.", examples=["file"]
+    )
     where: str = Field(description="Line or cell of the file; empty for the user's own.", examples=["line 4"])
 
 
@@ -124,7 +126,7 @@ class PreviewColumn(Strict):
     maximum: float | None = Field(description="Largest value of the channel, SI.")
     why: str | None = Field(description="Why the column cannot be used as its header states.")
     unit_origin: str | None = Field(
-        description="Who says the unit: file, you, or proposed from the range; null = not used."
+        description="Who says the unit: file, you, proposed from the range, or assumed; null = not used."
     )
     unit_where: str | None = Field(
         description="Where the unit stands, apart from the header.", examples=["line 8"]

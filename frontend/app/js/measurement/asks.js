@@ -18,13 +18,15 @@ export function questionsOf(m) {
   );
 }
 
-/** The questions of the file that is shown, each with its answers. @param {Model} m */
+/** The questions of the file that is shown, each with its answers; first those whose proposal is assumed.
+ * @param {Model} m */
 export const questionList = (m) =>
-  questionsOf(m).map((q) => {
+  [...m.assumed.value, ...questionsOf(m)].map((q) => {
     const answers = answersOf(q, m.preview.value).filter((one) => !(one.ignores && one.label === "ignore"));
+    const isAssumed = m.assumed.value.includes(q);
     return h(
       "fieldset",
-      { class: `ask${q.stops ? "" : " may-wait"}`, "data-about": q.about },
+      { class: `ask${isAssumed ? " assumed" : q.stops ? "" : " may-wait"}`, "data-about": q.about },
       h(
         "legend",
         null,
@@ -44,7 +46,7 @@ export const questionList = (m) =>
                 onclick: () => m.change(one.apply),
               },
               readable(one.label),
-              one.proposed ? h("small", null, "proposed") : null,
+              one.proposed ? h("small", null, isAssumed ? "assumed" : "proposed") : null,
             )
           ),
           ignoresColumn(q) ? h("small", null, "or tick “ignore” below") : null,

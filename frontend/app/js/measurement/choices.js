@@ -38,6 +38,19 @@ function headerOf(p, name) {
   return found?.header ?? name;
 }
 
+/** The question that goes on with its proposal until somebody says otherwise: the unit of a time that the file
+ * names and its readings rule out. A unit that nothing states stays open. @param {Preview} p */
+export const assumableOf = (p) =>
+  p.questions.find((q) => q.stops && q.about === "unit of time" && q.proposed && q.column) ?? null;
+
+/** The mapping with the proposal of a question as an assumption.
+ * @param {OpenQuestion} q @param {Preview} p @param {Mapping} mapping @returns {Mapping} */
+export function withAssumed(q, p, mapping) {
+  const column = p.columns.find((one) => one.header === q.column);
+  if (!column || !q.proposed) return mapping;
+  return withColumns(mapping, { [column.header]: { ...choiceOf(column), unit: q.proposed, assumed: true } });
+}
+
 /** An answer to a question: its words, and what it says of the columns or the sheet.
  * @typedef {{label: string, proposed: boolean, ignores: boolean, apply: (mapping: Mapping) => Mapping}} Answer */
 

@@ -61,6 +61,9 @@ export function stateOf(column) {
   if (column.unit_origin === "proposed") {
     return h("span", { class: "state proposed" }, icon("warn"), `${column.unit} is proposed`);
   }
+  if (column.unit_origin === "assumed") {
+    return h("span", { class: "state proposed" }, icon("warn"), `${column.unit} is assumed`);
+  }
   if (column.unit_origin === "you") return h("span", { class: "state" }, "unit from you");
   const where = column.unit_where ? `unit from ${column.unit_where}` : "unit from the file";
   return column.unit_origin === null

@@ -41,11 +41,15 @@ const inView = (hint) =>
   hint?.includes("--") ? "say below what the columns are, or which row names them" : hint;
 
 /** @typedef {{files: File[], previews: Preview[], mapping: Mapping, experiments: Experiment[],
- *   kept: import("./memory.js").Kept | null, signature: string, asks: boolean}} Start */
+ *   kept: import("./memory.js").Kept | null, signature: string, asks: boolean,
+ *   taken?: import("./types.js").OpenQuestion[]}} Start */
 
-/** `asks`: the experiment has to be answered before the files are used.
+/** `asks`: the experiment has to be answered before the files are used; `taken`: questions whose proposal the
+ * mapping assumes.
  * @param {Start} start */
-export function importModel({ files, previews, mapping: first, experiments, kept, signature, asks }) {
+export function importModel(
+  { files, previews, mapping: first, experiments, kept, signature, asks, taken = [] },
+) {
   const mapping = signal(first);
   /** The file that is shown. */
   const at = signal(0);
@@ -87,6 +91,10 @@ export function importModel({ files, previews, mapping: first, experiments, kept
     reading.answer.value ?? previews.map((preview) => /** @type {Outcome} */ ({ preview, wrong: "" }))
   );
   const preview = computed(() => outcomes.value[at.value].preview);
+
+  const assumed = computed(() =>
+    taken.filter(({ column }) => column && mapping.value.columns?.[column]?.assumed)
+  );
 
   /** @param {number} i @param {string} field */
   const saidOf = (i, field) => own.value[i][field] ?? common.value[field];
@@ -153,6 +161,8 @@ export function importModel({ files, previews, mapping: first, experiments, kept
     wrong,
     outcomes,
     preview,
+    /** Questions whose proposal is assumed. */
+    assumed,
     fields,
     missing,
     ready,

@@ -64,7 +64,7 @@ export function openImport(start) {
  * @param {Model} model @param {HTMLElement} accept */
 function begin(dialog, model, accept) {
   const open = model.ready.peek() ? null : dialog.querySelector(
-    ".ask:not(.may-wait) button, .unread .open input, .question.open input, .question.open select",
+    ".ask:not(.may-wait, .assumed) button, .unread .open input, .question.open input, .question.open select",
   );
   const first = open ?? (model.ready.peek() ? accept : dialog.querySelector(".import-body select"));
   if (first instanceof HTMLElement) first.focus({ preventScroll: first === accept });
@@ -95,8 +95,9 @@ function keepFocus(dialog, model) {
 
 /** To the next question, or to the button. @param {HTMLElement} dialog */
 function moveOn(dialog) {
-  const next = dialog.querySelector(".ask:not(.may-wait) button, .question.open :is(input, select)") ??
-    dialog.querySelector(".foot .primary:not(:disabled)") ?? dialog.querySelector(".dialog-body");
+  const next =
+    dialog.querySelector(".ask:not(.may-wait, .assumed) button, .question.open :is(input, select)") ??
+      dialog.querySelector(".foot .primary:not(:disabled)") ?? dialog.querySelector(".dialog-body");
   if (next instanceof HTMLElement) next.focus();
 }
 

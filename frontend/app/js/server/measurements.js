@@ -5,8 +5,8 @@ import { get, sendFile } from "./client.js";
 /** @typedef {import("../types.js").S} S */
 /** @typedef {S["MeasurementAnswer"]} FileInfo */
 /** @typedef {S["PreviewAnswer"]} Preview */
-/** What a column is; `sign` -1: the file counts it the other way.
- * @typedef {{channel: string, unit?: string, absolute?: boolean, sign?: number}} Choice */
+/** What a column is; `sign` -1: the file counts it the other way; `assumed`: its unit is what was proposed.
+ * @typedef {{channel: string, unit?: string, absolute?: boolean, sign?: number, assumed?: boolean}} Choice */
 /** What the user says beyond a file; a column that is null is not used.
  * @typedef {{columns?: Record<string, Choice | null>, sheet?: string, head?: number,
  *   kind?: string, conditions?: Record<string, string | null>, bad_rows?: "skip"}} Mapping */

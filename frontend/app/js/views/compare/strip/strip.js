@@ -7,7 +7,7 @@ import { caseMenu } from "../case-menu.js";
 import { state } from "../list/state.js";
 import { hasSource, importOnceMore, infos } from "../measurement/files.js";
 import { openSetup } from "../setup-panel.js";
-import { facts, hasAssumed } from "./facts.js";
+import { allFacts, facts, hasAssumed } from "./facts.js";
 import { isReady, next } from "./next.js";
 import { course, errorNumber } from "./number.js";
 
@@ -182,5 +182,5 @@ export const caseCard = () =>
     { class: "card case-card", "aria-label": "File and experiment", hidden: () => !files.value.length },
     h("div", { class: "card-head" }, h("h2", null, "File and experiment"), caseMenu(), changeButton()),
     ...fileLine(),
-    facts(),
+    allFacts(),
   );
