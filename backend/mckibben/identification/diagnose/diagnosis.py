@@ -164,7 +164,7 @@ def diagnose(
         load: a stated load with its range, where fits may change it.
         effort: limits of the search; by default they depend on the cost of a prediction.
         watch: receives the progress and may cancel.
-        on_candidate: receives each candidate as soon as it is fitted.
+        on_candidate: receives each candidate as soon as it is fitted, or guessed if it promises little.
 
     Raises:
         CancelledError: the watch cancelled.
@@ -248,9 +248,10 @@ def _diagnose(
         progress.share = 0.45 * number / max(len(candidates), 1)
         if number < len(promising):
             fitted_singles.append((effect, fitter.adding(root, effect)))
-            on_candidate(single_addition(fitter, root, effect, fitted_singles[-1][1], before, ()))
         else:
             guesses.append((effect, fitter.guessed(root, effect)))
+        found = fitted_singles[-1] if number < len(promising) else guesses[-1]
+        on_candidate(single_addition(fitter, root, *found, before, ()))
     progress.share, progress.end = 0.45, 0.85
     best = search(fitter, root, singles=[fitted_model for _, fitted_model in fitted_singles])
     fitter.noise, how = noise_of(predictor, best.residual, noise)

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from weakref import WeakKeyDictionary
 
 import numpy as np
 
 from mckibben.identification.fit.effort import SearchEffort
+from mckibben.identification.fit.first_order import between, gain
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
 from mckibben.identification.predict.fit_model import FitModel, free_numbers, held_beside
 from mckibben.identification.predict.free import Free
@@ -17,10 +18,10 @@ from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.effect import Effect
 
 _MOVED = 1e-3  # relative change of a parameter below which the fit has not left its start
-_USUAL = 0.01  # share of the range: size of a parameter that is off by default
 _STUCK = 0.999  # error over the error before, above which a fit is repeated from another start
 # Least first-order gain, share of the mean square, and near the noise: what improves a score has more.
 _LEAST_PROMISE, _LEAST_NEAR_FLOOR = 0.01, 0.02
+_ROUNDING = 1e-9  # rms change over rms of the measured values, below which nothing has changed
 _LEAST_FREED = 0.03  # least first-order gain of freed constants, share of the mean square
 _ELSEWHERE = (0.1, 0.4)  # shares of the way to the farther bound at which a hidden constant is tried
 _PLACES = 12  # places tried of an effect that acts beyond some state only
@@ -97,7 +98,7 @@ class Fitter:
         """The model with one more effect, refitted from the present values."""
         off = self.acting(fitted_model, effect)
         freed = fitted_model.freed | {f"{effect.id}.{n}" for n in off if not effect.parameter(n).fitted}
-        start = self._placed(fitted_model, effect) | _between(effect, off)
+        start = self._placed(fitted_model, effect) | between(effect, off)
         for name in held_beside(self.geometry):
             owner, _, parameter = name.partition(".")
             if owner == effect.id and parameter in start:
@@ -177,7 +178,7 @@ class Fitter:
         if not np.all(np.isfinite(columns)):
             return True
         whole = fitted_model.mean_square * len(fitted_model.residual)
-        return _gain(columns, basis, unexplained) > _LEAST_FREED * whole
+        return gain(columns, basis, unexplained) > _LEAST_FREED * whole
 
     def _seen_from(
         self, fitted_model: FittedModel, effect: Effect, hidden: Collection[str]
@@ -204,7 +205,7 @@ class Fitter:
         p = effect.parameter(name.partition(".")[2])
         if not hidden or p.off is None or fitted_model.fit_model.number(name) != p.off:
             return set()
-        there = _between(effect, {p.name: p.off})[p.name]
+        there = between(effect, {p.name: p.off})[p.name]
         return hidden - self._blind(fitted_model.fit_model.with_numbers([name], [there]), hidden)
 
     def holding(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
@@ -217,7 +218,7 @@ class Fitter:
         return self.fit(fitted_model.fit_model.without(effect_id), freed)
 
     def promising(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> list[Effect]:
-        """Effects in the order of their first-order gain, the largest first."""
+        """Effects by their first-order gain, the largest first; what gains little is left out."""
         gains = self.gains(fitted_model, effects)
         unexplained = self._unexplained(fitted_model)[1]
         share = _LEAST_NEAR_FLOOR if self.near_floor(fitted_model) else _LEAST_PROMISE
@@ -235,7 +236,7 @@ class Fitter:
         for effect in effects:
             off = {p.name: p.off for p in effect.parameters if p.off is not None}
             if len(off) > len(self.acting(fitted_model, effect)):
-                gains[effect] = _gain(self._columns(fitted_model, effect, off), basis, unexplained)
+                gains[effect] = gain(self._columns(fitted_model, effect, off), basis, unexplained)
         return sorted(gains, key=lambda effect: -gains[effect])[:count]
 
     def gains(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> dict[str, float]:
@@ -245,7 +246,7 @@ class Fitter:
         for effect in effects:
             if effect.id in gains:
                 continue
-            gains[effect.id] = _gain(self.changes(fitted_model, effect), basis, unexplained)
+            gains[effect.id] = gain(self.changes(fitted_model, effect), basis, unexplained)
         return {effect.id: gains[effect.id] for effect in effects}
 
     @staticmethod
@@ -263,7 +264,7 @@ class Fitter:
             if p.name.startswith(f"{effect.id}.")
         )
         off = self.acting(fitted_model, effect)
-        reach = np.array([_between(effect, off)[name] - value for name, value in off.items()])
+        reach = np.array([between(effect, off)[name] - value for name, value in off.items()])
         columns = self.changes(fitted_model, effect)
         size = np.linalg.lstsq(columns, fitted_model.residual, rcond=1e-6)[0] * reach
         linear = {
@@ -301,10 +302,12 @@ class Fitter:
     def _new_columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
         columns = [np.empty((len(fitted_model.residual), 0))]
         for name in off:
-            single = effect.off | self._placed(fitted_model, effect) | {name: _between(effect, off)[name]}
+            single = effect.off | self._placed(fitted_model, effect) | {name: between(effect, off)[name]}
             trial = self._trial_residual(fitted_model.fit_model.adding(effect, single))
             columns.append((fitted_model.residual - trial)[:, None])
-        return np.hstack(columns)
+        changes = np.hstack(columns)
+        # What changes nothing differs in the last digits, which would explain as much as any other column.
+        return np.where(self._sizes(changes) > self._rounding, changes, 0.0)
 
     def _placed(self, fitted_model: FittedModel, effect: Effect) -> dict[str, float]:
         """Where an effect begins that acts beyond some state only: the place that explains most.
@@ -319,7 +322,7 @@ class Fitter:
         if effect.id not in known:
             (place,) = places
             off = {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted}
-            acting = effect.off | _between(effect, off)
+            acting = effect.off | between(effect, off)
             explained = self._explained(
                 fitted_model,
                 lambda value: fitted_model.fit_model.adding(effect, acting | {place.name: value}),
@@ -372,29 +375,13 @@ class Fitter:
     @property
     def _least(self) -> float:
         """Smallest rms change that counts, a tenth of the noise."""
-        return 0.1 * (self.noise or 0.0)
+        return max(0.1 * (self.noise or 0.0), self._rounding)
+
+    @cached_property
+    def _rounding(self) -> float:
+        """Rms change of a prediction that may be one of its last digits alone."""
+        return _ROUNDING * float(self._sizes(self.predictor.weighted(self.predictor.measured)))
 
     @staticmethod
     def _sizes(columns: np.ndarray) -> np.ndarray:
         return np.sqrt(np.mean(columns**2, axis=0))
-
-
-def _between(effect: Effect, off: dict[str, float]) -> dict[str, float]:
-    """A third of the way from off to the default; to 1 % of the range where the default is off."""
-    distances = {}
-    for name, value in off.items():
-        p = effect.parameter(name)
-        distances[name] = p.default - value if p.default != value else _USUAL * (p.upper - value)
-    return {name: value + distances[name] / 3.0 for name, value in off.items()}
-
-
-def _gain(columns: np.ndarray, basis: np.ndarray, unexplained: np.ndarray) -> float:
-    """First-order reduction of the sum of squares by columns beside an orthonormal basis."""
-    rest = columns - basis @ (basis.T @ columns)
-    size, whole = np.linalg.norm(rest, axis=0), np.linalg.norm(columns, axis=0)
-    distinct = size > 1e-3 * whole
-    if not np.any(distinct):
-        return 0.0
-    directions = rest[:, distinct] / size[distinct]
-    solution = np.linalg.lstsq(directions, unexplained, rcond=1e-6)[0]
-    return float(np.sum((directions @ solution) ** 2))
