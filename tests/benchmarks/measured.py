@@ -1,14 +1,22 @@
-"""The diagnosis on measured force maps, beside a formula from the literature fitted to the same points:
+"""The diagnosis on measured force maps, beside formulas from the literature fitted to the same points:
 
     python -m tests.benchmarks.measured [--data FOLDER]
 
-Maps of Martens & Boblan (Actuators 6 (2017) 33), from the ideal muscle with nominal geometry; and Sarosi's
-formula with five parameters, F = (p + a1) exp(a2 k) + a3 k p + a4 p + a5, p in kPa and k in %.
+Maps of Martens & Boblan (Actuators 6 (2017) 33), from the ideal muscle with nominal geometry; and, p in kPa
+and contraction k in %, the formulas of
+
+- Sarosi, five parameters: F = (p + a1) exp(a2 k) + a3 k p + a4 p + a5;
+- Hildebrandt & Sawodny, seven: F = p (a1 + a2 k + a3 k^2) + a4 + a5 k + a6 k^2 + a7 k^3, effective area times
+  pressure plus elastic force (the paper was not at hand: the form as others cite it);
+- Tondu & Lopez, three: F = p (a1 (1 - a2 k)^2 - a3).
+
+Left out: each pressure is predicted by the formula, or the model, that was fitted to the others.
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Callable
 from pathlib import Path
 
 import numpy as np
@@ -22,25 +30,38 @@ from mckibben.measurement.read import read_measurement
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.resources import presets_folder
 
+Array = np.ndarray
+Formula = Callable[[Array, Array, Array], Array]
 DATA = Path(__file__).parents[3] / "shared" / "data"
 MAPS = (("DMSP-20-300", "DMSP-20", 0.3), ("DMSP-10-250", "DMSP-10", 0.25))
-STARTS = (
-    (200.0, -0.3, -0.04, 1.5, -100.0),
-    (100.0, -0.1, -0.02, 0.5, 0.0),
-    (20.0, -0.5, -0.05, 2.0, 0.0),
-)
+#: Formula -> (function of a, p and k; starts of a fit).
+FORMULAS: dict[str, tuple[Formula, tuple[tuple[float, ...], ...]]] = {
+    "Sarosi": (
+        lambda a, p, k: (p + a[0]) * np.exp(a[1] * k) + a[2] * k * p + a[3] * p + a[4],
+        (
+            (200.0, -0.3, -0.04, 1.5, -100.0),
+            (100.0, -0.1, -0.02, 0.5, 0.0),
+            (20.0, -0.5, -0.05, 2.0, 0.0),
+        ),
+    ),
+    "Hildebrandt": (
+        lambda a, p, k: p * (a[0] + a[1] * k + a[2] * k**2) + a[3] + a[4] * k + a[5] * k**2 + a[6] * k**3,
+        ((2.0, -0.05, 1e-3, 0.0, -10.0, 0.1, 0.01),),
+    ),
+    "Tondu": (lambda a, p, k: p * (a[0] * (1.0 - a[1] * k) ** 2 - a[2]), ((4.0, 0.015, 2.0),)),
+}
 
 
-def sarosi(pressure: np.ndarray, contraction: np.ndarray, force: np.ndarray) -> tuple[float, float]:
-    """Rms error of the formula [N]: fitted to all points, and over pressures that were left out."""
+def of_formula(name: str, pressure: Array, contraction: Array, force: Array) -> tuple[float, float]:
+    """Rms error of a formula [N]: fitted to all points, and over pressures that were left out."""
+    formula, starts = FORMULAS[name]
     p, k = pressure / 1e3, 100.0 * contraction
 
-    def misfit(a: np.ndarray, rows: np.ndarray) -> np.ndarray:
-        linear = a[2] * k[rows] * p[rows] + a[3] * p[rows] + a[4]
-        return (p[rows] + a[0]) * np.exp(a[1] * k[rows]) + linear - force[rows]
+    def misfit(a: Array, rows: Array) -> Array:
+        return formula(a, p[rows], k[rows]) - force[rows]
 
-    def fitted(rows: np.ndarray) -> np.ndarray:
-        ends = [least_squares(misfit, start, args=(rows,), x_scale=np.abs(start) + 1.0) for start in STARTS]
+    def fitted(rows: Array) -> Array:
+        ends = [least_squares(misfit, start, args=(rows,), x_scale="jac") for start in starts]
         return min(ends, key=lambda end: end.cost).x
 
     every = np.arange(len(force))
@@ -78,8 +99,11 @@ def main() -> None:
             effects = f"{len(found.best.free)}: {', '.join(found.added)} ({found.status})"
             say(f"{label:36}{errors[0]:7.2f}{errors[1]:7.2f}{errors[2]:10.2f}  {effects}")
             inputs, measured = found.predictor.inputs, found.predictor.measured
-        fit, hold = sarosi(inputs["pressure"], 1.0 - inputs["length"] / length, measured)
-        say(f"{sample + ' Sarosi':36}{'':7}{scale * fit:7.2f}{scale * hold:10.2f}  5")
+        contraction = 1.0 - inputs["length"] / length
+        for name, (_, starts) in FORMULAS.items():
+            fit, hold = of_formula(name, inputs["pressure"], contraction, measured)
+            numbers = len(starts[0])
+            say(f"{sample + ' ' + name:36}{'':7}{scale * fit:7.2f}{scale * hold:10.2f}  {numbers}")
 
 
 def say(text: str) -> None:
