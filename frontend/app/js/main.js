@@ -7,6 +7,7 @@ import { fetchPlotly } from "./plots/library.js";
 import { projectCommands } from "./projects/menu.js";
 import { followProject } from "./projects/session.js";
 import { effect } from "./reactive.js";
+import { look } from "./server/connection.js";
 import { loadAll } from "./server/presets.js";
 import { share, shell } from "./shell.js";
 import { goTo } from "./state.js";
@@ -145,6 +146,12 @@ function start() {
   const last = lastWork();
   writeAddress();
   if (last) offerToContinue(last);
+  // A part that is fetched when it is needed: without a server the banner says why nothing happens.
+  addEventListener("unhandledrejection", (e) => {
+    if (!(e.reason instanceof TypeError && /module/i.test(e.reason.message))) return;
+    e.preventDefault();
+    look();
+  });
   followProject(async () => (await import("./projects/dialogs.js")).askElsewhere());
   loadAll();
   requestAnimationFrame(() => setTimeout(fetchPlotly));

@@ -3,6 +3,7 @@
 import { h, icon } from "../dom.js";
 import { apart, computed, effect } from "../reactive.js";
 import { units } from "../state.js";
+import { connection } from "../server/connection.js";
 import { openDialog } from "../ui/dialog.js";
 import { questionList, questionsOf, rowCounts, unreadList } from "./asks.js";
 import { withPlace } from "./choices.js";
@@ -104,7 +105,7 @@ function moveOn(dialog) {
 /** What is still open, in a sentence. @param {Model} m */
 function stateNow(m) {
   if (m.failure()) return h("span", { class: "error" }, m.failure());
-  if (m.isReading()) return "Reading…";
+  if (m.isReading()) return connection.value === "up" ? "Reading…" : "Waiting for the server…";
   const bad = m.files.filter((_, i) => m.problemOf(i));
   const asked = questionsOf(m).filter((q) => q.stops).length;
   const titles = [...new Set(m.missing.value.map((one) => one.title.toLowerCase()))];

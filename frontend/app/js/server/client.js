@@ -1,6 +1,6 @@
 // @ts-check
 // Requests to the server, and the one shape of its errors.
-import { found, lost, watch } from "./connection.js";
+import { attend, found, lost, watch } from "./connection.js";
 
 export class ApiError extends Error {
   /** @param {string} message @param {{field?: string | null, hint?: string | null, status?: number}} [more]
@@ -129,6 +129,20 @@ function readEvent(text) {
  * @param {AbortSignal} signal ends the work on the server too
  * @returns {Promise<any>} the data of "done" */
 export async function postForEvents(path, body, onEvent, signal) {
+  const { heard, end } = attend();
+  try {
+    return await eventsOf(path, body, (event, data) => {
+      heard();
+      onEvent(event, data);
+    }, signal);
+  } finally {
+    end();
+  }
+}
+
+/** @param {string} path @param {unknown} body @param {(event: string, data: any) => void} onEvent
+ * @param {AbortSignal} signal @returns {Promise<any>} */
+async function eventsOf(path, body, onEvent, signal) {
   const response = await reach(path, {
     method: "POST",
     headers: { "content-type": "application/json", accept: "text/event-stream" },

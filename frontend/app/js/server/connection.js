@@ -61,3 +61,26 @@ export function watch() {
     if (!waiting && connection.peek() === "slow") connection.value = "up";
   };
 }
+
+const BEAT_MS = 1000;
+
+/** Watches long work: when it has been silent for a while, the server is asked whether it is still there.
+ * @returns {{heard: () => void, end: () => void}} `heard`: for each sign of life; `end`: when the work has ended */
+export function attend() {
+  let last = performance.now(), isAsking = false;
+  const heard = () => (last = performance.now());
+  const beat = setInterval(async () => {
+    if (isAsking || performance.now() - last < SLOW_MS) return;
+    isAsking = true;
+    const end = watch();
+    try {
+      if ((await fetch("/api/health", { cache: "no-store" })).ok) found();
+    } catch {
+      lost();
+    }
+    end();
+    heard();
+    isAsking = false;
+  }, BEAT_MS);
+  return { heard, end: () => clearInterval(beat) };
+}

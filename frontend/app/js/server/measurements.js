@@ -1,6 +1,7 @@
 // @ts-check
 // Measurement files on the server: read for a look, kept, fetched again.
 import { get, sendFile } from "./client.js";
+import { untilAnswered } from "./patience.js";
 
 /** @typedef {import("../types.js").S} S */
 /** @typedef {S["MeasurementAnswer"]} FileInfo */
@@ -27,11 +28,13 @@ const query = (file, mapping) => {
  * @returns {Promise<Preview>} */
 export const previewOf = (file, mapping, signal, muscle) => {
   const chosen = muscle ? `&muscle=${encodeURIComponent(muscle)}` : "";
-  return sendFile("POST", `/api/measurements/preview${query(file, mapping)}${chosen}`, file, signal);
+  const path = `/api/measurements/preview${query(file, mapping)}${chosen}`;
+  return untilAnswered(() => sendFile("POST", path, file, signal), signal);
 };
 
 /** Sends a file to be kept. @param {File} file @param {Mapping} [mapping] @returns {Promise<FileInfo>} */
-export const keep = (file, mapping = {}) => sendFile("PUT", `/api/measurements${query(file, mapping)}`, file);
+export const keep = (file, mapping = {}) =>
+  untilAnswered(() => sendFile("PUT", `/api/measurements${query(file, mapping)}`, file));
 
 /** A kept file with its columns. @param {string} id @param {AbortSignal} [signal]
  * @returns {Promise<S["MeasurementDetail"]>} */

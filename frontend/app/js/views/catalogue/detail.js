@@ -109,7 +109,7 @@ function smallPlot() {
     };
     if (answer && plotlyReady.value) chart.show((p) => forceSpec({ ...view, curves: answer }, p));
   });
-  return host;
+  return h("div", { class: () => curves.stale.value ? "stale" : "" }, host);
 }
 
 /** @param {string} id */

@@ -6,6 +6,7 @@ import { view } from "../../state.js";
 import { ApiError } from "../../server/client.js";
 import { keep, measurement } from "../../server/measurements.js";
 import { cameBack, has, lacks } from "../../server/missing.js";
+import { untilLoaded } from "../../server/patience.js";
 import { Question } from "../../server/question.js";
 import { editTransient, transient } from "./model.js";
 
@@ -24,7 +25,7 @@ const isSending = signal(false);
 async function send(file) {
   if (!file) return;
   refused.value = "";
-  const { importFiles } = await import("../../measurement/import.js");
+  const { importFiles } = await untilLoaded(() => import("../../measurement/import.js"));
   try {
     const [read] = await importFiles([file], {
       asks: false,

@@ -177,7 +177,7 @@ export const simulate = (body, signal) => post("/api/simulations", body, signal)
 const runQuestion = new Question((text, signal) => simulate(JSON.parse(text), signal));
 /** The newest run, why there is no newer one (the plots then keep the last one, dimmed), and how long its request
  * took [ms]. */
-export const { answer: run, error: fault, took: roundTrip } = runQuestion;
+export const { answer: run, error: fault, stale, took: roundTrip } = runQuestion;
 /** Asks once more, after the server was away. */
 export const retry = () => runQuestion.again();
 

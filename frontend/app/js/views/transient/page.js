@@ -9,7 +9,7 @@ import { paired, plotCards } from "./plots/charts.js";
 import { figureCards } from "./figures/figures.js";
 import { measuredCard } from "./measured.js";
 import { faultNotice, goToField } from "../../ui/fault.js";
-import { fault, faultField, retry, run, startRuns } from "./model.js";
+import { fault, faultField, retry, run, stale, startRuns } from "./model.js";
 import { inputCards } from "./inputs/panel.js";
 import { startPins } from "./pinned-runs.js";
 import { compareCard } from "./pinned/card.js";
@@ -29,7 +29,6 @@ export function transientPage() {
   effect(() => {
     if (isWhole.value && fault.peek()) apart(retry);
   });
-  const stale = computed(() => Boolean(fault.value));
   const results = h("div", { class: () => `column results${stale.value ? " stale" : ""}` });
   figureCards().forEach((card) => append(results, card));
   results.append(measuredCard());

@@ -10,6 +10,7 @@ import { caseId } from "../cases.js";
 import { again, chosen, compare, editCompare, fault, files } from "../answers.js";
 import { conditionsOf, muscleOf, presetNamed, withRestLength } from "../muscle-values.js";
 import { keep, measurement } from "../../../server/measurements.js";
+import { untilLoaded } from "../../../server/patience.js";
 import { cameBack, has, lacks, missing } from "../../../server/missing.js";
 
 /** @typedef {import("../types.js").FileInfo} FileInfo */
@@ -44,7 +45,7 @@ const ASKING = { asks: true, complain, reading: (name) => (reading.value = name)
 /** Imports files: they are looked at, asked about and kept. @param {Iterable<File>} list */
 export async function addFiles(list) {
   complaints.value = [];
-  const { importFiles } = await import("../../../measurement/import.js");
+  const { importFiles } = await untilLoaded(() => import("../../../measurement/import.js"));
   const read = await importFiles([...list], ASKING);
   /** @type {Kept[]} */
   const kept = [];
@@ -90,7 +91,7 @@ export async function importOnceMore(id, plain = false) {
   const source = sources.get(id);
   if (!source) return;
   complaints.value = [];
-  const { forgetKind, importAgain } = await import("../../../measurement/import.js");
+  const { forgetKind, importAgain } = await untilLoaded(() => import("../../../measurement/import.js"));
   if (plain && source.kept) forgetKind(source.kept);
   const said = files.peek().find((f) => f.id === id)?.experiment ?? {};
   const read = await importAgain(source.file, plain ? {} : source.mapping, said, ASKING);

@@ -1,0 +1,153 @@
+"""A real server that is stopped for some seconds, killed and started again: what each view shows."""
+
+from __future__ import annotations
+
+import os
+import re
+import signal
+import socket
+from collections.abc import Callable
+from functools import partial
+from pathlib import Path
+from typing import Any
+
+import pytest
+from playwright.sync_api import Browser, Page, expect
+
+from tests.frontend.comparing import drop
+from tests.frontend.importing import plain
+from tests.frontend.views import enter, open_compare, run
+from tests.running_server import RunningServer
+
+INNER_WORDS = re.compile(
+    r"TypeError|NetworkError|Failed to fetch|\b(?:GET|PUT|POST)\b|\bat https?:|Traceback"
+)
+NOISE = "(await import('/js/views/compare/answers.js')).editCompare({ noise: argument }, 'noise');"
+DIMMED = """
+const all = [...document.querySelectorAll(argument)].filter((el) => el.checkVisibility());
+return all.length ? Math.max(...all.map((el) => Number(getComputedStyle(el).opacity))) : 1;
+"""
+
+
+def tab(page: Page, name: str) -> None:
+    page.get_by_role("button", name=name, exact=True).first.click()
+
+
+def task(page: Page) -> None:
+    tab(page, "Design")
+    page.get_by_role("radio", name="Task", exact=True).click()
+
+
+def muscle(page: Page) -> None:
+    tab(page, "Design")
+    page.get_by_role("radio", name="Muscle", exact=True).click()
+
+
+# How to get to a view, what to change there the nth time, and what is dimmed until the answer comes.
+View = tuple[Callable[[Page], None], Callable[[Page, int], Any], str]
+VIEWS: dict[str, View] = {
+    "Design": (muscle, lambda page, n: enter(page, "Braid angle", str(23 + n)), "#force"),
+    "Transient": (
+        lambda page: tab(page, "Transient"),
+        lambda page, n: enter(page, "Mass", str(15 + n)),
+        ".transient .runs .plot, .transient .results > .card",
+    ),
+    "Compare & diagnose": (
+        lambda page: tab(page, "Compare & diagnose"),
+        lambda page, n: run(page, NOISE, 3.0 + n),
+        "#overlay-force, #residual, .heat, .error-value",
+    ),
+    "Catalogue": (
+        lambda page: tab(page, "Catalogue"),
+        lambda page, n: page.get_by_role("button", name=f"Festo DMSP-{(10, 40)[n]}", exact=True).click(),
+        ".catalogue .detail .plot",
+    ),
+}
+
+
+def opacity_is(page: Page, name: str, *, dimmed: bool) -> bool:
+    """Whether all that a view dims is dimmed, or none of it."""
+    return (run(page, DIMMED, VIEWS[name][2]) < 1) == dimmed
+
+
+def comes(page: Page, true: Callable[[], bool], within: int = 200) -> bool:
+    """Whether something becomes true within so many tenths of a second."""
+    for _ in range(within):
+        if true():
+            return True
+        page.wait_for_timeout(100)
+    return False
+
+
+def has_changed(page: Page, number: int) -> None:
+    """Every view, changed while no answer comes, dims what is out of date, and one banner says why."""
+    banner = page.locator(".banner")
+    for name, (go, change, _) in VIEWS.items():
+        go(page)
+        change(page, number)
+        assert comes(page, partial(opacity_is, page, name, dimmed=True)), name
+        expect(banner, name).to_have_count(1, timeout=20_000)
+        expect(page.locator(".notice:visible .error, .fault:visible"), name).to_have_count(0)
+        assert INNER_WORDS.findall(page.locator("body").inner_text()) == [], name
+
+
+def is_back(page: Page) -> None:
+    """By itself, in every view."""
+    expect(page.locator(".banner")).to_have_count(0, timeout=20_000)
+    for name, (go, _, _) in VIEWS.items():
+        go(page)
+        assert comes(page, partial(opacity_is, page, name, dimmed=False)), name
+        expect(page.locator(".banner"), name).to_have_count(0)
+
+
+@pytest.mark.examination("tests/frontend/test_network.py::test_a_server_that_is_gone_and_comes_back")
+def test_a_server_that_is_stopped_killed_and_started_again(browser: Browser, tmp_path: Path) -> None:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    arguments = ("--port", str(port))
+    context = browser.new_context(
+        base_url=f"http://127.0.0.1:{port}", viewport={"width": 1440, "height": 1000}
+    )
+    page, faults = context.new_page(), list[str]()
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    with RunningServer(tmp_path, arguments=arguments) as server:
+        open_compare(page)
+        page.route("**/api/diagnoses", lambda route: None)
+        page.locator(".tile", has_text="DMSP-20-300").click()
+        expect(page.locator("#error-now")).to_be_visible(timeout=60_000)
+        for go, _, dimmed in VIEWS.values():
+            go(page)
+            expect(page.locator(dimmed).first).to_be_visible(timeout=60_000)
+        task(page)
+        expect(page.get_by_role("button", name="Propose drives").first).to_be_visible()
+        is_back(page)
+
+        os.kill(server.pid, signal.SIGSTOP)
+        has_changed(page, 0)
+        expect(page.locator(".banner")).to_contain_text("takes long to answer")
+        task(page)
+        page.get_by_role("button", name="Propose drives").first.click()
+        page.get_by_role("button", name=re.compile("^(Cancel|Stop)")).first.click()  # work that waits can end
+        os.kill(server.pid, signal.SIGCONT)
+        is_back(page)
+
+        os.kill(server.pid, signal.SIGKILL)
+        server.wait(10.0)
+        has_changed(page, 1)
+        expect(page.locator(".banner")).to_contain_text("does not answer")
+        tab(page, "Compare & diagnose")
+        drop(page, plain("dropped.csv"))
+        expect(page.locator("dialog.import")).to_have_count(0)
+        tab(page, "Studies")  # for the first time: its modules are not there yet
+        expect(page.locator("main")).to_contain_text("This view loads when the server answers again")
+    with RunningServer(tmp_path, arguments=arguments):
+        # The file is looked at as soon as there is a server for it.
+        expect(page.locator("dialog.import")).to_be_visible(timeout=60_000)
+        page.keyboard.press("Escape")
+        tab(page, "Studies")
+        expect(page.locator(".studies")).to_contain_text("Many runs, one answer", timeout=20_000)
+        is_back(page)
+        assert INNER_WORDS.findall(page.locator("body").inner_text()) == []
+        context.close()
+    assert faults == []
