@@ -59,7 +59,7 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     open_compare(page)
     page.route("**/api/diagnoses", lambda route: None)  # with the rig of the Transient view, which is another
     choose(page, file("steps.csv", text))
-    page.get_by_role("button", name="A drive document says all this").click()
+    page.get_by_role("button", name="A drive document has all of this").click()
     use(page)
     card = page.locator(".file")
     expect(card).to_contain_text("transient")

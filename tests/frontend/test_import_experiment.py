@@ -179,7 +179,7 @@ def test_an_assumption_or_a_suggestion_is_taken_over_by_a_click(case: Page) -> N
     assert "experiment" not in measurement  # nobody said anything: the server goes on assuming
     setup(case).get_by_role("button", name="Import…").click()
     length.get_by_role("button", name="251.2 mm is suggested by the data").click()
-    expect(length).to_contain_text("suggested, taken over")
+    expect(length).to_contain_text("suggestion accepted")
     (measurement,) = compared(case)
     assert measurement["experiment"] == {"rest_length": {"value": "0.2512 m", "origin": "suggested"}}
 

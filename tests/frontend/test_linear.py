@@ -52,7 +52,7 @@ def test_from_the_drive_to_a_designed_controller(page: Page) -> None:
     table = card.get_by_role("region", name="Controllers: steps of")
     expect(table.locator("tr", has_text="meets the goals").locator("td").last).to_have_text("yes")
     expect(card.get_by_role("region", name="another mass and supply").locator("tbody tr")).to_have_count(9)
-    rerun(page, lambda: page.get_by_role("button", name="Take the refined controller over").click())
+    rerun(page, lambda: page.get_by_role("button", name="Use the refined controller").click())
     expect(page.get_by_role("radio", name="Controller")).to_have_attribute("aria-checked", "true")
     expect(card.get_by_text("The drive has changed since.")).to_be_visible()
     kp = page.locator('[data-field="controller.kp"] input[type="text"]').input_value()

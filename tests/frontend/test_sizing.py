@@ -243,7 +243,7 @@ def test_nothing_does_it(page: Page) -> None:
     example(page, "Too fast")
     _, answer = searched(page)
     rejected = answer["rejected"]
-    expect(page.locator(".ranked")).to_contain_text("No drive of the catalogue does this")
+    expect(page.locator(".ranked")).to_contain_text("No drive in the catalogue can do this")
     expect(rows(page)).to_have_count(0)
     first = page.locator(".rejected li").first
     expect(first).to_contain_text(rejected[0]["muscle"])

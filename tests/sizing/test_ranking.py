@@ -94,7 +94,7 @@ def test_a_muscle_whose_force_nobody_knows_is_never_first() -> None:
     unknown = proposal("unknown", air=1e-4, extrapolated="its force is scaled from another size")
     known = proposal("known", air=2e-3, probability=0.85, margin=0.01)
     assert order(unknown, known) == ["known", "unknown"]
-    assert "nobody knows the force" in str(why_first(ranked([unknown, known], AIR), AIR))
+    assert "the force of the second is not known" in str(why_first(ranked([unknown, known], AIR), AIR))
 
 
 def test_one_proposal_needs_no_sentence() -> None:

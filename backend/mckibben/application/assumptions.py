@@ -102,7 +102,7 @@ def _assumed(measurement: Measurement, values: Experiment) -> list[tuple[str, st
         value = values.get(name)
         if value is None:
             if name == "load" and measurement.kind == "isotonic":
-                words.append((name, "nothing about the load, which nobody states and which is fitted"))
+                words.append((name, "nothing about the load, which is not stated and is fitted"))
         elif value.origin == "assumed":
             words.append((name, _in_words(name, value)))
     accuracies = [

@@ -250,9 +250,9 @@ def _loops(comparison: Comparison, residual: Array) -> list[ResidualLoop]:
 
 def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
     """Where the model fails, and whether the residual is noise, in words."""
-    shown = "" if unit == "1" else f" {unit}"
+    factor, shown = (1e3, " mm") if unit == "m" else (1.0, "" if unit == "1" else f" {unit}")
     words = [
-        f"{profile.worst}: {profile.rmse:.3g}{shown} rms; this variable alone predicts "
+        f"{profile.worst}: {factor * profile.rmse:.3g}{shown} rms; this variable alone predicts "
         f"{100.0 * profile.share_explained:.0f} % of the error"
         for profile in where[:3]
         if profile.share_explained > _TELLING

@@ -263,7 +263,7 @@ def accuracy_values(text: str, origin: Origin, where: str) -> dict[str, Experime
 #: Origin -> in words, for tables.
 ORIGIN_WORDS: Mapping[Origin, str] = MappingProxyType(
     {
-        "file": "the file", "you": "stated", "preset": "preset", "suggested": "suggestion taken over",
+        "file": "the file", "you": "stated", "preset": "preset", "suggested": "suggestion accepted",
         "assumed": "assumed",
     }
 )  # fmt: skip

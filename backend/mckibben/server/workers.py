@@ -305,8 +305,8 @@ class Workers:
         except (ProcessExpired, BrokenProcessPool) as error:
             log.error("a worker ended while it did a %s: %s", kind, error)
             raise InputError(
-                f"the {kind} ended its process; nothing else was affected",
-                hint="try again; if it happens again, look into the log of the server",
+                f"the process of the {kind} ended unexpectedly; nothing else was affected",
+                hint="try again; if it happens again, look at the log of the server",
                 code="stopped",
             ) from error
         if isinstance(found, Refused):

@@ -75,7 +75,7 @@ def why_first(ordered: list[Proposal], task: Task) -> str | None:
         names = [f"{name} of {p.design.length * 1e3:.0f} mm" for name, p in zip(names, ordered, strict=False)]
     before = f"{names[0]} comes before {names[1]}"
     if (unknown := second.design.group.muscle.extrapolated) and not first.design.group.muscle.extrapolated:
-        return f"{before}, because of the second nobody knows the force: {unknown}."
+        return f"{before}, because the force of the second is not known: {unknown}."
     if _likely(first) and not _likely(second):
         return (
             f"{before}, because it fulfils the task with {_share(first)} probability, not {_share(second)}."

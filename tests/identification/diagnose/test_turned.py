@@ -32,11 +32,11 @@ def diagnosed(*, zero: float) -> Diagnosis:
 
 def test_a_turned_sign_is_told_with_what_could_have_moved_it() -> None:
     found = diagnosed(zero=29.0)
-    (note,) = [message for message in found.messages if "turned the sign" in message]
+    (note,) = [message for message in found.messages if "reversed the sign" in message]
     assert "prestress.force" in note
     assert "from 13 to" in note
     assert CATALOGUE["force_offset"].title in note
 
 
 def test_a_constant_that_keeps_its_sign_is_not_mentioned() -> None:
-    assert not [message for message in diagnosed(zero=3.0).messages if "turned the sign" in message]
+    assert not [message for message in diagnosed(zero=3.0).messages if "reversed the sign" in message]

@@ -40,7 +40,7 @@ def turned_constants(fitter: Fitter, first: FitModel, best: FittedModel) -> list
         names = [title for _, title in sorted(alike, reverse=True)[:_TOLD]]
         else_ = f": {', '.join(names)} could have moved it instead" if names else ""
         notes.append(
-            f"the fit turned the sign of {free.name}, from {before:.4g} to {after:.4g} {free.unit}{else_}"
+            f"the fit reversed the sign of {free.name}, from {before:.4g} to {after:.4g} {free.unit}{else_}"
         )
     return notes
 

@@ -107,7 +107,7 @@ class Predictor(ABC):
         """A sentence where another history than rest was assumed."""
         names = [name for name in dict.fromkeys(self.history(fit_model)) if name != "rest"]
         return tuple(
-            "friction remembers what was before a record, which no file says: "
+            "friction depends on the motion before the record, which no file states: "
             + ("a motion that went on" if name == "the same way" else "a motion the other way that turned")
             + " where it begins was assumed, because the forces fit best with it"
             for name in names

@@ -23,7 +23,7 @@ SHOWN: Mapping[str, tuple[str, float, str, int]] = {
     "time": ("time", 1.0, "s", 2),
     "load": ("load", 1.0, "N", 0),
     "command": ("command", 1.0, "", 2),
-    "displacement": ("displacement", 1e3, "mm", 1),
+    "displacement": ("stroke", 1e3, "mm", 1),
     "temperature": ("temperature", 1.0, "K", 1),
     "group": ("group", 1.0, "", 0),
 }
@@ -112,9 +112,10 @@ def _range(name: str, low: float, high: float) -> str:
     words, factor, unit, digits = SHOWN[name]
     if name == "direction":
         return {-1.0: "shortening", 0.0: "at rest", 1.0: "lengthening"}.get(low, "unknown")
-    first, last = f"{low * factor:.{digits}f}", f"{high * factor:.{digits}f}"
+    # A rounded −0.0 is 0.
+    first, last = (f"{round(end * factor, digits) + 0.0:.{digits}f}" for end in (low, high))
     text = first if first == last else f"{first} to {last}"
-    return f"{words} {text} {unit}".strip()
+    return f"{words} {text} {unit}".replace(" -", " −").strip()
 
 
 @dataclass(frozen=True)

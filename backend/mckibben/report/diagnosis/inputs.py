@@ -58,10 +58,20 @@ def _channel(channel: ChannelSummary) -> list[Child]:
     return [words, low, high]
 
 
+#: Condition -> (factor from SI, unit) in which it is shown.
+_CONDITIONS = {
+    "nominal_length": (1e3, " mm"),
+    "load_mass": (1.0, " kg"),
+    "load_force": (1.0, " N"),
+    "supply_pressure": (1e-5, " bar"),
+}
+
+
 def _condition(name: str, value: float | str) -> str:
-    unit = {"load_mass": " kg", "load_force": " N", "supply_pressure": " Pa"}.get(name, "")
-    text = value if isinstance(value, str) else f"{value:g}{unit}"
-    return f"{name.replace('_', ' ')} {text}"
+    factor, unit = _CONDITIONS.get(name, (1.0, ""))
+    text = value if isinstance(value, str) else f"{factor * value:.6g}{unit}"
+    words = "rest length" if name == "nominal_length" else name.replace("_", " ")
+    return f"{words} {text}"
 
 
 _GEOMETRY = (

@@ -256,7 +256,8 @@ class _Phase:
             if figure is not None and last - first > _SHARP_TIME * figure:
                 return (
                     f"from {first * 1e3:.4g} to {last * 1e3:.4g} ms the pressure is within {100 * _SHARP:g} "
-                    f"% of its step around {100 * share:g} % of it: when it passes there is not known closer"
+                    f"% of its step around {100 * share:g} % of it: "
+                    "the instant of the crossing is uncertain by that much"
                 )
         return None
 

@@ -151,7 +151,7 @@ export function countingRows(m) {
       choiceRow(label, [
         [plain, column.sign > 0, turn(false)],
         [turned, column.sign < 0, turn(true)],
-      ], column.sign < 0 ? h("small", null, "turned on reading") : null);
+      ], column.sign < 0 ? h("small", null, "sign reversed when read") : null);
     if (column.channel === "pressure") {
       const { absolute } = column;
       return [

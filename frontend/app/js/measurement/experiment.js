@@ -16,11 +16,11 @@ function originChip(m, f, said) {
   const way = m.ways.value[f.field];
   if (said !== undefined) {
     const taken = typeof said !== "string";
-    return h("span", { class: "origin you" }, taken ? "suggested, taken over" : "you");
+    return h("span", { class: "origin you" }, taken ? "suggestion accepted" : "you");
   }
   if (way === "later") return h("span", { class: "origin assumed" }, "set in the view");
   if (f.origin === null) {
-    return h("span", { class: "origin none" }, f.required ? "nobody said it" : "not said");
+    return h("span", { class: "origin none" }, f.required ? "not stated" : "not stated");
   }
   if (f.origin === "file") {
     return h("span", { class: "origin from-file" }, `file: ${placeOf(m, f) || "its text"}`);
@@ -100,7 +100,7 @@ function fieldRow(m, f) {
       : null,
     open && f.field === "muscle"
       ? offer(
-        "Another muscle: I set its geometry later",
+        "Another muscle: set its geometry later",
         "later",
         () => m.goOn([f.field], "later"),
       )
@@ -137,7 +137,7 @@ function entry(m, f, id, value, wrong) {
     return h(
       "select",
       common,
-      h("option", { value: "", selected: !value }, value ? "not said" : "choose…"),
+      h("option", { value: "", selected: !value }, value ? "not stated" : "choose…"),
       ...list.map((one) => h("option", { value: one, selected: one === value }, titles.get(one) ?? one)),
     );
   }
@@ -172,7 +172,7 @@ export function experimentFields(m) {
       ? h(
         "button",
         { type: "button", class: "link", "data-key": "drive document", onclick: () => m.goOn(open, "later") },
-        "A drive document says all this: I open it in the view",
+        "A drive document has all of this: open it in the view",
       )
       : null,
     more.length

@@ -287,7 +287,7 @@ export async function askElsewhere() {
         type: "button",
         onclick: choose(() => session.saveAs(`${project.title} (mine)`.slice(0, 200))),
       }, "Save mine as a copy"),
-      h("button", { type: "button", onclick: choose(session.replaceOther) }, "Replace theirs by mine"),
+      h("button", { type: "button", onclick: choose(session.replaceOther) }, "Replace theirs with mine"),
     ),
     h(
       "p",

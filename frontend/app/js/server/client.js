@@ -157,7 +157,7 @@ async function eventsOf(path, body, onEvent, signal) {
     const { done, value } = await reader.read().catch((error) => {
       if (signal.aborted) throw error;
       lost();
-      throw new ApiError("The connection to the server broke off.", { status: UNREACHED });
+      throw new ApiError("The connection to the server was lost.", { status: UNREACHED });
     });
     const blocks = (rest + (value ?? "")).split(/\r?\n\r?\n/);
     rest = blocks.pop() ?? "";

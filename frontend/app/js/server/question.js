@@ -11,7 +11,7 @@ import { returned } from "./connection.js";
 
 /** How long an out-of-date request may still take [ms]: while a slider moves, answers keep coming. */
 const PATIENCE_MS = 400;
-const FAULT = "The page made a mistake with this answer. Reload it; what you entered is in its address.";
+const FAULT = "The page could not process this answer. Reload it; what you entered is kept in the address.";
 
 /** Answers by the text of their question; those not used for longest are forgotten. @template A */
 export class Memory {

@@ -142,6 +142,6 @@ export function useInDesign() {
   openDesign({ muscle: c.muscle, effects, reference: "auto" }, "model of the comparison");
   const left = Object.keys(all).filter((id) => !(id in effects)).map(titleOf);
   if (left.length) {
-    status.value = `Left out, because Design takes effects of the catalogue only: ${left.join(", ")}.`;
+    status.value = `Left out, because Design accepts only effects of the catalogue: ${left.join(", ")}.`;
   }
 }

@@ -40,10 +40,10 @@ function verdict(p) {
 /** @param {Proposal} p @returns {[string, string][]} */
 const figures = (p) => [
   ["Time for the stroke", asText(p.time, "time")],
-  ["Time back", asText(p.time_down, "time")],
+  ["Time for the return", asText(p.time_down, "time")],
   ["Air per cycle", asText(p.air_volume_anr, "normal")],
   ["Supply pressure", asText(p.pressure, "pressure")],
-  ["Least sufficient pressure", asText(p.needed_pressure, "pressure")],
+  ["Lowest sufficient pressure", asText(p.needed_pressure, "pressure")],
   ["Pressure at the start", asText(p.pressure_start, "pressure")],
   ["Pressure on arrival", asText(p.pressure_end, "pressure")],
   ["Contraction", asText(p.contraction, "ratio")],
@@ -55,7 +55,7 @@ const figures = (p) => [
   ["End speed", asText(p.end_speed, "speed")],
   ["Largest speed", asText(p.max_speed, "speed")],
   ["Installed length", asText(p.installed_length, "length")],
-  ["Diameter, bulged", asText(p.diameter, "length")],
+  ["Diameter, contracted", asText(p.diameter, "length")],
   ["Life, unverified", `${Number(p.life.toPrecision(2)).toLocaleString("en")} cycles`],
 ];
 

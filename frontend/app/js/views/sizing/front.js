@@ -96,7 +96,7 @@ const legend = () =>
     { class: "legend" },
     h("li", null, h("i", { class: "dot full" }), "Pareto front: no drive found is better in every aim"),
     h("li", null, h("i", { class: "dot" }), "others"),
-    h("li", { class: "muted" }, "numbers: the proposals; without a number: not among the best of the list"),
+    h("li", { class: "muted" }, "numbered: the proposals; not numbered: not among the best"),
     () => {
       const far = outside.value;
       return far ? h("li", { class: "muted" }, `${far} mark${far > 1 ? "s" : ""} outside the plot`) : null;

@@ -119,7 +119,7 @@ function showFound(found) {
   lookSizing({ selected: 0 });
   status.value = best
     ? `${rest.length + 1} drive${rest.length ? "s" : ""} found; first ${driveWords(best)}.`
-    : "No drive of the catalogue does this task. The list below gives the reasons.";
+    : "No drive in the catalogue can do this task. The list below gives the reasons.";
 }
 
 /** Ends the search on the server too; drives found before stay. */

@@ -108,7 +108,7 @@ function nothing() {
   return h(
     "section",
     { class: "card", "aria-label": "No drive" },
-    h("div", { class: "card-head" }, h("h2", null, "No drive of the catalogue does this")),
+    h("div", { class: "card-head" }, h("h2", null, "No drive in the catalogue can do this")),
     h(
       "p",
       { class: "verdict bad" },

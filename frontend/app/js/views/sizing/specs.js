@@ -29,14 +29,14 @@ export const FIELDS = {
     quantity: "angle",
     bounds: [-UPRIGHT, UPRIGHT],
     usual: UPRIGHT,
-    why: "Of the direction of motion against the horizontal. Default 90°: the load hangs.",
+    why: "Angle between the direction of motion and the horizontal. Default 90°: the load hangs.",
   },
   "load.spring": {
     label: "Spring",
     quantity: "stiffness",
     bounds: [0, 1e5],
     usual: 0,
-    why: "Acts against the contraction; without force at the start. Default 0: no spring.",
+    why: "Acts against the contraction, relaxed at the start. Default 0: no spring.",
   },
   "load.counterweight": {
     label: "Counterweight",
@@ -92,7 +92,7 @@ export const FIELDS = {
     why: "Travel of the load.",
   },
   time: {
-    label: "Time up",
+    label: "Time for the stroke",
     quantity: "time",
     bounds: [0, 5],
     usual: null,
@@ -100,7 +100,7 @@ export const FIELDS = {
     why: "Longest time for the stroke. Leave empty for no limit.",
   },
   time_down: {
-    label: "Time down",
+    label: "Time for the return",
     quantity: "time",
     bounds: [0, 5],
     usual: null,
@@ -167,7 +167,7 @@ export const FIELDS = {
     bounds: [1, 6],
     usual: 2,
     whole: true,
-    why: "Largest number of muscles side by side. Default 2: more rarely share a load evenly.",
+    why: "Largest number of muscles side by side. Default 2: more muscles rarely share a load evenly.",
   },
   "limits.end_fittings": {
     label: "End fittings",
@@ -215,7 +215,7 @@ export const FIELDS = {
     usual: null,
     empty: "no limit",
     why:
-      "Least number of load cycles. Leave empty for no limit. Lives are unverified estimates: makers publish no curves.",
+      "Least number of load cycles. Leave empty for no limit. The life is an unverified estimate: makers publish no curves.",
   },
   "catalogue.tube_length": {
     label: "Tube length",
@@ -260,7 +260,7 @@ export const FIELDS = {
     quantity: "number",
     bounds: [0, 0.1],
     usual: 0.025,
-    why: "Of a cubic metre at ANR. Default 0.025 euro, general knowledge, not verified: 0.01 to 0.03.",
+    why: "Per cubic metre at ANR. Default 0.025 euro, not verified; the usual range is 0.01 to 0.03.",
   },
   "uncertainty.specimens": {
     label: "Specimens",

@@ -57,7 +57,7 @@ function notices() {
   }
   if (stage.value === "cancelled") {
     return notice(
-      h("span", null, "The study was cancelled; the runs made before stay in the table, and are kept."),
+      h("span", null, "The study was cancelled. Its runs so far stay in the table and are kept."),
       h("button", { type: "button", onclick: run }, "Continue"),
     );
   }

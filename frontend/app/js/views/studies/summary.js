@@ -169,7 +169,7 @@ function influences(a, figure) {
 /** @param {Answer} a */
 const influenceWords = (a) =>
   !a.sensitivity.length
-    ? "Rank correlation of each quantity with the figure: −1 to 1, 0 for no influence that grows or falls throughout."
+    ? "Rank correlation of each quantity with the figure: −1 to 1, 0 for no monotonic influence."
     : a.method === "sobol"
     ? `Sobol: share of the variance with all interactions, and alone; ± at ${
       percentText(a.confidence)
@@ -215,7 +215,7 @@ function designs(a) {
   const names = Object.keys(a.designs[0].values);
   const unitOf = (/** @type {string} */ name) => a.columns.find((c) => c.name === name)?.unit ?? null;
   return table(
-    "Designs, the most probable to keep all limits first",
+    "Designs, those most likely to keep all limits first",
     [
       "Design",
       ...names.map((n) => `${titleOf(n)} (${scaleFor(n, unitOf(n), units.value).unit})`),

@@ -17,8 +17,8 @@ const TITLES = {
   "gas.temperature": "Temperature",
   "gas.ambient_pressure": "Ambient pressure",
   air_volume_anr: "Air volume (ANR)",
-  max_speed: "Greatest speed",
-  max_acceleration: "Greatest acceleration",
+  max_speed: "Largest speed",
+  max_acceleration: "Largest acceleration",
   min_acceleration: "Smallest acceleration",
   nominal_length: "Rest length",
 };

@@ -1,5 +1,5 @@
 // @ts-check
-// The pictures of the atlas, computed by the server on the muscle in hand.
+// The pictures of the atlas, computed by the server on this muscle.
 import { post } from "../../../server/client.js";
 import { Question } from "../../../server/question.js";
 import { computed, signal } from "../../../reactive.js";

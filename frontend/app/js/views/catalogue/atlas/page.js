@@ -90,8 +90,8 @@ function gallery() {
         { class: "muted" },
         () =>
           seen.value
-            ? "sorted by likeness to the case at hand; dots: its residual"
-            : `what each leaves in the residual of ${preset.value?.title ?? "the muscle in hand"}`,
+            ? "sorted by similarity to the residual of the case (dots)"
+            : `what each leaves in the residual of ${preset.value?.title ?? "this muscle"}`,
       ),
     ),
     h("ul", { class: "atlas-grid" }, () => shown.value.map((e) => card(e, watch))),
@@ -190,7 +190,7 @@ function detail(e) {
         ? h(
           "p",
           { class: "muted" },
-          `Also shows in ${hidden.join(", ")} tests, where nothing here predicts it.`,
+          `Also shows in ${hidden.join(", ")} tests, which are not simulated here.`,
         )
         : null;
     },
@@ -198,7 +198,7 @@ function detail(e) {
     fixed.length
       ? h("details", null, h("summary", null, "Further values"), ...fixed.map((p) => slider(e, p)))
       : null,
-    e.confused_with.length ? h("h3", null, "Twins, and the test that parts them") : null,
+    e.confused_with.length ? h("h3", null, "Twins, and the test that separates them") : null,
     h("ul", { class: "plain" }, () => e.confused_with.map((twin) => pair(e, twin))),
     h(
       "div",

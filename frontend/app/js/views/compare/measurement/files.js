@@ -82,7 +82,7 @@ function takeIn(kept, read) {
     compare: kept.reduce((c, one) => withFile(c, one, insteadOf(one)), d.compare),
   }), kept.length > 1 ? `${kept.length} measurements` : `measurement ${names}`);
   const like = read.find((one) => one.kept)?.kept;
-  if (like) status.value = `Read like ${like.name}; the panel of files can undo that.`;
+  if (like) status.value = `Read like ${like.name}; Files and experiment can undo that.`;
 }
 
 /** Imports a file of this session again, with its answers. @param {string} id

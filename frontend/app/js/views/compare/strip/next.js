@@ -204,7 +204,7 @@ export const next = computed(() => {
             await copyPlan(result);
             status.value = "The plan is copied.";
           } catch {
-            status.value = "The browser does not allow copying: the plan stands in the list.";
+            status.value = "The browser does not allow copying: the plan is in the list.";
           }
         },
       };

@@ -33,13 +33,13 @@ function keyFigures(r) {
     ]
     : [
       big("Positioning", lapse(extend.positioning_time), r.timing.notes["extend.positioning_time"]),
-      big("Greatest speed", withUnit(extend.max_speed, "speed", system), r.timing.notes["extend.max_speed"]),
+      big("Largest speed", withUnit(extend.max_speed, "speed", system), r.timing.notes["extend.max_speed"]),
     ];
   return h(
     "div",
     { class: "bigs", id: "key-figures" },
     ...first,
-    r.tracking ? big("Greatest error", withUnit(r.tracking.max, "length", system)) : big(
+    r.tracking ? big("Largest error", withUnit(r.tracking.max, "length", system)) : big(
       "Impact",
       withUnit(extend.impact_energy, "energy", system),
       r.timing.notes["extend.impact_energy"],
@@ -144,9 +144,9 @@ function tracking() {
       null,
       h("dt", { title: "Root mean square of reference minus position over time." }, "Error, RMS"),
       h("dd", null, withUnit(t.rms, "length", system)),
-      h("dt", null, "Greatest error"),
+      h("dt", null, "Largest error"),
       h("dd", null, withUnit(t.max, "length", system)),
-      h("dt", { title: "The delay of the reference at which it fits the position best." }, "Lag"),
+      h("dt", { title: "Delay of the reference that fits the position best." }, "Lag"),
       h("dd", { title: t.notes.lag ?? null }, t.lag === null ? `– ${t.notes.lag ?? ""}` : lapse(t.lag)),
     ),
     t.overshoot.length

@@ -10,7 +10,7 @@ import { run } from "../model.js";
 /** @typedef {[key: string, label: string, quantity: Quantity, definition: string]} Figure */
 
 const ALONG = "A magnitude along the motion of its column: filling shortens, venting lengthens.";
-const SHORTER = "Positive towards shorter, in both columns.";
+const SHORTER = "Positive when shortening, in both columns.";
 
 /** The timing table, in the order an engineer reads it. @type {[string, Figure[]][]} */
 const FIGURES = [
@@ -30,11 +30,11 @@ const FIGURES = [
       "After this time the position stays within 5 % of the stroke.",
     ],
     ["average_speed", "Average speed", "speed", `Travel up to the arrival over positioning time. ${ALONG}`],
-    ["max_speed", "Greatest speed", "speed", `Including the moment before an impact. ${ALONG}`],
+    ["max_speed", "Largest speed", "speed", `Including the moment before an impact. ${ALONG}`],
     ["max_speed_at", "… at", "lapse", "When, from switching."],
     [
       "max_acceleration",
-      "Greatest acceleration",
+      "Largest acceleration",
       "acceleration",
       `${SHORTER} Impacts are not included.`,
     ],

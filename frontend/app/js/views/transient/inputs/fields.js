@@ -176,7 +176,7 @@ export const SPECS = {
     quantity: "number",
     bounds: [0, 0.9],
     usual: 0,
-    hint: "Share of the speed with which the load leaves a stop after the impact. 0: it stays there.",
+    hint: "Share of the impact speed with which the load rebounds. 0: it stays there.",
   },
   "start.position": {
     label: "Start position",
@@ -188,7 +188,7 @@ export const SPECS = {
     },
     slider: false,
     empty: "at rest",
-    hint: "Of the load, positive towards shorter. Empty: where it rests at the initial pressure.",
+    hint: "Of the load, positive when shortening. Empty: where it rests at the initial pressure.",
   },
   "gas.wall_heat_transfer": {
     label: "Heat transfer to the wall",
@@ -248,7 +248,7 @@ export const SPECS = {
     quantity: "number",
     bounds: [0, 10],
     usual: () => regulated.value ? 0 : 2,
-    hint: "Command per mean pressure that is missing, both as shares of the full one.",
+    hint: "Command per missing mean pressure, both as shares of full scale.",
   },
   "controller.stiffness.ki": {
     label: "Gain I of the stiffness",

@@ -232,7 +232,7 @@ function designPart() {
       type: "button",
       class: "primary",
       onclick: () => takeOver(last),
-    }, "Take the refined controller over"),
+    }, "Use the refined controller"),
   ];
 }
 

@@ -105,14 +105,14 @@ export function inputRows(all) {
 /** @type {Compared[]} */
 const TRACKING = [
   { label: "Error, RMS", quantity: "length", of: (r) => r.tracking?.rms ?? null },
-  { label: "Greatest error", quantity: "length", of: (r) => r.tracking?.max ?? null },
+  { label: "Largest error", quantity: "length", of: (r) => r.tracking?.max ?? null },
   { label: "Lag", quantity: "lapse", of: (r) => r.tracking?.lag ?? null },
 ];
 
 /** Figures of the pulley, for the time shown. @returns {Compared[]} */
 const joined = () =>
   /** @type {import("../plots/joint.js").Column[]} */ (Object.keys(JOINT)).map((key) => ({
-    label: `Greatest ${JOINT[key].title.toLowerCase()}${timeWindow.value ? ", in the window" : ""}`,
+    label: `Largest ${JOINT[key].title.toLowerCase()}${timeWindow.value ? ", in the window" : ""}`,
     quantity: JOINT[key].quantity,
     of: (r) => greatestOf(r, key),
   }));

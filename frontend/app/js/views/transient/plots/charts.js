@@ -37,7 +37,7 @@ const angle = plot("angle", "Joint angle", "Angle of the pulley over time");
 const torque = plot("torque", "Joint torque", "Torque of both muscles on the pulley over time");
 const stiffness = plot("stiffness", "Joint stiffness", "Stiffness of the joint over time");
 
-const SHORTER = "Positive towards shorter, also while venting";
+const SHORTER = "Positive when shortening, also while venting";
 const signed = [position, speed, acceleration];
 const joint = [angle, torque, stiffness];
 const overTime = [position, pressure, speed, lower, acceleration, ...joint];
