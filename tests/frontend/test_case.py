@@ -142,11 +142,13 @@ def test_three_files_of_one_muscle_are_one_case(page: Page) -> None:
     expect(page.locator("#validation-error")).to_contain_text("check", timeout=20_000)
     diagnosed(page)
     assert error(page) > 50 * NOISE
+    expect(page.locator(".heat .is-noise")).to_have_count(0)
     # One row of the map for each level, not for each file.
     expect(page.locator(".heat tbody th[scope='row']")).to_have_count(6)
     assert checked(page) == pytest.approx(error(page), rel=0.05)
     changed(page, page.locator("#add-all").click)
     assert error(page) <= 1.15 * NOISE
+    expect(page.locator(".heat .is-noise")).to_have_count(6)  # each level is within the noise
     assert checked(page) <= 1.15 * NOISE
     assert state(page) == "adequate"
     setup(page)

@@ -220,6 +220,13 @@ def test_effects_that_data_cannot_tell_apart_stay_a_choice_after_success(
     found = page.locator(".found-missing > li")
     expect(found).to_have_count(3)
     expect(page.locator("#verdict-fall")).to_contain_text("the noise is")
+    # Each order of the model can be taken from the ladder, with the error that it promises.
+    promised = page.locator(".path-table tr.ahead").nth(1).locator("td").nth(1).inner_text()
+    two = page.get_by_role("button", name="Add 2 effects, up to Prestress of the bladder")
+    assert fitted(page, two.click) == float(promised)
+    expect(page.locator(".in-model")).to_have_count(2)
+    page.keyboard.press("Control+z")
+    diagnosed(page)
     entry = found.filter(has_text="Prestress")
     expect(entry.get_by_role("radio")).to_have_count(2)
     expect(entry).to_contain_text("Would tell")

@@ -6,7 +6,7 @@ import { effectsById } from "../../store.js";
 import { ahead, answer, compare, diagnosis, preset, stale } from "./answers.js";
 import { fitOf, surer } from "./document.js";
 import { effectValues } from "../../muscle/preset.js";
-import { entries } from "./list/plan.js";
+import { addAll, entries } from "./list/plan.js";
 import { state } from "./list/state.js";
 import { fitting, goBack, here } from "./model/history.js";
 import { addedBy, isContext, takeOut } from "./model/steps.js";
@@ -15,7 +15,9 @@ import { errorText, errorUnit, measuredText, parameterScale, signed, titleOf } f
 /** @typedef {import("../../types.js").Step} Step */
 /** `from`: the error before; `index`: of the models so far, −1 for a proposed one.
  * @typedef {{label: string, note: import("../../dom.js").Child, rmse: number | null, holdout: number | null,
- *   from: number | null, kind: "past" | "now" | "ahead", isContext: boolean, index: number}} Row */
+ *   from: number | null, kind: "past" | "now" | "ahead", isContext: boolean, index: number,
+ *   choose?: {step: import("./types.js").PathStep, effects: number}}} Row `choose`: a proposed model that can be
+ * taken with all before it. */
 
 /** The fitted values that a step brought. @param {Step[]} all @param {number} i */
 function valuesNote(all, i) {
@@ -77,6 +79,7 @@ function rows() {
         kind: /** @type {const} */ ("ahead"),
         isContext: false,
         index: -1,
+        ...(i ? { choose: { step, effects: proposed.slice(0, i + 1).filter((s) => s.added).length } } : {}),
       };
     }),
   ];
@@ -119,6 +122,7 @@ function ladderRow(row, most, noise) {
           class: `step-drop${row.isContext ? " entry" : ""}${isWorse ? " worse" : ""}`,
           style: `left:${share(low)}%;width:${share(high) - share(low)}%`,
         }),
+        row.holdout === null || rmse === null ? null : h("u", { style: `left:${share(row.holdout)}%` }),
         noise === null ? null : h("s", { style: `left:${share(noise)}%` }),
         from === null || rmse === null || !from
           ? null
@@ -139,6 +143,15 @@ function ladderRow(row, most, noise) {
           disabled: () => fitting.value,
           onclick: () => takeOut(row.index),
         }, icon("undo"))
+        : row.choose
+        ? h("button", {
+          type: "button",
+          class: "mini",
+          "aria-label": `Add ${row.choose.effects} effects, up to ${row.label.replace(/^\+ /, "")}`,
+          title: `Add the effects up to this one: ${asText(rmse)}, held-out ${asText(row.holdout)}`,
+          disabled: () => stale.value || fitting.value,
+          onclick: () => addAll(row.choose?.step),
+        }, icon("plus"))
         : null,
     ),
   );
@@ -215,7 +228,7 @@ export function ladderCard() {
           "tr",
           null,
           h("th", { scope: "col", class: "text" }, "Step"),
-          h("td", { class: "fall-cell" }),
+          h("td", { class: "fall-cell" }, h("small", null, h("u", { class: "held-key" }), "held-out")),
           h("th", { scope: "col" }, "Error ", unit),
           h("th", { scope: "col", class: "held" }, "Held-out ", unit),
           h("td", { class: "undo" }),

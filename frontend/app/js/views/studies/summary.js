@@ -1,6 +1,7 @@
 // @ts-check
 // What the runs show: figures with their spread, probabilities of the limits, influences, designs.
 import { h } from "../../dom.js";
+import { toShown } from "../../format.js";
 import { computed, signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { answer } from "./model.js";
@@ -38,6 +39,12 @@ const table = (caption, heads, rows) =>
     ),
   );
 
+/** A mean to the digits that half its interval allows: "432.2 ± 2.7". @param {number} mean @param {number} half */
+function withHalf(mean, half) {
+  const places = half > 0 ? Math.min(8, Math.max(0, 1 - Math.floor(Math.log10(half)))) : 0;
+  return `${mean.toFixed(places).replace("-", "−")} ± ${half.toFixed(places)}`;
+}
+
 /** @param {Answer} a */
 function spread(a) {
   return table(
@@ -49,7 +56,9 @@ function spread(a) {
       const half = s.mean?.high == null || s.mean.value === null ? null : s.mean.high - s.mean.value;
       return [
         h("span", null, titleOf(s.figure), h("small", null, ` ${scale.unit}`)),
-        half === null ? text(s.mean?.value) : `${text(s.mean?.value)} ± ${valueText(half, wide)}`,
+        half === null
+          ? text(s.mean?.value)
+          : withHalf(toShown(s.mean?.value ?? 0, scale), toShown(half, wide)),
         valueText(s.deviation?.value, wide),
         ...["5", "50", "95"].map((q) => text(s.percentiles[q]?.value)),
         text(s.least),

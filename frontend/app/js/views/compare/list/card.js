@@ -53,7 +53,7 @@ function allRow() {
         type: "button",
         id: "add-all",
         disabled: () => stale.value || fitting.value,
-        onclick: addAll,
+        onclick: () => addAll(),
       }, `Add all ${all.length}`)
       : null,
   );

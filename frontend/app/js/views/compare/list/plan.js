@@ -157,9 +157,12 @@ export function add(entry) {
   return whileFitting(() => takeFitted(withOnly(entry), `add ${title}`, `+ ${title}`, open(entry)));
 }
 
-/** Adds every effect the diagnosis found missing, in one undo step. */
-export function addAll() {
-  const result = diagnosis.peek(), all = entries.peek(), path = ahead.peek();
+/** Adds every effect the diagnosis found missing, in one undo step; or those up to a step of its path.
+ * @param {PathStep} [upTo] */
+export function addAll(upTo) {
+  const result = diagnosis.peek(), whole = ahead.peek();
+  const path = upTo ? whole.slice(0, whole.indexOf(upTo) + 1) : whole;
+  const all = entries.peek().filter((entry) => path.includes(entry.step));
   if (!result || !path.length) return;
   const label = all.length === 1 ? `add ${titleOf(all[0].chosen)}` : `add ${all.length} effects`;
   const asFound = path.map((s, i) => {
@@ -169,7 +172,7 @@ export function addAll() {
       effects: s.model.effects,
       freed: s.freed,
       values: geometryOf(s.model),
-      fit: i === path.length - 1 ? fitOf(result.parameters) : {},
+      fit: i === whole.length - 1 ? fitOf(result.parameters) : {},
       rmse: s.rmse,
       holdout: s.holdout_rmse,
       ...(entry ? open(entry) : {}),

@@ -116,7 +116,9 @@ const ofStroke = computed(() => {
   if (!a || a.unit !== "m" || a.rmse === null) return "";
   const all = a.series.flatMap((s) => s.measured).filter((v) => v !== null).map(Number);
   const stroke = Math.max(...all) - Math.min(...all);
-  return stroke > 0 ? ` · ${brief((100 * a.rmse) / stroke)}\u00a0% of stroke` : "";
+  if (!(stroke > 0)) return "";
+  const share = a.rmse / stroke; // far off it needs fewer letters, which have room
+  return share > 1 ? ` · ${brief(share)}\u00a0× stroke` : ` · ${brief(100 * share)}\u00a0% of stroke`;
 });
 
 /** The held-out error of the model. */

@@ -1,6 +1,6 @@
 // @ts-check
 // "Where it fails": the map of the residual. A cell chosen shows its points everywhere and asks what would cause it.
-import { h } from "../../../dom.js";
+import { h, icon } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { brief, number, readable, scaleOf, toShown } from "../../../format.js";
@@ -128,6 +128,19 @@ function nameOf(c, a, at, split) {
     }, ${c.count} rows`;
 }
 
+const WITHIN = 1.15; // error over noise up to which a row counts as noise, where it has many readings
+
+/** Whether the error of a row is not above the noise by more than chance. @param {Comparison} a @param {Grid} map
+ * @param {import("./map.js").Row} row */
+function isNoise(a, map, row) {
+  const sigma = map.scaled ? 1 : a.noise_floor;
+  const cells = row.cells.flatMap((c) => c ? [c] : []);
+  const n = cells.reduce((sum, c) => sum + c.count, 0);
+  if (!sigma || !n) return false;
+  const rms = Math.sqrt(cells.reduce((sum, c) => sum + c.count * c.rms ** 2, 0) / n);
+  return rms <= sigma * Math.max(WITHIN, 1 + 2 / Math.sqrt(2 * n)); // two standard deviations of an RMS
+}
+
 /** @param {Comparison} a @param {Grid} map */
 function table(a, map) {
   const system = units.value, ys = VARIABLES[map.y], xs = VARIABLES[map.x];
@@ -184,7 +197,11 @@ function table(a, map) {
           h(
             "th",
             { scope: "row" },
+            isNoise(a, map, row)
+              ? h("span", { class: "is-noise", title: "Its error is within the noise" }, icon("check"))
+              : null,
             h("span", null, label(row)),
+            isNoise(a, map, row) ? h("span", { class: "unseen" }, ", within the noise") : null,
             map.split ? h("small", { "aria-hidden": "true" }, h("i", null, "●"), h("i", null, "□")) : null,
           ),
           ...row.cells.map((c, ix) => cell(c, ix, iy)),
