@@ -15,6 +15,9 @@ const kept = signal(/** @type {Kept | null} */ (null));
 const fault = signal("");
 /** The item that was deleted last, for its Undo. */
 const gone = signal(/** @type {Item | null} */ (null));
+/** Items listed at first, the newest; a laboratory has hundreds. */
+const MOST = 8;
+const showsAll = signal(false);
 /** The item whose name is being changed. */
 const renaming = signal(/** @type {Item | null} */ (null));
 
@@ -168,7 +171,20 @@ export function keptCard() {
       ),
       h("div", { role: "status" }, undoLine),
       () => fault.value ? h("p", { class: "warn", role: "alert" }, fault.value) : null,
-      all.items.length ? h("ul", { class: "plain" }, ...all.items.map(row)) : null,
+      () => {
+        const shown = showsAll.value ? all.items : all.items.slice(0, MOST),
+          more = all.items.length - shown.length;
+        return [
+          shown.length ? h("ul", { class: "plain" }, ...shown.map(row)) : null,
+          more
+            ? h(
+              "button",
+              { type: "button", class: "link", onclick: () => (showsAll.value = true) },
+              `Show ${more} more`,
+            )
+            : null,
+        ];
+      },
       all.deleted.length
         ? h(
           "details",
