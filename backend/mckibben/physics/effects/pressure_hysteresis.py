@@ -70,10 +70,9 @@ def rates(
     )
 
 
-_LOOP = Source(
-    "hysteresis of at most 2.5-3 % of the force in catalogues, a part of it at constant length", "E"
-)
+_LOOP = Source("at most 2.5-3 % of the force in catalogues, a part of it at constant length", "E")
 _WAY = Source("a tenth of the working pressure", "E")
+_POWER = Source("0 a constant loop, 1 dry friction under the pressure of the gas", "D")
 _SHARE = Source("a share: 0 all of it in force, 1 all of it in pressure", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 _DEFINITION = Source("definition, by hand", "D")
@@ -89,24 +88,12 @@ EFFECT = Effect(
     r"\dot z_k = \frac{\dot P}{r_k P_b}\left[1-s(z_k\operatorname{sgn}\dot P)\right]",
     parameters=(
         Parameter(
-            "force",
-            "F_p",
-            "N",
-            default=5.0,
-            lower=0.0,
-            upper=100.0,
-            source=_LOOP,
+            *("force", "F_p", "N", 5.0, 0.0, 100.0, _LOOP),
             description="Half the width of the pressure loop; with a power q, that at 3 bar.",
             off=0.0,
         ),
         Parameter(
-            "break_pressure",
-            "P_b",
-            "Pa",
-            default=3.0e4,
-            lower=1.0e3,
-            upper=3.0e5,
-            source=_WAY,
+            *("break_pressure", "P_b", "Pa", 3.0e4, 1.0e3, 3.0e5, _WAY),
             description="Change of pressure over which the loop opens after a reversal.",
             fitted=False,
         ),
@@ -116,26 +103,14 @@ EFFECT = Effect(
             fitted=False,
         ),
         Parameter(
-            "along_area",
-            "a",
-            "1",
-            default=0.0,
-            lower=0.0,
-            upper=1.0,
-            source=_SHARE,
+            *("along_area", "a", "1", 0.0, 0.0, 1.0, _SHARE),
             description="Share of the loop that follows the effective area; 1 = the same width in pressure "
             "at every length.",
             fitted=False,
             natural=True,
         ),
         Parameter(
-            "pressure_power",
-            "q",
-            "1",
-            default=0.0,
-            lower=0.0,
-            upper=1.0,
-            source=Source("0 a constant loop, 1 dry friction under the pressure of the gas", "D"),
+            *("pressure_power", "q", "1", 0.0, 0.0, 1.0, _POWER),
             description="Power of the pressure with which the loop widens.",
             fitted=False,
             natural=True,
@@ -174,13 +149,8 @@ EFFECT = Effect(
             {**_ALIKE, "length": 0.3, "pressure": 3e5},
         ),
         Example(
-            "slot:friction",
             # -3 N (3 (5/6)^2 cos^2 25° - 1)/(3 cos^2 25° - 1)
-            -1.457272,
-            1e-6,
-            _DEFINITION,
-            {"force": 5.0, "along_area": 1.0},
-            _SIZE_20,
+            *("slot:friction", -1.457272, 1e-6, _DEFINITION, {"force": 5.0, "along_area": 1.0}, _SIZE_20),
             {**_ALIKE, "length": 0.25, "pressure": 3e5},
         ),
         Example(
