@@ -11,6 +11,9 @@ _LN2 = math.log(2.0)
 _ROUNDING = 1e-3  # share of full friction; rounds the power where its slope would be infinite
 _BAND = 0.1  # share of a slider's limit over which it goes from elastic to sliding
 _LINEAR = 1e-6  # added to i - 1: the limit i = 1 of the power is an exponential
+#: Pressure at which friction that a power of the pressure scales has its stated size [Pa].
+REFERENCE_PRESSURE = 3e5
+_VENTED = 1e3  # Pa; rounds the power where its slope would be infinite
 _ENDED = 1e-9  # least share of the way left; below, all sliders slide
 #: Limits of the sliders over the way x_b, and the bounds between them that share the distribution.
 SLIDERS = (0.14, 0.42, 0.88, 1.65, 3.3)
@@ -65,3 +68,9 @@ def shares_of_sliders(*, exponent: Value) -> tuple[Value, ...]:
         log_u = _LN2 - ops.log(left) / q
         below.append(1.0 - 0.5 * ops.exp(log_u) - limit * ops.exp(exponent * log_u))
     return tuple(b - a for a, b in zip((0.0, *below), (*below, 1.0), strict=True))
+
+
+def pressed(*, pressure: Value, power: Value) -> Value:
+    """(P/P_r)^q [-]: contacts that the gas presses together; rounded below 10 mbar."""
+    above = ops.positive_part(pressure)
+    return ops.exp(0.5 * power * ops.log((above**2 + _VENTED**2) / REFERENCE_PRESSURE**2))

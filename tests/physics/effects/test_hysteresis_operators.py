@@ -29,7 +29,7 @@ def along(
         return {"velocity": float(speeds[min(int(t), len(speeds) - 1)])}
 
     states = run(effect, at, time, values)
-    force = effect.call("friction", {}, {**effect.defaults, **(values or {}), **states})
+    force = effect.call("friction", {"pressure": 3e5}, {**effect.defaults, **(values or {}), **states})
     return np.interp(time, corners, lengths), force
 
 

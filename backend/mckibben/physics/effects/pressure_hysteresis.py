@@ -21,10 +21,7 @@ from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVari
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
-from mckibben.physics.presliding import SLIDERS, shares_of_sliders, slide
-
-_REFERENCE = 3e5  # Pa
-_VENTED = 1e3  # Pa; rounds the power where its slope would be infinite
+from mckibben.physics.presliding import SLIDERS, pressed, shares_of_sliders, slide
 
 
 def friction(
@@ -47,9 +44,8 @@ def friction(
     filling = sum(w * z for w, z in zip(shares_of_sliders(exponent=exponent), slips, strict=True))
     here = ideal.area(braid=muscle.braid, length=length)
     relative = ops.positive_part(here / ideal.area(braid=muscle.braid, length=muscle.nominal_length))
-    above = ops.positive_part(pressure)
-    pressed = ops.exp(0.5 * pressure_power * ops.log((above**2 + _VENTED**2) / _REFERENCE**2))
-    return -force * (1.0 - along_area + along_area * relative) * pressed * filling
+    widened = pressed(pressure=pressure, power=pressure_power)
+    return -force * (1.0 - along_area + along_area * relative) * widened * filling
 
 
 def rates(
