@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 
 from mckibben.physics.catalogue import default_catalogue
+from mckibben.physics.presliding import SLIDERS, shares_of_sliders
 from tests.physics.contract_dynamic import PRESSED, STRETCHED, Swing, driven, run
 from tests.physics.contract_states import MUSCLE
 
@@ -28,7 +29,7 @@ def along(
         return {"velocity": float(speeds[min(int(t), len(speeds) - 1)])}
 
     states = run(effect, at, time, values)
-    force = effect.call("friction", {}, {**effect.defaults, **(values or {}), **states})
+    force = effect.call("friction", {"pressure": 3e5}, {**effect.defaults, **(values or {}), **states})
     return np.interp(time, corners, lengths), force
 
 
@@ -81,7 +82,7 @@ def test_pressure_driven_loop_shows_at_constant_length() -> None:
 def test_pressure_driven_loop_along_the_area_is_as_wide_in_pressure_at_every_length() -> None:
     """F_p A/A_0: with 1/A_0 of force per pressure, the same pressure at both lengths."""
     effect, braid = CATALOGUE["pressure_hysteresis"], MUSCLE.braid
-    values = effect.defaults | {"force": 5.0, "along_area": 1.0, "filling": 1.0}
+    values = effect.defaults | {"force": 5.0, "along_area": 1.0, **{f"slip_{k}": 1.0 for k in range(1, 6)}}
     widths = []
     for length in (MUSCLE.nominal_length, 0.85 * MUSCLE.nominal_length):
         force = effect.call("friction", {"muscle": MUSCLE, "length": length, "pressure": 2e5}, values)
@@ -95,7 +96,11 @@ def test_pressure_driven_loop_along_the_area_is_as_wide_in_pressure_at_every_len
 def test_a_pressure_driven_loop_widens_with_a_power_of_the_pressure() -> None:
     """Full loops at 1.5 and 6 bar: 2^-q and 2^q of that at 3 bar; none of a vented muscle is infinite."""
     effect = CATALOGUE["pressure_hysteresis"]
-    values = effect.defaults | {"force": 5.0, "pressure_power": 0.6, "filling": 1.0}
+    values = effect.defaults | {
+        "force": 5.0,
+        "pressure_power": 0.6,
+        **{f"slip_{k}": 1.0 for k in range(1, 6)},
+    }
     at = {"muscle": MUSCLE, "length": MUSCLE.nominal_length}
     low, middle, high, vented, below = (
         effect.call("friction", {**at, "pressure": pressure}, values)
@@ -105,6 +110,21 @@ def test_a_pressure_driven_loop_widens_with_a_power_of_the_pressure() -> None:
     assert (low / middle, high / middle) == pytest.approx((2.0**-0.6, 2.0**0.6), rel=1e-4)
     assert vented == below
     assert -0.2 < vented < 0.0
+
+
+@pytest.mark.parametrize("exponent", [0.8, 1.0, 1.7])
+def test_sliders_in_parallel_turn_round_like_dahl(exponent: float) -> None:
+    """From a full motion back: 1 - z with d(1 - z)/dx = -(1 - z)^i, as far as five sliders can follow."""
+    shares = np.array(shares_of_sliders(exponent=exponent))
+    assert np.sum(shares) == pytest.approx(1.0, abs=1e-12)
+    assert np.all(shares >= 0.0)
+    way = np.linspace(0.0, 5.0, 501)
+    steps, left = np.empty_like(way), 2.0
+    for place in range(len(way)):
+        steps[place] = left
+        left = max(left - (way[1] - way[0]) * left**exponent, 0.0)
+    turned = -1.0 + 2.0 * shares @ np.minimum(way / (2.0 * np.array(SLIDERS)[:, None]), 1.0)
+    assert np.max(np.abs(turned - (1.0 - steps))) < 0.08
 
 
 def test_dahl_in_closed_form() -> None:

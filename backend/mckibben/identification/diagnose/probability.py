@@ -93,7 +93,7 @@ def _log_odds(effect: Effect) -> float:
 
 #: Probability below which an effect is not called missing. An effect that is called missing by mistake costs
 #: less than one that is overlooked, because the next experiment shows it.
-LIKELY = 0.25
+LIKELY = 0.3
 #: Logistic regression of "the effect is really missing" on the logarithms of its size and part, fitted by
 #: `python -m tests.benchmarks.probabilities` to half of the cases; the other half shows how well it holds.
 _CONSTANT, _BY_SIZE, _BY_PART = 1.97, 1.17, 1.14

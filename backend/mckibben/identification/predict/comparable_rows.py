@@ -32,6 +32,9 @@ _MOTION = 0.01  # shortest travel of a motion, share of the range of lengths; le
 _MANY_ROWS = 20  # rows of a record from which its first one can be spared
 _SHORT = 0.3  # share of the next step; a shorter one next to a reversal hides a part of the way
 _REAL_STEP = 0.3  # share of a usual step; smaller ones are noise at rest
+_UNRESOLVED = 0.15  # share of a usual step; a row nearer to a reversal shows neither of its sides
+_SWING = 2.0  # usual steps of a reversal; less is noise
+_FEW_NEAR = 3  # rows near a reversal; more resolve it
 _PRESSED = ("isometric", "isotonic")  # kinds in which the pressure moves
 _PRESCRIBED = ("isobaric", "static")  # kinds in which the length is prescribed and moves
 
@@ -152,7 +155,7 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
     turning = _turning(state["direction"], records) | unsure
     moved = state["pressure"] if kind in _PRESSED else length
     if "time" in columns and moved is not None:
-        turning |= _between_rows(moved, records)
+        turning |= _between_rows(moved, records) | _unresolved(moved, records)
     excluded["turning points"] = int(np.count_nonzero(turning & keep))
     unseen = _unknown_history(measurement, length)
     excluded["history unknown at the start or after a break"] = int(
@@ -321,6 +324,46 @@ def _between_rows(moved: np.ndarray, records: np.ndarray) -> np.ndarray:
     hidden[extreme[short_out | even] + 1] = True
     hidden[extreme[short_into]] = True
     return hidden
+
+
+def _unresolved(moved: np.ndarray, records: np.ndarray) -> np.ndarray:
+    """Mask of single rows that have hardly left a reversal, where the sampling does not resolve it.
+
+    Every friction needs some travel to turn round, often a thousandth of the length. A row nearer to the
+    extreme than a small share of a usual step tells nothing of it. Where more rows follow each other there,
+    they show the course, or a rest.
+    """
+    rows = np.zeros(len(moved), bool)
+    if len(moved) < 5:
+        return rows
+    usual = float(np.percentile(np.abs(np.diff(moved)), 75.0))
+    if not usual > 0.0:
+        return rows
+    edges = [0, *(np.flatnonzero(np.diff(records)) + 1).tolist(), len(moved)]
+    for first, last in itertools.pairwise(edges):
+        for turn in _turns(moved[first:last], _SWING * usual):
+            extreme = first + turn
+            away = np.abs(moved[extreme:last] - moved[extreme]) > _UNRESOLVED * usual
+            count = int(np.argmax(away)) if np.any(away) else last - extreme
+            if count <= _FEW_NEAR:
+                rows[extreme : extreme + count] = True
+    return rows
+
+
+def _turns(moved: np.ndarray, swing: float) -> list[int]:
+    """Numbers of the rows farthest out before each reversal by more than a swing."""
+    turns, extreme, way = [], 0, 0.0
+    for row in range(1, len(moved)):
+        back = moved[row] - moved[extreme]
+        if way == 0.0:
+            if abs(back) > swing:
+                way, extreme = float(np.sign(back)), row
+        elif way * back > 0.0:
+            extreme = row
+        elif abs(back) > swing:
+            turns.append(extreme)
+            way, extreme = -way, row
+    return turns
 
 
 def records_of(measurement: Measurement) -> np.ndarray:

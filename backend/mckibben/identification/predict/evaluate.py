@@ -119,14 +119,15 @@ class Evaluation:
 
     def by_length(
         self, fit_model: FitModel, state: State
-    ) -> Callable[[np.ndarray], tuple[np.ndarray, np.ndarray]]:
-        """Force and its slope over the length as functions of the lengths [m], for a search of lengths."""
+    ) -> Callable[[np.ndarray, np.ndarray], tuple[np.ndarray, np.ndarray]]:
+        """Force and its slope over the length, of lengths [m] at some rows, for a search of lengths."""
         compiled, _ = self._compiled(fit_model, ())
         constants = compiled.pack(fit_model.muscle, fit_model.values)
 
-        def at(length: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        def at(length: np.ndarray, rows: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+            there = {name: values[rows] for name, values in state.items()}
             with np.errstate(all="ignore"):
-                out, _ = settle(compiled, constants, {**state, "length": length})
+                out, _ = settle(compiled, constants, {**there, "length": length})
             return out["force"], out["force_by_length"]
 
         return at

@@ -57,20 +57,23 @@ def _stuck(
     """The length along each record, which sticks between the two branches."""
     task = evaluation.task
     short, long = shortening[0], lengthening[0]
-    upper, lower = np.maximum(short, long), np.minimum(short, long)
-    length = np.empty(len(short))
-    gradient = np.zeros_like(shortening[1])
-    previous, slope, record = 0.0, np.zeros(gradient.shape[1]), None
-    for row in range(len(length)):
-        if task.records[row] != record:
-            record, previous = task.records[row], float(task.measured[row])
-            slope = np.zeros(gradient.shape[1])
-        if previous > upper[row]:
-            previous, slope = float(upper[row]), shortening[1][row]
-        elif previous < lower[row]:
-            previous, slope = float(lower[row]), lengthening[1][row]
-        length[row], gradient[row] = previous, slope
-    return length, gradient
+    upper, lower = np.maximum(short, long).tolist(), np.minimum(short, long).tolist()
+    measured, begins = task.measured.tolist(), [True, *(np.diff(task.records) != 0).tolist()]
+    length, held_at, held_by = [], [], []  # the row at which a branch was met last, and which (0: none)
+    previous, at, by = 0.0, 0, 0
+    for row, (high, low, begin) in enumerate(zip(upper, lower, begins, strict=True)):
+        if begin:
+            previous, by = measured[row], 0
+        if previous > high:
+            previous, at, by = high, row, 1
+        elif previous < low:
+            previous, at, by = low, row, 2
+        length.append(previous)
+        held_at.append(at)
+        held_by.append(by)
+    branch = np.array(held_by)[:, None]
+    slopes = np.where(branch == 1, shortening[1][held_at], lengthening[1][held_at])
+    return np.array(length), np.where(branch > 0, slopes, 0.0)
 
 
 def _balance(
@@ -83,17 +86,18 @@ def _balance(
     first = task.measured if task.channel == "length" else np.full(len(task.measured), rest)
     length = np.clip(first, low, high)
     load = _load(task.state["load"], fit_model, state, length)
-    force_at = evaluation.by_length(fit_model, state)
+    force_at, limit = evaluation.by_length(fit_model, state), _LARGEST_STEP * rest
+    load = np.broadcast_to(load, length.shape)
+    left = np.arange(len(length))  # rows that still move
     for _ in range(_NEWTON_STEPS):
-        force, slope = force_at(length)
-        excess = force - load
+        here = length[left]
+        force, slope = force_at(here, left)
+        excess = force - load[left]
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.where(slope > 0.0, excess / slope, np.sign(excess))
-        limit = _LARGEST_STEP * rest
-        moved = np.clip(length - np.clip(step, -limit, limit), low, high)
-        done = np.max(np.abs(moved - length)) < _TOLERANCE
-        length = moved
-        if done:
+        length[left] = np.clip(here - np.clip(step, -limit, limit), low, high)
+        left = left[~(np.abs(length[left] - here) < _TOLERANCE)]
+        if not len(left):
             break
     if not names:
         return length, np.empty((len(length), 0))

@@ -2,24 +2,26 @@ r"""Dahl friction: Coulomb friction that builds up over a short travel after eac
 
 With the break-away distance :math:`x_b = \varepsilon_b L_0` and the share z of full friction
 
-.. math:: F = F_c\,z, \qquad \frac{dz}{dL} = \frac{(1 - z\operatorname{sgn}\dot L)^i}{x_b}
+.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q} z, \qquad P_r = 3\ \mathrm{bar}
+
+.. math:: \frac{dz}{dL} = \frac{(1 - z\operatorname{sgn}\dot L)^i}{x_b}
 
 Dahl's stiffness is :math:`\sigma_0 = F_c/x_b` from rest, and :math:`2^i` times that after a reversal at full
 friction. His exponent i is 1 where the rest of the way is covered exponentially, larger for ductile and
-smaller for brittle contacts. Because z is a share, the force is exactly zero for F_c = 0. Minor loops do not
-close.
+smaller for brittle contacts. Where the gas presses the contacts together, q > 0. Because z is a share, the
+force is exactly zero for F_c = 0. Minor loops do not close.
 """
 
 from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
-from mckibben.physics.presliding import build_up
+from mckibben.physics.presliding import build_up, pressed
 
 
-def friction(*, presliding: Value, force: Value) -> Value:
-    """F_c z [N], within +-F_c."""
-    return force * presliding
+def friction(*, pressure: Value, presliding: Value, force: Value, pressure_power: Value) -> Value:
+    """F_c (P/P_r)^q z [N]."""
+    return force * pressed(pressure=pressure, power=pressure_power) * presliding
 
 
 def rates(
@@ -33,6 +35,7 @@ def rates(
 _DAHL = Source("Dahl, Aerospace Corp. TOR-0158(3107-18)-1 (1968); AIAA J. 14 (1976) 1675", "M")
 _RANGE = Source("1-2.5 % of the maximum force", "E")
 _WAY = Source("F_c over 15-200 kN/m for size 20: 0.1-3 mm of 300 mm", "E")
+_POWER = Source("0 friction without pressure, 2/3 Hertzian contacts, 1 rough surfaces under the gas", "M")
 _DEFINITION = Source("definition, by hand", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 
@@ -42,7 +45,7 @@ EFFECT = Effect(
     type="hysteretic",
     cause="Threads in contact shear elastically before they slide. After a reversal the friction therefore "
     "changes sign smoothly, over a short travel of the muscle.",
-    equation=r"F_{h} = F_c\,z,\quad "
+    equation=r"F_{h} = F_c\,(P_+/P_r)^q\,z,\quad "
     r"\dot z = \frac{\dot L\,(1-z\operatorname{sgn}\dot L)^i}{\varepsilon_b L_0}",
     parameters=(
         Parameter(
@@ -53,7 +56,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=200.0,
             source=_RANGE,
-            description="Friction after a long travel.",
+            description="Friction after a long travel; with a power q, that at 3 bar.",
             off=0.0,
         ),
         Parameter(
@@ -77,6 +80,12 @@ EFFECT = Effect(
             source=Source("Dahl (1968): 0 to 1 brittle, 1 and more ductile contacts", "M"),
             description="How the rest of the way is covered: 1 exponentially, more the slower.",
             fitted=False,
+        ),
+        Parameter(
+            *("pressure_power", "q", "1", 0.0, 0.0, 1.0, _POWER),
+            description="Power of the pressure with which the friction grows.",
+            fitted=False,
+            natural=True,
         ),
     ),
     slots={"friction": friction, "rates": rates},
@@ -103,7 +112,15 @@ EFFECT = Effect(
     prior=Prior(0.25, "one particular form of friction before sliding"),
     references=(_DAHL,),
     examples=(
-        Example("slot:friction", -7.5, 1e-12, _DEFINITION, {"force": 10.0}, {}, {"presliding": -0.75}),
+        Example(
+            *("slot:friction", -7.5, 1e-12, _DEFINITION, {"force": 10.0}, {}),
+            {"presliding": -0.75, "pressure": 2e5},
+        ),
+        Example(
+            # -7.5 N sqrt(2), but for the rounding at low pressure
+            *("slot:friction", -10.606602, 1e-6, _DEFINITION, {"force": 10.0, "pressure_power": 0.5}, {}),
+            {"presliding": -0.75, "pressure": 6e5},
+        ),
         Example(
             "slot:rates",
             # (-0.03 - 0.03 * 0.5) m/s / 0.6 mm

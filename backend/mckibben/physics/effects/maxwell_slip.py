@@ -12,14 +12,13 @@ The saturation s is 0 up to 0.9 of the limit and a smooth step from there to 1 a
 elastic below 0.9, never passes the limit, and its rate has no jump.
 """
 
-from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
+from mckibben.physics.presliding import slide
 
 _CELLS = 4
-_BAND = 0.1  # share of a cell's limit over which it goes from elastic to sliding
 
 
 def friction(
@@ -28,11 +27,6 @@ def friction(
     """F_c times the weighted mean of the cells [N], within +-F_c."""
     weighted = cell_1 + balance * (cell_2 + balance * (cell_3 + balance * cell_4))
     return force * weighted / (1.0 + balance * (1.0 + balance * (1.0 + balance)))
-
-
-def _saturation(share: Value) -> Value:
-    t = ops.minimum(ops.positive_part((share - (1.0 - _BAND)) / _BAND), 1.0)
-    return t**2 * (3.0 - 2.0 * t)
 
 
 def rates(
@@ -50,8 +44,7 @@ def rates(
     cell_rates = []
     for index, cell in enumerate((cell_1, cell_2, cell_3, cell_4), start=1):
         limit = break_strain * muscle.nominal_length / ratio ** (_CELLS - index)
-        along = ops.where(ops.greater(velocity, 0.0), cell, -cell)
-        cell_rates.append(velocity / limit * (1.0 - _saturation(along)))
+        cell_rates.append(slide(rate=velocity, share=cell) / limit)
     return tuple(cell_rates)
 
 
