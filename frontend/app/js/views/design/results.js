@@ -207,7 +207,7 @@ export function resultCards() {
       h(
         "p",
         { class: "muted" },
-        "Distance of the branches of a slow loop in length and in pressure, as drawn over the pressure. " +
+        "Distance between the branches of a slow loop, in length and in pressure. " +
           "An ideal muscle has none.",
       ),
     ),
