@@ -113,7 +113,7 @@ SENTENCES = {
     ),
     "Missing: Creep (97 %). "
     "With it the error falls from 40 to 2.1 N, the noise of the data (2 N). These data "
-    "cannot tell Creep from Leak. The model holds Creep: it is the most common of them: "
+    "cannot tell Creep from Leak. The model holds Creep: it is the most common of them; "
     "every rubber relaxes when it is held.": result(
         "ambiguous", 40.0, 2.1, "creep", alternatives=(SimpleNamespace(of="creep", effect="leak"),)
     ),

@@ -128,7 +128,7 @@ def applied_reasons(result: Diagnosis, catalogue: Mapping[str, Effect]) -> dict[
         own = catalogue[item.effect].prior
         likelier = max(others, key=lambda effect: effect.prior.share, default=None)
         if likelier is None or likelier.prior.share <= own.share:
-            reasons[item.effect] = f"it is the most common of them: {own.why}"
+            reasons[item.effect] = f"it is the most common of them; {own.why}"
         else:
             other = next(a for a in result.alternatives if (a.of, a.effect) == (item.effect, likelier.id))
             reasons[item.effect] = _against_the_likelier(result, likelier.title, other.fitted_model)
