@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import gc
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -51,6 +52,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
 
 def pytest_configure(config: pytest.Config) -> None:
     """Keep the plugins' caches in the ignored folders of the checkout, not wherever pytest was started."""
+    # A worker holds more than a gigabyte in the end, which is looked through in vain each time.
+    gc.set_threshold(100_000, 50, 100)
     # Some containers forbid it; then each of the programs that tests start compiles all our modules again.
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     # Compiled once for all workers and the programs that tests start; the key holds the sources.

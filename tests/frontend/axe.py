@@ -40,7 +40,7 @@ def violations(page: Page, within: str = "body") -> list[str]:
     Args:
         within: the only part that is looked at, as a CSS selector: a dialog, a panel, a menu just opened.
     """
-    page.locator(within).first.wait_for()
+    page.locator(within).filter(visible=True).first.wait_for()
     theme = page.locator("html").get_attribute("data-theme")
     found = _objections(page, _ALL, theme, {"include": [[within]]}) + _colours(page, theme, within)
     other = "light" if theme == "dark" else "dark"

@@ -130,7 +130,7 @@ def test_the_atlas_shows_each_effect_and_puts_it_into_the_model(page: Page) -> N
     twins = detail.locator(".twins").first
     expect(twins.locator("svg.signature")).to_have_count(2)
     expect(twins.locator("p")).not_to_be_empty()
-    assert violations(page, ".detail") == []
+    assert violations(page, "[aria-label='Effect']") == []
     detail.get_by_role("button", name="Put it into my model").click()
     expect(page).to_have_title(re.compile("^Design"))
     expect(page.locator("[data-effect]", has_text="Coulomb friction").get_by_role("switch")).to_be_checked()
