@@ -64,7 +64,10 @@ def check_finite_at_all_bounds(effect: Effect) -> None:
     names, function = compiled(effects)
     others = [value for other in companions(effect) for value in other.defaults.values()]
     corners = list(product(*((p.lower, p.upper) for p in effect.parameters)))
-    memories = list(product(*((-state.scale, 0.0, state.scale) for state in effect.states)))
+    memories = [
+        tuple(share * state.scale for share, state in zip(shares, effect.states, strict=True))
+        for shares in memories_of(len(effect.states))
+    ]
     motions = [(sign * SPEED, sign) for sign in (-1.0, 0.0, 1.0)]
     rows = np.array(
         [
@@ -82,6 +85,17 @@ def check_finite_at_all_bounds(effect: Effect) -> None:
         for corner in corners:
             values = {effect.id: dict(zip(effect.defaults, corner, strict=True))}
             assert np.isfinite(predict_force((effect,), values, **grid(sign=0.0))).all()
+
+
+def memories_of(states: int) -> set[tuple[float, ...]]:
+    """States at -1, 0 and 1 of their scale: every combination of up to three; of more, all alike but one."""
+    shares = (-1.0, 0.0, 1.0)
+    if states <= 3:
+        return set(product(shares, repeat=states))
+    return {
+        (*(all_of,) * place, one, *(all_of,) * (states - 1 - place))
+        for all_of, one, place in product(shares, shares, range(states))
+    }
 
 
 def check_numbers_and_symbols_agree(effect: Effect) -> None:
