@@ -98,9 +98,7 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LocalCluster]:
     started.stop()
 
 
-@pytest.mark.examination(
-    "tests/application/test_study_cluster.py::test_two_workers_one_killed_give_the_table_of_one_process"
-)
+@pytest.mark.examination("tests/application/test_study_cluster.py::test_a_lost_scheduler_pauses_the_study")
 def test_two_workers_one_killed_give_the_verdicts_of_one_process(
     cluster: LocalCluster, folder: Path, studio: Studio
 ) -> None:

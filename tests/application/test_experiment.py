@@ -166,6 +166,7 @@ def test_a_length_for_one_of_several_files_names_the_way_out(studio: Studio) -> 
     assert "each file has its own" in str(caught.value.hint)
 
 
+@pytest.mark.examination("test_each_specimen_is_predicted_as_alone")
 def test_specimens_of_several_lengths_are_diagnosed_together(studio: Studio) -> None:
     """Three lengths of one hose with one hidden wall, each with a zero error of the force of its own."""
     zeros = (-3.0, 0.0, 3.0)
@@ -193,7 +194,7 @@ def test_specimens_of_several_lengths_are_diagnosed_together(studio: Studio) -> 
     assert among <= {each.effect for each in alone.not_tried}
 
 
-@pytest.mark.examination("test_specimens_of_several_lengths_are_diagnosed_together")
+@pytest.mark.examination("test_each_specimen_is_predicted_as_alone")
 def test_a_zero_error_that_all_specimens_share_is_an_effect(studio: Studio) -> None:
     """The same sensor, 5 N off for every length: no matter of mounting, and a new specimen shows it again."""
     texts = [specimen(length, zero=5.0, walled=False, seed=n) for n, length in enumerate((0.2, 0.4))]
@@ -208,7 +209,7 @@ def test_a_zero_error_that_all_specimens_share_is_an_effect(studio: Studio) -> N
     assert "Fitted to the other specimens alone" in result.verdict.sentence
 
 
-@pytest.mark.examination("test_specimens_of_several_lengths_are_diagnosed_together")
+@pytest.mark.examination("test_each_specimen_is_predicted_as_alone")
 def test_each_specimen_has_an_angle_of_its_own_where_fits_may_change_it(studio: Studio) -> None:
     """Braids of two hoses, 0.35 degrees steeper and flatter than stated: a matter of the specimens."""
     own = (0.006, -0.006)

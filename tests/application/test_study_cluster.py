@@ -37,6 +37,7 @@ def studio() -> Studio:
     return Studio(presets=presets_folder())
 
 
+@pytest.mark.examination("test_a_lost_scheduler_pauses_the_study")
 def test_two_workers_one_killed_give_the_table_of_one_process(cluster: LocalCluster, studio: Studio) -> None:
     asked = question(studio, method={"type": "monte_carlo", "runs": 120, "seed": 3})
     alone = prepare(asked)(patient()).table

@@ -337,6 +337,7 @@ def test_a_wrong_rest_length_is_asked_about_and_answered(run: Run) -> None:
     assert "--keep: 'length' is not a doubtful statement" in err
 
 
+@pytest.mark.examination("test_several_files_are_diagnosed_together")
 def test_a_folder_gives_one_line_for_each_file(run: Run) -> None:
     muscle = write("m.json", BRAID)
     Path("tests").mkdir()

@@ -73,6 +73,7 @@ def test_the_default_length_of_a_preset_is_not_said(run: Run, files: dict[str, s
     assert answer["assumptions"] == []
 
 
+@pytest.mark.examination("test_strict_refuses_what_would_be_assumed")
 def test_an_answer_begins_with_what_it_assumes(run: Run, files: dict[str, str]) -> None:
     code, out, err = run("diagnose", "silent.csv", "--muscle", "DMSP-20", "--ideal", "--json")
     assert code == 0, err

@@ -20,6 +20,7 @@ def test_a_document_gives_one_json_object(run: Run) -> None:
     assert [state["name"] for state in answer["models"][0]["states"]][:2] == ["stroke", "speed"]
 
 
+@pytest.mark.examination("test_a_document_gives_one_json_object")
 def test_the_tables_show_point_poles_loop_and_design(run: Run) -> None:
     goals = "overshoot 10 %, settling 2 s, step 3 mm"
     code, out, err = run("linearise", "paper-pid-triangle", "--amplitudes", "10 %", "--design", goals)

@@ -82,6 +82,7 @@ def test_a_preset_file_without_points_or_with_an_error_says_so(run: Run) -> None
 # --- the noise
 
 
+@pytest.mark.examination("tests/cli/test_diagnose.py::test_a_noise_is_above_zero_and_finite")
 def test_a_noise_has_a_unit(run: Run) -> None:
     file = write("a.csv", CSV)
     answers = [

@@ -116,6 +116,7 @@ def test_a_transient_brings_its_whole_drive(run: Run) -> None:
     assert "the model was measured at" in told
 
 
+@pytest.mark.examination("test_the_numbers_of_a_diagnosis_come_back_on_every_way")
 def test_the_document_says_where_the_model_comes_from(run: Run) -> None:
     file = rubbing(c10=0.4e6)
     options = ("--muscle", write("m.json", BRAID), "--free", "braid_angle")
@@ -141,7 +142,7 @@ def test_the_document_says_where_the_model_comes_from(run: Run) -> None:
     assert "braid_angle" in again["parameters"]["geometry"]
 
 
-@pytest.mark.examination("test_the_document_says_where_the_model_comes_from")
+@pytest.mark.examination("test_the_numbers_of_a_diagnosis_come_back_on_every_way")
 def test_what_was_assumed_for_a_model_is_said_again(run: Run) -> None:
     """A preset's default length that nobody stated, and an assumed wall."""
     file = write("short.csv", "\n".join(

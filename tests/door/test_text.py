@@ -89,6 +89,7 @@ def test_models_drives_and_listings_have_cells_and_texts() -> None:
     assert "that of the data" in str(mk.Model(inside_diameter="20 mm", braid_angle="25 deg"))
 
 
+@pytest.mark.examination("test_the_text_is_what_the_command_line_prints")
 def test_a_diagnosis_leads_with_its_verdict() -> None:
     found = mk.Model.preset("DMSP-10").ideal().diagnose("martens-dmsp-10-250")
     assert found.sentence in " ".join(str(found).split())

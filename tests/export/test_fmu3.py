@@ -116,6 +116,7 @@ def test_a_state_that_was_kept_continues_the_same_way_and_wrong_calls_are_refuse
     assert instance.getFloat64([OUTPUT]) != first[:1]
 
 
+@pytest.mark.examination("tests/export/test_fmu.py::test_wrong_calls_are_refused_with_a_sentence")
 @pytest.mark.parametrize("value", [0.0, -1.0, 1e300, 1e-300])
 def test_an_absurd_parameter_ends_in_a_sentence_or_a_run_but_never_hangs(value, fmus, instance):
     """Among them a valve of 1e300: its stiffness would need steps of picoseconds, so the call ends early."""

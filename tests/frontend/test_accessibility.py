@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+import pytest
 from playwright.sync_api import Page, expect
 
 from tests.frontend.axe import violations
 from tests.frontend.comparing import ADD, bring, changed, file, measured, setup
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import (
+    link_to,
+    load,
+    marked,
     open_catalogue,
     open_compare,
     open_design,
@@ -15,21 +19,52 @@ from tests.frontend.views import (
     run,
 )
 
+VIEWS = {
+    "design": lambda page: open_design(page),
+    "transient": lambda page: open_view(page, "transient", "[data-ran]"),
+    "compare": open_compare,
+    "catalogue": open_catalogue,
+    "studies": lambda page: open_view(page, "studies", ":not([data-drawn])"),
+    "help": lambda page: page.goto("/help"),
+}
 
+
+def open_view(page: Page, view: str, mark: str) -> None:
+    load(page, link_to({"schema": 1, "view": view, "design": {}}))
+    marked(page, mark, 30_000)
+    expect(page.get_by_role("main").get_by_role("button").first).to_be_visible()
+
+
+@pytest.mark.parametrize("view", VIEWS)
+def test_axe_finds_nothing_in_a_view_as_it_opens(page: Page, view: str) -> None:
+    VIEWS[view](page)
+    assert violations(page) == []
+
+
+@pytest.mark.examination("test_axe_finds_nothing_in_a_view_as_it_opens")
+@pytest.mark.parametrize("view", VIEWS)
+def test_axe_finds_nothing_in_the_dark(page: Page, view: str) -> None:
+    page.emulate_media(color_scheme="dark")
+    VIEWS[view](page)
+    assert page.locator("html").get_attribute("data-theme") == "dark"
+    assert violations(page) == []
+
+
+@pytest.mark.examination("test_axe_finds_nothing_in_a_view_as_it_opens")
 def test_axe_finds_nothing_in_the_design_view(page: Page) -> None:
     open_design(page)
     page.evaluate("document.querySelectorAll('details').forEach((el) => { el.open = true; })")
     for unfold in page.locator(".fold:visible").all():
         unfold.click()
-    assert violations(page) == []
+    assert violations(page, themes=2) == []
     page.locator("[data-effect] button[aria-label^='About']").first.click()
-    assert violations(page, "[role=dialog], dialog[open]") == []
+    assert violations(page, "[role=dialog], dialog[open]", themes=2) == []
     page.keyboard.press("Escape")
     page.keyboard.press("?")
-    assert violations(page, "dialog[open]") == []
+    assert violations(page, "dialog[open]", themes=2) == []
     page.keyboard.press("Escape")
     page.get_by_role("button", name="Export").click()
-    assert violations(page, "[role=menu]") == []
+    assert violations(page, "[role=menu]", themes=2) == []
 
 
 THINNED = """
@@ -49,6 +84,7 @@ THINNED = """
 """
 
 
+@pytest.mark.examination("test_axe_finds_nothing_in_a_view_as_it_opens")
 def test_axe_finds_nothing_in_the_help(page: Page) -> None:
     # The reference is written by a few patterns, thousands of times: axe reads some of each.
     for path in ("/help", "/help/python", "/help/http"):
@@ -57,28 +93,30 @@ def test_axe_finds_nothing_in_the_help(page: Page) -> None:
         assert violations(page) == [], path
 
 
+@pytest.mark.examination("test_axe_finds_nothing_in_a_view_as_it_opens")
 def test_axe_finds_nothing_in_the_catalogue(page: Page) -> None:
     open_catalogue(page)
-    assert violations(page) == []
+    assert violations(page, themes=2) == []
 
 
+@pytest.mark.examination("test_axe_finds_nothing_in_a_view_as_it_opens")
 def test_axe_finds_nothing_in_the_compare_view(page: Page, page_guard: PageGuard) -> None:
     open_compare(page)
-    assert violations(page) == []
+    assert violations(page, themes=2) == []
     bring(page, file("sweeps.csv", measured(1)))
     changed(page, page.locator(".missing-card").get_by_role("button", name=ADD).first.click)
     page.evaluate("document.querySelectorAll('details').forEach((el) => { el.open = true; })")
     page.locator(".heat button").first.click()
     page.get_by_role("button", name="Pin this model").click()
     page.get_by_role("region", name="Model board").get_by_role("button", name="Open").click()
-    assert violations(page) == []
+    assert violations(page, themes=2) == []
     setup(page)
-    assert violations(page, ".setup-panel") == []
+    assert violations(page, ".setup-panel", themes=2) == []
     page.keyboard.press("Escape")
     odd = {"name": "odd.csv", "mimeType": "text/csv", "buffer": b"p,x,F\n3,1,2\n3,2,3\n3,3,a\n4,5,5\n"}
     page.locator("#measurement-files").set_input_files([odd])
     expect(page.get_by_role("dialog", name="How odd.csv is read")).to_be_visible()
-    assert violations(page, "dialog.import") == []
+    assert violations(page, "dialog.import", themes=2) == []
 
 
 def test_keys_views_search_and_typing(page: Page) -> None:

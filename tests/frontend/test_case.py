@@ -163,6 +163,7 @@ return weightsOf([{ ...one, error: 2.1, fitted: 1 }, null, { ...one, error: 2, f
 """
 
 
+@pytest.mark.examination("test_a_mystery_is_solved_by_the_recommendations_alone")
 def test_the_board_compares_pinned_models(page: Page, sweeps: FilePayload, tmp_path: Path) -> None:
     opened(page, sweeps)
     pin = page.get_by_role("button", name="Pin this model")
@@ -291,6 +292,7 @@ def tab_to(page: Page, wanted: str, most: int = 60) -> None:
     raise AssertionError(f"{wanted} is not reached by Tab")
 
 
+@pytest.mark.examination("test_a_mystery_is_solved_by_the_recommendations_alone")
 def test_a_whole_case_without_a_mouse(page: Page, sweeps: FilePayload) -> None:
     open_compare(page)
     remember(page)
@@ -321,6 +323,7 @@ def test_a_whole_case_without_a_mouse(page: Page, sweeps: FilePayload) -> None:
     expect(page.locator(".path-table")).to_contain_text("Force sensor: zero error")
 
 
+@pytest.mark.examination("test_a_mystery_is_solved_by_the_recommendations_alone")
 def test_a_whole_case_with_the_thumb(new_context: Callable[..., object], sweeps: FilePayload) -> None:
     context = new_context(viewport={"width": 390, "height": 844}, has_touch=True, is_mobile=True)
     page: Page = context.new_page()  # type: ignore[attr-defined]

@@ -28,6 +28,7 @@ def menu(page: Page, item: str) -> None:
     page.keyboard.press("Enter")
 
 
+@pytest.mark.examination("test_cases_of_damaged_and_of_old_documents")
 def test_several_cases_in_one_document(page: Page) -> None:
     opened(page, file("sweeps.csv", measured(1)))
     switch = page.locator(".strip button.case-menu")
@@ -141,7 +142,7 @@ return [{NAMES}.length, doc.peek().compare.history.length];
 """
 
 
-@pytest.mark.examination("test_several_cases_in_one_document")
+@pytest.mark.examination("test_cases_of_damaged_and_of_old_documents")
 def test_work_too_long_for_a_link_is_kept_and_the_page_says_what_the_link_holds(page: Page) -> None:
     open_design(page)
     title = re.compile("Copy a link that holds only the open case")

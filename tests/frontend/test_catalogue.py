@@ -136,6 +136,7 @@ def test_the_atlas_shows_each_effect_and_puts_it_into_the_model(page: Page) -> N
     expect(page.locator("[data-effect]", has_text="Coulomb friction").get_by_role("switch")).to_be_checked()
 
 
+@pytest.mark.examination("tests/frontend/test_catalogue.py::test_refused_files_are_named")
 def test_what_is_kept_is_renamed_deleted_and_restored(page: Page, server: RunningServer) -> None:
     content = b"# kind: static\npressure_bar;length_mm;force_N\n1;300;100\n1;290;80\n1;280;50\n"
     answer = page.request.put(f"{server.url}/api/measurements?name=kept-run.csv", data=content)

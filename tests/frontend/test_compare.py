@@ -84,6 +84,7 @@ def test_from_the_empty_page_to_the_noise_in_five_clicks(page: Page, sweeps: Fil
         assert any(value == pytest.approx(hidden, rel=0.02) for value in values), values
 
 
+@pytest.mark.examination("test_from_the_empty_page_to_the_noise_in_five_clicks")
 def test_all_at_once_undo_refit_and_one_step_taken_out(page: Page, sweeps: FilePayload) -> None:
     opened(page, sweeps)
     start = error(page)
@@ -163,6 +164,7 @@ def test_the_map_is_dark_when_bad_and_plain_when_solved_and_the_parts_add_up(
     expect(parts).to_contain_text(re.compile(r"(9\d|100) % noise"))
 
 
+@pytest.mark.examination("test_the_map_is_dark_when_bad_and_plain_when_solved_and_the_parts_add_up")
 def test_a_range_of_the_residual_and_a_cell_of_the_map(page: Page, sweeps: FilePayload) -> None:
     opened(page, sweeps)
     whole = error(page)
@@ -208,6 +210,7 @@ def test_a_file_that_is_no_measurement_says_so(page: Page, page_guard: PageGuard
     assert run(page, "return document.querySelectorAll('.file').length;") == 0
 
 
+@pytest.mark.examination("test_from_the_empty_page_to_the_noise_in_five_clicks")
 def test_a_built_in_map_opens_with_one_click(page: Page) -> None:
     open_compare(page)
     remember(page)
@@ -226,7 +229,7 @@ def test_a_built_in_map_opens_with_one_click(page: Page) -> None:
     expect(page.locator("#next-what")).to_have_text("Bring a measurement")
 
 
-@pytest.mark.examination("tests/frontend/test_cases.py::test_several_cases_in_one_document")
+@pytest.mark.examination("tests/frontend/test_cases.py::test_cases_of_damaged_and_of_old_documents")
 def test_the_link_restores_data_model_and_history(page: Page, sweeps: FilePayload) -> None:
     opened(page, sweeps)
     changed(page, page.locator("#add-all").click)
@@ -267,7 +270,7 @@ def test_data_and_residuals_as_csv(page: Page, sweeps: FilePayload, tmp_path: Pa
     assert re.search(r"force|length|pressure from .* \(measured\)", code)
 
 
-@pytest.mark.examination("tests/frontend/test_sizing.py::test_cancel_keeps_what_was_there")
+@pytest.mark.examination("tests/frontend/test_sizing.py::test_from_the_empty_page_to_the_printed_report")
 def test_a_diagnosis_can_be_cancelled_and_asked_for_again(page: Page, sweeps: FilePayload) -> None:
     open_compare(page)
     page.route("**/api/diagnoses", lambda route: None)  # never answered

@@ -160,6 +160,9 @@ def test_a_term_by_hand_is_checked_fitted_changed_and_removed(
     expect(page.get_by_role("button", name="Add a term of your own…")).to_be_visible()
 
 
+@pytest.mark.examination(
+    "tests/identification/diagnose/test_diagnosis.py::test_a_ripple_is_an_unknown_effect_told_with_its_place_but_without_a_formula"
+)
 def test_what_no_effect_explains_is_told_with_its_place_and_a_term_by_hand_explains_it(page: Page) -> None:
     open_compare(page)
     page.locator(".tile", has_text="The bump at one stroke").click()
@@ -190,6 +193,9 @@ def test_what_no_effect_explains_is_told_with_its_place_and_a_term_by_hand_expla
     expect(page.locator(".status")).to_contain_text("Own term")
 
 
+@pytest.mark.examination(
+    "tests/frontend/test_compare.py::test_the_map_is_dark_when_bad_and_plain_when_solved_and_the_parts_add_up"
+)
 def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePayload) -> None:
     opened(page, sweeps)
     page.get_by_role("button", name="Autocorrelation of the residual").click()
@@ -213,6 +219,9 @@ def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePaylo
     expect(page.locator("#white")).to_contain_text("residual is noise")
 
 
+@pytest.mark.examination(
+    "tests/server/test_diagnoses.py::test_prestress_and_zero_error_of_the_sensor_are_one_group"
+)
 def test_effects_that_data_cannot_tell_apart_stay_a_choice_after_success(
     page: Page, sweeps: FilePayload
 ) -> None:

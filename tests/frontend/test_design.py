@@ -347,9 +347,7 @@ def no_presets_left(server: RunningServer) -> Iterator[None]:
         path.unlink()
 
 
-@pytest.mark.examination(
-    "tests/frontend/test_catalogue.py::test_what_is_kept_is_renamed_deleted_and_restored"
-)
+@pytest.mark.examination("tests/frontend/test_catalogue.py::test_refused_files_are_named")
 @pytest.mark.usefixtures("no_presets_left")
 def test_save_as_my_preset(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow("status of 4")
@@ -378,7 +376,7 @@ FIGURES = ["5", "6", "7", "9", "10a", "10b", "11a", "11b", "12a", "12b", "13"]
 
 
 @pytest.mark.examination(
-    "tests/frontend/test_transient.py::test_a_scenario_brings_its_drive_and_the_printed_figures"
+    "tests/test_scenarios.py::test_its_figures_are_the_printed_ones_within_their_tolerance"
 )
 def test_the_figures_of_the_paper(page: Page) -> None:
     open_design(page)

@@ -77,6 +77,7 @@ def test_from_a_dropped_file_to_the_first_comparison(page: Page) -> None:
 
 
 @needs_corpus
+@pytest.mark.examination("test_from_a_dropped_file_to_the_first_comparison")
 def test_a_logger_that_calls_milliseconds_seconds_in_five_actions(case: Page) -> None:
     """What its readings rule out is assumed to be what they show, and the strip says so."""
     path = CORPUS.parents[1] / "logger_S001P001.TXT"

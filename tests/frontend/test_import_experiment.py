@@ -123,6 +123,7 @@ def request_after(page: Page) -> dict[str, Any]:
     return body
 
 
+@pytest.mark.examination("test_an_assumption_or_a_suggestion_is_taken_over_by_a_click")
 def test_each_value_shows_who_says_it(case: Page) -> None:
     stand_in(case, MUSCLE, {**LENGTH, "unanswered": False}, FIXED, ACCURACY)
     choose(case, plain("a.csv"))

@@ -37,6 +37,7 @@ def ask(page: Page, button: str) -> dict:
     return answered.value.json()
 
 
+@pytest.mark.examination("tests/cli/test_linearise.py::test_a_document_gives_one_json_object")
 def test_from_the_drive_to_a_designed_controller(page: Page) -> None:
     open_transient(page, START)
     card = page.get_by_role("region", name="Linear view")
@@ -60,7 +61,7 @@ def test_from_the_drive_to_a_designed_controller(page: Page) -> None:
     assert violations(page) == []
 
 
-@pytest.mark.examination("test_from_the_drive_to_a_designed_controller")
+@pytest.mark.examination("tests/cli/test_linearise.py::test_a_document_gives_one_json_object")
 def test_another_channel_and_the_matrices(page: Page) -> None:
     """The load on the force of the muscle: Bode diagram, words and table are of that channel."""
     open_transient(page, START)

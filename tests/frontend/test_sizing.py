@@ -125,6 +125,7 @@ def test_from_the_empty_page_to_the_printed_report(page: Page, tmp_path: Path) -
     assert actions <= ACTIONS, actions
 
 
+@pytest.mark.examination("test_from_the_empty_page_to_the_printed_report")
 def test_the_list_says_what_the_server_found(page: Page) -> None:
     open_task(page)
     asked, _ = searched(page)
@@ -169,7 +170,7 @@ def test_the_list_says_what_the_server_found(page: Page) -> None:
     expect(page.get_by_role("dialog", name="Unverified values")).to_contain_text(proposals[2]["valve"])
 
 
-@pytest.mark.examination("test_the_list_says_what_the_server_found")
+@pytest.mark.examination("test_from_the_empty_page_to_the_printed_report")
 def test_trade_offs(page: Page) -> None:
     open_task(page)
     _, answer = searched(page)
@@ -195,6 +196,7 @@ def test_trade_offs(page: Page) -> None:
     assert min(gaps) > 20.0
 
 
+@pytest.mark.examination("test_from_the_empty_page_to_the_printed_report")
 def test_open_in_design_is_one_step(page: Page) -> None:
     open_task(page)
     _, answer = searched(page)
@@ -213,7 +215,7 @@ def test_open_in_design_is_one_step(page: Page) -> None:
     assert stored(page)["design"] == before
 
 
-@pytest.mark.examination("test_the_list_says_what_the_server_found")
+@pytest.mark.examination("test_from_the_empty_page_to_the_printed_report")
 def test_a_lever_and_a_pair(page: Page) -> None:
     open_task(page)
     page.get_by_role("radio", name="Lever", exact=True).click()
@@ -295,6 +297,7 @@ def test_wrong_units_and_rows_are_told_before_the_server_is_asked(page: Page) ->
     assert profile == {"strokes": [0, pytest.approx(0.03)], "forces": [100, pytest.approx(120.5)]}
 
 
+@pytest.mark.examination("test_from_the_empty_page_to_the_printed_report")
 def test_cancel_keeps_what_was_there(page: Page) -> None:
     open_task(page)
     searched(page)
@@ -316,7 +319,7 @@ def test_cancel_keeps_what_was_there(page: Page) -> None:
     expect(page.locator(".chosen-drive")).to_contain_text("no specimens were simulated")
 
 
-@pytest.mark.examination("test_open_in_design_is_one_step")
+@pytest.mark.examination("test_from_the_empty_page_to_the_printed_report")
 def test_undo_brings_back_task_and_drives(page: Page) -> None:
     open_task(page)
     searched(page)
@@ -359,7 +362,7 @@ def run_hash(page: Page, document: dict[str, Any]) -> str:
     return run(page, "return (await import('/js/link.js')).toHash(argument);", document)
 
 
-@pytest.mark.examination("test_open_in_design_is_one_step")
+@pytest.mark.examination("test_from_the_empty_page_to_the_printed_report")
 def test_the_drives_survive_a_look_at_another_view(page: Page) -> None:
     open_task(page)
     propose_button(page).click()
@@ -468,7 +471,7 @@ def test_the_task_can_be_saved_for_the_command_line_and_opened(page: Page) -> No
     assert len(Path(table.value.path()).read_text("utf-8").splitlines()) == 1 + rows(page).count()
 
 
-@pytest.mark.examination("test_open_in_design_is_one_step")
+@pytest.mark.examination("test_from_the_empty_page_to_the_printed_report")
 def test_whatever_leads_to_the_muscle_shows_the_muscle(page: Page) -> None:
     open_task(page)
     page.get_by_role("button", name="Examples", exact=True).click()
@@ -497,19 +500,21 @@ def test_the_views_stay_apart(page: Page) -> None:
     expect(page.locator(".task-head")).to_be_hidden()
 
 
+@pytest.mark.examination("tests/frontend/test_accessibility.py::test_axe_finds_nothing_in_a_view_as_it_opens")
 def test_axe_finds_nothing(page: Page) -> None:
     open_task(page)
     searched(page)
     expect(page.locator(".rank-mark").first).to_be_attached()
     page.get_by_role("button", name="Reasons for proposal 1", exact=True).click()
     page.evaluate("document.querySelectorAll('details').forEach((el) => { el.open = true; })")
-    assert violations(page) == []
+    assert violations(page, themes=2) == []
     page.get_by_role("radio", name="Antagonist", exact=True).click()
     page.get_by_role("button", name="Examples of tasks").click()
     page.evaluate("document.querySelectorAll('.stale').forEach((el) => el.classList.remove('stale'))")
-    assert violations(page) == []
+    assert violations(page, themes=2) == []
 
 
+@pytest.mark.examination("tests/frontend/test_layout.py::test_every_width")
 @pytest.mark.parametrize("title", ["Lift 20 kg", "Too fast", None])
 def test_every_width(page: Page, title: str | None) -> None:
     """No sideways scroll, no overlaps, targets of at least 24 px."""

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import base64
 import csv
 import json
 import math
 import re
 import zipfile
-import zlib
 from collections.abc import Callable
 from itertools import pairwise
 from pathlib import Path
@@ -23,16 +21,9 @@ from mckibben.physics.units import Reference, si
 from tests.frontend.axe import violations
 from tests.frontend.comparing import use
 from tests.frontend.guard import PageGuard
-from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, load, marked, run
+from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, link_to, load, marked, run
 
 TIMED = ("position", "pressure", "speed", "lower", "acceleration")
-
-
-def link_to(document: object) -> str:
-    """The hash of the address that holds this document: deflate-raw, base64url."""
-    packer = zlib.compressobj(wbits=-15)
-    packed = packer.compress(json.dumps(document).encode()) + packer.flush()
-    return "#v1." + base64.urlsafe_b64encode(packed).decode().rstrip("=")
 
 
 START = link_to({"schema": 1, "view": "transient", "design": {}})
@@ -111,6 +102,9 @@ def test_a_heavier_load_takes_longer(page: Page) -> None:
     )
 
 
+@pytest.mark.examination(
+    "tests/test_scenarios.py::test_its_figures_are_the_printed_ones_within_their_tolerance"
+)
 def test_a_scenario_brings_its_drive_and_the_printed_figures(page: Page) -> None:
     open_transient(page)
     load_scenario(page, "propneu-20")
@@ -146,7 +140,9 @@ def as_server(text: str, reference: Reference | None) -> float | None:
         return None
 
 
-@pytest.mark.examination("test_a_scenario_brings_its_drive_and_the_printed_figures")
+@pytest.mark.examination(
+    "tests/test_scenarios.py::test_its_figures_are_the_printed_ones_within_their_tolerance"
+)
 def test_units_of_drive_documents_are_read_and_every_scenario_runs(page: Page) -> None:
     open_transient(page)
     texts = [
@@ -203,6 +199,7 @@ def test_an_impossible_value_says_so_at_its_field(page: Page, page_guard: PageGu
     expect(page.locator(".transient .notice")).to_be_hidden()
 
 
+@pytest.mark.examination("tests/server/test_simulations.py::test_a_controlled_run_tells_how_it_follows")
 def test_shapes_and_controller(page: Page) -> None:
     open_transient(page)
     shape = page.get_by_label("Shape", exact=True)
@@ -221,7 +218,7 @@ def test_shapes_and_controller(page: Page) -> None:
     expect(page.locator(".transient .notice")).to_be_hidden()
 
 
-@pytest.mark.examination("test_shapes_and_controller")
+@pytest.mark.examination("tests/server/test_simulations.py::test_a_controlled_run_tells_how_it_follows")
 def test_another_valve_brings_its_dead_time(page: Page) -> None:
     open_transient(page)
     own = page.locator(".transient [data-effect].on")
@@ -343,7 +340,7 @@ def test_pin_and_difference(page: Page) -> None:
     expect(table).to_be_hidden()
 
 
-@pytest.mark.examination("test_the_link_restores_the_zoomed_phase_plot")
+@pytest.mark.examination("tests/frontend/test_state.py::test_a_link_holds_the_whole_document")
 def test_the_link_restores_drive_window_and_pins(page: Page) -> None:
     open_transient(page)
     rerun(page, lambda: enter(page, "Mass", "42"))
@@ -416,6 +413,7 @@ def test_dragging_chooses_a_window_for_all_plots(page: Page) -> None:
     assert run(page, shown)[0] == [0, 2]
 
 
+@pytest.mark.examination("test_the_first_run_is_complete_and_has_figures")
 def test_exports(page: Page, tmp_path: Path) -> None:
     open_transient(page)
     table = list(csv.DictReader(download(page, "Run as CSV").read_text().splitlines()))
@@ -499,7 +497,9 @@ def arrange(page: Page, how: str) -> None:
     rerun(page, lambda: page.get_by_label("Arrangement", exact=True).select_option(how))
 
 
-@pytest.mark.examination("test_a_joint_follows_angle_and_stiffness")
+@pytest.mark.examination(
+    "tests/server/test_simulations.py::test_a_joint_has_two_set_points_and_both_muscles_in_the_answer"
+)
 def test_an_antagonist_pair_turns_a_pulley(page: Page, page_guard: PageGuard) -> None:
     page_guard.allow(REFUSED)
     open_transient(page)
@@ -547,6 +547,9 @@ def test_an_antagonist_pair_turns_a_pulley(page: Page, page_guard: PageGuard) ->
     expect(page.locator("#run-torque")).to_be_hidden()
 
 
+@pytest.mark.examination(
+    "tests/server/test_simulations.py::test_a_joint_has_two_set_points_and_both_muscles_in_the_answer"
+)
 def test_a_joint_follows_angle_and_stiffness(page: Page) -> None:
     open_transient(page)
     rerun(page, lambda: page.locator("#scenario").select_option("joint-20"))
@@ -570,7 +573,9 @@ def test_a_joint_follows_angle_and_stiffness(page: Page) -> None:
     expect(page.locator(".transient .notice")).to_be_hidden()
 
 
-@pytest.mark.examination("test_a_joint_follows_angle_and_stiffness")
+@pytest.mark.examination(
+    "tests/server/test_simulations.py::test_a_joint_has_two_set_points_and_both_muscles_in_the_answer"
+)
 def test_each_arrangement_has_its_fields_and_runs(page: Page) -> None:
     open_transient(page)
     own = ("Inclination", "Lever ratio", "Pulley radius")
@@ -591,6 +596,7 @@ def test_each_arrangement_has_its_fields_and_runs(page: Page) -> None:
     expect(page.get_by_label("Arrangement", exact=True)).to_have_value("antagonist")
 
 
+@pytest.mark.examination("test_tables_as_instruments_write_them")
 def test_a_table_comes_from_a_file(page: Page, tmp_path: Path) -> None:
     open_transient(page)
     rerun(page, lambda: page.get_by_label("Force over time", exact=True).select_option("table"))
@@ -731,6 +737,7 @@ def test_another_window_ends_what_pinned_runs_were_asked_for(page: Page) -> None
     page.unroute("**/api/simulations")
 
 
+@pytest.mark.examination("tests/frontend/test_state.py::test_a_link_holds_the_whole_document")
 def test_the_link_restores_the_zoomed_phase_plot(page: Page) -> None:
     open_transient(page)
     range_of = """
@@ -808,6 +815,7 @@ def test_the_static_line_is_the_balance_of_forces(page: Page) -> None:
     assert run(page, RESTING, case) == pytest.approx(wanted, abs=1e-6)
 
 
+@pytest.mark.examination("tests/frontend/test_accessibility.py::test_axe_finds_nothing_in_a_view_as_it_opens")
 def test_axe_finds_nothing(page: Page) -> None:
     open_transient(page)
     page.get_by_role("button", name="Pin this run").click()
@@ -816,7 +824,7 @@ def test_axe_finds_nothing(page: Page) -> None:
     rerun(page, lambda: page.get_by_label("Force over time", exact=True).select_option("table"))
     page.evaluate("document.querySelectorAll('details').forEach((el) => { el.open = true; })")
     expect(page.get_by_role("region", name="Pinned runs and the current run")).to_be_visible()
-    assert violations(page) == []
+    assert violations(page, themes=2) == []
 
 
 SIDEWAYS = """

@@ -2,7 +2,10 @@
 
 from __future__ import annotations
 
+import base64
+import json
 import re
+import zlib
 from collections.abc import Callable
 from typing import Any
 
@@ -33,6 +36,13 @@ def marked(page: Page, mark: str, within: float = 10_000) -> None:
     page.locator(f"html{mark}").wait_for(state="attached", timeout=within)
 
 
+def link_to(document: object) -> str:
+    """The hash of the address that holds this document: deflate-raw, base64url."""
+    packer = zlib.compressobj(wbits=-15)
+    packed = packer.compress(json.dumps(document).encode()) + packer.flush()
+    return "#v1." + base64.urlsafe_b64encode(packed).decode().rstrip("=")
+
+
 def load(page: Page, link: str = "") -> None:
     """The page of the server, loaded anew.
 
@@ -56,16 +66,14 @@ def open_design(page: Page, link: str = "") -> None:
 
 def open_catalogue(page: Page) -> None:
     """The Catalogue view with its table filled and the small plot drawn."""
-    open_design(page)
-    page.get_by_role("button", name="Catalogue", exact=True).click()
+    load(page, link_to({"schema": 1, "view": "catalogue", "design": {}}))
     expect(page.get_by_role("button", name="Festo DMSP-20", exact=True)).to_be_visible()
     expect(page.locator(".detail .js-line").first).to_be_attached()
 
 
 def open_compare(page: Page) -> None:
-    """The Compare & diagnose view before there are data."""
-    load(page)
-    page.get_by_role("button", name="Compare & diagnose", exact=True).click()
+    """The Compare & diagnose view before there are data; the Design view is not even built."""
+    load(page, link_to({"schema": 1, "view": "compare", "design": {}}))
     expect(page.get_by_role("button", name="Example measurement")).to_be_visible(timeout=20_000)
 
 

@@ -103,6 +103,7 @@ def large_files(share: float) -> dict[str, bytes]:
     return {"large.mat": packed, "large.csv": lines}
 
 
+@pytest.mark.examination("test_a_server_refuses_them_and_goes_on")
 def test_large_files_are_read_in_four_times_what_they_unpack_to_at_most(tmp_path: Path) -> None:
     """A quarter of the limit here; ``python -m tests.benchmarks.large_files`` goes up to it.
 

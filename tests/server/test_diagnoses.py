@@ -564,6 +564,9 @@ def test_a_preset_and_its_map(client: TestClient) -> None:
     assert answer["verdict"]["status"] in STATUS
 
 
+@pytest.mark.examination(
+    "tests/identification/diagnose/test_diagnosis.py::test_a_constant_without_a_slope_where_it_stands_is_found_where_it_has_one"
+)
 def test_a_start_term_without_a_slope_at_a_row_is_diagnosed(shared_client: TestClient) -> None:
     rows = cycle_rows(coulomb, noise=1.0, each=20)
     content = text(rows, CYCLE_HEADER, "kind: isobaric").encode()
@@ -611,6 +614,7 @@ def test_a_wrong_rest_length_is_asked_about_first(doubted: dict[str, Any]) -> No
     assert "--keep rest_length" in verdict["sentence"]
 
 
+@pytest.mark.examination("test_a_wrong_rest_length_is_asked_about_first")
 def test_an_accepted_entry_is_fitted_and_its_origin_is_a_suggestion(client: TestClient, rubbing: str) -> None:
     used = diagnose(client, measurement=rubbing, muscle=LONG, use=["rest_length"])
     assert set(used["verdict"]["effects"]) == {"bladder_elasticity", "coulomb_friction"}

@@ -154,6 +154,7 @@ def test_an_idle_worker_that_is_killed_costs_no_job(served: RunningServer) -> No
     assert send(served, "/api/diagnoses", QUICK)[0] == 200
 
 
+@pytest.mark.examination("test_a_full_queue_is_told_and_curves_are_answered_meanwhile")
 def test_a_typed_term_and_a_file_do_not_wait_for_diagnoses(served: RunningServer) -> None:
     data = json.dumps(DIAGNOSIS).encode()
     headers = {"content-type": "application/json", "accept": "text/event-stream"}

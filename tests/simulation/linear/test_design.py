@@ -61,6 +61,7 @@ def test_a_regulated_lift_meets_its_goals_also_with_other_mass_and_supply() -> N
     assert all(each.figures.meets for each in found.robust)
 
 
+@pytest.mark.examination("test_a_regulated_lift_meets_its_goals_also_with_other_mass_and_supply")
 def test_the_drives_own_controller_comes_first() -> None:
     names = [trial.name for trial in design(linearise(drive("paper-pid-pulse")), Goals(0.2, 2.0)).trials]
     assert names == ["own", "rule", "refined"]

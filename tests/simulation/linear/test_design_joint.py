@@ -15,6 +15,7 @@ from tests.simulation.drive.test_joint import JOINT, STUDIO, changed
 SLOW = changed(JOINT, kp=0.3, ki=3, kd=0.0, angle="3 deg", stiffness={"reference": "18 N*m/rad"})
 
 
+@pytest.mark.examination("test_a_stiffness_out_of_reach_is_said_with_the_range")
 def test_before_and_after_on_a_joint_with_other_mass_and_supply() -> None:
     given = drive_of(read_document(SLOW, "joint"), STUDIO).drive
     linear = linearise(given)
