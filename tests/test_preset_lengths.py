@@ -10,7 +10,7 @@ import pytest
 from mckibben.application.curves import CurvesQuestion, curves
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
-from mckibben.resources import presets_folder
+from tests.shipped import shipped_studio
 
 BAR = 1e5
 # Hunt 2017: length of a 10 mm muscle [mm], free contraction at 620 kPa.
@@ -20,7 +20,7 @@ LENGTHS = (0.1, 0.15, 0.2, 0.3, 0.5, 0.8)
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 def figures(studio: Studio, name: str, length: float, pressure: float = 6.2 * BAR) -> tuple[float, float]:

@@ -21,6 +21,7 @@ from mckibben.presets import MusclePreset, ValvePreset
 from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
 from mckibben.simulation.statics.characteristics import Conditions
+from tests.shipped import shipped_studio
 
 # Figures by name of a maximum that limit no use of the part, and what they are.
 ACCURACY = {
@@ -46,7 +47,7 @@ TASK: dict[str, Any] = {
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 def curve_codes(studio: Studio, length: float | None = None, **question: Any) -> set[str]:

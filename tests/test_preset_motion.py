@@ -15,7 +15,7 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
-from mckibben.resources import presets_folder
+from tests.shipped import shipped_studio
 from tests.truth.slow_loop import SlowMuscle
 
 MUSCLES = Path(__file__).parents[1] / "presets" / "muscles"
@@ -34,7 +34,7 @@ MEASURED = (
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 def catalogue_loop(name: str) -> float | None:

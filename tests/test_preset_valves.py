@@ -12,14 +12,13 @@ from scipy.linalg import expm
 from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.studio import Studio
 from mckibben.physics import gas
 from mckibben.physics.effects import spool_lag
 from mckibben.presets import ValvePreset
-from mckibben.resources import presets_folder
+from tests.shipped import shipped_studio
 from tests.simulation.drive.test_regulator import HELD
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 # Critical frequency [Hz] and actuating time [ms], general knowledge; the preset uses the first only.
 MPYE = {
     "MPYE-5-M5": (125.0, 3.0),

@@ -16,8 +16,8 @@ from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
-from mckibben.resources import presets_folder
 from mckibben.simulation.integrate.engine import kernel
+from tests.shipped import shipped_studio
 
 DRIVES = int(os.environ.get("MCKIBBEN_DRIVES", "60"))
 POINTS = 401
@@ -99,7 +99,7 @@ def documents(studio: Studio) -> Iterator[dict[str, Any]]:
 
 def test_random_drives_end_with_a_name() -> None:
     kernel.warm().join()
-    studio = Studio(presets=presets_folder())
+    studio = shipped_studio()
     outcomes: Counter[str] = Counter()
     for number, document in enumerate(documents(studio)):
         began = time.monotonic()

@@ -5,21 +5,20 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.documents.studio import Studio
-from mckibben.resources import presets_folder
 from tests.benchmarks.scenarios import SCENARIOS, Scenario, loop_width, rows_of, run_scenario, table
+from tests.shipped import shipped_studio
 
 CONTROLLED = ("paper-pid-triangle", "paper-pid-pulse", "paper-pid-random")
 
 
 @pytest.fixture(scope="module")
 def scenarios() -> dict[str, Scenario]:
-    studio = Studio(presets=presets_folder())
+    studio = shipped_studio()
     return {name: run_scenario(studio, name) for name in SCENARIOS}
 
 
 def test_there_is_a_preset_for_each_scenario_and_no_other_of_the_paper() -> None:
-    studio = Studio(presets=presets_folder())
+    studio = shipped_studio()
     assert {preset.id for preset in studio.library.list("drives")} == {*SCENARIOS, "joint-20"}
 
 

@@ -22,13 +22,14 @@ from mckibben.simulation.outcome import Watch
 from tests.application.local_cluster import LocalCluster
 from tests.cli.conftest import write
 from tests.cli.test_diagnose import BRAID, rubbing
+from tests.shipped import shipped_studio
 
 FILES = 3
 
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 @pytest.fixture
@@ -46,7 +47,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
 
 
 def ask(name: str) -> ModelQuestion:
-    studio = Studio(presets=presets_folder())
+    studio = shipped_studio()
     return model_question(studio, measurements_of([name], studio), ModelOptions("m.json"), free=())
 
 

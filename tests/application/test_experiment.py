@@ -24,9 +24,9 @@ from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.points import Points, find_preset
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.errors import InputError
-from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
 from tests.application.truths import ANGLE, document, plateaus, specimen
+from tests.shipped import shipped_studio
 
 SHARP = "length 1 mm, force 0.1 %, pressure 2 mbar"
 
@@ -34,7 +34,7 @@ SHARP = "length 1 mm, force 0.1 %, pressure 2 mbar"
 @pytest.fixture(scope="module")
 def studio() -> Studio:
     """Presets and effects that come with the program."""
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 def said_model(

@@ -16,13 +16,13 @@ from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
-from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
+from tests.shipped import shipped_studio
 
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 def tiny(flags: list[Any]) -> dict[str | None, str]:

@@ -14,13 +14,12 @@ from mckibben.application.simulate import SimulationQuestion, simulate
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.start_model import StartModel, StatedMuscle
-from mckibben.documents.studio import Studio
 from mckibben.presets.fit import Covariance, FitRecord, MeasuredSpan
-from mckibben.resources import presets_folder
 from mckibben.simulation.timing.of_run import grid_of
 from tests.identification.synthetic import LIFT, MUSCLE
+from tests.shipped import shipped_studio
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 DEVIATIONS = 1.6448536269514722  # of a normal distribution, that hold 90 %
 PRESSURES = (2e5, 4e5, 6e5)
 

@@ -19,13 +19,14 @@ from mckibben.projects.project import StoredStudy
 from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
 from tests.application.test_study import STUDY
+from tests.shipped import shipped_studio
 
 SMALL = STUDY | {"method": {"type": "monte_carlo", "runs": 4, "seed": 3}}
 
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 @pytest.fixture(scope="module")

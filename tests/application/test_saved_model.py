@@ -12,13 +12,12 @@ from mckibben.application.saved_model import drive_of_model
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.start_model import StatedMuscle
-from mckibben.documents.studio import Studio
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.points import Points
-from mckibben.resources import presets_folder
 from tests.identification.synthetic import LIFT, MUSCLE, csv
+from tests.shipped import shipped_studio
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 
 
 def trace(*conditions: str, command: bool = True) -> Measurement:

@@ -20,9 +20,9 @@ from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.study_files import read_study
 from mckibben.physics.errors import InputError
-from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
 from mckibben.studies.journal import Journal
+from tests.shipped import shipped_studio
 
 SHORT = {
     "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
@@ -42,7 +42,7 @@ STUDY: dict[str, Any] = {
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 def patient(**told: Any) -> Watch:
@@ -83,7 +83,7 @@ from mckibben.documents.studio import Studio
 from mckibben.documents.study_files import read_study
 from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
-asked = study_question(read_study(json.loads(sys.argv[1])), Studio(presets=presets_folder()))
+asked = study_question(read_study(json.loads(sys.argv[1])), shipped_studio())
 tables = [prepare(asked, chunk=chunk)(Watch(time_limit=1e9)).table for chunk in (32, 5)]
 print(json.dumps([table["largest.force"] for table in tables]))
 """

@@ -21,6 +21,7 @@ from mckibben.studies.journal import Journal
 from tests.application.local_cluster import LocalCluster
 from tests.application.test_keep import MODEL
 from tests.application.test_study import SHORT, patient, question
+from tests.shipped import shipped_studio
 
 pytest.importorskip("distributed", reason="needs the extra cluster: pip install 'mckibben[cluster]'")
 
@@ -34,7 +35,7 @@ def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LocalCluster]:
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 @pytest.mark.examination("test_a_lost_scheduler_pauses_the_study")

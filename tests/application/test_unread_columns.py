@@ -7,15 +7,15 @@ import pytest
 from mckibben.application.compare import compare
 from mckibben.application.measurements import UnreadColumn
 from mckibben.documents.studio import Studio
-from mckibben.resources import presets_folder
 from tests.application.test_experiment import asked, diagnosed
 from tests.application.truths import specimen
+from tests.shipped import shipped_studio
 
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
     """Presets and effects that come with the program."""
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 def with_a_column(text: str, name: str) -> str:

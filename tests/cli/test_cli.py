@@ -18,10 +18,10 @@ import pytest
 from mckibben import __version__, cli
 from mckibben.cli.options import ModelOptions, start_model
 from mckibben.cli.serve import _bind, _link
-from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
 from tests.cli.conftest import Run, write
 from tests.running_server import MAIN, RunningServer
+from tests.shipped import shipped_studio
 
 CSV = "# kind: static\npressure_bar;length_mm;force_N\n" + "".join(
     f"{p};{length};{100 * p + length / 10:.1f}\n" for p in (1, 2, 3) for length in (280, 290, 300)
@@ -439,7 +439,7 @@ def test_what_is_sent_to_a_running_server_is_kept_in_its_folder(server: RunningS
 
 def test_a_file_named_like_a_preset_does_not_hide_it(tmp_path: Path) -> None:
     write("DMSP-20", "{}")
-    studio = Studio(presets=presets_folder())
+    studio = shipped_studio()
     assert start_model(studio, ModelOptions("DMSP-20")).preset is not None
 
 

@@ -12,6 +12,7 @@ from mckibben.measurement.read import read_measurement
 from mckibben.resources import presets_folder
 from tests.cli.conftest import Run, write
 from tests.documents.test_drive_reading import CONTROLLER, EXAMPLE
+from tests.shipped import shipped_studio
 
 
 def test_a_document_gives_one_json_object(run: Run) -> None:
@@ -29,10 +30,9 @@ def test_it_agrees_with_the_kernel(run: Run) -> None:
     from mckibben.application.simulate import SimulationQuestion, simulate
     from mckibben.documents.drive_files import read_document
     from mckibben.documents.drive_reading import drive_of
-    from mckibben.documents.studio import Studio
 
     answer = json.loads(run("simulate", write("lift.json", EXAMPLE), "--json")[1])
-    given = drive_of(read_document(EXAMPLE, "the drive"), Studio(presets=presets_folder()))
+    given = drive_of(read_document(EXAMPLE, "the drive"), shipped_studio())
     other = simulate(SimulationQuestion(given, engine="rodas"))
     assert answer["engine"] == "lsoda"
     assert other.engine == "rodas"

@@ -18,6 +18,7 @@ from mckibben.physics.errors import InputError
 from mckibben.presets import PresetLibrary
 from mckibben.resources import presets_folder
 from mckibben.simulation.command.signals import Signal
+from tests.shipped import shipped_studio
 
 EXAMPLE: dict[str, Any] = {
     "schema": 1,
@@ -41,7 +42,7 @@ CONTROLLER = {
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 @pytest.fixture
@@ -80,7 +81,7 @@ def test_a_tube_may_be_stated_left_out_or_excluded(read: Callable[..., Annotated
     assert left_out.tube is None
     assert left_out.assumed_tube is not None
     document = {name: value for name, value in EXAMPLE.items() if name != "tube"} | {"tube": None}
-    excluded = drive_of(read_document(document, "the drive"), Studio(presets=presets_folder())).drive
+    excluded = drive_of(read_document(document, "the drive"), shipped_studio()).drive
     assert (excluded.tube, excluded.assumed_tube) == (None, None)
 
 

@@ -16,6 +16,7 @@ from mckibben.documents.study_files import read_study, read_study_file
 from mckibben.physics.errors import InputError
 from mckibben.resources import presets_folder
 from tests.application.test_keep import MODEL
+from tests.shipped import shipped_studio
 
 MASS: dict[str, Any] = {"path": "load.mass", "from": "8 kg", "to": "12 kg"}
 STUDY: dict[str, Any] = {
@@ -28,7 +29,7 @@ STUDY: dict[str, Any] = {
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 def question(studio: Studio, **changes: Any) -> StudyQuestion:

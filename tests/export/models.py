@@ -12,9 +12,9 @@ from mckibben.export.static_equations import STATIC_SLOTS
 from mckibben.export.subject import Stated, Subject, subject_of
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.muscle import Muscle
-from mckibben.resources import presets_folder
 from mckibben.simulation.statics.compiled import OUTPUTS, compiled_state
 from mckibben.simulation.statics.model import settle
+from tests.shipped import shipped_studio
 
 COMBINATIONS = (
     ("bladder_elasticity", "prestress", "end_caps", "wall_thickness", "coulomb_friction", "viscous_damping"),
@@ -29,7 +29,7 @@ TERM = {
 @cache
 def studio() -> Studio:
     """The built-in presets and effects."""
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 def cases() -> dict[str, dict[str, dict[str, float | str]]]:

@@ -15,15 +15,14 @@ from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.muscle import MuscleInput
-from mckibben.documents.studio import Studio
 from mckibben.measurement.measurement import lengths
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.catalogue import default_catalogue
-from mckibben.resources import presets_folder
+from tests.shipped import shipped_studio
 from tests.truth.cases import BOOK, Case
 from tests.truth.generate import SEEDS, all_cases, answer_of, case, names, write
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 KINDS = {"isobaric", "isometric", "isotonic", "diameter", "static", "transient"}
 
 

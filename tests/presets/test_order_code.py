@@ -6,10 +6,9 @@ import pytest
 
 from mckibben.application.order_code import ordered_muscle
 from mckibben.documents.start_model import StatedMuscle
-from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
 from mckibben.presets.order_code import OrderCode, begin_of_order_code, order_code
-from mckibben.resources import presets_folder
+from tests.shipped import shipped_studio
 
 KNOWN = ["DMSP-5", "DMSP-10", "DMSP-20", "MAS-10", "MAS-20", "hand-made"]
 
@@ -62,7 +61,7 @@ def test_the_meanings_are_those_of_the_type_code() -> None:
 
 
 def test_the_use_case_says_what_each_part_means_and_where_one_is_not_understood() -> None:
-    studio = Studio(presets=presets_folder())
+    studio = shipped_studio()
     found = ordered_muscle(" mas-10-N-100-AA-MCFK ", studio)
     assert (found.preset, found.nominal_length) == ("MAS-10", 0.1)
     assert [part.text for part in found.parts] == ["MAS", "10", "100N", "AA", "MCFK"]
@@ -76,7 +75,7 @@ def test_the_use_case_says_what_each_part_means_and_where_one_is_not_understood(
 
 
 def test_a_muscle_is_found_by_its_code_with_the_length_of_the_code() -> None:
-    studio = Studio(presets=presets_folder())
+    studio = shipped_studio()
     start = studio.start_model(StatedMuscle(preset="DMSP-20-250N-RM-CM"), None)
     assert start.muscle.nominal_length == 0.25
     assert start.preset is not None

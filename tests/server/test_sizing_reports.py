@@ -13,7 +13,6 @@ import pytest
 from fastapi.testclient import TestClient
 
 from mckibben import cli
-from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError
 from mckibben.report.sizing.gather import prepare_report
@@ -23,6 +22,7 @@ from mckibben.simulation.outcome import Watch
 from tests.server.conftest import assert_error, post
 from tests.server.test_reports import NASTY, Reader, attached, exact, tables
 from tests.server.test_sizings import IMPOSSIBLE, TASK
+from tests.shipped import shipped_studio
 
 PATH = "/api/sizings/reports"
 GRAVITY = 9.80665
@@ -407,7 +407,7 @@ def test_a_proposal_beyond_the_list_says_how_many_there_are(
 
 
 def test_a_search_that_was_stopped_is_no_report() -> None:
-    studio = Studio(presets=presets_folder())
+    studio = shipped_studio()
     work = prepare_report(SizingTask.model_validate(TASK), studio)
     with pytest.raises(InputError, match="cancelled"):
         work(Watch(cancelled=lambda: True))

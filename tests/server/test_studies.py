@@ -11,9 +11,7 @@ from fastapi.testclient import TestClient
 from mckibben.application import study_file
 from mckibben.application.study import prepare, study_question
 from mckibben.application.study_store import StudyStore
-from mckibben.documents.studio import Studio
 from mckibben.documents.study_files import read_study
-from mckibben.resources import presets_folder
 from mckibben.server.app import create_app
 from mckibben.server.schemas.studies import StudyAnswer
 from mckibben.server.settings import Settings
@@ -21,6 +19,7 @@ from mckibben.simulation.outcome import Watch
 from tests.application.test_study import STUDY
 from tests.server.conftest import assert_error, post
 from tests.server.test_simulations import events_of
+from tests.shipped import shipped_studio
 
 PATH = "/api/studies"
 
@@ -72,7 +71,7 @@ def test_what_was_made_is_kept_for_the_next_server(
     study = STUDY | {"method": {"type": "monte_carlo", "runs": 12, "seed": 9}}
     kept = {"runs": 0}
     assert post(shared_client, f"{PATH}/kept", study).json() == kept
-    question = study_question(read_study(study), Studio(presets=presets_folder()))
+    question = study_question(read_study(study), shipped_studio())
     store, made = StudyStore(tmp_path), []
     stopped = Watch(found=made.append, cancelled=lambda: bool(made))
     half = prepare(question, journal=store.of(question), chunk=2)(stopped)
@@ -93,7 +92,7 @@ def test_what_was_made_is_kept_for_the_next_server(
             post(client, f"{PATH}/options", {"subject": {"drive": "paper-step"}}).json()["parquet"] is False
         )
     tiny = StudyStore(tmp_path, quota=1)
-    other = study_question(read_study(STUDY), Studio(presets=presets_folder()))
+    other = study_question(read_study(STUDY), shipped_studio())
     prepare(other, journal=tiny.of(other))(Watch())
     assert store.runs(question.document, question.studio) == 0
     assert store.runs(other.document, other.studio) == 20

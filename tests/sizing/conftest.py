@@ -12,9 +12,9 @@ from mckibben.application.size import prepare, sizing_question
 from mckibben.application.task_reading import catalogue_of, task_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
-from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
 from mckibben.sizing import PartsCatalogue, Task
+from tests.shipped import shipped_studio
 
 LIFT: dict[str, Any] = {
     "load": {"mass": "20 kg"},
@@ -30,7 +30,7 @@ LIFT: dict[str, Any] = {
 
 @pytest.fixture(scope="session")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 def understood(document: dict[str, Any], studio: Studio) -> tuple[Task, PartsCatalogue]:

@@ -23,7 +23,7 @@ from typing import Any
 import pytest
 
 from mckibben.documents.studio import Studio
-from mckibben.resources import presets_folder
+from tests.shipped import shipped_studio
 from tests.sizing.conftest import sized
 
 SIZES = ["DMSP-10", "DMSP-20", "DMSP-40"]
@@ -241,7 +241,7 @@ CASES: dict[str, tuple[dict[str, Any], set[tuple[str, int]], dict[str, str]]] = 
 
 @pytest.fixture(scope="module")
 def studio() -> Studio:
-    return Studio(presets=presets_folder())
+    return shipped_studio()
 
 
 @pytest.mark.parametrize("name", CASES)

@@ -10,7 +10,6 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
 from mckibben.identification.diagnose.words import sentence_of
 from mckibben.identification.fit.fitter import CancelledError
@@ -20,10 +19,10 @@ from mckibben.identification.predict.free import Free
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.custom import custom_effect
-from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
 from tests.identification.synthetic import CATALOGUE, MUSCLE, csv, cycles, force_map, length_under
 from tests.identification.synthetic import truth as hidden_force
+from tests.shipped import shipped_studio
 
 DATA = Path(__file__).parents[4] / "shared" / "data"
 FRICTION = 15.0
@@ -406,7 +405,7 @@ def test_the_maps_of_martens_and_boblan_from_the_ideal_muscle(sample, preset, no
     path = DATA / f"{sample}_force_map.csv"
     if not path.exists():
         pytest.skip(f"{path.name} is not beside the project")
-    facts = Studio(presets=presets_folder()).facts(preset)
+    facts = shipped_studio().facts(preset)
     muscle = facts.muscle._replace(nominal_length=nominal_length)
     predictor = predictor_of(read_measurement(path.read_bytes(), path.name), muscle)
     geometry = free_geometry(muscle, free, facts.tolerance)

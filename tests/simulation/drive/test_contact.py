@@ -10,15 +10,14 @@ import pytest
 
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.studio import Studio
-from mckibben.resources import presets_folder
 from mckibben.simulation.drive.initial_state import Rest
 from mckibben.simulation.drive.transient import Run, simulate
 from mckibben.simulation.timing.of_run import timing_of, trace_of
 from mckibben.simulation.timing.table import PhaseFigures, TimingTable
+from tests.shipped import shipped_studio
 from tests.simulation.drive.independent import AMBIENT, RHO0, T0, R, Rig
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 POSITION = 1e-5  # m
 RELATIVE, LAPSE, SPEED = 1e-3, 1e-4, 1e-3  # 0.1 %, 0.1 ms, 1 mm/s
 

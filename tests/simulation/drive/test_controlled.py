@@ -10,9 +10,7 @@ import pytest
 
 from mckibben.documents.drive_files import preset_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.studio import Studio
 from mckibben.physics.muscle import Muscle
-from mckibben.resources import presets_folder
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.command.signals import Signal, signal_from
 from mckibben.simulation.drive import controlled
@@ -21,8 +19,9 @@ from mckibben.simulation.drive.parts import Drive, Load, Regulator, Tube, Valve
 from mckibben.simulation.drive.transient import Run
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.statics.model import StaticModel
+from tests.shipped import shipped_studio
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 MUSCLE = Muscle(0.3, 0.0218, radians(25.5), 0.0018, 0.02)
 
 

@@ -9,17 +9,16 @@ import pytest
 
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
-from mckibben.resources import presets_folder
 from mckibben.simulation.drive.initial_state import Rest, start_of
 from mckibben.simulation.drive.initial_states import starts_of_many
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import parameters_of, segments_of
 from mckibben.simulation.integrate.engine import compiled_drive
 from tests.benchmarks.lift import WITH_SPOOL
+from tests.shipped import shipped_studio
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 SETS = 21
 
 

@@ -11,12 +11,11 @@ import pytest
 from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
-from mckibben.resources import presets_folder
 from mckibben.simulation.drive.joint import JointStiffness, common_limits
+from tests.shipped import shipped_studio
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 RADIUS = 0.03
 JOINT: dict[str, Any] = {
     "muscle": {"inside_diameter": "20 mm", "braid_angle": "25 deg", "nominal_length": "300 mm"},

@@ -11,15 +11,14 @@ import pytest
 from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.studio import Studio
 from mckibben.physics import gas
 from mckibben.physics.errors import InputError
 from mckibben.physics.flow_path import quick_exhaust_share
-from mckibben.resources import presets_folder
 from mckibben.simulation.drive.transient import simulate as run_drive
 from mckibben.simulation.linear.linearise import linearise
+from tests.shipped import shipped_studio
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 AMBIENT, SUPPLY = 101325.0, 901325.0
 VALVE, THROTTLE, QUICK = 1e-8, 4e-9, 5e-8  # m^3/(s Pa)
 # A muscle pressed on its stop by 3 kN keeps its volume.

@@ -11,13 +11,12 @@ import pytest
 from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.studio import Studio
 from mckibben.physics import gas
 from mckibben.physics.errors import InputError
 from mckibben.physics.flow_path import regulator_shares
-from mckibben.resources import presets_folder
+from tests.shipped import shipped_studio
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 CONDUCTANCE = 1e-8  # m^3/(s Pa)
 # A muscle pressed on its stop by 2 kN keeps its volume.
 HELD: dict[str, Any] = {

@@ -9,19 +9,18 @@ import pytest
 
 from mckibben.documents.drive_files import preset_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.studio import Studio
 from mckibben.physics.drive_terms import INPUTS, OUTPUTS
-from mckibben.resources import presets_folder
 from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.initial_state import Start
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import dead_times, simulate
+from tests.shipped import shipped_studio
 from tests.simulation.event_radau import EventRadau, strokes
 
 # Seconds of the controlled runs, which do not drift apart: over their whole 6 s (`MCKIBBEN_HORIZON=6`) they
 # stay as near as over a part.
 HORIZON = float(os.environ.get("MCKIBBEN_HORIZON", "1.5"))
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 SCENARIOS = {
     preset.id: drive_of(preset_document(preset.id, STUDIO), STUDIO).drive
     for preset in STUDIO.library.list("drives")

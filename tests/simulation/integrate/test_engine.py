@@ -10,14 +10,13 @@ import pytest
 import symengine as se
 from scipy.integrate import solve_ivp
 
-from mckibben.documents.studio import Studio
 from mckibben.physics.drive import DriveModel
 from mckibben.physics.drive_terms import DriveStructure, StateInfo
-from mckibben.resources import presets_folder
 from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compile_system, integrate
 from mckibben.simulation.integrate.system import compiled_drive
+from tests.shipped import shipped_studio
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 T, Y, Z, K, U = se.symbols("t y z k u")
 
 

@@ -12,9 +12,7 @@ import pytest
 
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.studio import Studio
 from mckibben.physics.muscle import Muscle
-from mckibben.resources import presets_folder
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.initial_state import start_of
 from mckibben.simulation.drive.parts import Drive, Load, Valve
@@ -23,9 +21,10 @@ from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solutio
 from mckibben.simulation.integrate.many import ManySolutions, integrate_many, lane_kernels
 from mckibben.simulation.statics.model import StaticModel
 from tests.benchmarks.lift import DOCUMENT
+from tests.shipped import shipped_studio
 from tests.simulation.integrate.test_engine import K, Y, Z, system
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 SETS, TOLERANCE = 19, 1e-6
 
 

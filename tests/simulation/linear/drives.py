@@ -6,11 +6,10 @@ from typing import Any
 
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.documents.studio import Studio
-from mckibben.resources import presets_folder
 from mckibben.simulation.drive.parts import Drive
+from tests.shipped import shipped_studio
 
-STUDIO = Studio(presets=presets_folder())
+STUDIO = shipped_studio()
 _LIFT: dict[str, Any] = {
     "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
     "effects": {"bladder_elasticity": {}, "viscous_damping": {"coefficient": "120 N*s/m"}},
