@@ -657,6 +657,18 @@ def test_effect_values_are_in_si(library: PresetLibrary) -> None:
     assert muscle(library, "paper").effect_values() == {}
 
 
+def test_libraries_share_what_no_file_has_changed(folder: Path) -> None:
+    one, other = PresetLibrary(folder), PresetLibrary(folder)
+    first = one.list("muscles")[0]
+    assert other.get("muscles", first.id) is first
+    # With effects to check against, it is read again.
+    assert PresetLibrary(folder, effects=EFFECTS).get("muscles", first.id) is not first
+    path = folder / "muscles" / f"{first.id}.json"
+    path.write_text(path.read_text("utf-8").replace('"title": "', '"title": "New '), "utf-8")
+    assert PresetLibrary(folder).get("muscles", first.id).title.startswith("New ")
+    assert other.get("muscles", first.id) is first
+
+
 def test_a_missing_folder_is_said_at_once(tmp_path: Path) -> None:
     with pytest.raises(FileNotFoundError, match="no preset folder"):
         PresetLibrary(tmp_path / "nowhere")

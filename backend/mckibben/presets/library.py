@@ -8,7 +8,7 @@ import os
 import re
 import tempfile
 import threading
-from collections.abc import Iterator
+from collections.abc import Hashable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -43,6 +43,17 @@ class _Shelf:
     problems: list[LibraryProblem] = field(default_factory=list)
 
 
+#: Folder, state of its files and effects that they were checked against -> shelf of each kind.
+_SHARED: dict[Hashable, dict[str, _Shelf]] = {}
+_MOST_SHARED = 4
+
+
+def _hashable(effects: EffectTable) -> Hashable:
+    return tuple(
+        (name, *(table.items() if isinstance(table, Mapping) else table)) for name, table in effects.items()
+    )
+
+
 class PresetLibrary:
     """Presets of a built-in folder, and optionally of a second one for the user's own.
 
@@ -67,7 +78,7 @@ class PresetLibrary:
         self.user_folder = None if user_folder is None else Path(user_folder)
         self.effects = effects
         self._lock = threading.RLock()
-        self._built_in = {kind: self._scan(kind, "built-in", {}) for kind in KINDS}
+        self._built_in = self._shelves()
         self._user = {kind: _Shelf() for kind in KINDS}
         self._signatures: dict[str, Signature] = dict.fromkeys(KINDS, ())
         #: Kind -> the user's files as they were when somebody last looked at them here.
@@ -267,6 +278,16 @@ class PresetLibrary:
             if signature != self._signatures[kind]:
                 self._user[kind] = self._scan(kind, "user", self._built_in[kind].presets)
                 self._signatures[kind] = signature
+
+    def _shelves(self) -> dict[str, _Shelf]:
+        """The built-in presets; nothing changes them, so the libraries of a process share what they hold."""
+        table = None if self.effects is None else _hashable(self.effects)
+        key = (self._folder, tuple(_signature(self._folder / kind) for kind in KINDS), table)
+        if key not in _SHARED:
+            while len(_SHARED) >= _MOST_SHARED:
+                _SHARED.pop(next(iter(_SHARED)), None)
+            _SHARED[key] = {kind: self._scan(kind, "built-in", {}) for kind in KINDS}
+        return _SHARED[key]
 
     def _scan(self, kind: str, origin: Origin, taken: dict[str, Preset]) -> _Shelf:
         root = self._folder if origin == "built-in" else self.user_folder

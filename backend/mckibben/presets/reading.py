@@ -140,6 +140,8 @@ def _unusable(value: object, path: str, depth: int) -> Iterator[Finding]:
             yield from _text_findings(name, path)
             yield from _unusable(item, f"{path}.{name}" if path else name, depth + 1)
     elif isinstance(value, list):
+        if all(type(item) in (int, float) and -(2**63) < item < 2**63 for item in value):
+            return  # most of what presets hold are rows of numbers
         for index, item in enumerate(value):
             yield from _unusable(item, f"{path}.{index}", depth + 1)
     elif isinstance(value, str):
@@ -151,7 +153,7 @@ def _unusable(value: object, path: str, depth: int) -> Iterator[Finding]:
 
 
 def _text_findings(text: str, path: str) -> Iterator[Finding]:
-    if any("\ud800" <= character <= "\udfff" for character in text):
+    if not text.isascii() and any("\ud800" <= character <= "\udfff" for character in text):
         yield Finding(path or None, "holds half of a surrogate pair", "valid Unicode text")
 
 
