@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import gc
+import hashlib
 import os
 from collections.abc import Callable, Iterator
 from pathlib import Path
@@ -58,6 +59,10 @@ def pytest_configure(config: pytest.Config) -> None:
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     # Compiled once for all workers and the programs that tests start; the key holds the sources.
     os.environ["MCKIBBEN_CACHE"] = str(config.rootpath / ".pytest_cache" / "code")
+    # numba looks whether a function has changed, not whether one has that it calls: a folder for each state.
+    sources = sorted(Path(__file__).with_name("truth").glob("*.py"))
+    state = hashlib.sha256(b"".join(file.read_bytes() for file in sources))
+    os.environ["NUMBA_CACHE_DIR"] = str(config.rootpath / ".pytest_cache" / f"truth-{state.hexdigest()[:16]}")
     hypothesis.configuration.set_hypothesis_home_dir(config.rootpath / ".hypothesis")
     if config.option.benchmark_storage == "file://./.benchmarks":
         config.option.benchmark_storage = f"file://{config.rootpath}/.benchmarks"

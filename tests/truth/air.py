@@ -19,7 +19,7 @@ _SONIC = np.sqrt(KAPPA / R) * (2.0 / (KAPPA + 1.0)) ** ((KAPPA + 1.0) / (2.0 * (
 _CRITICAL = (2.0 / (KAPPA + 1.0)) ** (KAPPA / (KAPPA - 1.0))
 
 
-@njit
+@njit(cache=True)
 def iso_flow(above: float, below: float, conductance: float, ratio: float, warm: float) -> float:
     """Mass flow [kg/s] from ``above`` to ``below`` (absolute, above >= below)."""
     r = below / above
@@ -32,7 +32,7 @@ def iso_flow(above: float, below: float, conductance: float, ratio: float, warm:
     return choked * edge * (1.0 - r) / (1.0 - _STRAIGHT)
 
 
-@njit
+@njit(cache=True)
 def nozzle_flow(above: float, below: float, conductance: float, warm: float) -> float:
     """Saint-Venant and Wantzel [kg/s]; the effective area is that with the sonic flow of C."""
     area = conductance * DENSITY * np.sqrt(REFERENCE) / _SONIC
@@ -46,7 +46,7 @@ def nozzle_flow(above: float, below: float, conductance: float, warm: float) -> 
     return flow if r < _STRAIGHT else flow * (1.0 - r) / (1.0 - _STRAIGHT)
 
 
-@njit
+@njit(cache=True)
 def through(
     a: float, b: float, conductance: float, ratio: float, nozzle: float, warm_a: float, warm_b: float
 ) -> float:
@@ -64,7 +64,7 @@ def through(
     )
 
 
-@njit
+@njit(cache=True)
 def tube_rates(
     pressures: Array,
     flows: Array,

@@ -17,29 +17,29 @@ _X, _V, _P, _M, _TW, _Z, _ZG, _PS, _PE, _IN, _LEAK, _TUBE = range(12)
 SIZE = _TUBE + 2 * CELLS
 
 
-@njit
+@njit(cache=True)
 def _area(plant: Plant, length: float) -> float:
     return (3.0 * length**2 - plant.thread**2) / (4.0 * np.pi * plant.turns**2)
 
 
-@njit
+@njit(cache=True)
 def _volume(plant: Plant, length: float) -> float:
     return length * (plant.thread**2 - length**2) / (4.0 * np.pi * plant.turns**2)
 
 
-@njit
+@njit(cache=True)
 def _dead(plant: Plant, gauge: float) -> float:
     return plant.dead + plant.extra_dead * (1.0 + plant.dead_give * (gauge - 1e5))
 
 
-@njit
+@njit(cache=True)
 def _look_up(table: Array, low: float, high: float, x: float) -> float:
     place = (min(max(x, low), high) - low) / (high - low) * (len(table) - 1)
     index = min(int(place), len(table) - 2)
     return table[index] + (place - index) * (table[index + 1] - table[index])
 
 
-@njit
+@njit(cache=True)
 def tension(plant: Plant, y: Array, wall: Array, low: float, high: float, pressure: float) -> float:
     """Tension of the muscle [N], never negative."""
     length, speed = plant.nominal - y[_X], -y[_V]
@@ -53,7 +53,7 @@ def tension(plant: Plant, y: Array, wall: Array, low: float, high: float, pressu
     return max(force, 0.0)
 
 
-@njit
+@njit(cache=True)
 def _rates(
     plant: Plant,
     y: Array,
@@ -157,7 +157,7 @@ def _rates(
     return leaving
 
 
-@njit
+@njit(cache=True)
 def _arrived(plant: Plant, sent: Array, now: float, step: float) -> float:
     """Flow that left the valve one travelling time ago, its front flattened over the spread."""
     total = 0.0
@@ -169,7 +169,7 @@ def _arrived(plant: Plant, sent: Array, now: float, step: float) -> float:
     return total / 5.0
 
 
-@njit
+@njit(cache=True)
 def _march(
     plant: Plant,
     y: Array,

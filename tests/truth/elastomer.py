@@ -141,7 +141,7 @@ def warming(muscle: Muscle, energy: Energy, first: float, second: float) -> Hidd
     return Hidden("warming", accept("temperature"), elastic=change)
 
 
-@njit
+@njit(cache=True)
 def _warmth(speed: Array, time: Array, wall: float, braid: float) -> Array:
     """Warmth of the wall over that of the braid around it, both heated by the motion; steps of the record."""
     inner, outer = 0.0, 0.0
@@ -166,7 +166,7 @@ def working_heat(muscle: Muscle, energy: Energy, loss: float, seconds: float) ->
     return Hidden("heat of work", accept("self_heating"), memory=lost)
 
 
-@njit
+@njit(cache=True)
 def _arms(length: Array, time: Array, times: Array, weights: Array) -> Array:
     extension = np.zeros(len(times))
     out = np.zeros(len(time))

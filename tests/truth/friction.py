@@ -11,7 +11,7 @@ from tests.truth.composition import Hidden, Record, accept
 from tests.truth.muscle import Array, Muscle
 
 
-@njit
+@njit(cache=True)
 def _lugre(length: Array, level: Array, rise: float, stribeck: float, time: Array, way: float) -> Array:
     """Average bristle deflection as a share; ``level`` is the sliding force at each row."""
     z = 0.0
@@ -69,7 +69,7 @@ def rubbing(muscle: Muscle, low: float, high: float, speed: float, *ids: str) ->
     return Hidden("contact-area friction", accept(*ids), memory=tension)
 
 
-@njit
+@njit(cache=True)
 def _yielding(length: Array, way: float, exponent: float) -> Array:
     z = 0.0
     out = np.zeros(len(length))
@@ -93,7 +93,7 @@ def yielding(force: float, way: float, exponent: float, *ids: str) -> Hidden:
     )
 
 
-@njit
+@njit(cache=True)
 def _bouc(length: Array, way: float, n: float, beta: float, gamma: float, ageing: float) -> Array:
     z, work = 0.0, 0.0
     out = np.zeros(len(length))
@@ -119,7 +119,7 @@ def degrading_bouc(force: float, way: float, n: float, gamma: float, *ids: str) 
     )
 
 
-@njit
+@njit(cache=True)
 def _iwan(path: Array, limits: Array, weights: Array) -> Array:
     held = np.zeros(len(limits))
     out = np.zeros(len(path))

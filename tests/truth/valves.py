@@ -18,7 +18,7 @@ def dead_time(time: Array, command: Array, opening: float, closing: float, slack
     return np.convolve(np.concatenate([np.full(width - 1, late[0]), late]), np.ones(width) / width, "valid")
 
 
-@njit
+@njit(cache=True)
 def _relays(command: Array, up: Array, down: Array) -> Array:
     on = np.zeros(len(up))
     for k in range(len(up)):
@@ -46,7 +46,7 @@ def preisach(command: Array, width: float) -> Array:
     return 2.0 * share - 1.0
 
 
-@njit
+@njit(cache=True)
 def spool(command: Array, step: float, frequency: float, damping: float, fastest: float) -> Array:
     """A second-order spool whose speed is limited [1/s]."""
     w = 2.0 * np.pi * frequency
