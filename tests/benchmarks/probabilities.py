@@ -1,17 +1,17 @@
 """How far the probabilities of a diagnosis can be believed: reliability table and Brier score. One command:
 
-    python -m tests.benchmarks.probabilities [--seeds 0,1,2] [--kind static] [--noise 1,0.15]
+    python -m tests.benchmarks.probabilities [--seeds 0,1] [--kind static] [--noise 1,0.15] [--keep FILE]
 
-Every case of `tests.truth` is diagnosed, where possible also with its noise scaled. Each effect that is
-called missing, and each that is left out as a correction, is one event: it, or one of its group, is really
-there or not. The regression of `mckibben.identification.diagnose.probability` is fitted to the odd recipes
-and printed; the table is over the even ones.
+Every case of `tests.truth` is diagnosed, where possible also with its noise scaled, and every case of
+`tests/second_truth`. Each effect that is called missing is an event; *true*: it, or one of the group that
+the data cannot tell from it, which shares its probability, is there; *by name*: it is there, or an exact twin
+that the case accepts. Only the odd recipes of `tests.truth` calibrate: the regression of
+`mckibben.identification.diagnose.probability` on them is printed; the tables are over all others.
 """
 
 from __future__ import annotations
 
 import argparse
-import sys
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
@@ -19,24 +19,57 @@ from typing import Any
 
 import numpy as np
 
-from tests.benchmarks.diagnosis import subject_and_start
-from tests.benchmarks.workers import in_parallel, own_studio
+from tests.benchmarks import second_truth
+from tests.benchmarks.diagnosis import say, subject_and_start
+from tests.benchmarks.workers import Examined, add_keep, examined, other_code, own_studio
 from tests.truth.cases import Case
-from tests.truth.generate import all_cases, names
+from tests.truth.generate import case, names
 
-_BINS = (0.0, 0.1, 0.25, 0.5, 0.75, 0.9, 1.0)
+_BINS = (0.0, 0.3, 0.5, 0.75, 0.9, 1.0)
+ODD, EVEN = "odd recipes", "even recipes"
 
 
 @dataclass(frozen=True)
 class Event:
-    """One effect of one diagnosis: what it loses without it, its probability, and whether it is there."""
+    """One effect of one diagnosis.
 
-    case: str
+    Attributes:
+        effect: its id.
+        group: it and what the data cannot tell from it.
+        named: whether it is called missing; a correction otherwise.
+        size, part: what the model loses without it.
+        share: of the models visited that hold one of the group.
+        beside_unknown: whether an unknown effect remains.
+        probability: as the program states it.
+        true, by_name: whether one of the group is there, and whether it is itself.
+    """
+
+    effect: str
+    group: tuple[str, ...]
     named: bool
     size: float
     part: float
+    share: float
+    beside_unknown: bool
     probability: float
     true: bool
+    by_name: bool
+
+
+@dataclass(frozen=True)
+class Question:
+    """A case of one of the sets, by its name."""
+
+    of: str
+    case: str
+    seed: int = 0
+    noise: float = 1.0
+
+    def __str__(self) -> str:
+        """What it is known by."""
+        return f"{self.of}, {self.case} {self.seed}" + (
+            "" if self.noise == 1.0 else f", noise x {self.noise}"
+        )
 
 
 def with_noise(case: Case, predictor: Any, factor: float) -> Any:
@@ -56,40 +89,42 @@ def with_noise(case: Case, predictor: Any, factor: float) -> Any:
     return QuasistaticPredictor(replace(task, measured=scaled))
 
 
-def events_of(question: tuple[Case, float]) -> list[Event]:
+def events_of(question: Question) -> list[Event]:
     """The events of one case."""
     from mckibben.identification.diagnose.diagnosis import diagnose
 
-    case, factor = question
     studio = own_studio()
-    predictor, fit_model = subject_and_start(case, studio)
-    data = with_noise(case, predictor, factor)
-    if data is None:
+    if question.of in (ODD, EVEN):
+        made = case(question.case, question.seed)
+        predictor, start = subject_and_start(made, studio)
+        predictor = with_noise(made, predictor, question.noise)
+        hidden: list[set[str]] = [set(ids) for ids in made.hidden]
+    else:
+        predictor, start, answer, _ = second_truth.parts_of(question.case)
+        hidden = [set(ids) for ids in answer["hidden"]]
+    if predictor is None:
         return []
-    found = diagnose(data, fit_model, catalogue=studio.catalogue)
-    named = set().union(*(item.group for item in found.evidence)) if found.evidence else set()
-    events = [
+    return events_in(diagnose(predictor, start, catalogue=studio.catalogue), hidden)
+
+
+def events_in(result: Any, hidden: Sequence[set[str]]) -> list[Event]:
+    """The events of a diagnosis whose answer is known."""
+    unknown = result.status == "unknown_effect"
+    named = {name for item in result.evidence for name in item.group}
+    return [
         Event(
-            case.name,
-            True,
-            item.loss.size,
-            item.loss.part,
-            item.probability,
-            any(set(item.group) & h for h in case.hidden),
+            item.effect, item.group, True, item.loss.size, item.loss.part, item.share, unknown,
+            item.probability, any(set(item.group) & ids for ids in hidden),
+            any(item.effect in ids for ids in hidden),
         )
-        for item in found.evidence
-    ]
-    return events + [
+        for item in result.evidence
+    ] + [
         Event(
-            case.name,
-            False,
-            item.loss.size,
-            item.loss.part,
-            item.probability,
-            any(item.effect in h and not h & named for h in case.hidden),
+            item.effect, (item.effect,), False, item.loss.size, item.loss.part, 1.0, unknown,
+            item.probability, *[any(item.effect in ids and not ids & named for ids in hidden)] * 2,
         )
-        for item in found.corrections
-    ]
+        for item in result.corrections
+    ]  # fmt: skip
 
 
 def regression(events: Sequence[Event]) -> np.ndarray:
@@ -105,42 +140,97 @@ def regression(events: Sequence[Event]) -> np.ndarray:
     return minimize(misfit, np.zeros(3)).x
 
 
-def main() -> None:
-    """Print the regression of the odd recipes and the reliability of the even ones."""
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
-    parser.add_argument("--seeds", default="0,1,2")
-    parser.add_argument("--kind", default="static", help="transient, static or all")
-    parser.add_argument("--noise", default="1,0.15", help="factors of the noise")
-    given = parser.parse_args()
-    chosen = [
-        (case, float(factor))
-        for case in all_cases(seeds=[int(seed) for seed in given.seeds.split(",")])
-        for factor in given.noise.split(",")
-        if given.kind == "all" or (given.kind == "static") == (case.kind != "transient")
-    ]
-    events = [event for each in in_parallel(events_of, chosen) for event in each]
-    order = {name: number for number, name in enumerate(names())}
-    odd = [event for event in events if order[event.case] % 2]
-    even = [event for event in events if not order[event.case] % 2]
-    constant, by_size, by_part = regression(odd)
-    logit = f"{constant:.2f} + {by_size:.2f} ln size + {by_part:.2f} ln part"
-    say(f"odd recipes, {len(odd)} events: logit = {logit}")
-    say(f"even recipes, {len(even)} events; probabilities as the program states them")
+def table(words: str, events: Sequence[Event]) -> list[str]:
+    """Reliability and Brier score of the effects that are called missing."""
+    named = [event for event in events if event.named]
+    if not named:
+        return []
+    texts = [f"{words}: {len(named)} effects called missing"]
     for low, high in pairwise(_BINS):
-        inside = [e for e in even if low <= e.probability < high or e.probability == high == 1.0]
-        share = f"{100.0 * sum(e.true for e in inside) / len(inside):.0f} % true" if inside else "-"
-        say(f"  {100 * low:3.0f} to {100 * high:3.0f} %: {len(inside):4d}  {share}")
-    brier = float(np.mean([(e.probability - e.true) ** 2 for e in even])) if even else float("nan")
-    base = float(np.mean([e.true for e in even])) if even else float("nan")
-    say(f"Brier score {brier:.3f}; of always stating {100 * base:.0f} %: {base * (1.0 - base):.3f}")
-    named = [e for e in even if e.named]
-    say(f"named effects that are not there: {sum(not e.true for e in named)} of {len(named)}")
+        inside = [e for e in named if low <= e.probability < high or e.probability == high == 1.0]
+        if inside:
+            true, own = (sum(values) for values in zip(*((e.true, e.by_name) for e in inside), strict=True))
+            mean = np.mean([e.probability for e in inside])
+            texts.append(
+                f"  told with {100 * low:3.0f} to {100 * high:3.0f} % (mean {100 * mean:3.0f} %): "
+                f"true {true:3d} of {len(inside):3d} = {100 * true / len(inside):3.0f} %, "
+                f"by name {own:3d} = {100 * own / len(inside):3.0f} %"
+            )
+    brier = [float(np.mean([(e.probability - t) ** 2 for e, t in zip(named, truth, strict=True)]))
+             for truth in ([e.true for e in named], [e.by_name for e in named])]  # fmt: skip
+    base = float(np.mean([e.true for e in named]))
+    texts.append(
+        f"  Brier score {brier[0]:.3f}, by name {brier[1]:.3f}; of always stating {100 * base:.0f} %: "
+        f"{base * (1.0 - base):.3f}"
+    )
+    others = [e for e in events if not e.named]
+    texts.append(
+        f"  corrections that are effects of their own: {sum(e.true for e in others)} of {len(others)}"
+    )
+    return texts
 
 
-def say(text: str) -> None:
-    """Write a line at once."""
-    sys.stdout.write(f"{text}\n")
-    sys.stdout.flush()
+def questions(
+    seeds: Sequence[int], noises: Sequence[float], kind: str, sets: Sequence[str]
+) -> list[Question]:
+    """All cases to diagnose."""
+    order = {name: number for number, name in enumerate(names())}
+    asked = [
+        Question(ODD if order[name] % 2 else EVEN, name, seed, noise)
+        for noise in noises
+        for seed in seeds
+        for name in names()
+        if kind == "all" or (kind == "static") == (case(name, seed).kind != "transient")
+    ]
+    return asked + [Question(chosen, name) for chosen in sets for name in second_truth.names(chosen)]
+
+
+def main() -> None:
+    """Print the regression of the odd recipes and the reliability of all others."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--seeds", default="0,1")
+    parser.add_argument("--kind", default="static", help="transient, static or all")
+    parser.add_argument("--noise", default="1", help="factors of the noise")
+    parser.add_argument("--sets", default="cases,third", help="of tests/second_truth")
+    add_keep(parser)
+    options = parser.parse_args()
+    asked = questions(
+        [int(seed) for seed in options.seeds.split(",") if seed],
+        [float(factor) for factor in options.noise.split(",")],
+        options.kind,
+        [chosen for chosen in options.sets.split(",") if chosen],
+    )
+    lines: list[Examined[list[Event]]] = []
+    for line in examined(events_of, asked, keep=options.keep):
+        lines.append(line)
+        say(f"{line.key:64}{line.seconds:6.1f} s  {', '.join(map(text_of, line.result))}")
+    say("")
+    for text in summary(lines):
+        say(text)
+
+
+def text_of(event: Event) -> str:
+    """An effect with its probability and whether it is there."""
+    mark = "" if event.by_name else " (of its group)" if event.true else " WRONG"
+    return f"{event.effect} {100.0 * event.probability:.0f} %{mark if event.named else ' correction'}"
+
+
+def summary(lines: Sequence[Examined[list[Event]]]) -> list[str]:
+    """The regression and the tables."""
+    events: dict[str, list[Event]] = {}
+    for line in lines:
+        events.setdefault(line.key.partition(",")[0], []).extend(line.result)
+    texts = []
+    if len(events.get(ODD, ())) > 10:
+        constant, by_size, by_part = regression(events[ODD])
+        logit = f"{constant:.2f} + {by_size:.2f} ln size + {by_part:.2f} ln part"
+        texts.append(f"{ODD}, {len(events[ODD])} events: logit = {logit}")
+    for of, some in events.items():
+        texts += table(of if of != ODD else f"{of} (calibrated on)", some)
+    apart = [event for of, some in events.items() if of != ODD for event in some]
+    texts += table(f"all but the {ODD}", apart)
+    texts.append(other_code(lines))
+    return [text for text in texts if text]
 
 
 if __name__ == "__main__":

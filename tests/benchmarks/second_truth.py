@@ -16,6 +16,7 @@ import zipfile
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -23,7 +24,7 @@ from tests.benchmarks.diagnosis import say
 from tests.benchmarks.workers import in_parallel, own_studio
 
 SETS = Path(__file__).parents[1] / "second_truth"
-_OF_LETTER = {"c": "cases", "d": "third", "e": "fourth"}
+OF_LETTER = {"c": "cases", "d": "third", "e": "fourth"}
 WANTED = 1.2  # largest error over the noise of a prediction that holds
 
 
@@ -56,24 +57,33 @@ def names(chosen: str = "cases") -> list[str]:
         return sorted({name.partition("/")[0] for name in archive.namelist() if name.endswith("answer.json")})
 
 
-def diagnosed(case: str) -> Line:
-    """Diagnose one case, predict its second test, and open its answer."""
+def parts_of(case: str) -> tuple[Any, Any, dict[str, Any], bytes]:
+    """Predictor and start model of a case, its answer, and the file of its second test."""
     from mckibben.documents.convert import stated_muscle
     from mckibben.documents.muscle import MuscleInput
-    from mckibben.identification.diagnose.diagnosis import diagnose
     from mckibben.identification.predict import predictor_of
     from mckibben.identification.predict.fit_model import FitModel
     from mckibben.measurement.read import read_measurement
 
-    with zipfile.ZipFile(SETS / f"{_OF_LETTER[case[0]]}.zip") as archive:
+    with zipfile.ZipFile(SETS / f"{OF_LETTER[case[0]]}.zip") as archive:
         train, held, given, answer = (
             archive.read(f"{case}/{name}") for name in ("train.csv", "held.csv", "given.json", "answer.json")
         )
-    studio, truth = own_studio(), json.loads(answer)
+    studio = own_studio()
     muscle = stated_muscle(MuscleInput.model_validate(json.loads(given)["muscle"]))
     model = studio.static_model(studio.start_model(muscle, {}))
     start = FitModel(model.muscle, model.effects, model.values)
-    predictor = predictor_of(read_measurement(train, "train.csv"), start.muscle)
+    return predictor_of(read_measurement(train, "train.csv"), start.muscle), start, json.loads(answer), held
+
+
+def diagnosed(case: str) -> Line:
+    """Diagnose one case, predict its second test, and open its answer."""
+    from mckibben.identification.diagnose.diagnosis import diagnose
+    from mckibben.identification.predict import predictor_of
+    from mckibben.measurement.read import read_measurement
+
+    studio = own_studio()
+    predictor, start, truth, held = parts_of(case)
     began = time.perf_counter()
     result = diagnose(predictor, start, catalogue=studio.catalogue)
     seconds = time.perf_counter() - began
@@ -137,7 +147,7 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--only", default="", help="cases, separated by commas")
-    parser.add_argument("--set", default="cases", choices=tuple(_OF_LETTER.values()), help="which examiner's")
+    parser.add_argument("--set", default="cases", choices=tuple(OF_LETTER.values()), help="which examiner's")
     given = parser.parse_args()
     chosen = [name for name in given.only.split(",") if name] or names(given.set)
     lines = []

@@ -1,0 +1,123 @@
+"""How much processor time the diagnosis of a transient takes, and when its first useful answer is streamed.
+
+    python -m tests.benchmarks.timing [--seeds 0] [--only TEXT] [--kind transient] [--keep FILE]
+
+The measured transients of `tests.truth`, with their entries open to doubt as on every door. *First*: until
+the first effect is streamed with the error that the model has with it; the most promising is tried first.
+*Best*: until the one that stays the best single effect is streamed. Seconds are of the processor, so that a
+busy machine counts the same.
+"""
+
+from __future__ import annotations
+
+import argparse
+import sys
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from tests.benchmarks.diagnosis import say
+from tests.benchmarks.entries import parts_of
+from tests.benchmarks.workers import Examined, add_keep, examined, other_code, own_studio, processor_time
+from tests.truth.cases import Case
+from tests.truth.generate import all_cases
+
+
+@dataclass(frozen=True)
+class Line:
+    """What became of one case; seconds of processor time."""
+
+    case: str
+    rows: int
+    values: int
+    status: str
+    added: tuple[str, ...]
+    first: float
+    first_effect: str
+    best: float
+    best_effect: str
+    whole: float
+
+
+def timed(case: Case) -> Line:
+    """Diagnose one case and note when what is streamed."""
+    from mckibben.identification.diagnose.diagnosis import diagnose
+    from mckibben.identification.diagnose.entries import statements
+
+    studio = own_studio()
+    predictor, start, measurement, rebuilt, drive = parts_of(case, studio)
+    supply = None if drive is None else float(drive.supply_pressure)
+    elastic = studio.catalogue.values()
+    streamed: dict[str, float] = {}
+    began = processor_time()
+
+    def note(candidate: Any) -> None:
+        streamed.setdefault(candidate.effect, processor_time() - began)
+
+    result = diagnose(
+        predictor,
+        start,
+        catalogue=studio.catalogue,
+        statements=statements(measurement, start, rebuilt, supply=supply, elastic=elastic),
+        on_candidate=note,
+    )
+    whole = processor_time() - began
+    first = next(iter(streamed), "")
+    best = result.candidates[0].effect if result.candidates else ""
+    return Line(
+        case.id,
+        case.rows,
+        len(predictor.measured),
+        result.status,
+        result.added,
+        streamed.get(first, float("nan")),
+        first,
+        streamed.get(best, float("nan")),
+        best,
+        whole,
+    )
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--seeds", default="0")
+    parser.add_argument("--only", default="", help="part of the case's name")
+    parser.add_argument("--kind", default="transient", help="of measurement; 'static' is all but transient")
+    add_keep(parser)
+    options = parser.parse_args()
+    chosen = [
+        case
+        for case in all_cases(seeds=tuple(int(seed) for seed in options.seeds.split(",")))
+        if options.only in case.name
+        and (case.kind == options.kind or (options.kind == "static" and case.kind != "transient"))
+    ]
+    lines: list[Examined[Line]] = []
+    for line in examined(timed, chosen, key=lambda case: case.id, keep=options.keep):
+        lines.append(line)
+        say(text_of(line.result))
+    if not lines:
+        sys.exit("no case of that name and kind")
+    whole, first, best = (
+        np.array([getattr(line.result, name) for line in lines]) for name in ("whole", "first", "best")
+    )
+    say(f"\n{len(lines)} cases: median {np.median(whole):.1f} s, longest {np.max(whole):.1f} s")
+    for words, values in (("first effect streamed", first), ("best single effect streamed", best)):
+        within = np.count_nonzero(values <= 1.0)
+        told = f"median {np.nanmedian(values):.2f} s, longest {np.nanmax(values):.2f} s"
+        say(f"{words}: {told}, within 1 s {within} of {len(values)}")
+    say(other_code(lines))
+
+
+def text_of(line: Line) -> str:
+    """A line of the table."""
+    return (
+        f"{line.case:38}{line.rows:5d} rows  first {line.first:5.2f} s ({line.first_effect}), "
+        f"best {line.best:5.2f} s ({line.best_effect}), all {line.whole:6.1f} s  {line.status:16}"
+        f"{', '.join(line.added)}"
+    )
+
+
+if __name__ == "__main__":
+    main()
