@@ -1,11 +1,11 @@
 """What must not change the answer of a diagnosis, as a table. One command, one run:
 
-    python -m tests.benchmarks.metamorphic [--only TEXT] [--few]
+    python -m tests.benchmarks.metamorphic [--only TEXT] [--relation TEXT] [--few] [--keep FILE]
 
 Each case is a measurement; each relation rewrites its files so that they say the same: another origin of
 time, other units, names, order. *Exact* relations must give the same status, the same effects with the same
-alternatives, and the same error and noise within 1e-3; of half the sampling each effect must be
-in one of the groups. ``--few`` lets the diagnosis choose from six effects only.
+alternatives, the same error and noise within 1e-3 and the same probabilities within 0.02; of half the
+sampling each effect must be in one of the groups. ``--few`` lets the diagnosis choose from six effects only.
 """
 
 from __future__ import annotations
@@ -13,8 +13,8 @@ from __future__ import annotations
 import argparse
 import sys
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from pathlib import Path
+from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -24,147 +24,30 @@ from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.points import Points, joined
 from mckibben.measurement.read import read_measurement
+from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import Muscle
-from tests.identification.synthetic import CATALOGUE, MUSCLE, cycles, force_map, length_under
+from tests.benchmarks.metamorphic_cases import Sheet, Sheets, cases
+from tests.benchmarks.workers import add_keep, examined
+from tests.identification.synthetic import CATALOGUE
 
-DATA = Path(__file__).parents[3] / "shared" / "data"
 SAME = 1e-3  # largest relative difference of two errors that are the same
+SAME_PROBABILITY = 0.02  # largest difference of two probabilities that are the same
 FEW = (
     "bladder_elasticity", "prestress", "force_offset", "length_offset", "coulomb_friction", "viscous_damping",
 )  # fmt: skip
-#: Unit -> its size in SI.
-UNITS = {
-    "s": 1.0, "ms": 1e-3, "Pa": 1.0, "bar": 1e5, "kPa": 1e3, "psi": 4.4482216152605 / 0.0254**2, "m": 1.0,
-    "mm": 1e-3, "inch": 0.0254, "N": 1.0, "lbf": 4.4482216152605, "1": 1.0,
-}  # fmt: skip
-#: The usual unit and name of a channel in a file.
-USUAL = {
-    "time": ("s", "time"), "pressure": ("bar", "pressure"), "length": ("mm", "length"),
-    "displacement": ("mm", "displacement"), "force": ("N", "force"), "direction": ("1", "direction"),
-    "group": ("1", "group"),
-}  # fmt: skip
-
-
-@dataclass(frozen=True)
-class Sheet:
-    """One file: its name, its comments, its columns in SI, and how they are written."""
-
-    name: str
-    comments: tuple[str, ...]
-    columns: Mapping[str, np.ndarray]
-    units: Mapping[str, str] = field(default_factory=dict)
-    names: Mapping[str, str] = field(default_factory=dict)
-
-    def text(self) -> str:
-        """The file with all digits of its numbers."""
-        heads, written = [], []
-        for channel, values in self.columns.items():
-            unit = self.units.get(channel, USUAL[channel][0])
-            head = self.names.get(channel, USUAL[channel][1])
-            heads.append(head if unit == "1" else f"{head} [{unit}]")
-            written.append([repr(float(value) / UNITS[unit]) for value in values])
-        rows = [",".join(row) for row in zip(*written, strict=True)]
-        return "\n".join([*(f"# {line}" for line in self.comments), ",".join(heads), *rows]) + "\n"
-
-    def taking(self, rows: np.ndarray) -> Sheet:
-        """Some of the rows, in this order."""
-        return replace(self, columns={name: values[rows] for name, values in self.columns.items()})
-
-
-Sheets = tuple[Sheet, ...]
-
-
-@dataclass(frozen=True)
-class Case:
-    """Files of one measurement and the muscle they are said to be of."""
-
-    name: str
-    sheets: Sheets
-    muscle: Muscle = MUSCLE
 
 
 @dataclass(frozen=True)
 class Relation:
-    """Another way of writing the same files; None where it does not apply."""
+    """Another way of writing the same files; None where it does not apply.
+
+    ``reversed_catalogue``: the effects are given in the reverse order.
+    """
 
     name: str
     rewritten: Callable[[Sheets], Sheets | None]
     exact: bool = True
-
-
-# --- cases
-
-
-def friction(*, direction: float, **_: float) -> float:
-    return 15.0 * direction
-
-
-def cases() -> list[Case]:
-    """Made-up measurements, and measured ones where they are beside the project."""
-    found = [friction_case(), map_case(), isotonic_case()]
-    found += [case for case in (logger_case(), isometric_case()) if case]
-    return found
-
-
-def friction_case(each: int = 30) -> Case:
-    """Isobaric cycles at two speeds, one file per pressure, with a wall and Coulomb friction."""
-    sheets = []
-    for number, level in enumerate((2e5, 4e5, 6e5)):
-        made = cycles(friction, noise=1.0, each=each, second=3.0, c10=0.4e6, levels=(level,), seed=number)
-        names = ("time", "pressure", "length", "force", "direction")
-        columns = {name: np.array(made.columns[name], float) for name in names}
-        sheets.append(Sheet(f"level{number}.csv", ("kind: isobaric",), columns))
-    return Case("friction, isobaric", tuple(sheets))
-
-
-def map_case() -> Case:
-    """A force map with a wall; its rows have no time."""
-    made = force_map(noise=1.0, c10=0.5e6)
-    columns = {name: np.array(made.columns[name], float) for name in ("pressure", "length", "force")}
-    columns["group"] = np.array(made.columns["group"], float)
-    return Case("wall, map", (Sheet("map.csv", ("kind: static",), columns),))
-
-
-def isotonic_case() -> Case:
-    """A muscle with a prestress under 100 N, its pressure raised and lowered over time."""
-    random = np.random.default_rng(11)
-    pressure = 1e5 * np.concatenate([np.linspace(1.5, 6.0, 60), np.linspace(6.0, 1.5, 60)])
-    length = [length_under(100.0, p, prestress=40.0) for p in pressure]
-    columns = {
-        "time": 0.05 * np.arange(120.0), "pressure": pressure,
-        "length": np.array(length) + random.normal(0.0, 5e-5, 120),
-    }  # fmt: skip
-    return Case("prestress, isotonic", (Sheet("lift.csv", ("kind: isotonic", "load_force: 100 N"), columns),))
-
-
-def logger_case() -> Case | None:
-    """A muscle of 155 mm that lifts 0.3 kg, as its logger wrote it."""
-    path = DATA / "logger_S001P001.TXT"
-    if not path.exists():
-        return None
-    lines = [line.split(",") for line in path.read_text().splitlines()[1:] if line.strip()]
-    table = np.array([[float(line[place]) for place in (2, 5, 7)] for line in lines])
-    columns = {
-        "time": 1e-3 * table[:, 0],
-        "pressure": UNITS["psi"] * table[:, 1],
-        "displacement": 1e-3 * table[:, 2],
-    }
-    sheet = Sheet(path.name, ("kind: transient", "load_mass: 0.3 kg"), columns)
-    muscle = Muscle(0.155, 0.0118, np.radians(24.0), 0.0015, 0.010)
-    return Case("logger, transient", (sheet,), muscle)
-
-
-def isometric_case() -> Case | None:
-    """A clamped muscle of 182 mm, pressure up and down."""
-    path = DATA / "isometric_10mm_182.csv"
-    if not path.exists():
-        return None
-    made = read_measurement(path.read_bytes(), path.name)
-    columns = {
-        name: np.array(made.columns[name], float) for name in ("length", "pressure", "force", "direction")
-    }
-    muscle = Muscle(0.182, 0.0118, np.radians(24.0), 0.0015, 0.010)
-    return Case("clamped, isometric", (Sheet(path.name, ("kind: isometric",), columns),), muscle)
+    reversed_catalogue: bool = False
 
 
 # --- relations
@@ -231,6 +114,47 @@ def _halved(sheets: Sheets) -> Sheets:
     return tuple(sheet.taking(np.arange(0, _rows(sheet), 2)) for sheet in sheets)
 
 
+def _as_stroke(sheets: Sheets) -> Sheets | None:
+    """The shortening in place of the length."""
+    if not all("length" in sheet.columns for sheet in sheets):
+        return None
+    changed = []
+    for sheet in sheets:
+        columns = {("displacement" if name == "length" else name): v for name, v in sheet.columns.items()}
+        columns["displacement"] = sheet.rest_length - columns["displacement"]
+        changed.append(replace(sheet, columns=columns))
+    return tuple(changed)
+
+
+def _absolute(sheets: Sheets) -> Sheets:
+    return tuple(
+        replace(
+            sheet,
+            columns={**sheet.columns, "pressure": sheet.columns["pressure"] + 101_325.0},
+            names={"pressure": "absolute pressure"},
+        )
+        for sheet in sheets
+    )
+
+
+def _with_humidity(sheets: Sheets) -> Sheets:
+    random = np.random.default_rng(5)
+    return tuple(
+        replace(
+            sheet, columns={**sheet.columns, "humidity": np.round(random.uniform(40, 50, _rows(sheet)), 1)}
+        )
+        for sheet in sheets
+    )
+
+
+def _disordered(sheets: Sheets) -> Sheets | None:
+    """Rows whose time says the history, in no order."""
+    if not all("time" in sheet.columns for sheet in sheets):
+        return None
+    random = np.random.default_rng(6)
+    return tuple(sheet.taking(random.permutation(_rows(sheet))) for sheet in sheets)
+
+
 def _rows(sheet: Sheet) -> int:
     return len(next(iter(sheet.columns.values())))
 
@@ -250,6 +174,15 @@ RELATIONS = (
     Relation("rows repeated", _repeated),
     Relation("half the sampling", _halved, exact=False),
 )
+#: Further ones, beside the whole catalogue only.
+MORE = (
+    Relation("stroke for length", _as_stroke),
+    Relation("absolute pressure", _absolute),
+    Relation("decimal commas", lambda sheets: tuple(replace(sheet, comma=True) for sheet in sheets)),
+    Relation("a column more", _with_humidity),
+    Relation("effects reversed", lambda sheets: sheets, reversed_catalogue=True),
+    Relation("rows in no order", _disordered),
+)
 
 
 # --- answers
@@ -261,9 +194,16 @@ def predictor_for(sheets: Sheets, muscle: Muscle) -> Predictor:
     return predictor_of(joined(files).measurement, muscle)
 
 
-def answer_of(sheets: Sheets, muscle: Muscle, catalogue: Mapping[str, Any]) -> Diagnosis:
-    """The diagnosis of files from the ideal muscle."""
-    return diagnose(predictor_for(sheets, muscle), FitModel(muscle), catalogue=catalogue)
+def answer_of(
+    sheets: Sheets, muscle: Muscle, catalogue: Mapping[str, Any], start: FitModel | None = None
+) -> Diagnosis:
+    """The diagnosis of files, by default from the ideal muscle."""
+    return diagnose(predictor_for(sheets, muscle), start or FitModel(muscle), catalogue=catalogue)
+
+
+def probabilities_of(found: Diagnosis) -> dict[str, float]:
+    """Probability of each missing effect."""
+    return {item.effect: item.probability for item in found.evidence}
 
 
 def groups_of(found: Diagnosis) -> set[frozenset[str]]:
@@ -292,6 +232,10 @@ def difference(relation: Relation, before: Diagnosis, after: Diagnosis) -> str:
                 return f"{what} {second} instead of {first}"
         elif abs(second - first) > SAME * first:
             return f"{what} {second:.6g} instead of {first:.6g}"
+    stated = probabilities_of(before)
+    for effect, probability in probabilities_of(after).items():
+        if abs(probability - stated[effect]) > SAME_PROBABILITY:
+            return f"probability of {effect} {probability:.3f} instead of {stated[effect]:.3f}"
     return ""
 
 
@@ -305,21 +249,48 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--only", default="", help="part of the name of a case")
     parser.add_argument("--relation", default="", help="part of the name of a relation")
     parser.add_argument("--few", action="store_true", help="six effects instead of the catalogue")
-    given = parser.parse_args(arguments)
-    catalogue = {name: CATALOGUE[name] for name in FEW} if given.few else CATALOGUE
-    failed = 0
-    for case in (case for case in cases() if given.only in case.name):
-        before = answer_of(case.sheets, case.muscle, catalogue)
-        say(f"{case.name}: {before.status}, {_shown(before)}, error {before.best.rmse:.4g}")
-        for relation in RELATIONS:
-            sheets = relation.rewritten(case.sheets)
-            if sheets is None or given.relation not in relation.name:
-                continue
-            changed = difference(relation, before, answer_of(sheets, case.muscle, catalogue))
-            failed += bool(changed) and relation.exact
-            say(f"  {'--' if changed else 'ok'} {relation.name:20} {changed}")
-    say(f"{failed} exact relations do not hold")
+    add_keep(parser)
+    options = parser.parse_args(arguments)
+    chosen = [case for case in cases() if options.only in case.name]
+    asked = [
+        (case.name, relation.name, options.few)
+        for case in chosen
+        for relation in (*RELATIONS, *MORE)
+        if options.relation in relation.name and relation.rewritten(case.sheets) is not None
+    ]
+    failed, counted = 0, 0
+    for line in examined(compared, asked, key=lambda one: " | ".join(map(str, one)), keep=options.keep):
+        case, relation, _ = line.key.split(" | ")
+        exact = next(one.exact for one in (*RELATIONS, *MORE) if one.name == relation)
+        counted += exact
+        failed += bool(line.result) and exact
+        say(f"{'--' if line.result else 'ok'} {case:34}{relation:20}{line.seconds:6.1f} s  {line.result}")
+    say(f"{failed} of {counted} exact relations do not hold, in {len(chosen)} cases")
     return failed
+
+
+def compared(asked: tuple[str, str, bool]) -> str:
+    """What a relation changed of the answer of a case; empty for nothing."""
+    name, relation_name, few = asked
+    case = next(one for one in cases() if one.name == name)
+    relation = next(one for one in (*RELATIONS, *MORE) if one.name == relation_name)
+    catalogue = {effect: CATALOGUE[effect] for effect in FEW} if few else dict(CATALOGUE)
+    sheets = relation.rewritten(case.sheets)
+    assert sheets is not None
+    if relation.reversed_catalogue:
+        catalogue = dict(reversed(catalogue.items()))
+    try:
+        after = answer_of(sheets, case.muscle, catalogue, case.start)
+    except InputError as error:  # a file that is refused is a line of the table, not its end
+        return f"refused: {error}"[:120]
+    return difference(relation, _plain_answer(name, few), after)
+
+
+@lru_cache
+def _plain_answer(name: str, few: bool) -> Diagnosis:
+    case = next(one for one in cases() if one.name == name)
+    catalogue = {effect: CATALOGUE[effect] for effect in FEW} if few else CATALOGUE
+    return answer_of(case.sheets, case.muscle, catalogue, case.start)
 
 
 def say(text: str) -> None:

@@ -6,6 +6,19 @@ Muscles, rigs, numbers of rows and noise are drawn anew for each case: loops at 
 nested, with rests, loops and steps of the pressure at held lengths, pressure cycles under loads, grids and
 scattered points; half of them beside a known wall. An alarm is every verdict but "adequate", every effect
 named and every right entry doubted.
+
+On 24 November 2026, ``--each 100``, 0.36 s of processor time in the median, alarms and upper 95 % bound:
+
+| noise | alarms | bound | wanted |
+|---|---|---|---|
+| white | 0 of 100 | 3.0 % | 3 % |
+| correlated, AR(1) with 0.4 to 0.9 | 6 of 100 | 11.5 % | 10 % |
+| spikes, heavy tails, growing with the force | 0 of 100 | 3.0 % | 10 % |
+| coarse digits | 2 of 100 | 6.2 % | 10 % |
+| noise of the inputs | 8 of 100 | 14.0 % | 10 % |
+
+Where a regression predicts correlated noise from neighbours in pressure and length, it is called unknown;
+noise of the pressure is called a lag of its sensor, which would average it.
 """
 
 from __future__ import annotations

@@ -53,7 +53,7 @@ def timed(case: Case) -> Line:
     began = processor_time()
 
     def note(candidate: Any) -> None:
-        streamed.setdefault(candidate.effect, processor_time() - began)
+        streamed.setdefault(candidate.effect.id, processor_time() - began)
 
     result = diagnose(
         predictor,
@@ -64,7 +64,7 @@ def timed(case: Case) -> Line:
     )
     whole = processor_time() - began
     first = next(iter(streamed), "")
-    best = result.candidates[0].effect if result.candidates else ""
+    best = result.candidates[0].effect.id if result.candidates else ""
     return Line(
         case.id,
         case.rows,

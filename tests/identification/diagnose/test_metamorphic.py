@@ -16,16 +16,12 @@ from mckibben.identification.diagnose.diagnosis import Diagnosis
 from tests.benchmarks.metamorphic import (
     FEW,
     RELATIONS,
-    Case,
     Relation,
     answer_of,
     difference,
-    friction_case,
-    isotonic_case,
-    logger_case,
-    map_case,
     predictor_for,
 )
+from tests.benchmarks.metamorphic_cases import Case, friction_case, isotonic_case, logger_case, map_case
 from tests.identification.synthetic import CATALOGUE
 
 CHOICE = {name: CATALOGUE[name] for name in FEW}
