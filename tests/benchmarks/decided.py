@@ -15,7 +15,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from tests.benchmarks.diagnosis import say, subject_and_start
-from tests.benchmarks.workers import in_parallel, own_studio
+from tests.benchmarks.workers import Examined, add_keep, examined, other_code, own_studio
 from tests.truth.again import played
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
@@ -95,6 +95,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--seeds", default="0,1,2")
     parser.add_argument("--only", default="", help="parts of names, separated by commas")
+    add_keep(parser)
     given = parser.parse_args()
     chosen = [
         case
@@ -105,10 +106,13 @@ def main() -> None:
         and case.hidden
     ]
     lines: list[Line] = []
-    for some in in_parallel(decided, chosen):
-        for line in some:
+    kept: list[Examined[list[Line]]] = []
+    for one in examined(decided, chosen, key=lambda case: case.id, keep=given.keep):
+        kept.append(one)
+        for line in one.result:
             lines.append(line)
             say(text_of(line))
+    say(other_code(kept))
     played_ones = [line for line in lines if line.promised]
     count = sum(line.decided for line in played_ones)
     say(f"\ndecided  {count} of {len(played_ones)}, wanted 80 %")

@@ -15,12 +15,12 @@ import statistics
 import sys
 import time
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from tests.benchmarks.workers import in_parallel, own_studio
+from tests.benchmarks.workers import Examined, add_keep, examined, other_code, own_studio
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
 
@@ -156,6 +156,7 @@ def main() -> None:
     parser.add_argument("--seeds", default="0,1,2")
     parser.add_argument("--only", default="", help="part of the case's name")
     parser.add_argument("--kind", default="", help="transient, isobaric, ...; 'static' is all but transient")
+    add_keep(parser)
     given = parser.parse_args()
     seeds = tuple(int(seed) for seed in given.seeds.split(","))
     chosen = [
@@ -169,10 +170,12 @@ def main() -> None:
         )
     ]
     lines = []
-    for line in in_parallel(diagnosed, [replace(case) for case in chosen]):
-        lines.append(line)
-        say(text_of(line))
-    say("")
+    kept: list[Examined[Line]] = []
+    for one in examined(diagnosed, chosen, key=lambda case: case.id, keep=given.keep):
+        kept.append(one)
+        lines.append(one.result)
+        say(f"{text_of(one.result)} ({one.seconds:.1f} s of the processor)")
+    say(other_code(kept))
     for name, reached, wanted in summary(lines):
         say(f"{name:34}{reached:>18}   {wanted}")
 

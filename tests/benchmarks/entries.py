@@ -10,13 +10,12 @@ table instead, whose entries are right: none may be asked about.
 from __future__ import annotations
 
 import argparse
-import time
 from dataclasses import dataclass
 from typing import Any
 
 from mckibben.physics.errors import InputError
 from tests.benchmarks.diagnosis import say, subject_and_start, true_floor
-from tests.benchmarks.workers import in_parallel, own_studio
+from tests.benchmarks.workers import Examined, add_keep, examined, other_code, own_studio
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
 from tests.truth.wrong_entries import ALONE, APART, Mistake, mistaken
@@ -34,7 +33,6 @@ class Line:
     found: int = 0
     status: str = ""
     text: str = ""
-    seconds: float = 0.0
 
 
 def doubted(given: tuple[frozenset[str], Case]) -> Line:
@@ -48,12 +46,10 @@ def doubted(given: tuple[frozenset[str], Case]) -> Line:
     line = Line(f"{case.name}-{case.seed}", right, len(case.hidden), [], [])
     try:
         predictor, start, measurement, rebuilt, drive = parts_of(case, studio)
-        began = time.perf_counter()
         supply = None if drive is None else float(drive.supply_pressure)
         elastic = studio.catalogue.values()
         stated = statements(measurement, start, rebuilt, supply=supply, elastic=elastic)
         result = diagnose(predictor, start, catalogue=studio.catalogue, statements=stated)
-        line.seconds = time.perf_counter() - began
     except InputError as error:  # refused with a question
         line.status, line.text = "asked", str(error)[:160]
         return line
@@ -98,6 +94,10 @@ def parts_of(case: Case, studio: Any) -> tuple[Any, Any, Any, Any, Any]:
     return predictor, start, measurement, rebuilt, drive
 
 
+def _key(asked: tuple[frozenset[str], Case]) -> str:
+    return f"{'right' if not asked[0] else 'wrong'} {asked[1].id}"
+
+
 def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
@@ -105,6 +105,7 @@ def main() -> None:
     parser.add_argument("--apart", action="store_true", help="the cases kept apart")
     parser.add_argument("--only", default="", help="part of the case's name")
     parser.add_argument("--right", default=None, help="cases with right entries; part of the kind or name")
+    add_keep(parser)
     given = parser.parse_args()
     seeds = tuple(int(seed) for seed in given.seeds.split(","))
     chosen: list[tuple[frozenset[str], Case]]
@@ -120,12 +121,16 @@ def main() -> None:
             pairs += mistaken(seed, APART) if given.apart else mistaken(seed)
         chosen = [(mistake.right, case) for mistake, case in pairs if given.only in case.name]
     lines = []
-    for line in in_parallel(doubted, chosen):
+    kept: list[Examined[Line]] = []
+    for one in examined(doubted, chosen, key=_key, keep=given.keep):
+        line = one.result
+        kept.append(one)
         lines.append(line)
         first = bool(line.named) and line.named[0] in line.right if line.right else not line.named
         first = first or line.status == "asked"
         mark = "ok" if first else "~ " if line.right & set(line.listed) else "--"
-        say(f"{mark} {line.case:44} {line.status:16} {line.seconds:5.1f} s {line.text}")
+        say(f"{mark} {line.case:44} {line.status:16} {one.seconds:5.1f} s {line.text}")
+    say(other_code(kept))
     if given.right is not None:
         say(f"right entries doubted: {sum(bool(line.named) for line in lines)} of {len(lines)}")
         return

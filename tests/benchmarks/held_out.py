@@ -19,7 +19,7 @@ from typing import Any
 import numpy as np
 
 from tests.benchmarks.diagnosis import say, subject_and_start
-from tests.benchmarks.workers import in_parallel, own_studio
+from tests.benchmarks.workers import Examined, add_keep, examined, other_code, own_studio
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
 
@@ -96,6 +96,7 @@ def main() -> None:
     parser.add_argument("--seeds", default="0")
     parser.add_argument("--only", default="", help="parts of names, separated by commas")
     parser.add_argument("--kind", default="", help="transient, isobaric, ...; 'static' is all but transient")
+    add_keep(parser)
     given = parser.parse_args()
     chosen = [
         case
@@ -110,10 +111,13 @@ def main() -> None:
         )
     ]
     lines = []
-    for line in in_parallel(predicted, chosen):
+    kept: list[Examined[Line]] = []
+    for one in examined(predicted, chosen, key=lambda case: case.id, keep=given.keep):
+        kept.append(one)
+        line = one.result
         lines.append(line)
-        say(text_of(line))
-    say("")
+        say(f"{one.seconds:6.1f} s  {text_of(line)}")
+    say(other_code(kept))
     for text in summary(lines):
         say(text)
 

@@ -18,7 +18,7 @@ import numpy as np
 
 from tests.benchmarks.diagnosis import say, subject_and_start
 from tests.benchmarks.held_out import second_test
-from tests.benchmarks.workers import in_parallel, own_studio
+from tests.benchmarks.workers import Examined, add_keep, examined, other_code, own_studio
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
 
@@ -94,6 +94,7 @@ def main() -> None:
     parser.add_argument(
         "--kind", default="static", help="transient, isobaric, ...; 'static' is all but transient"
     )
+    add_keep(parser)
     given = parser.parse_args()
     chosen = [
         case
@@ -104,12 +105,16 @@ def main() -> None:
         and (case.kind == given.kind or (given.kind == "static") == (case.kind != "transient"))
     ]
     lines = []
-    for line in in_parallel(covered, chosen):
+    kept: list[Examined[Line]] = []
+    for one in examined(covered, chosen, key=lambda case: case.id, keep=given.keep):
+        kept.append(one)
+        line = one.result
         lines.append(line)
         say(
             f"{line.case:46}{100.0 * line.covered:5.1f} %  width {line.width:5.2f} x noise"
-            f"  twins {line.twins}  {line.problem}"
+            f"  twins {line.twins}  {one.seconds:5.1f} s  {line.problem}"
         )
+    say(other_code(kept))
     shares = np.array([line.covered for line in lines if not line.problem])
     alone = np.array([line.covered for line in lines if not line.problem and not line.twins])
     held = f"{100.0 * np.mean(shares):.1f} % of the readings of {len(shares)} cases"

@@ -1,6 +1,6 @@
 """What must not change the answer of a diagnosis, as a table. One command, one run:
 
-    python -m tests.benchmarks.metamorphic [--only TEXT] [--relation TEXT] [--few] [--keep FILE]
+    python -m tests.benchmarks.metamorphic [--only TEXT] [--relation TEXT] [--few] [--long] [--keep FILE]
 
 Each case is a measurement; each relation rewrites its files so that they say the same: another origin of
 time, other units, names, order. *Exact* relations must give the same status, the same effects with the same
@@ -249,9 +249,14 @@ def main(arguments: Sequence[str] | None = None) -> int:
     parser.add_argument("--only", default="", help="part of the name of a case")
     parser.add_argument("--relation", default="", help="part of the name of a relation")
     parser.add_argument("--few", action="store_true", help="six effects instead of the catalogue")
+    parser.add_argument("--long", action="store_true", help="also the logger: 1.5 minutes for each relation")
     add_keep(parser)
     options = parser.parse_args(arguments)
-    chosen = [case for case in cases() if options.only in case.name]
+    chosen = [
+        case
+        for case in cases()
+        if options.only in case.name and (options.long or not case.name.startswith("logger"))
+    ]
     asked = [
         (case.name, relation.name, options.few)
         for case in chosen

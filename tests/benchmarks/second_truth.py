@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from tests.benchmarks.diagnosis import say
-from tests.benchmarks.workers import in_parallel, own_studio
+from tests.benchmarks.workers import Examined, add_keep, examined, other_code, own_studio
 
 SETS = Path(__file__).parents[1] / "second_truth"
 OF_LETTER = {"c": "cases", "d": "third", "e": "fourth"}
@@ -148,13 +148,16 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--only", default="", help="cases, separated by commas")
     parser.add_argument("--set", default="cases", choices=tuple(OF_LETTER.values()), help="which examiner's")
+    add_keep(parser)
     given = parser.parse_args()
     chosen = [name for name in given.only.split(",") if name] or names(given.set)
     lines = []
-    for line in in_parallel(diagnosed, chosen):
-        lines.append(line)
-        say(text_of(line))
-    say("")
+    kept: list[Examined[Line]] = []
+    for one in examined(diagnosed, chosen, keep=given.keep):
+        kept.append(one)
+        lines.append(one.result)
+        say(f"{text_of(one.result)}  {one.seconds:.1f} s of the processor")
+    say(other_code(kept))
     for text in summary(lines):
         say(text)
 

@@ -194,6 +194,22 @@ def test_newest_first_is_turned() -> None:
     assert any("backwards in time" in message for message in found.messages)
 
 
+def test_rows_in_no_order_are_sorted_by_their_time() -> None:
+    order = np.random.default_rng(1).permutation(len(TIME))
+    rows = table(TIME[order], PRESSURE[order], FORCE[order], STROKE[order])
+    found = read(f"rest length 300 mm\ntime_s,pressure_bar,force_N,stroke_mm\n{rows}")
+    assert_is_the_test(found)
+    assert found.columns["time"].tolist() == TIME.tolist()
+    assert any("in no order of time" in message for message in found.messages)
+
+
+def test_runs_that_begin_at_0_stay_as_they_are() -> None:
+    time = np.tile([0.0, 1.0], len(TIME) // 2)
+    rows = table(time, *(values[: len(time)] for values in (PRESSURE, FORCE, STROKE)))
+    found = read(f"rest length 300 mm\ntime_s,pressure_bar,force_N,stroke_mm\n{rows}")
+    assert found.columns["time"].tolist() == time.tolist()
+
+
 def test_statistics_above_and_below_are_no_readings() -> None:
     body = f"Mean,30,100\nMax,60,200\n{table(PRESSURE, STROKE, FORCE)}\nMean,30,100\nStd.Dev.,1,2\nN,40,40\n"
     assert_is_the_test(read(f"rest length 300 mm\nPressure (bar),Stroke (mm),Force (N)\n{body}"))

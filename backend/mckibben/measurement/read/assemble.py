@@ -41,6 +41,10 @@ from mckibben.measurement.read.tares import notes_of_tares, subtract_tare, zero_
 from mckibben.physics.errors import InputError
 
 _FEWEST_TO_TURN = 3  # rows
+_DISORDERED = 1.0 / 3.0  # share of steps back in time from which rows are in no order; a half by chance
+_RUN_CHANGES = (
+    0.1  # share of rows that begin another run, above which the runs do not follow each other in time
+)
 _LOOKED_AT = 20_000  # readings from which questions are asked
 
 
@@ -230,16 +234,36 @@ def _oldest_first(
     columns: dict[str, NDArray], by_use: Mapping[str, HeaderColumn], slack: NDArray | None, source: RawTable,
     messages: list[str],
 ) -> NDArray | None:  # fmt: skip
-    """Turn the rows of a file that runs backwards in time; returns the marks of slack, turned too."""
+    """Turn or sort the rows of a file whose time does not run forwards; the marks of slack, turned too."""
     time = columns.get("time")
-    if time is None or len(time) < _FEWEST_TO_TURN or not (np.diff(time) <= 0.0).all() or time[0] == time[-1]:
+    if time is None or len(time) < _FEWEST_TO_TURN or time.min() == time.max():
+        return slack
+    if (np.diff(time) <= 0.0).all():
+        order = np.arange(len(time))[::-1]
+        said = "the rows run backwards in time: they are read from the last to the first"
+    elif (sorted_rows := _order_of(time, columns.get("group"))) is not None:
+        order, said = sorted_rows, "the rows are in no order of time: they are sorted by it"
+    else:
         return slack
     for channel, values in columns.items():
-        columns[channel] = values[::-1].copy()
+        columns[channel] = values[order].copy()
     if by_use["time"].place in source.clocks:
         columns["time"] -= columns["time"][0]
-    messages.append("the rows run backwards in time: they are read from the last to the first")
-    return slack if slack is None else slack[::-1].copy()
+    messages.append(said)
+    return slack if slack is None else slack[order].copy()
+
+
+def _order_of(time: NDArray, group: NDArray | None) -> NDArray[np.intp] | None:
+    """Rows in order of time where they are in no order; None where they are, or several runs begin at 0."""
+    if np.mean(np.diff(time) < 0.0) < _DISORDERED:
+        return None
+    labels = np.zeros(len(time)) if group is None else group
+    if len(np.unique(np.column_stack([labels, time]), axis=0)) < len(time):
+        return None
+    order = np.argsort(time)
+    if np.mean(np.diff(labels[order]) != 0) < _RUN_CHANGES:
+        return order
+    return np.lexsort((time, labels))  # each run has a time of its own
 
 
 def _suits(kind: str, columns: Mapping[str, NDArray]) -> bool:
