@@ -140,6 +140,35 @@ def regression(events: Sequence[Event]) -> np.ndarray:
     return minimize(misfit, np.zeros(3)).x
 
 
+def one_map(events: Sequence[Event]) -> tuple[float, float]:
+    """Constants a and b of logit p' = a + b logit p, by maximum likelihood with a weak prior at 0 and 1."""
+    from scipy.optimize import minimize
+
+    logits = _logit(np.array([e.probability for e in events]))
+    sign = np.array([1.0 if e.true else -1.0 for e in events])
+
+    def misfit(constants: np.ndarray) -> float:
+        a, b = constants
+        return float(np.sum(np.logaddexp(0.0, -sign * (a + b * logits))) + 0.5 * a**2 + 2.0 * (b - 1.0) ** 2)
+
+    a, b = minimize(misfit, np.array([0.0, 1.0])).x
+    return float(a), float(b)
+
+
+def _logit(probability: np.ndarray) -> np.ndarray:
+    inside = np.clip(probability, 1e-4, 1.0 - 1e-4)
+    return np.log(inside / (1.0 - inside))
+
+
+def mapped(events: Sequence[Event], constants: tuple[float, float]) -> list[Event]:
+    """The events with their probabilities mapped."""
+    a, b = constants
+    logits = a + b * _logit(np.array([e.probability for e in events]))
+    return [
+        replace(e, probability=float(p)) for e, p in zip(events, 1.0 / (1.0 + np.exp(-logits)), strict=True)
+    ]
+
+
 def table(words: str, events: Sequence[Event]) -> list[str]:
     """Reliability and Brier score of the effects that are called missing."""
     named = [event for event in events if event.named]
@@ -229,6 +258,11 @@ def summary(lines: Sequence[Examined[list[Event]]]) -> list[str]:
         texts += table(of if of != ODD else f"{of} (calibrated on)", some)
     apart = [event for of, some in events.items() if of != ODD for event in some]
     texts += table(f"all but the {ODD}", apart)
+    named = [event for event in events.get(ODD, ()) if event.named]
+    if named and apart:
+        a, b = one_map(named)
+        texts.append(f"map fitted to the {ODD}: logit p' = {a:.2f} + {b:.2f} logit p")
+        texts += table(f"all but the {ODD}, mapped", mapped(apart, (a, b)))
     texts.append(other_code(lines))
     return [text for text in texts if text]
 

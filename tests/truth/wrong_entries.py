@@ -141,6 +141,8 @@ def mistaken(seed: int, names: tuple[str, ...] = (*ALONE, *BESIDE, *DRIVES)) -> 
             heads = " ".join(text[:400].lower() for text in changed.files.values())
             if mistake.name in ("absolute", "tenth") and "abs" in heads:
                 continue  # said to be absolute already; a tenth of it would be below the atmosphere
+            if mistake.name == "thin-wall" and "bladder_elasticity" not in changed.effects:
+                continue  # nobody knows the modulus: a thinner wall is a stiffer one
             if mistake.name in ("longer", "shorter") and "contraction" in heads:
                 continue  # shares of the length say nothing about the length
             found.append((mistake, replace(changed, name=f"{name}+{mistake.name}")))

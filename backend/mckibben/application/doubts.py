@@ -175,6 +175,6 @@ def notes_of(context: Sequence[WrongEntry], titles: Mapping[str, str]) -> list[s
             notes.append(f"{found.entry.title[4:]} is kept as stated, although {sentence_of(found, titles)}")
         elif not found.stands:
             notes.append(
-                f"{sentence_of(found, titles)}: as well as the added effects do, so measure it first"
+                f"{sentence_of(found, titles)}. That is as good as the added effects: check it first"
             )
     return notes

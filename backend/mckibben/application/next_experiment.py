@@ -24,6 +24,8 @@ _COLUMNS: Mapping[str, tuple[str, str, float]] = {
 }
 
 
+_TOLD = 4  # most pairs that the words name
+
 #: Why there may be none.
 NO_EXPERIMENT = "no two effects have to be told apart, or no experiment of this rig would do it"
 
@@ -119,16 +121,26 @@ def next_experiment(design: DesignedExperiment) -> NextExperiment:
 
 
 def next_measurement(diagnosis: Diagnosis, titles: Mapping[str, str]) -> str | None:
-    """What to measure next, in words: the experiments that split a group, then what is declared."""
+    """What to measure next, in words: the experiments that split a group, then what is declared.
+
+    An entry that may be wrong comes before any experiment.
+    """
+    doubted = next((entry.entry for entry in diagnosis.context if entry.stands), None)
+    if doubted is not None:
+        return f"check {doubted.title}, before any other experiment"
     sentences = []
     for design in diagnosis.designs:
         names = {name: titles.get(name, name) for name in design.group}
         split = [s for s in design.separations if s.sigma >= 1.0]
         if split:
-            parts = [f"{names[s.first]} from {names[s.second]} by {s.sigma:.1f} sigma" for s in split[:4]]
-            sentences.append(
-                f"{design.words} (about {max(design.minutes, 1.0):.0f} min) separates {'; '.join(parts)}"
-            )
+            parts = []
+            for first in dict.fromkeys(s.first for s in split[:_TOLD]):
+                others = [
+                    f"{names[s.second]} ({s.sigma:.1f} sigma)" for s in split[:_TOLD] if s.first == first
+                ]
+                parts.append(f"{names[first]} from {' and from '.join(others)}")
+            minutes = max(design.minutes, 1.0)
+            sentences.append(f"{design.words} (about {minutes:.0f} min), to tell {'; '.join(parts)}")
     told = {frozenset(pair) for d in diagnosis.designs for pair in d.decided()}
     rest = [p for p in diagnosis.proposals if frozenset((p.first, p.second)) not in told]
     sentences += [p.sentence(titles) for p in rest if p.declared][: max(3 - len(sentences), 1)]

@@ -224,6 +224,12 @@ class Effect:
             ) from error
 
     @property
+    def shown_in(self) -> str:
+        """The kinds of measurement that reveal it, in words."""
+        *first, last = sorted(self.kinds)
+        return f"{', '.join(first)} or {last}" if first else last
+
+    @property
     def defaults(self) -> dict[str, float]:
         """Parameter name -> default, SI."""
         return {parameter.name: parameter.default for parameter in self.parameters}

@@ -4,10 +4,13 @@ from __future__ import annotations
 
 from dataclasses import replace
 from math import exp, log, sqrt
+from types import SimpleNamespace
+from typing import Any
 
 import numpy as np
 import pytest
 
+from mckibben.identification.diagnose.contest import entries_right
 from mckibben.identification.diagnose.probability import (
     LIKELY,
     Evidence,
@@ -96,6 +99,19 @@ def test_a_loss_is_measured_in_noise_and_as_a_part_of_what_is_explained() -> Non
 def test_beside_an_unknown_effect_what_is_named_is_less_sure() -> None:
     alone = Evidence("creep", ("creep",), 1.0, Loss(20.0, 0.9))
     assert replace(alone, beside_unknown=True).probability == pytest.approx(0.6 * alone.probability)
+
+
+def test_a_wrong_entry_makes_the_effects_unlikely_that_its_correction_does_without() -> None:
+    def found(confidence: float, *effects: str, stands: bool = True) -> Any:
+        return SimpleNamespace(confidence=confidence, effects=effects, stands=stands)
+
+    assert entries_right([], ["creep"]) == 1.0
+    assert entries_right([found(0.98, "prestress", stands=False)], ["creep"]) == 1.0
+    assert entries_right([found(0.98, "prestress"), found(0.7)], ["creep"]) == pytest.approx(0.02)
+    assert entries_right([found(0.98, "prestress")], ["force_offset", "prestress"]) == 1.0
+    alone = Evidence("creep", ("creep",), 1.0, Loss(20.0, 0.9))
+    doubted = replace(alone, entries_right=0.02)
+    assert doubted.probability == pytest.approx(0.02 * alone.probability)
 
 
 def test_a_large_effect_is_likely_and_a_small_correction_is_not() -> None:

@@ -72,19 +72,24 @@ SENTENCES = {
     ),
     "No catalogued effect lowers the error of 5 N. The noise cannot be estimated from these data: "
     "state it to know whether the error exceeds it.": result("adequate", 5.0, 5.0, noise=None),
-    "Missing: Creep (97 %). With it the error falls from 40 to 2.1 N, the noise of the data (2 N).": result(
-        "missing_effects", 40.0, 2.1, "creep"
+    "Missing: Creep (probability 97 %). With it the error falls from 40 to 2.1 N, the noise of the data "
+    "(2 N).": result("missing_effects", 40.0, 2.1, "creep"),
+    "With the entries as stated, Creep would be missing, and the error falls from 40 to 9 N only; the noise "
+    "is 2 N.": result("ambiguous", 40.0, 9.0, "creep", doubted=True),
+    "Missing: Creep (probability 97 %). With it the error falls from 40 to 9 N; the noise is 2 N. No "
+    "catalogued effect explains the rest: the proposed term takes 80 % of it.": result(
+        "unknown_effect", 40.0, 9.0, "creep", term=SimpleNamespace(share=0.8)
     ),
-    "Missing: Creep (97 %) and Leak (97 %). "
+    "Missing: Creep (probability 97 %) and Leak (97 %). "
     "With them the error falls from 4 to 1.02 times the noise.": result(
         "missing_effects", 4.0, 1.02, "creep", "leak", unit="1", noise=1.0
     ),
-    "Missing: Creep (97 %). "
+    "Missing: Creep (probability 97 %). "
     "With it the error falls from 40 to 3 mm; the noise is 2 mm. Of the rest, 40 % depends "
     "on pressure and time.": result(
         "missing_effects", 0.040, 0.003, "creep", unit="m", noise=2e-3, share=0.4
     ),
-    "Missing: Creep (97 %). "
+    "Missing: Creep (probability 97 %). "
     "With it the error falls from 40 to 9 N; the noise is 2 N. No catalogued effect explains "
     "the rest: it depends on no measured variable; repeat the run to see whether it recurs.": result(
         "unknown_effect", 40.0, 9.0, "creep"
@@ -95,13 +100,13 @@ SENTENCES = {
     "No catalogued effect explains the error of 40 N: 90 % of it depends on pressure and time.": result(
         "unknown_effect", 40.0, 40.0, share=0.9, term=object()
     ),
-    "Missing: Creep (97 %). "
+    "Missing: Creep (probability 97 %). "
     "With it the error falls from 40 to 10 mm; the noise is 2 mm. No catalogued effect "
     "explains the rest: 90 % of it depends on pressure and time. No formula is proposed; look where it is "
     "largest: pressure 5.00 to 6.00 bar (13 mm) and time 3.00 to 4.00 s (11 mm).": result(
         "unknown_effect", 0.040, 0.010, "creep", unit="m", noise=2e-3, share=0.9
     ),
-    "Missing: Creep (97 %). "
+    "Missing: Creep (probability 97 %). "
     "The model's own numbers, refitted, lower the error from 40 to 15 N; with it the error "
     "falls to 2.1 N, the noise of the data (2 N).": result(
         "missing_effects", 40.0, 2.1, "creep", refitted=15.0
@@ -111,13 +116,19 @@ SENTENCES = {
     "With the entries as stated no catalogued effect explains the error of 40 N.": result(
         "ambiguous", 40.0, 40.0, doubted=True
     ),
-    "Missing: Creep (97 %). "
+    "Missing: Creep (probability 97 %). "
     "With it the error falls from 40 to 2.1 N, the noise of the data (2 N). These data "
     "cannot tell Creep from Leak. The model holds Creep: it is the most common of them; "
     "every rubber relaxes when it is held.": result(
         "ambiguous", 40.0, 2.1, "creep", alternatives=(SimpleNamespace(of="creep", effect="leak"),)
     ),
 }
+
+
+def test_a_title_in_brackets_takes_the_probability_into_them() -> None:
+    found = result("missing_effects", 40.0, 2.1, "bladder_elasticity", "creep")
+    said = sentence_of(found, {**CATALOGUE, "bladder_elasticity": BUILT_IN["bladder_elasticity"]})
+    assert said.startswith("Missing: Bladder elasticity (hyperelastic, probability 97 %) and Creep (97 %).")
 
 
 @pytest.mark.parametrize("sentence", SENTENCES)
@@ -162,14 +173,14 @@ def test_a_correction_is_said_with_its_errors_and_probability() -> None:
     leak = SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12, kept=True)
     found.corrections = (leak,)
     assert corrections_sentence(found, TITLES) == (
-        "Not called missing, but kept in the model as a correction: Leak (from 2.1 to 1.9 N, 12 %). A "
-        "slightly inexact form of the effects above would explain as much, but with it the model predicts "
-        "left-out groups better."
+        "Not called missing, but kept in the model as a correction: Leak (from 2.1 to 1.9 N, probability "
+        "12 %). A slightly inexact form of the effects above would explain as much, but with it the model "
+        "predicts left-out groups better."
     )
     found.corrections = (SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12, kept=False),)
     assert corrections_sentence(found, TITLES) == (
-        "Neither called missing nor kept: Leak (from 2.1 to 1.9 N, 12 %). An inexact form of the effects "
-        "above would explain as much, and these data do not test what it would predict elsewhere."
+        "Neither called missing nor kept: Leak (from 2.1 to 1.9 N, probability 12 %). An inexact form of "
+        "the effects above would explain as much, and these data do not test what it would predict elsewhere."
     )
     assert corrections_sentence(result("adequate", 2.0, 2.0), TITLES) == ""
 
@@ -185,7 +196,7 @@ def test_many_alternatives_are_grouped_by_family() -> None:
 def test_an_effect_that_is_less_likely_than_not_is_only_perhaps_missing() -> None:
     found = result("missing_effects", 20.0, 2.0, "creep", "leak")
     found.evidence[1].probability = 0.3
-    assert "Missing: Creep (97 %) and perhaps Leak (30 %)." in sentence_of(found, CATALOGUE)
+    assert "Missing: Creep (probability 97 %) and perhaps Leak (30 %)." in sentence_of(found, CATALOGUE)
 
 
 def test_specimens_that_were_left_out_are_told_in_newtons_and_percent() -> None:

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from mckibben.identification.diagnose.as_compared import as_compared
-from mckibben.identification.diagnose.contest import WrongEntry, contest
+from mckibben.identification.diagnose.contest import WrongEntry, contest, entries_right
 from mckibben.identification.diagnose.corrections import Correction, refined, without_corrections
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
@@ -350,7 +350,14 @@ def _diagnose(
         context=context,
         absorbed=absorbed_by(predictor, best.fit_model),
         corrections=corrections,
-        evidence=tuple(replace(item, beside_unknown=status == "unknown_effect") for item in support),
+        evidence=tuple(
+            replace(
+                item,
+                beside_unknown=status == "unknown_effect",
+                entries_right=entries_right(context, item.group),
+            )
+            for item in support
+        ),
         weights=weights,
         left_out=left_out_specimens(predictor, best) if isinstance(predictor, SpecimensPredictor) else (),
     )

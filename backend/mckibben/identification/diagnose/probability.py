@@ -112,6 +112,7 @@ class Evidence:
         share: of the visited models, by weight, that hold one of the group.
         loss: what the best model loses without it.
         beside_unknown: whether an unknown effect remains.
+        entries_right: probability that no entry is wrong whose correction does without the group.
     """
 
     effect: str
@@ -119,11 +120,13 @@ class Evidence:
     share: float
     loss: Loss
     beside_unknown: bool = False
+    entries_right: float = 1.0
 
     @property
     def probability(self) -> float:
         """Probability that one of the group is really missing."""
-        return self.share * self.loss.probability * (_BESIDE_UNKNOWN if self.beside_unknown else 1.0)
+        known = _BESIDE_UNKNOWN if self.beside_unknown else 1.0
+        return self.share * self.loss.probability * known * self.entries_right
 
 
 @dataclass(frozen=True)

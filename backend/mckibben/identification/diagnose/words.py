@@ -53,7 +53,11 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     reached = [step.fitted_model for step in result.path if not step.correction]
     before, after = scale * result.start.rmse, scale * reached[-1].rmse
     refitted = scale * next((s.fitted_model for s in result.path if s.refitted), result.root).rmse
-    names = _joined([_likely(result, name, titles) for name in result.added])
+    doubted = any(entry.stands for entry in result.context)
+    names = _joined([
+        titles.get(name, name) if doubted else _likely(result, name, titles, first=not number)
+        for number, name in enumerate(result.added)
+    ])  # fmt: skip
     noise = None if result.noise is None else scale * result.noise
     highest = noise if result.noise_interval is None else scale * result.noise_interval.high
     level = ""
@@ -66,7 +70,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
         error = f"the error of {after:.3g} {unit}"
         if after < _REFITTED * before:
             error += f" (with the numbers of the model refitted; before {before:.3g} {unit})"
-        if any(entry.stands for entry in result.context):
+        if doubted:
             return f"With the entries as stated no catalogued effect explains {error}."
         if result.status == "unknown_effect":
             unsure = "" if result.noise is not None else f" {_UNKNOWN_NOISE}"
@@ -82,6 +86,11 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
         "" if not level else f", the noise of the data ({level})" if at_floor else f"; the noise is {level}"
     )
     these = "it" if len(result.added) == 1 else "them"
+    if doubted:
+        return (
+            f"With the entries as stated, {names} would be missing, and the error falls from {before:.3g} to "
+            f"{after:.3g} {unit} only{floor}."
+        )
     text = f"Missing: {names}. With {these} the error falls from {before:.3g} to {after:.3g} {unit}{floor}."
     if result.root.free and refitted < _REFITTED * before:
         text = (
@@ -155,7 +164,7 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
     def listed(items: list[Correction]) -> str:
         return _joined([
             f"{titles.get(item.effect, item.effect)} (from {scale * item.before:.3g} to "
-            f"{scale * item.after:.3g} {unit}, {_share(item.probability)})"
+            f"{scale * item.after:.3g} {unit}, probability {_share(item.probability)})"
             for item in items
         ])  # fmt: skip
 
@@ -201,11 +210,13 @@ def left_out_sentence(result: Diagnosis) -> str:
     return text
 
 
-def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str]) -> str:
-    """Title of an effect with its probability, or that of its group."""
+def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str], *, first: bool) -> str:
+    """Title of an effect with its probability, or that of its group; ``first``: say what the figure is."""
     probability = next((item.probability for item in result.evidence if item.effect == effect), 1.0)
     perhaps = "perhaps " if probability < _EVEN else ""
-    return f"{perhaps}{titles.get(effect, effect)} ({_share(probability)})"
+    figure = f"{'probability ' if first else ''}{_share(probability)}"
+    title = titles.get(effect, effect)
+    return f"{perhaps}{title[:-1]}, {figure})" if title.endswith(")") else f"{perhaps}{title} ({figure})"
 
 
 def _share(probability: float) -> str:
@@ -241,6 +252,8 @@ def _unit_of(result: Diagnosis) -> tuple[str, float]:
 def _rest(result: Diagnosis) -> str:
     """The variables that the last residual depends on."""
     if result.structure.share < _WORTH_TELLING:
+        if result.term is not None:
+            return f"the proposed term takes {100.0 * result.term.share:.0f} % of it"
         return "it depends on no measured variable; repeat the run to see whether it recurs"
     return _structured(result, " of it")
 

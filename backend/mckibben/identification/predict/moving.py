@@ -155,7 +155,7 @@ class TransientPredictor(Predictor):
     def why_hidden(self, effect: Effect) -> str:
         """Checked by the kinds of the effect; effects on the air flow need a command channel."""
         if self.kind not in effect.kinds:
-            return f"it does not show in {self.kind} data, only in {' or '.join(sorted(effect.kinds))}"
+            return f"it does not show in {self.kind} data, only in {effect.shown_in}"
         forced = any(channel.name == "force" for channel in self.channels)
         if not forced and set(effect.slots) <= {"force_sensor", "skew"}:
             return "it acts on the force reading, and no force was measured"

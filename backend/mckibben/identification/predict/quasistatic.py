@@ -78,7 +78,7 @@ class QuasistaticPredictor(Predictor):
         """
         free = self.kind == "static" and self.task.time is not None
         if not effect.kinds & ({"static", "isobaric", "isometric"} if free else {self.kind}):
-            return f"it does not show in {self.kind} data, only in {' or '.join(sorted(effect.kinds))}"
+            return f"it does not show in {self.kind} data, only in {effect.shown_in}"
         delays = late(effect)
         if (remembers(effect) or delays) and self.task.time is None:
             return "it depends on what happened before, and the rows have no time"
