@@ -64,14 +64,26 @@ def predicted(case: Case) -> Line:
         line.added = result.added
         line.corrections = tuple(item.effect for item in result.corrections)
         twins = [error(twin.fitted_model.fit_model) for twin in result.alternatives]
-        differences = [_rms(twin - lean) for twin in twins]
-        line.parting = sum(difference > _PART for difference in differences)
-        line.spread = max(differences, default=0.0)
-        band = np.array([best, *twins])
-        line.covered = float(np.mean((band.min(axis=0) < _NORMAL_90) & (band.max(axis=0) > -_NORMAL_90)))
+        line.parting, line.spread, line.covered = band(best, lean, twins)
     except Exception as failure:  # a case that breaks is a line of the table, not its end
         line.problem = f"{type(failure).__name__}: {failure}"[:120]
     return line
+
+
+def band(best: np.ndarray, lean: np.ndarray, twins: Sequence[np.ndarray]) -> tuple[int, float, float]:
+    """Number of twins that part, their largest difference, and the share of readings within the band.
+
+    The 90 % band reaches from the lowest to the highest prediction, and by the noise beyond.
+
+    Args:
+        best, lean: errors over the noise of the model and of the model without corrections.
+        twins: of those that fit the first test as well.
+    """
+    differences = [_rms(twin - lean) for twin in twins]
+    errors = np.array([best, *twins])
+    inside = (errors.min(axis=0) < _NORMAL_90) & (errors.max(axis=0) > -_NORMAL_90)
+    parting = sum(difference > _PART for difference in differences)
+    return parting, max(differences, default=0.0), float(np.mean(inside))
 
 
 def second_test(case: Case, studio: Any) -> tuple[Any, np.ndarray]:

@@ -3,7 +3,7 @@
     python -m tests.benchmarks.second_truth [--set cases|third|fourth] [--only c01,c02]
 
 Errors are over the true noise. *Surplus*: a named group that holds no hidden effect. *Held*: error of the
-repaired model on the second test of the same muscle, without fitting anything again.
+repaired model on the second test of the same muscle, without fitting anything again; *band*: over its twins.
 """
 
 from __future__ import annotations
@@ -21,6 +21,7 @@ from typing import Any
 import numpy as np
 
 from tests.benchmarks.diagnosis import say
+from tests.benchmarks.held_out import band
 from tests.benchmarks.workers import Examined, add_keep, examined, other_code, own_studio
 
 SETS = Path(__file__).parents[1] / "second_truth"
@@ -44,6 +45,9 @@ class Line:
     held: float
     seconds: float
     told: list[tuple[float, bool]] = field(default_factory=list)
+    parting: int = 0
+    spread: float = 0.0
+    covered: float = float("nan")
 
     @property
     def right(self) -> bool:
@@ -89,7 +93,17 @@ def diagnosed(case: str) -> Line:
     seconds = time.perf_counter() - began
     other = predictor_of(read_measurement(held, "held.csv"), start.muscle)
     other = other.prepared(start, tuple(studio.catalogue.values()))
-    error = other.measured - other.predict(result.best.fit_model)
+    noise = truth["noise"]["held"]
+
+    def error_of(model: Any) -> np.ndarray:
+        return (other.measured - other.predict(model)) / noise
+
+    error = error_of(result.best.fit_model)
+    parting, spread, covered = band(
+        error,
+        error_of(result.lean.fit_model),
+        [error_of(twin.fitted_model.fit_model) for twin in result.alternatives],
+    )
     hidden = [set(ids) for ids in truth["hidden"]]
     groups = [{name, *(a.effect for a in result.alternatives if a.of == name)} for name in result.added]
     return Line(
@@ -106,7 +120,10 @@ def diagnosed(case: str) -> Line:
         ],
         start=result.start.rmse / truth["noise"]["train"],
         after=result.best.rmse / truth["noise"]["train"],
-        held=float(np.sqrt(np.mean(error**2))) / truth["noise"]["held"],
+        held=float(np.sqrt(np.mean(error**2))),
+        parting=parting,
+        spread=spread,
+        covered=covered,
         seconds=seconds,
         told=[(item.probability, any(set(item.group) & ids for ids in hidden)) for item in result.evidence],
     )
@@ -120,6 +137,8 @@ def summary(lines: Sequence[Line]) -> list[str]:
     known = [*single, *several]
     sure = [true for line in lines for probability, true in line.told if probability >= 0.9]
     held = [line.held for line in known]
+    parting = [line for line in known if line.parting]
+    covered = 100.0 * float(np.mean([line.covered for line in parting])) if parting else float("nan")
     return [
         f"single effect found                 {sum(line.found == 1 for line in single)} of {len(single)}",
         "pairs and triples: all found        "
@@ -128,6 +147,7 @@ def summary(lines: Sequence[Line]) -> list[str]:
         f"with surplus effects                {sum(bool(line.surplus) for line in known)} of {len(known)}",
         f"second test: error <= {WANTED} x noise   {sum(one <= WANTED for one in held)} of {len(held)}",
         f"told with 90 % or more: true        {sum(sure)} of {len(sure)}",
+        f"where twins part ({len(parting)} cases): 90 % band over them holds {covered:.0f} % of the readings",
     ]
 
 
@@ -139,6 +159,7 @@ def text_of(line: Line) -> str:
         ", ".join(line.named),
         "" if line.right else f"hidden {'; '.join('/'.join(ids) for ids in line.hidden)}",
         f"surplus {', '.join(line.surplus)}" if line.surplus else "",
+        f"twins part by {line.spread:.1f}, band {100.0 * line.covered:.0f} %" if line.parting else "",
     ]
     return " ".join(part for part in parts if part)
 
