@@ -5,7 +5,11 @@
 The measured transients of `tests.truth`, with their entries open to doubt as on every door. *First*: until
 the first effect is streamed with the error that the model has with it; the most promising is tried first.
 *Best*: until the one that stays the best single effect is streamed. Seconds are of the processor, so that a
-busy machine counts the same.
+busy machine counts the same; the first run of a drive of some structure compiles it, about 1 s of them.
+
+On 24 November 2026, 31 cases: median 10.2 s (wanted 6), longest 138 s (wanted 40: `tube-resistance-steps`,
+then `triple-overlap-guide-load-partial` 76, `unknown-inertance-pulses` 69 and `valve-hysteresis-partial`
+53); first effect after 1.2 s in the median, at most 4.0 s (wanted 1), the best single effect after 1.4 s.
 """
 
 from __future__ import annotations
