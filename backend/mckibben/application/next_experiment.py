@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -138,13 +138,17 @@ def next_measurement(diagnosis: Diagnosis, titles: Mapping[str, str]) -> str | N
                 others = [
                     f"{names[s.second]} ({s.sigma:.1f} sigma)" for s in split[:_TOLD] if s.first == first
                 ]
-                parts.append(f"{names[first]} from {' and from '.join(others)}")
+                parts.append(f"{names[first]} from {_joined(others)}")
             minutes = max(design.minutes, 1.0)
-            sentences.append(f"{design.words} (about {minutes:.0f} min), to tell {'; '.join(parts)}")
+            sentences.append(f"to tell {'; '.join(parts)}: {design.words} (about {minutes:.0f} min)")
     told = {frozenset(pair) for d in diagnosis.designs for pair in d.decided()}
     rest = [p for p in diagnosis.proposals if frozenset((p.first, p.second)) not in told]
     sentences += [p.sentence(titles) for p in rest if p.declared][: max(3 - len(sentences), 1)]
     return "; ".join(sentences) or None
+
+
+def _joined(names: Sequence[str]) -> str:
+    return f"{', '.join(names[:-1])} and {names[-1]}" if len(names) > 1 else "".join(names)
 
 
 def schedule_csv(experiment: NextExperiment) -> str:

@@ -25,13 +25,17 @@ def test_the_catalogue_says_it_from_either_side() -> None:
 def test_a_proposal_in_words() -> None:
     proposal = SeparatingExperiment("a", "b", "pull it slowly", "loops", 4.26)
     assert proposal.sentence({"a": "Alpha", "b": "Beta"}) == (
-        "Alpha or Beta: pull it slowly; simulated best: loops (4.3 sigma apart)"
+        "to tell Alpha from Beta: pull it slowly; simulated best: loops (4.3 sigma apart)"
     )
-    assert SeparatingExperiment("a", "b", "", "", 0.0).sentence({}) == "a or b"
+    assert (
+        SeparatingExperiment("a", "b", "", "", 0.0).sentence({}) == "to tell a from b: no experiment is known"
+    )
     near = SeparatingExperiment("a", "b", "remove the muscle", "any", 0.2).sentence({})
-    assert near == "a or b: remove the muscle; no experiment with this rig separates them"
+    assert near == "to tell a from b: remove the muscle; no experiment with this rig does"
+    never = SeparatingExperiment("a", "b", "weigh it; no muscle test can tell", "any", 0.2).sentence({})
+    assert never == "to tell a from b: weigh it; no muscle test can tell"
     none = SeparatingExperiment("a", "b", "", "any", 0.2).sentence({})
-    assert none == "a or b; no experiment with this rig separates them, and no other one is known"
+    assert none == "to tell a from b: no experiment with this rig does, and no other one is known"
 
 
 def test_each_pair_has_its_experiment_and_whether_it_matters() -> None:

@@ -74,8 +74,8 @@ SENTENCES = {
     "state it to know whether the error exceeds it.": result("adequate", 5.0, 5.0, noise=None),
     "Missing: Creep (probability 97 %). With it the error falls from 40 to 2.1 N, the noise of the data "
     "(2 N).": result("missing_effects", 40.0, 2.1, "creep"),
-    "With the entries as stated, Creep would be missing, and the error falls from 40 to 9 N only; the noise "
-    "is 2 N.": result("ambiguous", 40.0, 9.0, "creep", doubted=True),
+    "With the entries as stated, Creep would be missing, and the error would only fall from 40 to 9 N; the "
+    "noise is 2 N.": result("ambiguous", 40.0, 9.0, "creep", doubted=True),
     "Missing: Creep (probability 97 %). With it the error falls from 40 to 9 N; the noise is 2 N. No "
     "catalogued effect explains the rest: the proposed term takes 80 % of it.": result(
         "unknown_effect", 40.0, 9.0, "creep", term=SimpleNamespace(share=0.8)

@@ -360,7 +360,8 @@ def sentence_of(found: WrongEntry, titles: Mapping[str, str]) -> str:
         what = f"{entry.title[4:].capitalize()} {entry.reading.words}"
     if entry.free is not None and entry.free.holds:
         what += ", of usual rubber,"
-    also = ", ".join(titles.get(name, name) for name in found.effects)
+    *first, last = [titles.get(name, name) for name in found.effects] or [""]
+    also = f"{', '.join(first)} and {last}" if first else last
     share = 100.0 * found.explains
     if not also:
         return f"{what} explains {share:.0f} % of the error"

@@ -14,6 +14,7 @@ from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.physics.effect import Effect
 
+_NO_TEST = "no muscle test"  # what is declared says it already
 _MATTERS = 1.0  # sigma from which the choice between two effects matters
 
 
@@ -47,15 +48,15 @@ class SeparatingExperiment:
 
     def sentence(self, titles: Mapping[str, str]) -> str:
         """The proposal in words."""
-        pair = f"{titles.get(self.first, self.first)} or {titles.get(self.second, self.second)}"
-        parts = [f"{pair}: {self.declared}" if self.declared else f"{pair}:"]
+        pair = f"to tell {titles.get(self.first, self.first)} from {titles.get(self.second, self.second)}"
+        parts = [self.declared] if self.declared else []
         if self.protocol and self.separation >= 1.0:
             parts.append(f"simulated best: {self.protocol} ({self.separation:.1f} sigma apart)")
-        elif self.protocol and self.declared:
-            parts.append("no experiment with this rig separates them")
-        elif self.protocol:
-            parts.append("no experiment with this rig separates them, and no other one is known")
-        return "; ".join(part.rstrip(":") for part in parts)
+        elif self.protocol and not self.declared:
+            parts.append("no experiment with this rig does, and no other one is known")
+        elif self.protocol and _NO_TEST not in self.declared:
+            parts.append("no experiment with this rig does")
+        return f"{pair}: {'; '.join(parts)}" if parts else f"{pair}: no experiment is known"
 
 
 def declared(first: Effect, second: Effect) -> str:

@@ -88,8 +88,8 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     these = "it" if len(result.added) == 1 else "them"
     if doubted:
         return (
-            f"With the entries as stated, {names} would be missing, and the error falls from {before:.3g} to "
-            f"{after:.3g} {unit} only{floor}."
+            f"With the entries as stated, {names} would be missing, and the error would only fall from "
+            f"{before:.3g} to {after:.3g} {unit}{floor}."
         )
     text = f"Missing: {names}. With {these} the error falls from {before:.3g} to {after:.3g} {unit}{floor}."
     if result.root.free and refitted < _REFITTED * before:
