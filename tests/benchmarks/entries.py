@@ -3,8 +3,14 @@
     python -m tests.benchmarks.entries [--seeds 0] [--apart] [--right TEXT]
 
 Every mistake of `tests.truth.wrong_entries` is made, alone and beside an effect: *first* = named first,
-*listed* = among the entries that explain the data as well. ``--right`` runs the cases of the sealed
+*listed* = among the entries that explain the data as well; where effects are its exact twins (a braid that
+is too thick and the effectiveness), the two are listed together. ``--right`` runs the cases of the sealed
 table instead, whose entries are right: none may be asked about.
+
+On 24 November 2026, seed 0: alone 26 of 27 (asked while reading 4, first 20, beside an exact twin 2),
+beside an effect 37 of 40 (5, 27, 5); wanted 90 %. Processor time 1.7 and 2.9 s in the median. Not found: a
+rest length of a muscle that is stated by thread and turns; beside an effect, a braid angle, a rest length
+and an absolute pressure that other effects explain as well. Not all drives were run.
 """
 
 from __future__ import annotations
@@ -140,11 +146,11 @@ def main() -> None:
     ):
         asked = sum(line.status == "asked" for line in part)
         first = sum(bool(line.named) and line.named[0] in line.right for line in part)
-        either = sum(bool(line.right & set(line.listed)) for line in part)
+        twin = sum(not line.named and bool(line.right & set(line.listed)) for line in part)
         effects = sum(line.found == line.hidden for line in part if line.listed)
         say(
-            f"{words}: asked while reading {asked}, named first {first}, first or listed {either}, with all "
-            f"effects {effects}, of {len(part)}"
+            f"{words}: asked while reading {asked}, named first {first}, listed beside effects that "
+            f"explain as much {twin}: {asked + first + twin} of {len(part)}; with all effects {effects}"
         )
 
 
