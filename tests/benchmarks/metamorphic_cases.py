@@ -169,4 +169,5 @@ def isometric_case() -> Case | None:
         name: np.array(made.columns[name], float) for name in ("length", "pressure", "force", "direction")
     }
     muscle = Muscle(0.182, 0.0118, np.radians(24.0), 0.0015, 0.010)
-    return Case("clamped, isometric", (Sheet(path.name, ("kind: isometric",), columns),), muscle)
+    sheet = Sheet(path.name, ("kind: isometric",), columns, rest_length=muscle.nominal_length)
+    return Case("clamped, isometric", (sheet,), muscle)
