@@ -21,7 +21,7 @@ from playwright.sync_api import Browser, BrowserContext, Page
 from tests.frontend.browser import ARGUMENTS, NoBrowserError, find_or_get
 from tests.frontend.diagnoses import keep_in
 from tests.frontend.guard import PageGuard
-from tests.frontend.views import open_compare, run
+from tests.frontend.views import KEPT, open_compare, run
 from tests.running_server import RunningServer
 
 _RESTING = '<title>resting</title><link rel="icon" href="data:,">'  # else the browser asks for /favicon.ico
@@ -106,6 +106,37 @@ def context(
     shared.clear_cookies()
     left = resting.evaluate("(localStorage.clear(), indexedDB.databases())")
     assert left == [], "pages keep nothing but localStorage so far; clear what they keep now"
+
+
+@pytest.fixture(scope="module")
+def kept_page(browser: Browser, browser_context_args: dict[str, Any], base_url: str) -> Iterator[Page]:
+    """The page of a module marked ``kept_page``; its tests begin with `views.load`, which empties it."""
+    context = browser.new_context(**browser_context_args)
+    page = context.new_page()
+    KEPT.add(page)
+    yield page
+    context.close()
+
+
+@pytest.fixture
+def page(request: pytest.FixtureRequest, page_guard: PageGuard) -> Iterator[Page]:
+    """A page of its own, or in a module marked ``kept_page`` the one of that module."""
+    if request.node.get_closest_marker("kept_page") is None:
+        yield request.getfixturevalue("context").new_page()
+        return
+    page = request.getfixturevalue("kept_page")
+    page_guard.watch(page.context)
+    page.bring_to_front()
+    yield page
+    for other in page.context.pages:
+        if other != page:
+            other.close()
+    page.unroute_all()
+    page.keyboard.press("Escape")  # what lies over the view
+    page.mouse.move(0, 0)
+    page.set_viewport_size({"width": 1280, "height": 720})
+    page.emulate_media(color_scheme="light", reduced_motion="no-preference")
+    page_guard.leave(page.context)
 
 
 @pytest.fixture

@@ -19,12 +19,14 @@ from tests.frontend.views import (
     run,
 )
 
+pytestmark = pytest.mark.kept_page
+
 VIEWS = {
     "design": lambda page: open_design(page),
     "transient": lambda page: open_view(page, "transient", "[data-ran]"),
     "compare": open_compare,
     "catalogue": open_catalogue,
-    "studies": lambda page: open_view(page, "studies", ":not([data-drawn])"),
+    "studies": lambda page: open_view(page, "studies", "[data-ready]"),
     "help": lambda page: page.goto("/help"),
 }
 

@@ -13,6 +13,8 @@ from tests.frontend.axe import violations
 from tests.frontend.views import enter, load, open_catalogue, open_design
 from tests.running_server import RunningServer
 
+pytestmark = pytest.mark.kept_page
+
 
 def parts(page: Page) -> list[str]:
     """The titles in the table, in order."""
@@ -107,6 +109,7 @@ def broken_preset(server: RunningServer) -> Iterator[str]:
 
 
 def test_refused_files_are_named(page: Page, broken_preset: str) -> None:
+    page.goto("about:blank")  # the page has asked for its presets before
     open_design(page)
     page.get_by_role("button", name="Catalogue", exact=True).click()
     expect(page.get_by_role("region", name="Refused files")).to_contain_text(broken_preset)

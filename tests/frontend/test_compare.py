@@ -36,6 +36,8 @@ from tests.frontend.diagnoses import remember
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import REFUSED, link_of, load, open_compare, open_design, redo, run
 
+pytestmark = pytest.mark.kept_page
+
 
 @pytest.fixture(scope="module")
 def sweeps() -> FilePayload:

@@ -30,6 +30,8 @@ from tests.frontend.guard import PageGuard
 from tests.frontend.views import REFUSED, open_compare, open_compared, redo, run
 from tests.truth.generate import case
 
+pytestmark = pytest.mark.kept_page
+
 A_DRIVE = 150_000  # ms; each effect tried is a run of the simulation
 LINEAR = "offset + stiffness*kappa + loss*sign(v)"  # beside the true wall force, which is not linear
 

@@ -28,6 +28,8 @@ from tests.frontend.views import (
 )
 from tests.running_server import RunningServer
 
+pytestmark = pytest.mark.kept_page
+
 
 def download(page: Page, item: str) -> Download:
     """Save something from the Export menu."""

@@ -8,6 +8,8 @@ from playwright.sync_api import Page
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import SIZES, open_catalogue, open_compare, open_compared, open_design, run
 
+pytestmark = pytest.mark.kept_page
+
 OPENERS = {
     "design": open_design,
     "catalogue": open_catalogue,

@@ -19,6 +19,8 @@ from tests.frontend.guard import PageGuard
 from tests.frontend.test_layout import OVERLAPS, SIDEWAYS, TOO_SMALL
 from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, load, marked, run
 
+pytestmark = pytest.mark.kept_page
+
 GRAVITY = 9.80665  # m/s^2
 ACTIONS = 12
 

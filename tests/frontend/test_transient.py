@@ -23,6 +23,8 @@ from tests.frontend.comparing import use
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, link_to, load, marked, run
 
+pytestmark = pytest.mark.kept_page
+
 TIMED = ("position", "pressure", "speed", "lower", "acceleration")
 
 

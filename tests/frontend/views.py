@@ -8,6 +8,8 @@ import re
 import zlib
 from collections.abc import Callable
 from typing import Any
+from urllib.parse import urlsplit
+from weakref import WeakSet
 
 from playwright.sync_api import Locator, Page, expect
 
@@ -36,19 +38,44 @@ def marked(page: Page, mark: str, within: float = 10_000) -> None:
     page.locator(f"html{mark}").wait_for(state="attached", timeout=within)
 
 
+#: Pages that the tests of a module share.
+KEPT: WeakSet[Page] = WeakSet()
+#: What the links hold that `link_to` made.
+_DOCUMENTS: dict[str, object] = {}
+# As after loading, as far as tests see it; ends when nothing is asked or drawn any more.
+_EMPTIED = """
+for (const dialog of document.querySelectorAll("dialog[open]")) dialog.close();
+document.activeElement?.blur();
+localStorage.clear();
+for (const part of document.querySelectorAll("*")) if (part.scrollTop) part.scrollTop = 0;
+const state = await import("/js/state.js");
+state.edit(() => (argument ? state.readDoc(argument) : state.defaultDoc()), "empty");
+[state.past.value, state.future.value] = [[], []];
+const root = document.documentElement;
+const seen = () => [performance.getEntriesByType("resource").length, root.dataset.drawn, root.dataset.ran,
+  document.querySelectorAll("[aria-busy=true]").length].join();
+for (let before; before !== seen(); await new Promise((resolve) => setTimeout(resolve, 150))) before = seen();
+"""
+
+
 def link_to(document: object) -> str:
     """The hash of the address that holds this document: deflate-raw, base64url."""
     packer = zlib.compressobj(wbits=-15)
     packed = packer.compress(json.dumps(document).encode()) + packer.flush()
-    return "#v1." + base64.urlsafe_b64encode(packed).decode().rstrip("=")
+    link = "#v1." + base64.urlsafe_b64encode(packed).decode().rstrip("=")
+    _DOCUMENTS[link] = document
+    return link
 
 
 def load(page: Page, link: str = "") -> None:
-    """The page of the server, loaded anew.
+    """The page of the server, loaded anew; one that a module of tests keeps is emptied instead.
 
     Args:
         link: a hash that holds a state, with its ``#``.
     """
+    if page in KEPT and urlsplit(page.url).path == "/" and (link in _DOCUMENTS or not link):
+        run(page, _EMPTIED, _DOCUMENTS.get(link))
+        return
     if page.url != "about:blank":  # a goto to another hash of the same page would not load it anew
         page.goto("about:blank")
     page.goto(f"/{link}")
