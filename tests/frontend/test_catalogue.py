@@ -130,7 +130,7 @@ def test_the_atlas_shows_each_effect_and_puts_it_into_the_model(page: Page) -> N
     with page.expect_response("**/api/signatures"):
         enter(page, "Force", "20")
     expect(figures.first).to_contain_text("± 20 N", use_inner_text=True)  # its own slider moves the picture
-    twins = detail.locator(".twins").first
+    twins = detail.locator(".twin-pair").first
     expect(twins.locator("svg.signature")).to_have_count(2)
     expect(twins.locator("p")).not_to_be_empty()
     assert violations(page, "[aria-label='Effect']") == []

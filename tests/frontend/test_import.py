@@ -112,6 +112,36 @@ def test_a_logger_that_calls_milliseconds_seconds_in_five_actions(case: Page) ->
     expect(dialog.locator("th[data-column='t (s)']")).to_contain_text("unit from you")
 
 
+@needs_corpus
+@pytest.mark.examination("test_a_proposed_unit_is_marked_and_confirmed_or_changed")
+def test_letters_without_units_in_four_actions(case: Page) -> None:
+    """Units that nobody states and the readings leave open are assumed, named, and changed in one click."""
+    path = CORPUS / "test3.csv"
+    choose(case, {"name": path.name, "mimeType": "text/csv", "buffer": path.read_bytes()})
+    dialog = panel(case)
+    dialog.locator("#experiment-muscle").select_option("DMSP-20")
+    dialog.locator("#experiment-rest_length").fill("300 mm")
+    dialog.locator("#experiment-rest_length").press("Tab")
+    asked = dialog.locator(".ask.assumed")
+    expect(asked).to_have_count(3)
+    expect(asked.first).to_contain_text("'p' (pressure) has no unit and holds 199.7 to 400.2")
+    with read_anew(case):
+        asked.first.get_by_role("button", name="mbar").click()
+    expect(dialog.locator("th[data-column='p']")).to_contain_text("unit from you")
+    with read_anew(case):
+        dialog.locator("th[data-column='p'] select").nth(1).select_option("kPa")
+    with case.expect_response(of_a_file) as answer:
+        accept_button(case).click()
+    assumptions = "; ".join(answer.value.json()["assumptions"])
+    assert "mm as the unit of column 'x'" in assumptions
+    assert "N as the unit of column 'F'" in assumptions
+    assert "'p'" not in assumptions  # answered
+    facts = case.locator(".strip .fact.assumed")
+    expect(facts).to_have_count(2)
+    expect(facts.first).to_contain_text("mm")
+    expect(facts.last).to_contain_text("N")
+
+
 def values_to_see(preview: dict[str, Any]) -> list[tuple[str, str]]:
     """(where, text) of every value that nobody said: proposed or assumed."""
     found = []
@@ -210,9 +240,9 @@ def test_a_proposed_unit_is_marked_and_confirmed_or_changed(case: Page) -> None:
     for header, unit in (("p", "kPa"), ("x", "mm"), ("F", "N")):
         cell = dialog.locator(f"th[data-column='{header}']")
         expect(cell.get_by_label(f"Unit of {header}")).to_have_value(unit)
-        expect(cell).to_contain_text(f"{unit} is proposed")
+        expect(cell).to_contain_text(f"{unit} is assumed")
     pressure = dialog.locator(".ask[data-about='unit of pressure']")
-    expect(pressure.get_by_role("button").first).to_have_text("kPaproposed")
+    expect(pressure.get_by_role("button").first).to_have_text("kPaassumed")
     with read_anew(case):
         pressure.get_by_role("button", name="mbar").click()
     cell = dialog.locator("th[data-column='p']")
@@ -225,7 +255,8 @@ def test_a_proposed_unit_is_marked_and_confirmed_or_changed(case: Page) -> None:
         dialog.locator(".ask[data-about='unit of displacement']").get_by_role("button", name="mm").click()
     with read_anew(case):
         dialog.locator(".ask[data-about='unit of force']").get_by_role("button").first.click()
-    expect(dialog.locator(".ask:not(.may-wait)")).to_have_count(0)
+    for header in "xF":
+        expect(dialog.locator(f"th[data-column='{header}']")).to_contain_text("unit from you")
 
 
 def test_the_head_row_is_dragged_and_moved_by_key(case: Page) -> None:
@@ -351,15 +382,13 @@ def test_a_sheet_is_picked(case: Page) -> None:
 
 def test_everything_by_key(case: Page) -> None:
     choose(case, bare("e.csv", "muscle: DMSP-20"))
-    expect(panel(case).locator(".ask[data-about='unit of pressure'] button").first).to_be_focused()
+    length = panel(case).get_by_label("Rest length")
+    expect(length).to_be_focused()  # the first that is open: the units are assumed
+    panel(case).locator(".ask[data-about='unit of pressure'] button").first.focus()
     with read_anew(case):
         case.keyboard.press("Enter")
-    for channel in ("displacement", "force"):
-        asked = panel(case).locator(f".ask[data-about='unit of {channel}'] button")
-        expect(asked.first).to_be_focused()
-        with read_anew(case):
-            case.keyboard.press("Enter")
-    expect(panel(case).get_by_label("Rest length")).to_be_focused()
+    expect(panel(case).locator("th[data-column='p']")).to_contain_text("unit from you")
+    length.focus()
     case.keyboard.type("250")
     case.keyboard.press("Enter")
     expect(accept_button(case)).to_be_focused()

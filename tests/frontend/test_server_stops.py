@@ -151,3 +151,68 @@ def test_a_server_that_is_stopped_killed_and_started_again(browser: Browser, tmp
         assert INNER_WORDS.findall(page.locator("body").inner_text()) == []
         context.close()
     assert faults == []
+
+
+RUNS = """
+const { editStudy, study } = await import("/js/views/studies/model.js");
+editStudy({ method: { ...study.peek().method, runs: argument } }, "runs");
+"""
+
+
+def study_of(page: Page, runs: int) -> None:
+    """Start the study of the open view with so many runs."""
+    run(page, RUNS, runs)
+    page.get_by_role("button", name=f"Run {runs:,} runs").click()
+
+
+def is_made(page: Page, runs: int) -> None:
+    """The study is finished by itself, and nothing on the page says that it was not."""
+    result = page.get_by_role("region", name="Result", exact=True)
+    expect(result).to_contain_text(re.compile(rf"({runs}|{runs:,}) completed"), timeout=120_000)
+    expect(page.locator(".banner")).to_have_count(0, timeout=20_000)
+    assert INNER_WORDS.findall(page.locator("body").inner_text()) == []
+
+
+@pytest.mark.examination("tests/frontend/test_network.py::test_a_server_that_is_gone_and_comes_back")
+def test_a_study_goes_on_after_a_stop_and_after_a_restart(browser: Browser, tmp_path: Path) -> None:
+    with socket.socket() as free:
+        free.bind(("127.0.0.1", 0))
+        port = free.getsockname()[1]
+    arguments = ("--port", str(port))
+    context = browser.new_context(
+        base_url=f"http://127.0.0.1:{port}", viewport={"width": 1440, "height": 1000}
+    )
+    page, faults = context.new_page(), list[str]()
+    page.on("pageerror", lambda error: faults.append(str(error)))
+    banner = page.locator(".banner")
+    with RunningServer(tmp_path, arguments=arguments) as server:
+        page.goto("/")
+        tab(page, "Transient")
+        page.get_by_role("button", name="How much does tolerance matter?").click(timeout=60_000)
+        study_of(page, 40)
+        is_made(page, 40)
+
+        os.kill(server.pid, signal.SIGSTOP)
+        study_of(page, 50)
+        expect(banner).to_contain_text("takes long to answer", timeout=20_000)
+        os.kill(server.pid, signal.SIGCONT)
+        is_made(page, 50)
+
+        study_of(page, 1200)
+        expect(page.locator(".runs-table tbody tr").first).to_be_visible()
+        expect(page.locator(".studies")).to_contain_text(re.compile(r"[1-9]\d* of 1,?200 runs"))
+        os.kill(server.pid, signal.SIGKILL)  # in the middle of its runs
+        server.wait(10.0)
+        expect(banner).to_contain_text("does not answer", timeout=20_000)
+        assert INNER_WORDS.findall(page.locator("body").inner_text()) == []
+    with RunningServer(tmp_path, arguments=arguments) as server:
+        is_made(page, 1200)
+
+        os.kill(server.pid, signal.SIGKILL)
+        server.wait(10.0)
+        study_of(page, 60)  # asked of no server
+        expect(banner).to_contain_text("does not answer", timeout=20_000)
+    with RunningServer(tmp_path, arguments=arguments):
+        is_made(page, 60)
+        context.close()
+    assert faults == []

@@ -56,6 +56,9 @@ def test_from_a_drive_to_the_spread_of_its_figures(page: Page) -> None:
     expect(result).to_contain_text("200 completed")
     expect(result.locator("tbody tr")).to_have_count(5)
     expect(rows(page)).to_have_count(100)
+    for column in range(1, 8):  # one number of decimals in each, four digits at most where they are alike
+        texts = page.locator(f".runs-table tbody tr > :nth-child({column + 1})").all_inner_texts()
+        assert len({len(text.partition(".")[2]) for text in texts}) == 1, texts
     expect(page.locator("#study-histogram .js-line").first).to_be_attached()
     expect(page.locator(".bar-row")).to_have_count(3)
     expect(page.locator(".parallel .axis")).to_have_count(8)

@@ -104,11 +104,16 @@ def test_margins_are_drawn_to_scale_and_the_nearest_is_named() -> None:
     assert widths[1] == pytest.approx(2 * widths[0], rel=1e-3)
     assert widths[2] == pytest.approx(4 * widths[0], rel=1e-3)  # cut at 100 %
     assert bars[0].attrib["fill"] != bars[1].attrib["fill"]
-    assert "the nearest limit is time for the stroke" in section
-    assert section.count("&gt; 100 %") == 2  # the table reads like its bar
+    assert "The nearest limit is time for the stroke" in section
+    assert section.count("&gt; 100 %") == 2  # the table reads like the name of its bar
     rows = {row[0]: row[1:] for row in cells(section)}
-    assert rows["Force over load, at rest"] == ["at least 1.10 × the load", "1.65 × the load", "50 %"]
-    assert rows["Time for the stroke"] == ["at most 0.5\xa0s", "0.4\xa0s", "25 %"]
+    assert rows["Force over load, at rest"] == [
+        "at least 1.10 × the load",
+        "1.65 × the load",
+        "50 %",
+        "Margin 50 %",
+    ]
+    assert rows["Time for the stroke"] == ["at most 0.5\xa0s", "0.4\xa0s", "25 %", "Margin 25 %"]
 
 
 def test_a_probability_says_what_it_is_a_share_of() -> None:

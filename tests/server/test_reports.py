@@ -122,12 +122,12 @@ def test_verdict_path_and_parameters_are_those_of_the_diagnosis(diagnosed: tuple
     assert diagnosis["verdict"]["sentence"] in text
     steps = diagnosis["path"]
     assert len(steps) > 1
-    assert exact(rows["this model"][0][0]) == pytest.approx(steps[0]["rmse"])
+    assert exact(rows["this model"][0][1]) == pytest.approx(steps[0]["rmse"])
     titles = {c["effect"]: c["title"] for c in diagnosis["candidates"]}
     for step in steps[1:]:
         cells = rows[f"+ {titles[step['added']]}"][0]
-        assert exact(cells[0]) == pytest.approx(step["rmse"])
-        assert exact(cells[1]) == pytest.approx(step["holdout_rmse"])
+        assert exact(cells[1]) == pytest.approx(step["rmse"])
+        assert exact(cells[2]) == pytest.approx(step["holdout_rmse"])
     values = {float(value) for value in re.findall(r'<data value="([^"]+)"', text)}
     for own in diagnosis["parameters"].values():
         for parameter in own.values():
@@ -174,7 +174,7 @@ def test_history_is_told_with_the_error_of_each_model(shared_client: TestClient)
         body = {**MAP, **({"effects": step["effects"]} if "effects" in step else {})}
         error = post(shared_client, "/api/comparisons", body).json()["rmse"]
         assert [
-            exact(cells[-1 if cells is rows[step["label"]][-1] else 0]) for cells in rows[step["label"]]
+            exact(cells[-1 if cells is rows[step["label"]][-1] else 1]) for cells in rows[step["label"]]
         ] == (pytest.approx([error] * 2))
 
 

@@ -1,16 +1,15 @@
-"""Horizontal bar chart as SVG: the error after each step, shares, margins."""
+"""Bars in the cells of a table, as SVG: errors, margins. Those of a column share one scale."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mckibben.report.chart import label, text, ticks
 from mckibben.report.html import Html, tag
-from mckibben.report.marks import ACCENT, EDGE, GRID, INK, SECOND, SOFT
+from mckibben.report.marks import ACCENT, EDGE, INK, SECOND
 
-_ROW, _TOP, _BOTTOM, _RIGHT = 27.0, 20.0, 42.0, 86.0
-_LETTER = 6.3  # mean width of a letter
+_WIDE, _HIGH = 240.0, 15.0
+_INSET = 2.0  # at both ends, so that no tick is cut in half
 
 
 @dataclass(frozen=True)
@@ -18,86 +17,53 @@ class Bar:
     """A bar.
 
     Attributes:
-        name: label at the left.
-        value: length of the bar, in units of the axis.
-        shown: text at its end.
+        title: description for screen readers.
+        value: length of the bar, not negative, in units of the column.
         tick: second value, marked by a black tick; None without one.
         pale: drawn pale, as a proposal.
         strong: highlighted, as the most important bar.
     """
 
-    name: str
+    title: str
     value: float
-    shown: str
     tick: float | None = None
     pale: bool = False
     strong: bool = False
 
 
-def bars(
-    rows: Sequence[Bar],
-    *,
-    axis: str,
-    title: str,
-    level: tuple[float, str] | None = None,
-    width: float = 720.0,
-) -> Html:
-    """The drawing.
+def bars(rows: Sequence[Bar], *, level: float | None = None) -> list[Html]:
+    """One drawing for each row; a table gives them the width of their column.
 
     Args:
-        rows: from the top; values must not be negative.
-        axis: label of the axis, with unit.
-        title: description for screen readers.
-        level: value marked by a vertical line, and its label.
-        width: of the drawing; the page scales it to its own width.
+        rows: from the top.
+        level: value marked in every row by a vertical line.
     """
-    left = min(max((len(row.name) for row in rows), default=0) * _LETTER + 14.0, 0.45 * width)
-    longest = max([*(max(row.value, row.tick or 0.0) for row in rows), level[0] if level else 0.0, 1e-300])
-    bottom = _TOP + _ROW * len(rows)
+    longest = max(
+        [*(max(row.value, row.tick or 0.0) for row in rows), 0.0 if level is None else level, 1e-300]
+    )
+    return [_bar(row, longest, level) for row in rows]
 
+
+def _bar(row: Bar, longest: float, level: float | None) -> Html:
     def at(value: float) -> float:
-        return left + value / longest * (width - _RIGHT - left)
+        return _INSET + value / longest * (_WIDE - 2.0 * _INSET)
 
-    parts: list[Html] = []
-    for value in ticks(0.0, longest):
+    def upright(value: float, colour: str, width: float, dash: str | None = None) -> Html:
         x = f"{at(value):.1f}"
-        parts.append(tag("line", x1=x, x2=x, y1=_TOP, y2=f"{bottom:g}", stroke=GRID))
-        parts.append(text(label(value), x, bottom + 16.0, anchor="middle"))
-    for number, row in enumerate(rows):
-        y = _TOP + _ROW * number
-        length = max(at(row.value) - left, 1.0)
-        parts.append(
-            tag(
-                "rect", x=f"{left:.1f}", y=f"{y + 5:g}", width=f"{length:.1f}", height=f"{_ROW - 10:g}",
-                fill="#a9c5ea" if row.pale else SECOND if row.strong else ACCENT,
-            )
-        )  # fmt: skip
-        colour = SECOND if row.strong else INK
-        parts.append(text(row.name, left - 8.0, y + 17.5, anchor="end", colour=colour))
-        furthest = row.value
-        if row.tick is not None:
-            furthest = max(furthest, row.tick)
-            x = f"{at(row.tick):.1f}"
-            parts.append(
-                tag("line", x1=x, x2=x, y1=f"{y + 2:g}", y2=f"{y + _ROW - 2:g}", stroke=INK, stroke_width=2)
-            )
-        parts.append(text(row.shown, at(furthest) + 7.0, y + 17.5, colour=colour))
-    parts.append(tag("line", x1=f"{left:.1f}", x2=f"{left:.1f}", y1=_TOP, y2=f"{bottom:g}", stroke=EDGE))
-    if level is not None:
-        x = f"{at(level[0]):.1f}"
-        parts.append(
-            tag(
-                "line", x1=x, x2=x, y1=f"{_TOP - 4:g}", y2=f"{bottom:g}", stroke=SECOND,
-                stroke_dasharray="5 3", stroke_width=1.5,
-            )
-        )  # fmt: skip
-        parts.append(text(level[1], x, _TOP - 8.0, colour=SECOND))
-    parts.append(text(axis, 0.5 * (left + width - _RIGHT), bottom + 34.0, anchor="middle", colour=SOFT))
+        return tag(
+            "line", x1=x, x2=x, y1=0, y2=_HIGH, stroke=colour, stroke_width=width, stroke_dasharray=dash
+        )
+
+    colour = "#a9c5ea" if row.pale else SECOND if row.strong else ACCENT
+    length = max(at(row.value) - _INSET, 1.0)
     return tag(
         "svg",
-        tag("title", title),
-        *parts,
-        viewBox=f"0 0 {width:g} {bottom + _BOTTOM:g}",
+        tag("title", row.title),
+        upright(0.0, EDGE, 1.0),
+        tag("rect", x=_INSET, y=2.5, width=f"{length:.1f}", height=_HIGH - 5.0, fill=colour),
+        None if level is None else upright(level, SECOND, 1.5, "4 2"),
+        None if row.tick is None else upright(row.tick, INK, 2.0),
+        viewBox=f"0 0 {_WIDE:g} {_HIGH:g}",
         role="img",
         xmlns="http://www.w3.org/2000/svg",
     )

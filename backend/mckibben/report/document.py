@@ -63,16 +63,17 @@ def document(
 
 @dataclass(frozen=True)
 class Head:
-    """Head of a table column; numbers are right-aligned, a wide column keeps a minimum width."""
+    """Head of a table column; numbers are right-aligned, wide columns and bars keep a minimum width."""
 
     title: Child
     number: bool = False
     wide: bool = False
+    bar: bool = False
 
     @property
     def kind(self) -> str | None:
         """CSS class of the cells."""
-        return "number" if self.number else "wide" if self.wide else None
+        return "number" if self.number else "wide" if self.wide else "bar" if self.bar else None
 
 
 def table(
@@ -120,9 +121,9 @@ def callout(title: Child, *text: Child, tone: Tone = "plain") -> Html:
     return tag("div", tag("b", title), [tag("p", one) for one in text], class_=f"callout {tone}")
 
 
-def figure_of(drawing: Html, caption: Child) -> Html:
-    """A drawing with its caption."""
-    return tag("figure", drawing, tag("figcaption", caption))
+def figure_of(drawing: Html, caption: Child, *, panels: bool = False) -> Html:
+    """A drawing with its caption; one of many panels may continue on the next printed page."""
+    return tag("figure", drawing, tag("figcaption", caption), class_="panels" if panels else None)
 
 
 def bullets(items: Iterable[Child]) -> Html:

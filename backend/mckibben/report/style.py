@@ -43,6 +43,7 @@ th { font-weight: 600; border-bottom-color: #8b98a6; vertical-align: bottom; }
 th.number, td.number { text-align: right; }
 td.number { white-space: nowrap; }
 td.wide { min-width: 15em; }
+td.bar { width: 25%; min-width: 100px; vertical-align: middle; }
 .mark { color: var(--warn); font-weight: 600; }
 figure { margin: 10px 0 14px; }
 figcaption { color: var(--soft); font-size: 12.5px; }
@@ -65,10 +66,18 @@ pre { background: var(--tint); padding: 8px 12px; white-space: pre-wrap;
 @media print {
   body { padding: 0; max-width: none; font-size: 9.5pt; }
   table, .note, caption, figcaption { font-size: 8.5pt; }
-  .tile strong { font-size: 17px; }
+  .tiles { grid-template-columns: repeat(auto-fit, minmax(100px, 1fr)); gap: 7px; }
+  .tile { padding: 6px 9px; }
+  .tile small { font-size: 8pt; line-height: 1.3; }
+  .tile strong { font-size: 16px; }
   section { margin-top: 20px; }
   h2, h3, caption { break-after: avoid; }
   figure, .callout, .tiles, tr, .equation, .whole, dl, li { break-inside: avoid; }
+  /* A tall stack would leave a third of a page white: it may break, with two panels on either side. */
+  figure.panels { break-inside: auto; }
+  figure.panels svg { break-inside: avoid; }
+  figure.panels svg:first-of-type { break-after: avoid; }
+  figure.panels svg:last-of-type, figcaption { break-before: avoid; }
   table.short { break-inside: avoid; }
   /* A head never stands alone at the foot of a page. */
   thead { display: table-header-group; break-after: avoid; }

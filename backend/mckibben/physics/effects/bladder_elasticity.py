@@ -57,7 +57,7 @@ EFFECT = Effect(
     family="elastomer",
     type="static",
     cause="The elastomer wall is stretched around the muscle when the braid makes it thicker. Its energy "
-    "comes from the gas, so the muscle pulls less the more it is contracted.",
+    "comes from the gas, so the muscle pulls less as it contracts.",
     equation=r"F_{bl} = \frac{\pi D_b H L_0}{L_0}\,\frac{d}{d\lambda_z}"
     r"\left[C_{10}\{J+yJ^2+y^2J^3\} + C_{01}(I_2-3)\right],\quad J = I_1-3,\quad "
     r"\lambda_\theta^2 = 1+\cot^2\theta_0\,(1-\lambda_z^2)",

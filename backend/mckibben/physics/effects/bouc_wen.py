@@ -84,7 +84,7 @@ EFFECT = Effect(
             lower=1.0,
             upper=10.0,
             source=_BOUC,
-            description="Sharpness of the bend; large is bilinear.",
+            description="Sharpness of the bend; a large value gives a bilinear loop.",
             fitted=False,
         ),
         Parameter(

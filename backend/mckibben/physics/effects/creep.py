@@ -40,7 +40,7 @@ EFFECT = Effect(
     title="Creep and relaxation",
     family="elastomer",
     type="dynamic",
-    cause="Rubber relaxes slowly after it was stretched. At a constant length the force drifts; under a "
+    cause="Rubber relaxes slowly after it is stretched. At a constant length the force drifts; under a "
     "constant load and pressure the muscle keeps shortening for seconds to minutes.",
     equation=r"F_{ve} = k\,\frac{\sum_j s_j^{-\alpha} d_j}{\sum_j s_j^{-\alpha}},\quad "
     r"\dot d_j = \dot L-\frac{d_j}{s_j\tau},\quad s_j = \frac{1}{s},\,1,\,s",
@@ -90,7 +90,7 @@ EFFECT = Effect(
                 "relaxation of filled rubber with a power of time, exponents from about 0.01 to a few 0.1",
                 "E",
             ),
-            description="Larger weight of the faster arms: weights with the power -alpha of their times.",
+            description="Weights the faster arms more: each weight is its time to the power -alpha.",
             fitted=False,
         ),
     ),

@@ -78,7 +78,7 @@ EFFECT = Effect(
             lower=0.5,
             upper=3.0,
             source=Source("Dahl (1968): 0 to 1 brittle, 1 and more ductile contacts", "M"),
-            description="How the rest of the way is covered: 1 exponentially, more the slower.",
+            description="Exponent of Dahl's law: 1 builds up exponentially, more builds up more slowly.",
             fitted=False,
         ),
         Parameter(

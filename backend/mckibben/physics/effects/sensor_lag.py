@@ -115,7 +115,7 @@ EFFECT = Effect(
     title="Lag of the sensors",
     family="sensor",
     type="measurement",
-    cause="Sensors and their amplifiers smooth their signals. A channel that is slower than another one "
+    cause="Sensors and amplifiers smooth their signals. A channel that is slower than another one "
     "opens a loop between the two that is not hysteresis of the muscle.",
     equation=r"\tau_c\,\dot y_c = r_c-y_c,\quad \varsigma\tau_c\,\dot z_c = y_c-z_c,\quad c = F, P, s",
     parameters=(

@@ -49,7 +49,7 @@ EFFECT = Effect(
         ),
         Parameter(
             *("softness", "s", "1", 0.0, 0.0, 2.0, Source("0 = touches everywhere at once", "E")),
-            description="Range of pressures over which it comes to touch, as a share of the threshold.",
+            description="Range of pressures over which contact is made, as a share of the threshold.",
             fitted=False,
             natural=True,
         ),

@@ -21,7 +21,7 @@ EFFECT = Effect(
     title="Time skew between channels",
     family="sensor",
     type="measurement",
-    cause="Channels sampled one after the other, or by two recorders, refer to different instants. "
+    cause="Channels that are sampled one after the other, or by two recorders, belong to different instants. "
     "Force and length then open a loop, clockwise or counter-clockwise.",
     equation=r"y_F(t) = F(t-\delta)",
     parameters=(

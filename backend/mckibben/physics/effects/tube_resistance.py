@@ -21,7 +21,7 @@ EFFECT = Effect(
     family="tube",
     type="static",
     cause="Fittings, bends and kinks narrow the tube beyond its own wall friction. The pressure in the "
-    "muscle lags behind that at the valve, the more the faster the air flows.",
+    "muscle lags behind that at the valve, more so the faster the air flows.",
     equation=r"C_t' = f_t\,C_t",
     parameters=(
         Parameter(

@@ -54,7 +54,7 @@ EFFECT = Effect(
     family="friction",
     type="rate",
     cause="Elastomer, lubricated threads and the flow within the wall resist fast motion. The force is lower "
-    "while the muscle shortens and higher while it lengthens, the more the faster it moves.",
+    "while the muscle shortens and higher while it lengthens, increasingly so at higher speed.",
     equation=r"F_{v} = (c_0 + c_P P)\left(\frac{L_r}{L_0}\right)^m r"
     r"\left|\frac{\dot L}{v_r}\right|^{n-1}\dot L,\quad "
     r"r = 1\ (\dot L<0),\ r = r_l\ (\dot L>0),\quad v_r = 0.1\,\mathrm{m/s}",

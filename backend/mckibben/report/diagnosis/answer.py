@@ -9,8 +9,8 @@ from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.bars import Bar, bars
 from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
 from mckibben.report.diagnosis.material import DiagnosisMaterial
-from mckibben.report.document import Head, Tone, callout, figure_of, paragraph, table, tiles
-from mckibben.report.figures import figure, percent, plain
+from mckibben.report.document import Head, Tone, callout, paragraph, table, tiles
+from mckibben.report.figures import figure, percent
 from mckibben.report.html import Child, Html, html
 
 _TONES: dict[Status, Tone] = {
@@ -111,10 +111,9 @@ def _steps(material: DiagnosisMaterial) -> Html:
     drawn: list[Bar] = []
 
     def add(name: str, rmse: float | None, holdout: float | None, how: str, *, pale: bool = False) -> None:
-        rows.append([name, figure(rmse, scale), figure(holdout, scale), how])
-        if rmse is not None:
-            value, tick = scale.of(rmse), None if holdout is None else scale.of(holdout)
-            drawn.append(Bar(name, value, f"{plain(value, 3)} {scale.unit}".strip(), tick, pale))
+        rows.append([name, how, figure(rmse, scale), figure(holdout, scale)])
+        value, tick = (None if number is None else scale.of(number) for number in (rmse, holdout))
+        drawn.append(Bar(f"RMS error of {name}", value or 0.0, tick, pale))
 
     for past in material.history:
         add(past.label, past.comparison.rmse, past.comparison.holdout_rmse, "an earlier model")
@@ -132,14 +131,13 @@ def _steps(material: DiagnosisMaterial) -> Html:
                 how = "kept as a correction" if step.correction else "added by the diagnosis"
                 add(name, step.rmse, step.holdout_rmse, how, pale=True)
     floor = answer.noise_floor if diagnosis is None else diagnosis.noise_floor.rmse
-    level = None if floor is None else (scale.of(floor), "noise")
-    unit = f" [{scale.unit}]" if scale.unit else ""
-    drawing = bars(drawn, axis=f"RMS error{unit}", title="RMS error of each model", level=level)
+    level = None if floor is None else scale.of(floor)
     columns = [
-        Head("Model"), Head("RMS error", number=True),
-        Head("On groups left out of the fit", number=True), Head(""),
+        Head("Model"), Head(""), Head("RMS error", number=True), Head("Held-out", number=True),
+        Head("", bar=True),
     ]  # fmt: skip
-    return html(
-        figure_of(drawing, "RMS error; the black tick is the error on groups left out of the fit."),
-        table(columns, rows),
+    caption = "Bars: RMS error; black tick: held-out error, on groups left out of the fit" + (
+        "." if level is None else "; dashed line: noise."
     )
+    cells = [[*row, bar] for row, bar in zip(rows, bars(drawn, level=level), strict=True)]
+    return table(columns, cells, caption=caption)

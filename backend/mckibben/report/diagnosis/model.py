@@ -69,7 +69,7 @@ def _card(
         for key, item in values.items()
     ]
     columns = [
-        Head("Symbol"), Head("Parameter"), Head("Value ± standard error", number=True),
+        Head("Symbol"), Head("Parameter"), Head("Value ± σ", number=True),
         Head("Bounds", number=True), Head("Source"),
     ]  # fmt: skip
     if effect is None:

@@ -71,7 +71,7 @@ def _channel(all_series: Sequence[ComparedSeries], answer: ComparisonResult, cha
     else:
         overlay = chart(
             x, Axis(words.capitalize(), scale.unit), [*dots, *lines],
-            title=f"Measured and modelled {about}", left=_LEFT, legend=True,
+            title=f"Measured and modelled {about}", height=240.0, left=_LEFT, legend=True,
         )  # fmt: skip
         legend = f"{words.capitalize()}: dots are measured, lines are the {name}."
     below = chart(

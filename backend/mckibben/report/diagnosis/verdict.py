@@ -43,8 +43,8 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
         for c in useful[:_SHOWN]
     ]
     columns = [
-        Head("Effect"), Head("RMS error with this effect alone", number=True), Head("Gain", number=True),
-        Head("Missing with probability", number=True), Head("Indistinguishable from"), Head("Why"),
+        Head("Effect"), Head("Error", number=True), Head("Gain", number=True),
+        Head("Probability", number=True), Head("Indistinguishable from"), Head("Why", wide=True),
     ]  # fmt: skip
     rest = len(diagnosis.candidates) - len(useful)
     parts: list[Child] = [heading("One effect alone, everything refitted")]
@@ -82,7 +82,9 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
             ]
             for item in verdict.experiments
         ]
-        parts.append(table(columns, experiments, caption="σ: standard deviation of one reading."))
+        parts.append(
+            table(columns, experiments, caption="σ: standard deviation of one reading.", whole=False)
+        )
     if verdict.status == "unknown_effect":
         parts.append(_unknown(verdict))
     return html(parts)

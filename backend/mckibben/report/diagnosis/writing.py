@@ -13,7 +13,7 @@ from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.diagnosis.model import correlations, model_cards
 from mckibben.report.diagnosis.pictures import pictures
 from mckibben.report.diagnosis.verdict import candidates_section
-from mckibben.report.document import Head, Section, bullets, document, heading, table
+from mckibben.report.document import Head, Section, bullets, document, table
 from mckibben.report.figures import figure
 from mckibben.report.html import Child, Html, html
 
@@ -57,13 +57,13 @@ def _proposed(material: DiagnosisMaterial) -> Html:
     cards = model_cards(
         diagnosis.parameters, material, added=diagnosis.verdict.effects, terms=diagnosis.model.effects
     )
-    parts: list[Child] = [cards, correlations(diagnosis, material)]
+    parts: list[Child] = []
     if material.proposed is not None:
         parts += [
-            heading("Comparison with the data"),
             pictures(material.proposed, "proposed model"),
             bullets(f"{sentence}." for sentence in material.proposed.sentences),
         ]
+    parts += [cards, correlations(diagnosis, material)]
     return html(parts)
 
 

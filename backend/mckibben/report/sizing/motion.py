@@ -72,7 +72,7 @@ def motion_section(material: SizingMaterial, chosen: Chosen) -> Html:
     for phase in (up, back):
         drawing = _drawing(material, chosen, phase)
         if drawing is not None:
-            parts.append(figure_of(drawing, f"{phase.name}."))
+            parts.append(figure_of(drawing, f"{phase.name}.", panels=True))
     if not chosen.proposal.drive.load.mass:
         parts.append(
             paragraph(

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mckibben.report.bars import Bar, bars
-from mckibben.report.document import Head, bullets, callout, figure_of, heading, mark, paragraph, table
+from mckibben.report.document import Head, bullets, callout, heading, mark, paragraph, table
 from mckibben.report.figures import figure, plain
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.sizing.material import Chosen, Margin, SpecimenSpread
@@ -15,25 +15,22 @@ _LONGEST = 1.0  # longest bar: larger margins make no difference
 
 
 def margins_section(chosen: Chosen) -> Html:
-    """Chart and table of the margins, the smallest first."""
+    """Table of the margins with a bar for each, the smallest first."""
     nearest = chosen.margins[0]
-    rows = [
-        Bar(
-            limit_name(margin.name),
-            100.0 * min(max(margin.share, 0.0), _LONGEST),
-            _left(margin),
-            strong=margin is nearest,
-        )
-        for margin in chosen.margins
-    ]
-    drawing = bars(rows, axis="Margin to the limit [%]", title="Margins to the limits")
+    drawn = bars(
+        [
+            Bar(f"Margin {_left(margin)}", min(max(margin.share, 0.0), _LONGEST), strong=margin is nearest)
+            for margin in chosen.margins
+        ],
+        level=_LONGEST if max(margin.share for margin in chosen.margins) < _LONGEST else None,
+    )
     caption = (
-        f"Margins; the nearest limit is {limit_name(nearest.name).lower()}. 0 % is the limit itself; a full "
-        "bar is 100 % or more."
+        f"The nearest limit is {limit_name(nearest.name).lower()}. 0 % is the limit itself; a full bar is "
+        "100 % or more."
     )
     columns = [
         Head("Limit"), Head("Required", number=True), Head("This drive", number=True),
-        Head("Margin", number=True),
+        Head("Margin", number=True), Head("", bar=True),
     ]  # fmt: skip
     body = [
         [
@@ -41,10 +38,11 @@ def margins_section(chosen: Chosen) -> Html:
             html("at most " if margin.upper else "at least ", _value(margin, margin.allowed)),
             _value(margin, margin.actual),
             tag("data", _left(margin), value=repr(float(margin.share))),
+            bar,
         ]
-        for margin in chosen.margins
+        for margin, bar in zip(chosen.margins, drawn, strict=True)
     ]
-    parts: list[Child] = [figure_of(drawing, caption), table(columns, body)]
+    parts: list[Child] = [table(columns, body, caption=caption)]
     if nearest.name in _FREE and nearest.share < _USED_UP:
         parts.append(
             paragraph(

@@ -38,18 +38,29 @@ function headerOf(p, name) {
   return found?.header ?? name;
 }
 
-/** The question that goes on with its proposal until somebody says otherwise: the unit of a time that the file
- * names and its readings rule out. A unit that nothing states stays open. @param {Preview} p */
-export const assumableOf = (p) =>
-  p.questions.find((q) => q.stops && q.about === "unit of time" && q.proposed && q.column) ?? null;
+/** The questions that go on with their proposal until somebody says otherwise: the unit of a column that states none,
+ * where the readings leave a usual one, and of a time whose unit its readings rule out. Every answer names them.
+ * Any other unit that a file states and its readings contradict stays open. @param {Preview} p */
+export const assumablesOf = (p) =>
+  p.questions.filter((q) => {
+    const column = p.columns.find((one) => one.header === q.column);
+    return q.stops && column && q.proposed && q.choices.includes(q.proposed) &&
+      q.about.startsWith("unit of ") &&
+      (q.about === "unit of time" || column.unit_origin === "proposed");
+  });
 
-/** The mapping with the proposal of a question as an assumption.
- * @param {OpenQuestion} q @param {Preview} p @param {Mapping} mapping @returns {Mapping} */
-export function withAssumed(q, p, mapping) {
-  const column = p.columns.find((one) => one.header === q.column);
-  if (!column || !q.proposed) return mapping;
-  return withColumns(mapping, { [column.header]: { ...choiceOf(column), unit: q.proposed, assumed: true } });
-}
+/** The mapping with the proposals of questions as assumptions.
+ * @param {OpenQuestion[]} asked @param {Preview} p @param {Mapping} mapping @returns {Mapping} */
+export const withAssumed = (asked, p, mapping) =>
+  withColumns(
+    mapping,
+    Object.fromEntries(asked.flatMap((q) => {
+      const column = p.columns.find((one) => one.header === q.column);
+      return column && q.proposed
+        ? [[column.header, { ...choiceOf(column), unit: q.proposed, assumed: true }]]
+        : [];
+    })),
+  );
 
 /** An answer to a question: its words, and what it says of the columns or the sheet.
  * @typedef {{label: string, proposed: boolean, ignores: boolean, apply: (mapping: Mapping) => Mapping}} Answer */

@@ -2,7 +2,7 @@
 // Files to be imported: each is looked at first; files of one kind are asked about together.
 import { ApiError } from "../server/client.js";
 import { previewOf, refusal } from "../server/measurements.js";
-import { assumableOf, withAssumed } from "./choices.js";
+import { assumablesOf, withAssumed } from "./choices.js";
 import { isOpen } from "./fields.js";
 import { forget, recall, remember, signatureOf } from "./memory.js";
 import { eachOf } from "./model.js";
@@ -63,11 +63,11 @@ const isSettled = (p, asks) =>
   p.measurement !== null && !p.problem && !p.questions.some((q) => q.stops) &&
   !(asks && (p.experiment ?? []).some((f) => isOpen(f, undefined) || f.origin === "assumed"));
 
-/** The files as they are read with the proposal of a question; as before where they cannot be.
- * @param {import("./types.js").OpenQuestion} q @param {Seen[]} seen @param {Preview[]} previews
+/** The files as they are read with the proposals of questions; as before where they cannot be.
+ * @param {import("./types.js").OpenQuestion[]} asked @param {Seen[]} seen @param {Preview[]} previews
  * @param {Mapping} mapping */
-async function assuming(q, seen, previews, mapping) {
-  const assumed = withAssumed(q, previews[0], mapping);
+async function assuming(asked, seen, previews, mapping) {
+  const assumed = withAssumed(asked, previews[0], mapping);
   try {
     return { previews: await eachOf(seen, ({ file }) => previewOf(file, assumed)), mapping: assumed };
   } catch (error) {
@@ -94,8 +94,10 @@ async function askAbout(seen, signature, o) {
     return seen.map(({ file }) => ({ file, mapping, experiment: {}, kept: used }));
   }
   const files = seen.map((one) => one.file);
-  const asked = o.asks ? assumableOf(seen[0].preview) : null;
-  const begin = asked && !used ? await assuming(asked, seen, previews, mapping) : { previews, mapping };
+  const asked = o.asks ? assumablesOf(seen[0].preview) : [];
+  const begin = asked.length && !used
+    ? await assuming(asked, seen, previews, mapping)
+    : { previews, mapping };
   const answer = await openImport({
     files,
     ...begin,
@@ -103,7 +105,7 @@ async function askAbout(seen, signature, o) {
     kept: used,
     signature,
     asks: o.asks,
-    taken: asked ? [asked] : [],
+    taken: asked,
   }); // deno-fmt-ignore
   return answer ? keepAnswers(answer, signature) : [];
 }
@@ -125,7 +127,7 @@ export const forgetKind = (kept) => forget(kept.signature);
 export async function importAgain(file, mapping, experiment, o) {
   const plain = await look(file, {}, o), now = plain && await look(file, mapping, o);
   if (!plain || !now) return null;
-  const signature = signatureOf(plain.preview), asked = assumableOf(plain.preview);
+  const signature = signatureOf(plain.preview), asked = assumablesOf(plain.preview);
   const answer = await openImport({
     files: [file],
     previews: [now.preview],
@@ -134,7 +136,7 @@ export async function importAgain(file, mapping, experiment, o) {
     kept: null,
     signature,
     asks: o.asks,
-    taken: asked ? [asked] : [],
+    taken: asked,
   }); // deno-fmt-ignore
   return answer ? keepAnswers(answer, signature)[0] : null;
 }

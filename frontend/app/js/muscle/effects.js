@@ -200,7 +200,7 @@ export function effectsCard(panel) {
       "div",
       { class: "card-head" },
       h("h2", null, "Effects"),
-      h("span", { class: "muted" }, () => {
+      h("span", { class: "muted whole" }, () => {
         const n = c.count();
         return n ? `${n} on` : "";
       }),

@@ -13,7 +13,8 @@ import { plotly } from "./library.js";
  *   dash?: string}, marker?: {size: number, symbol: string | string[], color: string | string[],
  *   edge?: string}, axis?: 2, column?: string}} Trace */
 /** @typedef {{x: [number, number] | null, y: [number, number] | null, text: string}} Zone */
-/** @typedef {{text: string, x: number, y: number, color: string}} Label */
+/** `end`: the other end of the line. @typedef {{text: string, x: number, y: number, color: string,
+ *   end?: {x: number, y: number}}} Label */
 /** A shaded range of x; `kind` is its CSS class. @typedef {{x: [number, number], kind: string}} Band */
 /** What both axes show, in shown units. @typedef {{x: [number, number], y: [number, number]}} Ranges */
 /** `room`: width at the right for names of the lines; `level`: the load line; `marks`: vertical lines; `brush`: dragging chooses a range of x, null: all of it;

@@ -100,9 +100,12 @@ export function dragLine(chart, o) {
   return place;
 }
 
-const CLEAR_PX = 15, NAME_PX = 13;
+const CLEAR_PX = 15, NAME_PX = 13, SHIFT_PX = 20;
+/** Letters of a name, its height, and how many points it may cover. */
+const LETTER_PX = 6.6, HIGH_PX = 16, MOST_COVERED = 2;
 
-/** Writes the name of each line beside its start, and the name of each shaded zone into it.
+/** Writes the name of each line beside its start or end, and the name of each shaded zone into it. A name that would
+ * lie over another one, far from its line or over a crowd of points is left out; the highest and the lowest stay.
  * @param {Chart} chart */
 export function writeLabels(chart) {
   const box = h("div", { class: "labels" });
@@ -110,30 +113,88 @@ export function writeLabels(chart) {
   chart.after.add(() => {
     const axes = chart.axes;
     if (!axes || !chart.spec) return;
-    const inside = (/** @type {any} */ axis, /** @type {number} */ px) => px >= 0 && px <= axis._length;
-    /** @type {HTMLElement[]} */
-    const nodes = [];
-    let above = -Infinity;
-    const lines = [...chart.spec.labels ?? []].sort((a, b) => b.y - a.y);
-    for (const { text, x, y, color } of lines) {
-      const px = axes.xaxis.c2p(x), py = axes.yaxis.c2p(y);
-      if (!inside(axes.xaxis, px) || !inside(axes.yaxis, py)) continue;
-      if (!chart.spec.room && py - above < CLEAR_PX) continue;
-      above = Math.max(py, chart.spec.room ? above + NAME_PX : py);
-      const label = h("span", { style: `color:${color}` }, text);
-      if (chart.spec.room) {
-        nodes.push(place(label, axes, axes.xaxis._length + 4, above - 8));
-        continue;
-      }
-      const right = px > 0.5 * axes.xaxis._length;
-      nodes.push(
-        place(label, axes, px + (right ? -4 : 4), Math.max(0, py - 18), right ? "translateX(-100%)" : ""),
-      );
-    }
+    const lines = [...chart.spec.labels ?? []].map((label) => ({
+      ...label,
+      px: axes.xaxis.c2p(label.x),
+      py: axes.yaxis.c2p(label.y),
+    })).filter(({ px, py }) => px >= 0 && px <= axes.xaxis._length && py >= 0 && py <= axes.yaxis._length)
+      .sort((a, b) => a.py - b.py);
+    const { room = 0 } = chart.spec;
+    const nodes = room && !lines.some((line) => line.end)
+      ? besideAxis(lines, axes)
+      : overPlot(lines, axes, pointsOf(chart.spec, axes), room);
     for (const zone of chart.spec.zones) nodes.push(...zoneLabel(zone, axes));
     box.replaceChildren(...nodes);
   });
 }
+
+/** @typedef {import("./chart.js").Label & {px: number, py: number}} PlacedLabel */
+
+/** @param {PlacedLabel} label */
+const nameOf = ({ text, color }) => h("span", { style: `color:${color}` }, text);
+
+/** Names right of the axes, moved down as far as they would touch. @param {PlacedLabel[]} lines from the top
+ * @param {any} axes */
+function besideAxis(lines, axes) {
+  /** @type {HTMLElement[]} */
+  const nodes = [];
+  let above = -Infinity;
+  const last = lines.at(-1);
+  for (const line of lines) {
+    const at = Math.max(line.py, above + NAME_PX);
+    const isCrowded = at - line.py > SHIFT_PX || (last && line !== last && at > last.py - NAME_PX);
+    if (isCrowded && line !== last) continue;
+    above = at;
+    nodes.push(place(nameOf(line), axes, axes.xaxis._length + 4, at - 8));
+  }
+  return nodes;
+}
+
+/** Names over the plot, where they cover fewest points: behind the end of a line, above or below it.
+ * @param {PlacedLabel[]} lines from the top @param {any} axes @param {[number, number][]} points
+ * @param {number} room right of the axes [px] */
+function overPlot(lines, axes, points, room) {
+  const { _length: width } = axes.xaxis, { _length: height } = axes.yaxis;
+  /** @type {HTMLElement[]} */
+  const nodes = [];
+  /** Left, top and width of the names that stand. @type {[number, number, number][]} */
+  const taken = [];
+  for (const [i, line] of lines.entries()) {
+    const wide = 6 + LETTER_PX * line.text.length;
+    const inner = line.px > 0.5 * width ? line.px - 4 - wide : line.px + 4;
+    const end = line.end && [axes.xaxis.c2p(line.end.x), axes.yaxis.c2p(line.end.y)];
+    const places = [
+      ...(end ? [[end[0] + 6, end[1] - 0.5 * HIGH_PX], [end[0] - wide, end[1] - 19]] : []),
+      [inner, Math.max(0, line.py - 18)],
+      [inner, line.py + 3],
+    ].filter(([left, top]) =>
+      left >= 0 && left + wide <= width + room && top >= 0 && top + HIGH_PX <= height &&
+      taken.every(([x, y, w]) => left >= x + w || left + wide <= x || Math.abs(top - y) >= CLEAR_PX)
+    );
+    const counts = places.map(([left, top]) =>
+      points.filter(([x, y]) => x > left - 3 && x < left + wide + 3 && y > top - 2 && y < top + HIGH_PX + 2)
+        .length
+    );
+    const least = Math.min(...counts), isOuter = i === 0 || i === lines.length - 1;
+    if (!places.length || (least > MOST_COVERED && !isOuter)) continue;
+    const [left, top] = places[counts.indexOf(least)];
+    taken.push([left, top, wide]);
+    nodes.push(place(nameOf(line), axes, left, top));
+  }
+  return nodes;
+}
+
+/** Places of the drawn points in pixels. @param {import("./chart.js").Spec} spec @param {any} axes
+ * @returns {[number, number][]} */
+const pointsOf = (spec, axes) =>
+  spec.traces.filter((t) => t.marker).flatMap((t) =>
+    t.x.flatMap((x, k) => {
+      const y = t.y[k];
+      return x == null || y == null
+        ? []
+        : [/** @type {[number, number]} */ ([axes.xaxis.c2p(x), axes.yaxis.c2p(y)])];
+    })
+  );
 
 /** @param {import("./chart.js").Zone} zone @param {any} axes */
 function zoneLabel(zone, axes) {

@@ -67,13 +67,14 @@ function row(p, i) {
           { type: "button", class: "drive", "aria-pressed": () => String(chosenIndex.value === i) },
           () => driveWords(p),
         ),
-        p.front
-          ? h(
-            "span",
-            { class: "front-mark", title: "Pareto front: no drive is better in every aim" },
-            "Pareto",
-          )
-          : null,
+        p.front ? null : h(
+          "span",
+          {
+            class: "front-mark",
+            title: "Not on the Pareto front: another drive is as good in every aim and better in one",
+          },
+          "dominated",
+        ),
         doubt(p),
         h(
           "small",
@@ -158,6 +159,12 @@ function money(amount) {
   return `${amount.toPrecision(3)} ${stated.currency ?? "EUR"}${assumed}`;
 }
 
+/** Whether the proposals are on the Pareto front; those that are not bear a mark. */
+const frontWords = () =>
+  proposals.value.length > 1 && proposals.value.every((p) => p.front)
+    ? "; all on the Pareto front: none beats another in every aim"
+    : "";
+
 export function proposalsCard() {
   effect(() => {
     answer.value;
@@ -170,7 +177,7 @@ export function proposalsCard() {
       "div",
       { class: "card-head" },
       h("h2", null, "Proposals"),
-      h("span", { class: "muted" }, "best first"),
+      h("span", { class: "muted" }, () => `best first${frontWords()}`),
       menuButton({
         label: icon("more"),
         name: "Proposals: save",

@@ -5,7 +5,7 @@ import { toShown } from "../../format.js";
 import { computed, signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { answer } from "./model.js";
-import { outcomeText, percentText, scaleFor, titleOf, valueText } from "./words.js";
+import { columnText, outcomeText, percentText, scaleFor, titleOf, valueText } from "./words.js";
 
 /** @typedef {import("./model.js").Answer} Answer */
 /** @typedef {import("../../types.js").S["StudyProbability"]} Probability */
@@ -39,8 +39,12 @@ const table = (caption, heads, rows) =>
     ),
   );
 
+/** What rounding leaves of a figure that is 0, in any shown unit. */
+const NOTHING = 1e-6;
+
 /** A mean to the digits that half its interval allows: "432.2 ± 2.7". @param {number} mean @param {number} half */
 function withHalf(mean, half) {
+  if (Math.abs(mean) + half < NOTHING) return "0";
   const places = half > 0 ? Math.min(8, Math.max(0, 1 - Math.floor(Math.log10(half)))) : 0;
   return `${mean.toFixed(places).replace("-", "−")} ± ${half.toFixed(places)}`;
 }
@@ -52,15 +56,16 @@ function spread(a) {
     ["Figure", "Mean", "Deviation", "5 %", "50 %", "95 %", "Smallest", "Largest", "Runs"],
     a.summary.map((s) => {
       const scale = scaleFor(s.figure, s.unit, units.value), wide = { ...scale, offset: 0 };
-      const text = (/** @type {number | null | undefined} */ v) => valueText(v, scale);
+      const shares = ["5", "50", "95"].map((q) => s.percentiles[q]?.value);
+      const text = columnText([...shares, s.least, s.most].map((v) => v ?? null), scale);
       const half = s.mean?.high == null || s.mean.value === null ? null : s.mean.high - s.mean.value;
       return [
         h("span", null, titleOf(s.figure), h("small", null, ` ${scale.unit}`)),
         half === null
           ? text(s.mean?.value)
           : withHalf(toShown(s.mean?.value ?? 0, scale), toShown(half, wide)),
-        valueText(s.deviation?.value, wide),
-        ...["5", "50", "95"].map((q) => text(s.percentiles[q]?.value)),
+        columnText([s.deviation?.value ?? null], wide)(s.deviation?.value),
+        ...shares.map(text),
         text(s.least),
         text(s.most),
         String(s.count),

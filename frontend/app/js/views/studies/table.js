@@ -7,7 +7,7 @@ import { columnField } from "./fields.js";
 import { shown, study } from "./model.js";
 import { openRun } from "./open.js";
 import { filter, front, pin, pins, places, sortBy, sorting, valueAt } from "./rows.js";
-import { outcomeText, scaleFor, titleOf, valueText } from "./words.js";
+import { columnText, outcomeText, scaleFor, titleOf, valueText } from "./words.js";
 
 /** @typedef {import("./model.js").Column} Column */
 
@@ -37,8 +37,16 @@ function head(name, title, unit) {
 
 export const openWord = () => study.value.subject === "task" ? "Design" : "Transient";
 
-/** @param {number} place @param {Column[]} columns */
-function row(place, columns) {
+/** How the values of each column on screen are written. @param {Column[]} columns @param {number[]} rows
+ * @returns {Map<string, (si: number | null | undefined) => string>} */
+const writers = (columns, rows) =>
+  new Map(columns.map((c) => {
+    const numbers = rows.map((place) => valueAt(c.name, place)).map((v) => typeof v === "number" ? v : null);
+    return [c.name, columnText(numbers, scaleFor(c.name, c.unit, units.value))];
+  }));
+
+/** @param {number} place @param {Column[]} columns @param {ReturnType<typeof writers>} written */
+function row(place, columns, written) {
   const run = Number(valueAt("run", place)), outcome = String(valueAt("outcome", place));
   const message = String(valueAt("message", place) ?? "");
   const isPinned = () => pins.value.includes(run);
@@ -74,7 +82,7 @@ function row(place, columns) {
       return h(
         "td",
         null,
-        typeof value === "string" ? value : valueText(value, scaleFor(c.name, c.unit, units.value)),
+        typeof value === "string" ? value : written.get(c.name)?.(value),
       );
     }),
     h(
@@ -165,7 +173,10 @@ export function tableCard() {
                 head("outcome", "Outcome"),
               ),
             ),
-            h("tbody", null, () => places.value.slice(0, most.value).map((place) => row(place, columns))),
+            h("tbody", null, () => {
+              const rows = places.value.slice(0, most.value), written = writers(columns, rows);
+              return rows.map((place) => row(place, columns, written));
+            }),
           ),
         ),
       ];

@@ -71,6 +71,25 @@ export const ofDifference = (scale) => ({ ...scale, offset: 0 });
 /** @param {number | null | undefined} si @param {Scale} scale */
 export const valueText = (si, scale) => si == null ? "–" : number(toShown(si, scale), scale.digits + 2);
 
+const FIGURES = 4, FEW = 2, MOST_PLACES = 7;
+
+/** Writes the numbers of a column with one number of decimals: four significant digits for the largest, two for
+ * the smallest, none that no number needs. @param {(number | null)[]} si @param {Scale} scale
+ * @returns {(si: number | null | undefined) => string} */
+export function columnText(si, scale) {
+  const values = si.filter((v) => v !== null && Number.isFinite(v)).map((v) => toShown(Number(v), scale));
+  const sizes = values.filter(Boolean).map((v) => Math.floor(Math.log10(Math.abs(v))));
+  if (!sizes.length) return (v) => valueText(v, scale);
+  const wished = Math.max(0, FIGURES - 1 - Math.max(...sizes), FEW - 1 - Math.min(...sizes));
+  if (wished > MOST_PLACES) return (v) => valueText(v, scale);
+  const needs = (/** @type {number} */ places) =>
+    values.every((v) => Number(v.toFixed(places)) === Number(v.toFixed(wished)));
+  let places = 0;
+  while (places < wished && !needs(places)) places++;
+  return (v) =>
+    v == null ? "–" : toShown(v, scale).toFixed(places).replace("-", "−").replace(/^−(0\.?0*)$/, "$1");
+}
+
 /** @param {number | null | undefined} si @param {Scale} scale */
 export function withUnitOf(si, scale) {
   const text = valueText(si, scale);

@@ -135,7 +135,7 @@ function pair(e, twin) {
   const a = of(mine), b = of(theirs);
   return h(
     "li",
-    { class: "twins" },
+    { class: "twin-pair" },
     h(
       "div",
       null,

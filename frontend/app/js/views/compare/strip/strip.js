@@ -105,7 +105,7 @@ function nextCell() {
     ),
     h(
       "div",
-      { class: "act" },
+      { class: "next-step" },
       h(
         "div",
         null,

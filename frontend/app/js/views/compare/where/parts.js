@@ -79,7 +79,7 @@ function channels(a) {
 
 /** Under the residual; of constant height. */
 export const partsBar = () =>
-  h("div", { class: "parts" }, () => {
+  h("div", { class: "error-parts" }, () => {
     const a = shown.value;
     return a ? [bar(a), channels(a)].flat() : null;
   });

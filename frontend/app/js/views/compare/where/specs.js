@@ -152,7 +152,7 @@ const TOGETHER = 0.2;
 /** Room of a name beside its line, and of each letter of it. */
 const ROOM_PX = 8, LETTER_PX = 8;
 
-/** The pressure of each line: at the right ends where they end together, else where they begin.
+/** The pressure of each line: beside the axes where the lines end together, else at one of its ends.
  * @param {View} v @param {string[]} tints @param {(values: (number | null)[]) => (number | null)[]} x
  * @param {(values: (number | null)[]) => (number | null)[]} y
  * @returns {Pick<Spec, "room" | "labels">} */
@@ -175,8 +175,10 @@ function names(v, tints, x, y) {
   const span = Math.max(...all) - Math.min(...all);
   const together = Math.max(...right) - Math.min(...right) <= TOGETHER * span;
   return {
-    ...(together ? { room: ROOM_PX + LETTER_PX * Math.max(...ends.map((e) => e.text.length)) } : {}),
-    labels: ends.map(({ start, end, text, color }) => ({ ...(together ? end : start), text, color })),
+    room: ROOM_PX + LETTER_PX * Math.max(...ends.map((e) => e.text.length)),
+    labels: ends.map(({ start, end, text, color }) =>
+      together ? { ...end, text, color } : { ...start, text, color, end }
+    ),
   };
 }
 
