@@ -9,9 +9,9 @@ of both files together names the hidden effect, and none of those any more.
 On 24 November 2026: 8 of 11 (all static cases of seed 0, those of seeds 1 and 2 that are friction or a wall
 beside something; wanted 80 %). Only 11 groups have an experiment of the rig; 7 have none. In two of the
 three the hidden Coulomb friction is the limit of its rival: Maxwell slip whose contacts hardly shear
-predicts the new file as well (within 0.05 x noise, with three more constants), although 1.8 sigma were
-promised, because the promise moves constants along their slopes only. In all of them the hidden effect is
-the one that is named.
+predicts the new file as well (within 0.05 x noise, with three more constants), although 1.0 and 1.8 sigma
+were promised, because the promise moves constants along their slopes only. In all of them the hidden effect
+is the one that is named.
 """
 
 from __future__ import annotations
