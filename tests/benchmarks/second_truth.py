@@ -1,9 +1,14 @@
 """The diagnosis examined by somebody else: the cases of `tests/second_truth`, and what their models predict.
 
-    python -m tests.benchmarks.second_truth [--set cases|third|fourth] [--only c01,c02]
+    python -m tests.benchmarks.second_truth [--set cases|third|fourth] [--only c01,c02] [--keep FILE]
 
 Errors are over the true noise. *Surplus*: a named group that holds no hidden effect. *Held*: error of the
-repaired model on the second test of the same muscle, without fitting anything again; *band*: over its twins.
+repaired model on the second test of the same muscle, without fitting anything again; *band*: over its
+twins.
+
+On 24 November 2026, `cases` and `third`: single 40 of 42, pairs and triples 18 of 21, false alarms 0 of 11,
+surplus 10 of 63, second test within 1.2 x noise 49 of 63, told with 90 % or more 72 of 73 true; where twins
+part (8 cases) the band holds 89 % of the readings (wanted 85-95 %).
 """
 
 from __future__ import annotations
