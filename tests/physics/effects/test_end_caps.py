@@ -16,8 +16,10 @@ EFFECT = default_catalogue()["end_caps"]
 THETA = radians(25.0)
 
 
-def evaluate(muscle: Muscle, cone_factor: float, length: object, pressure: float = 6e5) -> State:
-    values = {"end_caps": {"cone_factor": cone_factor}}
+def evaluate(
+    muscle: Muscle, cone_factor: float, length: object, pressure: float = 6e5, threadless: float = 0.0
+) -> State:
+    values = {"end_caps": {"cone_factor": cone_factor, "threadless_factor": threadless}}
     return Model([EFFECT]).evaluate(muscle=muscle, values=values, length=length, pressure=pressure)
 
 
@@ -89,3 +91,23 @@ def test_a_stretched_muscle_has_no_cones() -> None:
     assert np.array_equal(got.force, evaluate(muscle, 0.0, lengths).force)
     near = evaluate(muscle, 1.5, np.array([0.1 - 1e-9, 0.1 + 1e-9])).force
     assert near[0] == pytest.approx(near[1], abs=1e-4), "no step in force where the cones begin"
+
+
+def test_ends_without_thread_leave_it_to_a_shorter_cylinder() -> None:
+    """Cylinder of all the thread, of length L_a with L = L_a + chi (D(L_a) - D_0), and its two cones.
+
+    At rest the force is P A_0 (2 a k/3 - 1), k = 1/(1 - a chi D_0/(3 L_0)), a = 3/tan^2(theta_0): there the
+    cones are as wide as the cylinder, and only the cylinder shortens.
+    """
+    muscle, factor = Muscle(0.3, 0.02, 0.45), 0.6
+    thread, turns = muscle.braid
+    cylinder = 0.26
+    wide = np.sqrt(thread**2 - cylinder**2) / (pi * turns)
+    step = wide - 0.02
+    cones = pi / 12.0 * factor * step * (wide**2 + wide * 0.02 + 0.02**2)
+    here = evaluate(muscle, 0.0, cylinder + factor * step, 1e5, threadless=factor)
+    assert here.volume == pytest.approx(pi / 4.0 * wide**2 * cylinder + cones, rel=1e-9)
+    a = 3.0 / tan(0.45) ** 2
+    grown = 1.0 / (1.0 - a * factor * 0.02 / 0.9)
+    rest = evaluate(muscle, 0.0, 0.3, 1e5, threadless=factor)
+    assert rest.force == pytest.approx(1e5 * pi / 4.0 * 0.02**2 * (2.0 * a * grown / 3.0 - 1.0), rel=1e-6)

@@ -7,6 +7,10 @@ A cone of length :math:`\ell = \chi (D - D_f)_+/2` at each end leaves an active 
 
 so that on the ideal braid :math:`\Delta F = -\chi P L (D - D_f)_+/(2\pi n^2)`. With :math:`D_f = D_0` and
 small contraction this is Tondu's factor with :math:`k - 1 = \chi\cot^2\theta_0\,D_0/(3 L_0)`.
+
+Where the ends hold no thread, all of it stays in a cylinder that is shorter than the muscle by
+:math:`\chi_t (D - D_0)`. It then shortens by more than the muscle, which pulls a third to a half harder than
+the ideal one at rest.
 """
 
 from collections.abc import Callable
@@ -19,9 +23,16 @@ from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.slots import Shape
 
 
-def shape(*, inner: Callable[[Value], Shape], length: Value, muscle: Muscle, cone_factor: Value) -> Shape:
+def shape(
+    *,
+    inner: Callable[[Value], Shape],
+    length: Value,
+    muscle: Muscle,
+    cone_factor: Value,
+    threadless_factor: Value,
+) -> Shape:
     """The shape with the volume reduced by the two cones; the diameter is that at mid-span."""
-    whole = inner(length)
+    whole = _beside_threadless_ends(inner, length, muscle, threadless_factor)
     fitting = ops.where(
         ops.greater(muscle.inside_diameter, 0.0), muscle.inside_diameter, muscle.braid_diameter
     )
@@ -29,6 +40,26 @@ def shape(*, inner: Callable[[Value], Shape], length: Value, muscle: Muscle, con
     step = ops.positive_part(whole.diameter - fitting)
     lost = ops.pi / 12.0 * cone_factor * (2.0 * whole.diameter + fitting) * step**2
     return Shape(whole.volume - lost, whole.diameter)
+
+
+def _beside_threadless_ends(
+    inner: Callable[[Value], Shape], length: Value, muscle: Muscle, factor: Value
+) -> Shape:
+    """A cylinder of all the thread, shorter than the muscle by chi_t (D - D_0), and the cones at its ends.
+
+    With L = b cos(theta), D = b sin(theta)/(pi n) the length is b (cos(theta) + t sin(theta)) - chi_t D_0,
+    t = chi_t/(pi n), which is solved for theta.
+    """
+    thread, turns = muscle.braid
+    rest = muscle.braid_diameter
+    tangent = factor / (ops.pi * turns)
+    reach = (length + factor * rest) / (thread * (1.0 + tangent**2) ** 0.5)
+    angle = ops.arccos(ops.minimum(reach, 1.0)) + ops.arcsin(tangent / (1.0 + tangent**2) ** 0.5)
+    step = thread * ops.sin(angle) / (ops.pi * turns) - rest
+    cylinder = inner(length - factor * step)
+    wide = rest + step
+    cones = ops.pi / 12.0 * factor * step * (wide**2 + wide * rest + rest**2)
+    return Shape(cylinder.volume + cones, cylinder.diameter)
 
 
 _CONE = Source("half angle of the cone 35-55 degrees", "E")
@@ -50,12 +81,25 @@ EFFECT = Effect(
             r"\chi",
             "1",
             default=1.0,
-            lower=0.0,
+            lower=-0.5,
             upper=2.0,
             source=_CONE,
-            description="Length of a cone over its step in radius; 1 is a cone of 45 degrees. The fitting "
+            description="Length of a cone over its step in radius; 1 is a cone of 45 degrees, negative are "
+            "round ends that enclose more than the cones of the ends without thread. The fitting "
             "has the inside diameter of the muscle, or its braid diameter when that is not given.",
             off=0.0,
+        ),
+        Parameter(
+            "threadless_factor",
+            r"\chi_t",
+            "1",
+            default=0.0,
+            lower=0.0,
+            upper=1.2,
+            source=_CONE,
+            description="The same of cones that hold no thread: all of it is in the cylinder between them.",
+            off=0.0,
+            fitted=False,
         ),
     ),
     slots={"shape": shape},
