@@ -82,3 +82,14 @@ def test_below_the_atmosphere_the_factor_stays_at_its_largest() -> None:
     constant = evaluate({"factor": 1.39, "excess": 0.0}, 0.27, -2e4)
     assert float(vacuum.force) == pytest.approx(float(constant.force), rel=1e-12)
     assert float(vacuum.volume) == pytest.approx(float(constant.volume), rel=1e-12)
+
+
+def test_a_factor_that_grows_with_contraction_gives_the_area_of_the_braid_there() -> None:
+    """F = P A0 [a (1 - k eps - g eps^2)^2 - c_b], and the gas balance agrees: a cycle gains no work."""
+    growing = {"factor": 1.05, "growth": 0.5}
+    a, c = 3.0 / tan(THETA) ** 2, 1.0 / sin(THETA) ** 2
+    for contraction in (0.0, 0.1, 0.22):
+        middle = 1.05 * contraction + 0.5 * contraction**2
+        expected = 3e5 * pi * 0.0218**2 / 4.0 * (a * (1.0 - middle) ** 2 - c)
+        assert float(evaluate(growing, 0.3 * (1.0 - contraction), 3e5).force) == pytest.approx(expected)
+    assert abs(work_of_a_cycle(FALLING | {"growth": 0.5})) < 1e-6

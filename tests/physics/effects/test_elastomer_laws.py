@@ -13,9 +13,10 @@ from mckibben.physics.model import Model
 from mckibben.physics.muscle import Muscle
 
 CATALOGUE = default_catalogue()
+DEFAULTS = CATALOGUE["bladder_elasticity"].defaults
 MUSCLE = Muscle(0.3, 0.0218, radians(26.5), 0.0018)
 # Klute & Hannaford 2000
-LATEX = {"shear_modulus": 118.4e3, "mooney_constant": 105.7e3, "stiffening": 0.0}
+LATEX = DEFAULTS | {"shear_modulus": 118.4e3, "mooney_constant": 105.7e3, "stiffening": 0.0}
 
 
 def tension(length: float, values: dict[str, float] = LATEX, muscle: Muscle = MUSCLE) -> float:
@@ -69,7 +70,7 @@ def test_a_stiffening_wall_is_gents_to_second_order() -> None:
         first = lam**2 + hoop2 + 1.0 / (lam**2 * hoop2) - 3.0
         slope = 2.0 * lam - 2.0 * lam * cot2 - 2.0 / (lam**3 * hoop2) + 2.0 * cot2 / (lam * hoop2**2)
         gent = pi * 0.0218 * 0.0018 * 250e3 * slope / (1.0 - first / limit)
-        wall = {"shear_modulus": 250e3, "mooney_constant": 0.0, "stiffening": 0.5 / limit}
+        wall = DEFAULTS | {"shear_modulus": 250e3, "mooney_constant": 0.0, "stiffening": 0.5 / limit}
         assert tension(0.3 * lam, wall) == pytest.approx(gent, rel=2.0 * (first / limit) ** 2 + 1e-12)
 
 
@@ -98,3 +99,22 @@ def test_linear_elasticity_stores_half_k_x_squared() -> None:
     work, _ = quad(force, 0.27, 0.3)
     assert work == pytest.approx(-0.5 * 3000.0 * 0.03**2, rel=1e-10)
     assert np.sign(force(0.31)) == 1.0
+
+
+def test_filled_rubber_softens_with_its_strain() -> None:
+    """Energy V C10 int ((j + c^2)/(1 + c^2))^(-n/2) dj by quadrature; its tension is dW/dL."""
+    muscle = Muscle(0.3, 0.0218, radians(26.5), 0.0018)
+    bladder = default_catalogue()["bladder_elasticity"]
+    values = bladder.defaults | {"shear_modulus": 4e5, "softening": 0.8, "onset": 0.4}
+
+    def energy(length: float) -> float:
+        axial = (length / 0.3) ** 2
+        hoop = 1.0 + (1.0 - axial) / tan(radians(26.5)) ** 2
+        strain = np.linspace(0.0, axial + hoop + 1.0 / (axial * hoop) - 3.0, 20001)
+        stiffness = ((strain + 0.16) / 1.16) ** -0.4
+        return float(pi * 0.0218 * 0.0018 * 0.3 * 4e5 * np.trapezoid(stiffness, strain))
+
+    for length in (0.29, 0.25):
+        slope = (energy(length + 1e-5) - energy(length - 1e-5)) / 2e-5
+        tension = bladder.call("elastomer", {"muscle": muscle, "length": length}, values)
+        assert float(tension) == pytest.approx(slope, rel=1e-5)

@@ -4,13 +4,15 @@ With :math:`\lambda_z = L/L_0`, the braid ties the hoop stretch to the axial one
 :math:`\lambda_\theta^2 = 1 + \cot^2\theta_0\,(1-\lambda_z^2)`, and incompressibility gives
 :math:`\lambda_r = 1/(\lambda_z\lambda_\theta)`. The energy of the wall volume :math:`\pi D_b H L_0` is
 
-.. math:: w = C_{10}\left[J + y\,J^2 + y^2 J^3\right] + C_{01}\,(I_2-3), \qquad J = I_1-3
+.. math:: w = C_{10}\left[S(J) + y\,J^2 + y^2 J^3\right] + C_{01}\,(I_2-3), \qquad J = I_1-3, \qquad
+   S(J) = \int_0^J \Bigl(\frac{j+c^2}{1+c^2}\Bigr)^{-n/2} dj
 
-neo-Hookean for y = 0 and :math:`C_{01}=0`, Mooney-Rivlin for y = 0, Yeoh's of third order for
+neo-Hookean, S = J, for n = 0, y = 0 and :math:`C_{01}=0`, Mooney-Rivlin for y = 0, Yeoh's of third order for
 :math:`C_{01}=0`. To second order in J it is Fung's exponential with 2y and Gent's logarithm with
 :math:`J_m = 1/(2y)`; it lies between their third terms, :math:`\tfrac23 y^2J^3` and :math:`\tfrac43 y^2J^3`.
-Because the hoop stretch dominates, the tension falls steeply over the first 5 % of contraction and then
-saturates, whatever the pressure; with a stiffening wall (y > 0) it falls further.
+Filled rubber is stiffer at small strains and softens with :math:`J^{-n/2}` beyond the strain c (Davies, De &
+Thomas); C10 is then its modulus at J = 1. Because the hoop stretch dominates, the tension falls steeply over
+the first 5 % of contraction and then saturates, at every pressure; with y > 0 it falls further.
 """
 
 from mckibben.physics import ops
@@ -21,27 +23,45 @@ from mckibben.physics.parameter import Parameter, Source
 
 
 def energy(
-    *, length: Value, muscle: Muscle, shear_modulus: Value, mooney_constant: Value, stiffening: Value
+    *,
+    length: Value,
+    muscle: Muscle,
+    shear_modulus: Value,
+    mooney_constant: Value,
+    stiffening: Value,
+    softening: Value,
+    onset: Value,
 ) -> Value:
-    """Stored energy V_b {C10 [J + y J^2 + y^2 J^3] + C01 (I2-3)} of the wall [J]; 0 at the nominal length."""
+    """Stored energy V_b {C10 [S + y J^2 + y^2 J^3] + C01 (I2-3)} of the wall [J]; 0 at the nominal length."""
     axial = (length / muscle.nominal_length) ** 2
     hoop = 1.0 + (1.0 - axial) / ops.tan(muscle.braid_angle) ** 2
     radial = 1.0 / (axial * hoop)
     wall_volume = ops.pi * muscle.braid_diameter * muscle.wall_thickness * muscle.nominal_length
     first = axial + hoop + radial - 3.0
     second = 1.0 / axial + 1.0 / hoop + 1.0 / radial - 3.0
-    stiffer = first * (1.0 + stiffening * first * (1.0 + stiffening * first))
+    small, power = onset**2, 1.0 - 0.5 * softening
+    soft = ((first + small) ** power - small**power) * (1.0 + small) ** (1.0 - power) / power
+    stiffer = soft + first * stiffening * first * (1.0 + stiffening * first)
     return wall_volume * (shear_modulus * stiffer + mooney_constant * second)
 
 
 def elastomer(
-    *, length: Value, muscle: Muscle, shear_modulus: Value, mooney_constant: Value, stiffening: Value
+    *,
+    length: Value,
+    muscle: Muscle,
+    shear_modulus: Value,
+    mooney_constant: Value,
+    stiffening: Value,
+    softening: Value,
+    onset: Value,
 ) -> Value:
     """Tension dW/dL of the wall [N]; negative (it resists shortening) below the nominal length."""
     constants = {"shear_modulus": shear_modulus, "mooney_constant": mooney_constant, "stiffening": stiffening}
+    constants |= {"softening": softening, "onset": onset}
     return ops.derivative(lambda x: energy(length=x, muscle=muscle, **constants), length)
 
 
+_FILLED = Source("Davies, De & Thomas, Rubber Chem. Technol. 67 (1994) 716: exponents of 0.1 to 1", "M")
 _MAPS = Source("fit of the force maps of Martens & Boblan 2017, doi 10.3390/act6040033", "D")
 _DERIVED = Source("strain energy differentiated by hand, latex constants", "D")
 _LATEX = {"shear_modulus": 118.4e3, "mooney_constant": 105.7e3}  # Klute & Hannaford 2000
@@ -59,13 +79,12 @@ EFFECT = Effect(
     cause="The elastomer wall is stretched around the muscle when the braid makes it thicker. Its energy "
     "comes from the gas, so the muscle pulls less as it contracts.",
     equation=r"F_{bl} = \frac{\pi D_b H L_0}{L_0}\,\frac{d}{d\lambda_z}"
-    r"\left[C_{10}\{J+yJ^2+y^2J^3\} + C_{01}(I_2-3)\right],\quad J = I_1-3,\quad "
+    r"\left[C_{10}\{S+yJ^2+y^2J^3\} + C_{01}(I_2-3)\right],\quad J = I_1-3,\quad "
+    r"S = \int_0^J\Bigl(\frac{j+c^2}{1+c^2}\Bigr)^{-n/2}dj,\quad "
     r"\lambda_\theta^2 = 1+\cot^2\theta_0\,(1-\lambda_z^2)",
     parameters=(
         Parameter(
-            "shear_modulus",
-            "C_{10}",
-            "Pa",
+            *("shear_modulus", "C_{10}", "Pa"),
             default=0.468e6,
             lower=0.0,
             upper=3.0e6,
@@ -97,6 +116,25 @@ EFFECT = Effect(
             source=Source("Yeoh's C20/C10; Gent's 1/(2 J_m): 0.005 of gum, 0.1 of highly filled rubber", "M"),
             description="Excess of the energy at large strain; 0 is a neo-Hookean wall, larger when polymer "
             "chains approach their limit of extension.",
+            fitted=False,
+        ),
+        Parameter(
+            *("softening", "n", "1"),
+            default=0.0,
+            lower=0.0,
+            upper=1.5,
+            source=_FILLED,
+            description="Softening of a filled rubber with its strain; 0 is a neo-Hookean wall.",
+            off=0.0,
+            fitted=False,
+        ),
+        Parameter(
+            *("onset", "c", "1"),
+            default=0.4,
+            lower=0.02,
+            upper=0.6,
+            source=_FILLED,
+            description="Strain beyond which a filled rubber softens.",
             fitted=False,
         ),
     ),
