@@ -13,6 +13,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mckibben.identification.diagnose.extremes import reaching_farthest
 from mckibben.identification.diagnose.score import LEAST_SCORE, better, effective_rows, score
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
@@ -81,7 +82,10 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
                 fitter.adding(fitted_model, effect)
                 for effect in fitter.promising(fitted_model, others)[: min(_TRIED, fitter.effort.tried)]
             ]
-    return _polished(fitter, best, root)
+    best = _polished(fitter, best, root)
+    rows, known = _rows(fitter, best), fitter.known.values()
+    start = root.fit_model.ids
+    return reaching_farthest(best, known, fitter.predictor, rows=rows, noise=fitter.noise, start=start)
 
 
 def _examined(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> list[Effect]:

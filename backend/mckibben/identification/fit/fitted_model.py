@@ -119,26 +119,32 @@ class FittedModel:
         :math:`\Lambda`, one standard deviation of the residual over the range of a parameter, matters only
         where fold g alone determines a parameter: without fold g, the parameter then goes to its off value.
         """
+        return tuple(
+            np.array([self.square_without(labels == label) for label in np.unique(labels)])
+            for labels in self.folds
+        )
+
+    def square_without(self, rows: np.ndarray) -> float:
+        """Hold-out mean square of some rows (a mask), as `fold_squares` defines it."""
+        jacobian, normal, low, high, prior, pull = self._linear
+        out, left = jacobian[rows], self.residual[rows]
+        if jacobian.shape[1]:
+            inverse = np.linalg.pinv(normal - out.T @ out + np.diag(prior), rcond=_CUTOFF, hermitian=True)
+            left = left - out @ np.clip(-inverse @ (out.T @ left + pull), low, high)
+        return float(np.mean(left**2))
+
+    @cached_property
+    def _linear(self) -> tuple[np.ndarray, ...]:
+        """Of the inner parameters over their ranges: Jacobian, normal matrix, bounds, prior and its pull."""
         inner = self.inner
         free = [self.free[i] for i in inner]
         span = np.array([p.upper - p.lower for p in free])
         jacobian = self.jacobian[:, inner] * span
-        normal = jacobian.T @ jacobian
         here = np.array([p.start for p in free])
         low, high = ((np.array([getattr(p, end) for p in free]) - here) / span for end in ("lower", "upper"))
         prior = np.array([0.0 if p.off is None else self.mean_square for p in free])
         pull = np.array([0.0 if p.off is None else self.mean_square * (p.start - p.off) for p in free]) / span
-
-        def square(rows: np.ndarray) -> float:
-            out, left = jacobian[rows], self.residual[rows]
-            if len(inner):
-                inverse = np.linalg.pinv(normal - out.T @ out + np.diag(prior), rcond=_CUTOFF, hermitian=True)
-                left = left - out @ np.clip(-inverse @ (out.T @ left + pull), low, high)
-            return float(np.mean(left**2))
-
-        return tuple(
-            np.array([square(labels == label) for label in np.unique(labels)]) for labels in self.folds
-        )
+        return jacobian, jacobian.T @ jacobian, low, high, prior, pull
 
     @cached_property
     def holdout_square(self) -> float:
