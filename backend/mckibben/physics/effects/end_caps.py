@@ -47,21 +47,24 @@ def _beside_threadless_ends(
 ) -> Shape:
     """A cylinder of all the thread, shorter than the muscle by chi_t (D - D_0), and the cones at its ends.
 
-    With L = b cos(theta), D = b sin(theta)/(pi n) the length is b (cos(theta) + t sin(theta)) - chi_t D_0,
-    t = chi_t/(pi n), which is solved for theta.
+    With the cylinder b cos(theta) long and b sin(theta)/(pi n) wide, t = chi_t/(pi n), the muscle's length is
+    b (cos(theta) + t sin(theta)) - chi_t D_0, a quadratic equation for sin(theta).
     """
     thread, turns = muscle.braid
     rest = muscle.braid_diameter
     tangent = factor / (ops.pi * turns)
-    reach = (length + factor * rest) / (thread * (1.0 + tangent**2) ** 0.5)
-    angle = ops.arccos(ops.minimum(reach, 1.0)) + ops.arcsin(tangent / (1.0 + tangent**2) ** 0.5)
-    step = thread * ops.sin(angle) / (ops.pi * turns) - rest
+    reach = (length + factor * rest) / thread
+    inside = 1.0 + tangent**2 - reach**2
+    inside = 0.5 * (inside + (inside**2 + _LOCKED) ** 0.5)  # finite beyond the braid lock, without a corner
+    sine = (tangent * reach + inside**0.5) / (1.0 + tangent**2)
+    step = thread * sine / (ops.pi * turns) - rest
     cylinder = inner(length - factor * step)
     wide = rest + step
     cones = ops.pi / 12.0 * factor * step * (wide**2 + wide * rest + rest**2)
     return Shape(cylinder.volume + cones, cylinder.diameter)
 
 
+_LOCKED = 1e-16  # fourth power of sin(theta) that is left at the braid lock
 _CONE = Source("half angle of the cone 35-55 degrees", "E")
 _CLOSED_FORM = Source("dF = -chi P L (D - D_f)/(2 pi n^2) evaluated by hand", "D")
 _SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
