@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterable, Mapping, Sequence
+from functools import lru_cache
 
 import numpy as np
 import symengine as se
@@ -90,12 +91,13 @@ def symbolic(effects: Sequence[Effect]) -> tuple[list[se.Symbol], State]:
     return [*inputs.values(), *geometry.values(), *parameters, *states.values()], output
 
 
-def compiled(effects: Sequence[Effect]) -> tuple[list[str], Callable[[np.ndarray], np.ndarray]]:
+@lru_cache(4)  # checks of one effect follow each other
+def compiled(effects: tuple[Effect, ...]) -> tuple[list[str], Callable[[np.ndarray], np.ndarray]]:
     """Names of the arguments; a function of them giving all outputs, then d force by d each argument."""
     symbols, state = symbolic(effects)
     force = se.sympify(state.force)
     outputs = [se.sympify(output) for output in state] + [force.diff(symbol) for symbol in symbols]
-    return [symbol.name for symbol in symbols], se.Lambdify(symbols, outputs, backend="llvm")
+    return [symbol.name for symbol in symbols], se.Lambdify(symbols, outputs, backend="llvm", cse=True)
 
 
 def numeric(effects: Sequence[Effect], point: Mapping[str, float]) -> State:
