@@ -70,6 +70,9 @@ def test_curves_print_a_table(run: Run) -> None:
     assert "6 bar" in out
     assert "blocked force" in out
     assert "not read in a source" in err
+    assert "Dahl friction (force, break strain), Viscous damping (coefficient), max pressure" in " ".join(
+        err.split()
+    )
 
 
 def test_curves_print_the_stiffness_when_asked(run: Run) -> None:

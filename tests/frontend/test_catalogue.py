@@ -76,7 +76,9 @@ def test_detail_shows_unit_source_and_grade_of_each_value(page: Page) -> None:
         assert len(row.locator("small.source").inner_text()) > 3
         expect(row.locator(".grade")).to_have_count(1)
     detail.get_by_role("button", name="unverified values").click()
-    expect(page.get_by_role("dialog", name="Unverified values")).to_contain_text("max pressure")
+    doubtful = page.get_by_role("dialog", name="Unverified values")
+    expect(doubtful).to_contain_text("max pressure")
+    expect(doubtful).to_contain_text("Dahl friction: break strain")
     expect(detail.locator(".js-line")).to_have_count(6)
 
 

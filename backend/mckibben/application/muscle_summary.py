@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
 from mckibben.documents.start_model import StartModel
+from mckibben.documents.value_names import value_names
 from mckibben.physics.muscle import Muscle, assumption
 from mckibben.simulation.statics.limits import LimitFlag
 
@@ -97,7 +98,7 @@ def limit_notices(flags: Iterable[LimitFlag]) -> list[Notice]:
 def unverified_notice(figures: str, field: str) -> Notice:
     """Notice that these figures of a preset were not read in a source; ``figures``: "PRESET: name, name"."""
     why = "from general knowledge or estimated, not read in a source"
-    return Notice("unverified", f"{figures} {why}", field)
+    return Notice("unverified", f"{figures}; {why}", field)
 
 
 def start_notices(start: StartModel) -> list[Notice]:
@@ -110,7 +111,8 @@ def start_notices(start: StartModel) -> list[Notice]:
     if preset is None:
         return notices
     if preset.unverified:
-        notices.append(unverified_notice(f"{preset.id}: {', '.join(preset.unverified)}", "muscle.preset"))
+        names = value_names(preset.unverified, start.catalogue)
+        notices.append(unverified_notice(f"{preset.id}: {', '.join(names)}", "muscle.preset"))
     length, bound, word = start.muscle.nominal_length, None, ""
     if preset.shortest is not None and length < preset.shortest * (1.0 - 1e-9):
         bound, word = preset.shortest, "shorter"

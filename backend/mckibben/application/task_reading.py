@@ -9,6 +9,7 @@ from mckibben.documents.drive import TubeInput, ValveInput
 from mckibben.documents.drive_parts import tube_of, unverified_of, valve_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask, TaskLoad
+from mckibben.documents.value_names import value_names
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.presets import MusclePreset, Preset, TubePreset, ValvePreset
@@ -180,7 +181,7 @@ def _muscle(preset: Preset, studio: Studio) -> MusclePart:
         id=preset.id,
         effects=tuple(studio.catalogue[name] for name in facts.effects),
         values=facts.effects,
-        unverified=facts.unverified,
+        unverified=value_names(facts.unverified, studio.catalogue),
         muscle=facts.muscle,
         limits=facts.limits,
         shortest=facts.shortest or _SHORTEST,
@@ -209,7 +210,7 @@ def _valve(preset: Preset, studio: Studio) -> ValvePart:
     effects, values = _effects(preset, studio)
     return ValvePart(
         id=preset.id,
-        unverified=unverified_of(preset, with_effects=True),
+        unverified=value_names(unverified_of(preset, with_effects=True), studio.catalogue),
         valve=flow,
         min_pressure=least,
         max_pressure=most,
@@ -225,7 +226,7 @@ def _tube(preset: Preset, studio: Studio, length: float) -> TubePart:
         id=preset.id,
         effects=effects,
         values=values,
-        unverified=unverified_of(preset, with_effects=True),
+        unverified=value_names(unverified_of(preset, with_effects=True), studio.catalogue),
         tube=tube_of(TubeInput(preset=preset.id, length=length), preset),
     )
 

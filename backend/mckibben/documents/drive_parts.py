@@ -34,9 +34,9 @@ ENTERING = frozenset(
 
 
 def unverified_of(part: Part, *, with_effects: bool) -> tuple[str, ...]:
-    """Names of the unverified values that a simulation uses."""
+    """Paths in the preset of the unverified values that a simulation uses, "effects.valve_lag.time"."""
     return tuple(
-        path.rpartition(".")[2].replace("_", " ")
+        path
         for path, quantity in quantities(part)
         if not quantity.verified
         and (

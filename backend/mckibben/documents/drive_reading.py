@@ -27,6 +27,7 @@ from mckibben.documents.drive_parts import (
 )
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
+from mckibben.documents.value_names import value_names
 from mckibben.physics.errors import InputError
 from mckibben.presets import FittingPreset, TubePreset, ValvePreset
 from mckibben.simulation.command.pid import PidController
@@ -62,7 +63,7 @@ class AnnotatedDrive:
     Attributes:
         drive: in SI.
         start: its muscle with all effects.
-        unverified: preset id -> names of its unverified values in use; without the muscle.
+        unverified: preset id -> its unverified values in use, in words; without the muscle.
         notes: path in the document -> note.
         valve_rating: from the valve's preset; None without a preset.
     """
@@ -140,9 +141,9 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         temperature=document.gas.temperature,
     )
     unverified = {
-        part.id: names
+        part.id: value_names(paths, studio.catalogue)
         for part in parts
-        if (names := unverified_of(part, with_effects=document.effects is None))
+        if (paths := unverified_of(part, with_effects=document.effects is None))
     }
     return AnnotatedDrive(drive, start, unverified, notes, _rating(valve_preset))
 

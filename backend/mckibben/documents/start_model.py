@@ -65,7 +65,7 @@ class PresetFacts:
         limits: limits stated by the maker.
         tolerance: geometry field -> largest change by a fit, in either direction.
         shortest, longest: range of nominal lengths that the maker sells, None where not known [m].
-        unverified: names of the unverified values that the model uses.
+        unverified: paths in the preset of the unverified values that the model uses, "effects.dahl.force".
         suspended_mass: largest mass that may hang freely on the muscle, None where not known [kg].
         coldest, hottest: ambient temperatures it is made for, None where not known [K].
         fit: how its values were fitted to measurements, None where they were not.
@@ -155,7 +155,7 @@ def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFact
         shortest=_optional(limits.min_nominal_length, "m"),
         longest=_optional(limits.max_nominal_length, "m"),
         unverified=tuple(
-            _words(path)
+            path
             for path, quantity in quantities(preset)
             if path.startswith(_MODEL_PARTS) and not quantity.verified
         ),
@@ -164,12 +164,6 @@ def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFact
         hottest=_optional(preset.data.get("max_temperature"), "K"),
         fit=preset.fit,
     )
-
-
-def _words(path: str) -> str:
-    """A value of a preset in words; that of an effect with the effect, since many have a force."""
-    section, *names = path.split(".")
-    return " ".join(names if section == "effects" else names[-1:]).replace("_", " ")
 
 
 def _optional(quantity: Quantity | None, unit: str) -> float | None:

@@ -1,5 +1,6 @@
 // @ts-check
 // Effects and presets of the server, which server/presets.js loads; and the status line.
+import { readable } from "./format.js";
 import { computed, effect, signal } from "./reactive.js";
 
 /** @typedef {import("./types.js").Effect} Effect */
@@ -24,6 +25,8 @@ effect(() => {
 export const muscles = computed(() => presets.value.muscles ?? []);
 export const musclesById = computed(() => new Map(muscles.value.map((m) => [m.id, m])));
 export const effectsById = computed(() => new Map(effects.value.map((e) => [e.id, e])));
+/** Title of an effect; the words of its id while the catalogue is not loaded. @param {string} id */
+export const effectTitle = (id) => effectsById.value.get(id)?.title ?? readable(id);
 /** Measurements and curves of the maker: everything the model can be compared with. */
 export const references = computed(() => [
   ...(presets.value.measurements ?? []),

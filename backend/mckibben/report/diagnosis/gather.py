@@ -18,6 +18,7 @@ from mckibben.application.measurements import summary_of
 from mckibben.application.model_question import ModelQuestion, with_model
 from mckibben.documents.start_model import PresetFacts, StatedMuscle
 from mckibben.documents.studio import Studio
+from mckibben.documents.value_names import value_names
 from mckibben.identification.predict.fit_model import LOAD
 from mckibben.measurement.corrected import FROM_DRIVE
 from mckibben.measurement.experiment import ACCURACY, FIELDS, LOAD_FORCE, Experiment, shown_value
@@ -171,13 +172,13 @@ def _unverified(
 ) -> Iterator[str]:
     if preset is not None:
         for path, quantity in known.items():
-            if not quantity.verified and path.rpartition(".")[2].replace("_", " ") in preset.unverified:
-                where = path.replace("_", " ").replace(".", ": ")
+            if path in preset.unverified and not path.startswith("effects."):
+                where = ", ".join(value_names([path], catalogue))
                 value = f"{quantity.value:g} {quantity.unit}"
                 yield f"{preset.id}, {where} = {value}: {quantity.source} (grade {quantity.grade})"
     for part, names in drive_figures.items():
         yield f"{part}: {', '.join(names)}"
-    for path, figure in _figures(question, catalogue, None, {}):
+    for path, figure in _figures(question, catalogue, preset, known):
         if figure.grade in ("M", "E"):
             effect, name = path.split(".")
             words = f"{catalogue[effect].title}, {name.replace('_', ' ')}"

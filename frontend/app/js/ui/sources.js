@@ -2,6 +2,7 @@
 // How reliable a value is: grades in words, and the values of a preset that nobody has verified.
 import { h, icon } from "../dom.js";
 import { readable, tidyUnit } from "../format.js";
+import { effectTitle } from "../store.js";
 import { openPopover } from "./dialog.js";
 
 /** @type {Record<string, string>} */
@@ -26,10 +27,14 @@ export const gradeTag = (grade) =>
 function unverifiedNote(preset) {
   /** @type {[string, import("../types.js").PresetValue][]} */
   const doubtful = [
-    ...[preset.geometry, preset.limits, preset.data].flatMap((part) => Object.entries(part ?? {})),
+    ...[preset.geometry, preset.limits, preset.data].flatMap((part) =>
+      Object.entries(part ?? {}).map(([key, q]) => /** @type {[string, typeof q]} */ ([readable(key), q]))
+    ),
     // Several effects have a force, so the effect is named too.
     ...Object.entries(preset.effects ?? {}).flatMap(([effect, values]) =>
-      Object.entries(values).map(([key, q]) => /** @type {[string, typeof q]} */ ([`${effect} ${key}`, q]))
+      Object.entries(values).map(([key, q]) =>
+        /** @type {[string, typeof q]} */ ([`${effectTitle(effect)}: ${readable(key)}`, q])
+      )
     ),
   ].filter(([, q]) => isUnverified(q.grade));
   return h(
@@ -45,11 +50,11 @@ function unverifiedNote(preset) {
     h(
       "ul",
       { class: "plain" },
-      ...doubtful.map(([key, q]) =>
+      ...doubtful.map(([name, q]) =>
         h(
           "li",
           null,
-          h("b", null, readable(key)),
+          h("b", null, name),
           ` ${q.value} ${tidyUnit(q.unit)} `,
           h("small", null, q.source),
         )

@@ -3,7 +3,7 @@
 import { h, icon } from "../../dom.js";
 import { effect } from "../../reactive.js";
 import { units } from "../../state.js";
-import { effectsById } from "../../store.js";
+import { effectTitle } from "../../store.js";
 import { post } from "../../server/client.js";
 import { Question } from "../../server/question.js";
 import { readable, siOf } from "../../format.js";
@@ -111,9 +111,6 @@ function smallPlot() {
   });
   return h("div", { class: () => curves.stale.value ? "stale" : "" }, host);
 }
-
-/** @param {string} id */
-const effectTitle = (id) => effectsById.value.get(id)?.title ?? readable(id);
 
 /** @param {Preset} p */
 function facts(p) {
