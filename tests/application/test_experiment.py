@@ -261,7 +261,7 @@ def test_a_weight_on_an_incline_counts_along_it(studio: Studio) -> None:
 
 
 def test_files_of_forces_and_strokes_are_refused_together(studio: Studio) -> None:
-    with pytest.raises(InputError, match="is of kind isotonic"):
+    with pytest.raises(InputError, match="is isotonic"):
         asked(studio, [specimen(0.2), isotonic("load_mass: 5 kg", "nominal_length: 300 mm")])
 
 

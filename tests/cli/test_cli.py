@@ -170,7 +170,7 @@ def test_several_files_are_compared_together(run: Run) -> None:
 def test_forces_and_strokes_are_not_predicted_together(run: Run) -> None:
     write("a.csv", CSV)
     write("b.csv", CSV.replace("static", "isotonic"))
-    assert "b.csv is of kind isotonic" in refused(run("compare", "a.csv", "b.csv", "--muscle", "DMSP-20"))
+    assert "b.csv is isotonic" in refused(run("compare", "a.csv", "b.csv", "--muscle", "DMSP-20"))
 
 
 def test_the_file_may_name_the_muscle_and_presets_may_be_data(run: Run) -> None:

@@ -373,7 +373,7 @@ def test_a_sheet_is_picked(case: Page) -> None:
     book.save(stream)
     choose(case, {"name": "a.xlsx", "mimeType": "application/octet-stream", "buffer": stream.getvalue()})
     dialog = panel(case)
-    expect(dialog.locator(".ask[data-about='sheet']")).to_contain_text("2 tables could be meant")
+    expect(dialog.locator(".ask[data-about='sheet']")).to_contain_text("2 tables hold readings")
     with read_anew(case):
         dialog.get_by_role("group", name="Tables of the file").get_by_role("button", name="fast").click()
     expect(dialog.locator(".ask[data-about='sheet']")).to_have_count(0)

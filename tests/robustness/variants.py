@@ -230,7 +230,7 @@ def _workbooks(random: np.random.Generator) -> Iterator[Variant]:
     parts = _parts(good)
     sheet = "xl/worksheets/sheet2.xml"
     bomb = {**parts, sheet: parts[sheet].replace(b"</sheetData>", b" " * 60_000_000 + b"</sheetData>")}
-    yield Variant("packed beyond measure", "bomb.xlsx", _archive(bomb), ("sheet2.xml",))
+    yield Variant("compressed too far", "bomb.xlsx", _archive(bomb), ("sheet2.xml",))
     entity = b'<!DOCTYPE x [<!ENTITY a "aaaaaaaaaa">]>'
     head, _, rest = parts[sheet].partition(b"<worksheet")
     spy = {**parts, sheet: head + entity + b"<worksheet" + rest}

@@ -79,7 +79,7 @@ def read_accuracy(text: str) -> dict[str, ChannelAccuracy]:
     for part in filter(str.strip, _SPLIT.split(text)):
         channel, accuracy = _read_part(part)
         if channel in found:
-            raise InputError(f"'{part.strip()}': the {channel} is given twice", hint="say it once")
+            raise InputError(f"'{part.strip()}': the {channel} is given twice", hint="give it once")
         found[channel] = accuracy
     if not found:
         raise InputError("no accuracy is given", hint=_EXAMPLE)
@@ -93,12 +93,12 @@ def _read_part(part: str) -> tuple[str, ChannelAccuracy]:
         return SENSORS[lower].channel, _of_sensor(lower)
     split = _PART.fullmatch(words)
     if split is None:
-        raise InputError(f"'{words[:60]}' is no accuracy", hint=_EXAMPLE)
+        raise InputError(f"'{words[:60]}' is not an accuracy", hint=_EXAMPLE)
     channel, rest = split[1].lower(), split[2]
     channel = "length" if channel in STROKES else channel
     if channel not in CHANNELS:
         raise InputError(
-            f"'{words[:60]}': there is no accuracy of '{split[1]}'",
+            f"'{words[:60]}': '{split[1]}' is not a channel or sensor",
             hint=did_you_mean(lower, (*CHANNELS, *SENSORS)),
         )
     if rest.lower() in SENSORS:
@@ -126,7 +126,7 @@ def _quantity(channel: str, text: str, words: str) -> ChannelAccuracy:
     except InputError as error:
         raise InputError(f"'{words[:60]}': {error.message}", hint=error.hint or _EXAMPLE) from error
     if not 0.0 <= value < (_LARGEST_SHARE if unit == SHARE else float("inf")):
-        raise InputError(f"'{words[:60]}' cannot be an accuracy", hint="0 to 20 % of the largest value")
+        raise InputError(f"'{words[:60]}' is out of range", hint="0 to 20 % of the largest value")
     return ChannelAccuracy(value, unit)
 
 

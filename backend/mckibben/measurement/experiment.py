@@ -111,7 +111,7 @@ def _accuracy(channel: str) -> ExperimentField:
         unit,
         units,
         f"How accurate is the {channel} (standard deviation, or % of the largest value)?",
-        "an error within it is no missing effect",
+        "an error within it does not point to a missing effect",
         example,
         0.0,
         None,
@@ -130,7 +130,7 @@ FIELDS: Mapping[str, ExperimentField] = MappingProxyType(
             ExperimentField(
                 "rest_length", "Rest length", "m", ("mm", "m", "cm", "in"),
                 "How long is the muscle without air and load, between its fittings?",
-                "contraction is counted from it", "300 mm", 1e-3, 50.0,
+                "contraction is measured from it", "300 mm", 1e-3, 50.0,
             ),
             ExperimentField(
                 "load", "Load", "kg", ("kg", "N"), "Which mass or force does the muscle carry?",

@@ -81,9 +81,9 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
             return "transient", "force, pressure and stroke over time with a load mass"
         found = _force_kind(pressure, stroke, force, swept=timed or "direction" in columns)
         if found[0] == "static" and slow and _held_load(force):
-            return "isotonic", "the force keeps to one level while pressure and stroke change slowly"
+            return "isotonic", "the force stays at one level while pressure and stroke change slowly"
         if found[0] == "static" and timed and _held_load(force):
-            return "transient", "the force leaves one level only for short while pressure and stroke change"
+            return "transient", "the force leaves one level only briefly while pressure and stroke change"
         return found
     if "diameter" in columns and (pressure is not None or stroke is not None):
         return "diameter", "a diameter beside pressure or stroke"

@@ -208,7 +208,7 @@ def build(
             slack |= exact_zero
     highest = float(np.max(table["pressure"])) if "pressure" in table else 0.0
     if 0.0 < highest < _HARDLY_A_PRESSURE:
-        notes.append(f"the pressure only reaches {highest:.3g} Pa: is its unit right?")
+        notes.append(f"the pressure reaches only {highest:.3g} Pa: check its unit")
     if slack.any():
         notes.append(f"{np.count_nonzero(slack)} of {rows} rows hold no pulling force (slack)")
     if excluded_rows is None:

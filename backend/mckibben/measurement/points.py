@@ -146,7 +146,7 @@ def joined(all_points: Sequence[Points]) -> Points:
         together = common_kind(kind, part.kind)
         if together is None:
             raise InputError(
-                f"{part.name} is of kind {part.kind}, {first.name} of kind {first.kind}",
+                f"{part.name} is {part.kind}, {first.name} is {first.kind}",
                 field="kind",
                 hint="compare them one after the other; files whose force is predicted go together",
             )

@@ -38,7 +38,7 @@ class Settled(NamedTuple):
         rows, count = ("row repeats", "it counts") if self.repeated == 1 else ("rows repeat", "they count")
         return (
             f"{self.measurement.name}: {self.repeated} {rows} an earlier row in every reading: {count} once, "
-            "because a copy tells nothing about the noise"
+            "because a copy says nothing about the noise"
         )
 
 

@@ -153,8 +153,8 @@ class MeasurementStore:
             about = _about(path)
             if was is not None and about.get("name") != was:
                 raise InputError(
-                    f"the file is called '{about.get('name')}' by now", field="was",
-                    hint="look at the list again", code="conflict",
+                    f"the file is now called '{about.get('name')}'", field="was",
+                    hint="reload the list", code="conflict",
                 )  # fmt: skip
             _write(folder / path.name, json.dumps({**about, "name": clean_name(name)}).encode())
         with self._lock:

@@ -61,7 +61,7 @@ class OwnPresets:
         if was is not None and preset.title != was:
             raise InputError(
                 f"the preset is called '{preset.title}' by now", field="was",
-                hint="look at the list again", code="conflict",
+                hint="reload the list", code="conflict",
             )  # fmt: skip
         try:
             renamed = parse(KINDS[kind], {**preset.to_document(), "title": title}, self._library.effects)

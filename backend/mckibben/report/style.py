@@ -81,7 +81,8 @@ pre { background: var(--tint); padding: 8px 12px; white-space: pre-wrap;
   table.short { break-inside: avoid; }
   /* A row with a remark is tall: it may break within the remark, with two of its lines on either side. */
   tr:has(td .note) { break-inside: auto; }
-  td .note { orphans: 2; widows: 2; padding-top: 4px; box-decoration-break: clone; -webkit-box-decoration-break: clone; }
+  td .note { orphans: 2; widows: 2; padding-top: 4px;
+    box-decoration-break: clone; -webkit-box-decoration-break: clone; }
   /* A head never stands alone at the foot of a page. */
   thead { display: table-header-group; break-after: avoid; }
   .scroll { overflow: visible; }

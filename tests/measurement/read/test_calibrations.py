@@ -82,7 +82,7 @@ def test_a_bridge_by_its_sensitivity_in_two_lines() -> None:
 
 def test_the_zero_of_a_bridge_that_nothing_shows_is_asked_about() -> None:
     text = f"{REST}# load cell 2 mV/V, rated load 2000 N\nt [s],p [bar],load cell [mV/V],s [mm]\n"
-    with pytest.raises(InputError, match=r"load cell.*without pull.*force_zero"):
+    with pytest.raises(InputError, match=r"load cell.*zero force.*force_zero"):
         read(text + table(TIME, PRESSURE, FORCE / 1000.0, STROKE))
     slack = read(
         text + table(TIME, PRESSURE, (FORCE - FORCE.min()) / 1000.0, STROKE)

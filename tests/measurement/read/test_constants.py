@@ -51,9 +51,9 @@ def test_the_column_counts_more_than_the_name_of_the_file_and_a_text_is_weighed(
     assert read(data, "DMSP-20-400N.csv").conditions["nominal_length"] == pytest.approx(0.3)
     result = read(b"# rest_length: 250 mm\n" + data)
     assert result.conditions["nominal_length"] == pytest.approx(0.3)
-    assert any("that of the column counts" in message for message in result.messages)
+    assert any("the value of the column is used" in message for message in result.messages)
     same = read(b"# rest_length: 30 cm\n" + data)
-    assert not any("that of the column counts" in message for message in same.messages)
+    assert not any("the value of the column is used" in message for message in same.messages)
 
 
 def test_the_order_code_in_a_column_states_the_rest_length() -> None:

@@ -28,7 +28,7 @@ def test_two_rest_lengths_are_asked_about() -> None:
 
 def test_two_loads_count_only_where_no_force_is_measured() -> None:
     above = "# load 5 kg\n# later a hanging weight of 8 kg\n# rest length 300 mm\n"
-    with pytest.raises(InputError, match="two values of the load, 5 kg"):
+    with pytest.raises(InputError, match="two values for the load, 5 kg"):
         read(f"{above}pressure_bar,stroke_mm\n{table(PRESSURE, STROKE)}")
     assert_is_the_test(read(f"{above}{HEAD}{table(PRESSURE, FORCE, STROKE)}"))
 

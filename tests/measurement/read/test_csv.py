@@ -246,7 +246,7 @@ def test_a_weight_may_be_given_as_a_mass(header, newton):
 
 def test_a_pressure_that_is_none_is_asked_about():
     result = read("pressure_Pa,length_mm,force_N\n1,300,500\n6,290,3000\n")
-    assert "the pressure only reaches 6 Pa: is its unit right?" in result.messages
+    assert "the pressure reaches only 6 Pa: check its unit" in result.messages
 
 
 @pytest.mark.parametrize(
@@ -439,7 +439,7 @@ ERRORS = {
     "diameter": ("pressure_bar,D_mm\n1,-3\n", "a.csv, row 2, column 'D_mm': -3 mm is not a diameter"),
     "contraction": (
         "pressure_bar,contraction_pct\n1,100\n",
-        "a.csv, row 2, column 'contraction_pct': 100 pct leaves no length",
+        "a.csv, row 2, column 'contraction_pct': 100 pct is not possible",
     ),
     "temperature": (
         "pressure_bar,L_mm,T_degC\n1,1,-300\n",

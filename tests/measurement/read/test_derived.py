@@ -54,7 +54,7 @@ def test_a_number_that_stands_for_none_is_left_out(value: float) -> None:
     force[4] = value
     found = read(f"pressure_bar,force_N,stroke_mm\n{table(PRESSURE, force, STROKE)}")
     assert found.rows == len(FORCE) - 1
-    assert found.skipped == {f"{value:g} stands for no reading": 1}
+    assert found.skipped == {f"{value:g} means no reading": 1}
 
 
 def test_dates_of_spreadsheets_and_minutes_with_seconds() -> None:

@@ -44,7 +44,7 @@ def test_the_sign_and_the_reference_of_a_channel_count() -> None:
     rows = ROWS * np.array([1.0, 1.0, -1.0]) + np.array([1.01325, 0.0, 0.0])
     found = read(document(channels=channels, data=rows.tolist()), "a.json")
     assert_is_the_test(found)
-    assert any("is turned" in message for message in found.messages)
+    assert any("sign reversed" in message for message in found.messages)
 
 
 @pytest.mark.parametrize(

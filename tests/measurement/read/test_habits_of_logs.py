@@ -102,7 +102,7 @@ def test_numbers_that_a_text_says_to_be_no_reading() -> None:
     found = read(f"# a force of -1.0 marks a lost sample\n{HEAD}" + "\n".join(rows))
     assert found.rows == len(rows) - 1
     assert min(found.columns["force"]) > 0.0
-    assert any("stands for no reading" in message for message in found.messages)
+    assert any("means no reading" in message for message in found.messages)
 
 
 @pytest.mark.parametrize(
@@ -146,7 +146,7 @@ def test_other_lengths_are_not_those_at_which_it_was_held(remark: str) -> None:
 
 
 def test_an_isometric_test_without_a_length_is_refused_and_so_are_two() -> None:
-    with pytest.raises(InputError, match="at which length"):
+    with pytest.raises(InputError, match="length at which"):
         read(f"# isometric test, rest length 300 mm\n{HELD}")
     with pytest.raises(InputError, match="several"):
         read(f"# rest length 300 mm\n# clamped at 285 mm\n# clamped at 270 mm\n{HELD}")

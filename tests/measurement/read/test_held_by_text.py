@@ -16,7 +16,7 @@ ROWS = "force_N,stroke_mm\n" + table(FORCE, STROKE)
     [
         ("", "x_4bar.csv", 4.0, "the file's name: '4bar'"),
         ("# Pressione relativa costante 4,0 bar\n", "x_4bar.csv", 4.0, "line 1"),
-        ("# constant muscle pressure 3 bar\n", "x_4bar.csv", 3.0, "says another pressure, '4bar'"),
+        ("# constant muscle pressure 3 bar\n", "x_4bar.csv", 3.0, "states another pressure, '4bar'"),
         ("# pressure: 3 bar\n", "a.csv", 3.0, "pressure is taken from"),
         ("# pressure absolute 400 kPa\n# barometer 100 kPa\n", "a.csv", 3.0, "line 1"),
         ("# supply pressure 7 bar\n", "x_4bar.csv", 4.0, "the file's name"),

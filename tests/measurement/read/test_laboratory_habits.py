@@ -230,7 +230,7 @@ def test_signs_that_the_file_says_are_turned() -> None:
     above = "Ruhelänge 250 mm\nVorzeichen: Zug negativ, Verlängerung positiv\n\n"
     found = read(above + "Zeit [s];Druck [bar];Kraft [N];Weg [mm]\n" + lines(";", R.time, BAR, -R.force, -MM))
     assert_all(found)
-    assert sum("is turned: the file says" in message for message in found.messages) == 2
+    assert sum("has its sign reversed: the file says" in message for message in found.messages) == 2
 
 
 @pytest.mark.parametrize(

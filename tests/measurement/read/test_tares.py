@@ -53,7 +53,7 @@ def test_a_tare_in_the_readings_is_subtracted_and_said(head: str) -> None:
 def test_a_tare_that_is_subtracted_already_is_said_only() -> None:
     found = read("tare 4.25 N already subtracted\n\n" + ROWS)
     np.testing.assert_allclose(found.columns["force"], FORCE + TARE, rtol=1e-6)
-    assert any("read as without the tare" in message for message in found.messages)
+    assert any("already subtracted from the force" in message for message in found.messages)
 
 
 @pytest.mark.parametrize("head", ["tare 4.25 N\n\n", "# tare_N: 4.25\n", "# tare [N]: 4.25\n",

@@ -35,7 +35,7 @@ __all__ = [
 
 _PRESSURE = 6e5  # Pa; required by the drive, but unused because the pressure is measured
 #: Ends of the reasons for which a column that is not read could still be the force.
-_OPEN = ("its name is not known", "no calibrated value")
+_OPEN = ("its name is not known", "not a calibrated value")
 _ANY_VALVE = Valve(1e-8, 1e-8)  # the pressure is measured, so no air flows through it
 
 

@@ -85,16 +85,16 @@ def air_questions(
     if is_possible(said) and not twice:
         return []
     what = (
-        f"is stated as {' and as '.join(stated[:3])}, which one counts"
+        f"is stated as {' and as '.join(stated[:3])}, which one is right"
         if twice
-        else f"is read as {said:.6g} Pa, which cannot be, what was it"
+        else f"is read as {said:.6g} Pa, which is impossible; what was it"
     )
     air = said if is_possible(said) else ATMOSPHERE
     return [
         Question(
             "pressure of the surrounding air",
             f"column '{column.header}' is absolute, and the pressure of the surrounding air {what}",
-            f"leave one value in the file, or say how much it was above {air / 100.0:g} hPa: "
+            f"keep one value in the file, or state how much it exceeded {air / 100.0:g} hPa: "
             '--experiment "pressure_zero=-6 hPa"',
             column.header,
         )

@@ -50,7 +50,7 @@ def open_archive(
         open_part: opens a file of the archive.
 
     Raises:
-        InputError: damaged, protected, packed beyond measure, or without a table.
+        InputError: damaged, protected, compressed too far, or without a table.
     """
     try:
         with zipfile.ZipFile(io.BytesIO(data)) as archive:
@@ -72,7 +72,9 @@ def open_archive(
             _check(parts, name, len(data))
             return _of_parts(archive, wanted, name, correction, open_part)
     except (zipfile.BadZipFile, EOFError, NotImplementedError, OSError, zlib.error) as error:
-        raise _refused(name, "the archive is damaged, it cannot be unpacked", "pack it again") from error
+        raise _refused(
+            name, "the archive is damaged and cannot be unpacked", "create the archive again"
+        ) from error
 
 
 def _refused(name: str, why: str, hint: str) -> InputError:
@@ -88,9 +90,9 @@ def _check(parts: list[zipfile.ZipInfo], name: str, size: int) -> None:
     Allowance(name, size).take(sum(part.file_size for part in parts), "all parts of the archive")
     for part in parts:
         if part.flag_bits & 1:
-            raise _refused(name, "the archive is protected by a password", "pack it without")
+            raise _refused(name, "the archive is protected by a password", "create it without a password")
         if part.file_size > max(_RATIO_FROM, _MAX_RATIO * part.compress_size):
-            why = f"its part '{part.filename[:80]}' is packed beyond measure, more than {_MAX_RATIO} times"
+            why = f"its part '{part.filename[:80]}' is compressed too far, more than {_MAX_RATIO} times"
             raise _refused(name, why, "send the file itself")
 
 
@@ -118,7 +120,7 @@ def _of_parts(
     whole = "\n".join([*remarks, *(f"\n# {stem.replace('_', ' ')}\n{text}" for stem, text in numbered)])
     source = open_part(whole.encode(), f"{name}.txt", correction)
     shown = ", ".join(part.filename for part in texts[:6])
-    source.messages.append(f"the texts of the archive are read one below the other: {shown[:200]}")
+    source.messages.append(f"the texts of the archive are read one after another: {shown[:200]}")
     return source
 
 
@@ -247,9 +249,9 @@ def unpacked_gzip(data: bytes, name: str) -> tuple[bytes, str]:
     try:
         content = unpacker.decompress(data, min(MAX_UNPACKED, _MAX_RATIO * len(data) + _RATIO_FROM))
     except zlib.error as error:
-        raise _refused(name, f"the compressed file is damaged ({error})", "pack it again") from error
+        raise _refused(name, f"the compressed file is damaged ({error})", "compress it again") from error
     if unpacker.unconsumed_tail or not unpacker.eof:
-        why = "the compressed file is not complete, or unpacks to more than is read"
+        why = "the compressed file is incomplete, or unpacks to more than can be read"
         raise _refused(name, why, "unpack it first")
     inside = name[:-3] if name.lower().endswith(".gz") else name
     return content, inside

@@ -132,7 +132,7 @@ def _without_sentinels(column: HeaderColumn, reading: ChannelReading) -> None:
         return
     first = int(np.argmax(odd))
     where = f"row {int(reading.table.lines[first])}, {reading.noun} '{column.header}'"
-    reading.table = reading.table.only(~odd, f"{raw[first]:g} stands for no reading", where)
+    reading.table = reading.table.only(~odd, f"{raw[first]:g} means no reading", where)
 
 
 def _with_known_unit(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn | None:
@@ -196,7 +196,8 @@ def _signed(column: HeaderColumn, reading: ChannelReading) -> HeaderColumn:
     key = FORCE_SIGN if column.use == "force" else STROKE_SIGN
     if column.origin == "you" or reading.conditions.get(key) != said:
         return column
-    message = f"{reading.noun} '{column.header}' is turned: the file says that {said.replace(' ', ' is ')}"
+    why = f"the file says that {said.replace(' ', ' is ')}"
+    message = f"{reading.noun} '{column.header}' has its sign reversed: {why}"
     if message not in reading.messages:
         reading.messages.append(message)
     return column._replace(sign=-1, extends=False)
@@ -226,13 +227,13 @@ def _values(column: HeaderColumn, reading: ChannelReading) -> _Values:
     if use == "pressure":
         if column.absolute:
             values -= reading.ambient
-        hint = "say 'pressure_abs_bar' or '# pressure: absolute' where it is absolute, gauge is assumed"
+        hint = "write 'pressure_abs_bar' or '# pressure: absolute' if it is absolute; gauge is assumed"
         return _Values(values, values < -reading.ambient, "is a negative absolute pressure", hint)
     if use in ("length", "diameter", "temperature"):
         return _Values(values, values <= 0.0, f"is not a {use}", f"a {use} above 0")
     if use == "contraction":
         hint = "contraction is (L0 - L)/L0 < 1; percent is 'contraction_pct'"
-        return _Values(values, values >= 1.0, "leaves no length", hint)
+        return _Values(values, values >= 1.0, "is not possible", hint)
     return _Values(values, np.zeros(len(values), bool), "", "")
 
 
@@ -240,7 +241,7 @@ def _say_reference(column: HeaderColumn, reading: ChannelReading) -> None:
     label = f"{reading.noun} '{column.header}'"
     if column.absolute and reading.air is not None:
         reading.messages.append(
-            f"{label} is absolute pressure: that of the surrounding air is subtracted row by row, "
+            f"{label} is absolute pressure: the pressure of the surrounding air is subtracted row by row, "
             f"{', '.join(reading.air.values[:2])} ..."
         )
     elif column.absolute:
@@ -286,7 +287,7 @@ def _read_labels(
     marks = {"0": False, "0.0": False, "false": False, "1": True, "1.0": True, "true": True}
     words = [word.lower() for word in labels[SLACK].words]
     if "force" not in columns or any(word not in marks for word in words):
-        reading.drop(by_use[SLACK], "slack is marked by 0 and 1 beside a force")
+        reading.drop(by_use[SLACK], "slack is marked by 0 and 1, and needs a force column")
         return None
     return np.array([marks[word] for word in words])[labels[SLACK].codes]
 

@@ -65,7 +65,7 @@ def _tables(evidence: Evidence) -> list[Question]:
     return [
         Question(
             "sheet",
-            f"{len(titles)} tables could be meant, {', '.join(map(repr, titles[:6]))}; which one is it",
+            f"{len(titles)} tables hold readings, {', '.join(map(repr, titles[:6]))}; which one is meant",
             f'--sheet "{titles[0]}"',
             None,
             titles[0],
@@ -115,9 +115,9 @@ def _units(evidence: Evidence) -> list[Question]:
                 better = [u for u in ("ms",) if is_plausible("time", raw * 1e-3)]
                 if not better or not _moves(evidence):
                     continue
-                what = f"{named} would take {step:.3g} s from reading to reading"
+                what = f"{named} would mean {step:.3g} s between readings"
             else:
-                what = f"{named} ({channel}) holds {span} {unit}, which no muscle on a test bench shows"
+                what = f"{named} ({channel}) holds {span} {unit}, which is implausible for a muscle"
             hint = better[0] if better else unit
             asked.append(
                 Question(
@@ -199,7 +199,7 @@ def _unread(evidence: Evidence) -> list[Question]:
         target = "displacement" if channel == "length" else channel
         others = (target,) if target != "displacement" else ("displacement", "length", "diameter")
         doubt = (
-            "; no text says from which zero it counts nor whether it grows as the muscle shortens: is it "
+            "; no text states its zero or whether it grows as the muscle shortens: is it "
             "the position of the muscle's end, and how does it count"
             if channel == "length" and not is_filled
             else "; what is it"
@@ -227,8 +227,8 @@ def _proposed(evidence: Evidence) -> list[Question]:
             asked.append(
                 Question(
                     f"column '{name}'",
-                    f"{evidence.noun} '{column.header}' is read as {channel}: proposed from its unit "
-                    f"'{column.unit}' and its numbers, its name does not say it",
+                    f"{evidence.noun} '{column.header}' is read as {channel} because of its unit "
+                    f"'{column.unit}' and its numbers; its name does not say so",
                     f"{column_option(other, name)} or {ignore_option(name)}",
                     column.header,
                     channel,
@@ -287,8 +287,8 @@ def _other_time(evidence: Evidence, winner: HeaderColumn, other: HeaderColumn) -
         Question(
             "second time",
             f"{evidence.noun} '{winner.header}' and {evidence.noun} '{other.header}' are times of different "
-            f"signals and differ by up to {apart:.3g}: the rows hold readings of different instants; bring "
-            "them to one time axis, or leave one signal out with its time",
+            f"signals and differ by up to {apart:.3g}, so the readings of a row are not simultaneous; bring "
+            "the signals to one time axis, or leave out one signal and its time",
             ignore_option(f"column {other.place + 1}"),
             other.header,
         )
@@ -311,8 +311,8 @@ def _specimens(evidence: Evidence) -> list[Question]:
         Question(
             "specimens",
             f"{evidence.noun} '{column.header}' names {len(words)} specimens, "
-            f"{', '.join(map(repr, words[:4]))}; their readings belong to different muscles: split the "
-            "file, or read all as one",
+            f"{', '.join(map(repr, words[:4]))}; their readings belong to different muscles; split the "
+            "file, or read all as one muscle",
             ignore_option(bare_name(column)),
             column.header,
             None,

@@ -127,7 +127,7 @@ def notes_with_constants(source: RawTable, meaning: Meaning, messages: list[str]
         if before is not None and before.where != NAME and not _same(before, column) and messages is not None:
             messages.append(
                 f"{where} says {column.key} {column.values[0]}, {before.where} says {before.value}: "
-                f"that of the {source.noun} counts"
+                f"the value of the {source.noun} is used"
             )
         said[column.key] = Note(where, column.key, column.values[0])
     for column in meaning.columns:
@@ -168,8 +168,8 @@ def constant_questions(evidence: Evidence, columns: Sequence[Constant]) -> list[
         asked.append(
             Question(
                 name,
-                f"{evidence.noun} '{header}' holds {len(column.values)} values, {shown}, a measurement has "
-                f"one {name}; split the file by it, or which one counts for all rows",
+                f"{evidence.noun} '{header}' holds {len(column.values)} values, {shown}, but a measurement "
+                f"has one {name}; split the file by it, or state which one holds for all rows",
                 f'{option} "{column.values[0]}"',
                 header,
                 column.values[0],

@@ -233,7 +233,10 @@ def _one_of(found: list[NamedTable]) -> NamedTable | None:
     best.rest = [*(text for table in around for text in table.rest), *best.rest]
     left = [f"'{table.title}'" for table in filled if table is not best]
     if left:
-        best.messages.append(f"{', '.join(left[:6])} not read: the readings are taken from '{best.title}'")
+        verb = "is" if len(left) == 1 else "are"
+        best.messages.append(
+            f"{', '.join(left[:6])} {verb} not read: the readings are taken from '{best.title}'"
+        )
     return best
 
 

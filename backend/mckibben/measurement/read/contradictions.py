@@ -86,8 +86,8 @@ def _twice(
         first, second = str(_with_unit(note)), value
         found[key] = Question(
             name,
-            f"the file says two values of the {name}, {first} ({_place(note.where)}) and {second} "
-            f"({_place(where)}); which one counts",
+            f"the file states two values for the {name}, {first} ({_place(note.where)}) and {second} "
+            f"({_place(where)}); which one is right",
             f'{option} "{first}" or {option} "{second}"',
             None,
             first,
@@ -142,7 +142,8 @@ def _impossible(
     return [
         Question(
             "rest length",
-            f"the rest length is read as {said}{place}, {shown}, which no muscle reaches; what is it",
+            f"the rest length is read as {said}{place}, {shown}, which is impossible for it; "
+            "which rest length is right",
             '--rest-length "300 mm"',
         )
     ]

@@ -344,7 +344,7 @@ def _scaled(scale: Any, channel: str, given: Mapping[str, Any], key: str) -> Cho
     """A column with the scale of its signal, as ``column_choice`` reads it."""
     text = _typed(scale, str, f"{key}.scale")
     if said_scale(text) is None:
-        raise _refused(f"{key}.scale", f"{text[:80]!r} is no scale", "e.g. '0-10 V = 0-10 bar'")
+        raise _refused(f"{key}.scale", f"{text[:80]!r} is not a scale", "e.g. '0-10 V = 0-10 bar'")
     minus = "-" if given.get("sign") == -1 else ""
     return column_choice(f"{channel}={minus}x [{text}]", where=f"mapping{key}.scale")[1]
 

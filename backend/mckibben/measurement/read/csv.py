@@ -218,7 +218,7 @@ def without_footer(body: str, separator: str, first_line: int) -> tuple[str, lis
     kept = body[:end]
     row = first_line + kept.count("\n") + 1
     shown = ", ".join(f"'{line[:40]}'" for line in lines[::-1][:4])
-    return kept, [f"what stands below the table, from row {row} on, is not read: {shown}"]
+    return kept, [f"the text below the table, from row {row} on, is not read: {shown}"]
 
 
 def _is_no_reading(line: str, separator: str) -> bool:

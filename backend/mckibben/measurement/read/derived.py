@@ -95,7 +95,7 @@ def with_derived(source: RawTable, scales: Mapping[str, str] = MappingProxyType(
         own = _own_scale(headers[index], index, scales)
         if own is not None:
             columns[index] = replace(column, factor=own.factor, offset=own.offset)
-            said.append(f"{source.noun} '{headers[index]}' is read by the scale that you say, {own.text}")
+            said.append(f"{source.noun} '{headers[index]}' is read by the scale that you stated, {own.text}")
             headers[index], units[index] = _bare(headers[index]), own.unit
             continue
         scale = (

@@ -99,20 +99,22 @@ def add_hanger(
     if abs(load - hanger.value) < 1e-6 * load:
         return []  # it is the load itself
     if hanger.contained:
-        messages.append(f"{place}: the loads are read as with the hanger")
+        messages.append(f"{place}: the loads are taken to include the hanger")
         return []
     if hanger.contained is False and hanger.value < _LARGE * load:
         if weighed:
             columns["force"] = columns["force"] + hanger.value
-            messages.append(f"{hanger.value:.4g} N are added to the force, the weight of the hanger: {place}")
+            messages.append(
+                f"{hanger.value:.4g} N is added to the force for the weight of the hanger: {place}"
+            )
         else:
             conditions["load_mass"] = float(conditions["load_mass"]) + hanger.value / _G
-            messages.append(f"{hanger.value / _G:.4g} kg are added to the load, the hanger: {place}")
+            messages.append(f"{hanger.value / _G:.4g} kg is added to the load for the hanger: {place}")
         return []
     name = column.header if weighed and column is not None else "load"
     option = (
-        f'--experiment "force_zero={-hanger.value:.4g} N" where it has to be added, or '
-        '--experiment "force_zero=0 N" where it is in them'
+        f'--experiment "force_zero={-hanger.value:.4g} N" if it has to be added, or '
+        '--experiment "force_zero=0 N" if the loads include it'
         if weighed
         else f'--load "{float(conditions["load_mass"]) + hanger.value / _G:.4g} kg" or '
         f'--load "{conditions["load_mass"]:.4g} kg"'
@@ -120,7 +122,7 @@ def add_hanger(
     return [
         Question(
             "hanger of the load",
-            f"the file states the weight of a hanger, {place}, and not whether '{name}' contains it",
+            f"the file states the weight of a hanger, {place}, but not whether '{name}' contains it",
             option,
             name if weighed else None,
         )

@@ -46,7 +46,7 @@ def hold_pressure(
                 f"{name}: no column holds the pressure, and the texts state several: {shown}; at which one "
                 "was it measured",
                 field="pressure",
-                hint="leave one of them in the file, or write the pressure as a column, 'pressure_bar'",
+                hint="keep only one of them in the file, or write the pressure as a column, 'pressure_bar'",
             )
         stated = {0.0: agreed}
     said, where = next(iter(stated.values()), (named, NAME))
@@ -60,7 +60,9 @@ def hold_pressure(
         return
     messages.append(f"pressure is taken from {where}: '{said.text}'")
     if named is not None and abs(_pascal(named, conditions) - value) > 1e-3 * abs(value):
-        messages.append(f"the file's name says another pressure, '{named.text}': that of {where} counts")
+        messages.append(
+            f"the file's name states another pressure, '{named.text}': the one in {where} is used"
+        )
 
 
 def hold_stroke(
@@ -85,8 +87,8 @@ def hold_stroke(
         found = {key: one for key, one in found.items() if key[0] == "length"} or found
     if not found and str(conditions.get(KIND_SAID, conditions.get("kind", ""))) == "isometric":
         raise InputError(
-            f"{name}: the file says that the test is isometric, and neither a column nor a text says at "
-            "which length the muscle was held",
+            f"{name}: the file says that the test is isometric, but neither a column nor a text states the "
+            "length at which the muscle was held",
             field="length", hint="write it as a column, 'length_mm', or as a line, '# clamped at L = 285 mm'",
         )  # fmt: skip
     if len(found) > 1:

@@ -80,7 +80,7 @@ def check_variables(count: int, name: str) -> None:
     """Refuse a file of too many variables."""
     if count > MAX_VARIABLES:
         raise InputError(
-            f"{name}: the file has more than {MAX_VARIABLES} variables, which is more than is read",
+            f"{name}: the file has more than {MAX_VARIABLES} variables, more than can be read",
             field="variables",
             hint="save only those of the measurement",
         )

@@ -105,7 +105,7 @@ def choose(
     others = [table for table in usable if table is not best]
     heads = [f"{table.title}.{head}".lstrip(".") for table in others for head in table.columns]
     source = replace(
-        source, rest=tuple(rest), unread=tuple((head, "it stands in another struct") for head in heads)
+        source, rest=tuple(rest), unread=tuple((head, "it is in another struct") for head in heads)
     )
     named = [table for table in tables if table.columns and table.problem is None]
     source = replace(source, tables=tuple((t.title or _LOOSE, t is best) for t in named))

@@ -218,7 +218,7 @@ class _Mat5Reader:
         else:
             codes = self._numbers(element, where)
             if codes.dtype.kind not in "iu" or np.any((codes < 0) | (codes > 0xFFFF)):
-                raise DamagedError(f"{where} holds what is no text")
+                raise DamagedError(f"{where} holds something other than text")
             text = codes.astype("<u2").tobytes().decode("utf-16-le", "replace")
             length = len(codes)
         if length != size:

@@ -26,8 +26,8 @@ def _signs(evidence: Evidence) -> list[Question]:
         asked.append(
             Question(
                 "sign of force",
-                f"{evidence.noun} '{column.header}' is negative nearly throughout, a pulling muscle is "
-                "positive here; is compression counted positive",
+                f"{evidence.noun} '{column.header}' is negative in nearly all rows, but a pulling force "
+                "is positive here; does the file count compression as positive",
                 column_option("force", bare_name(column), sign=-1),
                 column.header,
                 "turned",
@@ -56,7 +56,7 @@ def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Arra
         Question(
             f"sign of {channel}",
             f"{evidence.noun} '{column.header}' {'falls' if falls else 'grows'} as the muscle "
-            f"{'shortens' if falls else 'becomes longer'}, shortening counts positive here; turn it",
+            f"{'shortens' if falls else 'lengthens'}, but shortening is positive here; reverse its sign",
             f"{turned}{as_length}",
             column.header,
             "turned",
@@ -166,7 +166,7 @@ def _tare(evidence: Evidence) -> list[Question]:
         Question(
             "zero of force",
             f"{evidence.noun} '{column.header}' shows {offset:.3g} N at rest, without pressure and stroke; "
-            "it is not subtracted, was the sensor not set to zero",
+            "it is not subtracted; is it an offset of the sensor",
             f'--experiment "force_zero={offset:.3g} N"',
             column.header,
             f"{offset:.3g} N",
@@ -195,7 +195,7 @@ def context_questions(evidence: Evidence) -> list[Question]:
         asked.append(
             Question(
                 "load",
-                "the file states no load; it decides how far the muscle shortens",
+                "the file states no load, which decides how far the muscle shortens",
                 '--load "6 kg"',
                 stops=False,
             )

@@ -78,7 +78,7 @@ def _volts(evidence: Evidence) -> list[Question]:
             f"scale of {channel}",
             f"{evidence.noun} '{header}' ({channel}) is a signal in {unit}"
             f"{' of a range' if share else ''}, and no text of the file says its "
-            f"scale; which is it",
+            f"scale; which one is it",
             column_option(channel, name, span),
             header,
         )
@@ -115,8 +115,8 @@ def _strokes(evidence: Evidence) -> list[Question]:
                 Question(
                     "stroke",
                     f"{evidence.noun} '{header}' holds counts of an encoder, {low:.6g} to {high:.6g}, and "
-                    "the file has no other stroke; no text says how many counts are a mm, where the stroke "
-                    "is 0, nor whether it grows as the muscle shortens; which counts are which stroke",
+                    "the file has no other stroke; no text states the counts per mm, where the stroke "
+                    "is 0, or whether it grows as the muscle shortens; which counts are which stroke",
                     column_option("displacement", name, f"{high:.6g} to {low:.6g} counts = 0 to 80 mm"),
                     header,
                 )
@@ -131,7 +131,7 @@ def _strokes(evidence: Evidence) -> list[Question]:
                 Question(
                     "stroke",
                     f"{evidence.noun} '{header}' holds an angle, {span[0]:.4g} to {span[1]:.4g} {unit}, and "
-                    "the file has no other stroke; no text says the radius of its pulley; which angle is "
+                    "the file has no other stroke; no text states the radius of its pulley; which angle is "
                     "which stroke",
                     column_option("displacement", name, "0 to 90 deg = 0 to 40 mm"),
                     header,
@@ -145,7 +145,7 @@ def _strokes(evidence: Evidence) -> list[Question]:
                 Question(
                     "stroke",
                     f"the file holds a pressure and a force, but no stroke; is it {evidence.noun} "
-                    f"'{evidence.headers[index]}', whose name is not known, and in which unit",
+                    f"'{evidence.headers[index]}', whose name is not known, and what is its unit",
                     column_option("displacement", name, "mm"),
                     evidence.headers[index],
                 )

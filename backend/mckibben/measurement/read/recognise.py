@@ -56,7 +56,7 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     if head.unit == COUNT:
         return Recognised(None, head.unit, None, 0, "it holds counts of a converter, not a physical value")
     if dimension in RAW_DIMENSIONS:
-        return Recognised(None, head.unit, None, 0, f"'{head.unit}' is {dimension}, no calibrated value")
+        return Recognised(None, head.unit, None, 0, f"'{head.unit}' is {dimension}, not a calibrated value")
     meant = _without_statistic(words, dimension)
     named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
     if "command" in named:

@@ -27,7 +27,7 @@ def open_sqlite(data: bytes, name: str, correction: Correction | None = None) ->
     from mckibben.measurement.read.xlsx import open_sheets
 
     if len(data) > MAX_UNPACKED:
-        raise _refused(name, "the data base is larger than is read", "export the table as CSV")
+        raise _refused(name, "the database is larger than can be read", "export the table as CSV")
     base = sqlite3.connect(":memory:")
     try:
         base.deserialize(data)
@@ -48,11 +48,11 @@ def open_sqlite(data: bytes, name: str, correction: Correction | None = None) ->
             if (rows := _rows(base, title, name, allowance))
         ]
     except (sqlite3.Error, UnicodeDecodeError) as error:
-        raise _refused(name, f"the data base is damaged ({error})", "export the table as CSV") from error
+        raise _refused(name, f"the database is damaged ({error})", "export the table as CSV") from error
     finally:
         base.close()
     if not sheets:
-        raise _refused(name, "the data base holds no table with rows", "export the table as CSV")
+        raise _refused(name, "the database holds no table with rows", "export the table as CSV")
     return open_sheets(sheets, name, correction)
 
 

@@ -68,7 +68,7 @@ def tables_of_grid(grid: Grid, *, head: int | None = None, until: int | None = N
         kept[-1].last = _end(grid, kept[-1])
     if len(kept) > MAX_BLOCKS:
         raise InputError(
-            f"{grid.place}: the file holds more than {MAX_BLOCKS} blocks of readings, which is too much",
+            f"{grid.place}: the file holds more than {MAX_BLOCKS} blocks of readings, which is too many",
             field="rows",
             hint="split the file, or write the blocks as columns of one table",
         )
@@ -272,7 +272,7 @@ def choose(tables: Sequence[Table], *, sheet: str | None, noun: str = "sheet") -
 def _unread(tables: Sequence[Table]) -> list[tuple[str, str]]:
     """The columns of tables that are not read."""
     return [
-        (f"{table.title}: {name}" if table.title else name, "it stands in another table")
+        (f"{table.title}: {name}" if table.title else name, "it is in another table")
         for table in tables
         for name in table.names
         if name

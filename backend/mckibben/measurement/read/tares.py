@@ -154,7 +154,7 @@ def subtract_tare(
     first = stated[0]
     place = f"'{first.text[:100]}' ({first.where})"
     if "force_zero" in conditions:
-        messages.append(f"the tare of {place} is left to the zero of the force that is stated beside it")
+        messages.append(f"the tare {place} is not used: the zero of the force is stated as well")
         return []
     # Of a column that counts a pull as negative it is open which sign the tare has.
     sure = (
@@ -164,7 +164,7 @@ def subtract_tare(
         and first.value < _LARGE * float(np.max(np.abs(force)))
     )
     if sure and first.contained is False:
-        messages.append(f"{place}: the force is read as without the tare")
+        messages.append(f"{place}: the tare is taken as already subtracted from the force")
         return []
     if sure and first.contained:
         columns["force"] = force - first.value
@@ -174,8 +174,8 @@ def subtract_tare(
         Question(
             "zero of force",
             f"the file states a tare of the force, {place}, "
-            f"{'without a unit, ' if first.bare else ''}and not clearly whether the readings of column "
-            f"'{column.header}' contain it; what do they show without pull",
+            f"{'without a unit, ' if first.bare else ''}but it is not clear whether the readings of "
+            f"column '{column.header}' contain it; what do they show at zero force",
             f'--experiment "force_zero={first.value:.4g} N", or --experiment "force_zero=0 N" where it is '
             "subtracted already",
             column.header,
@@ -201,7 +201,7 @@ def zero_questions(
         Question(
             "zero of force",
             f"column '{column.header}' is read by the sensitivity of its load cell, and neither the file "
-            f"nor a reading (all from {smallest:.4g} N on) says what it shows without pull",
+            f"nor a reading (all are at least {smallest:.4g} N) states what it shows at zero force",
             '--experiment "force_zero=0 N"',
             column.header,
         )

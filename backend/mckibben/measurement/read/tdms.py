@@ -98,7 +98,7 @@ def open_tdms(data: bytes, name: str, correction: Correction | None = None) -> R
         messages=messages,
     )
     others_unread = tuple(
-        (f"{title}/{head}", "it stands in another group") for title in others for head in groups[title][0]
+        (f"{title}/{head}", "it is in another group") for title in others for head in groups[title][0]
     )
     read = {table.title for table in alike}
     source = replace(
@@ -125,7 +125,7 @@ def _loaded(data: bytes, name: str) -> tuple[dict[str, tuple[dict[str, Any], dic
             channels = [channel for group in file.groups() for channel in group.channels()]
             # Every value takes at least a byte of the file: more of them are a lie of its directory.
             if sum(len(channel) for channel in channels) > len(data):
-                raise ValueError("it promises more values than it holds")
+                raise ValueError("it declares more values than it holds")
             _check_size(file, name, len(data))
             groups = {}
             for group in file.groups()[:_MAX_GROUPS]:

@@ -64,7 +64,7 @@ def sorted_out(
         elif (note := scalar_note(name, value, f"{place}, {noun} '{name}'")) is not None:
             notes.append(note)
         else:
-            messages.append(f"{noun} '{name}' is not used: it is no vector of numbers")
+            messages.append(f"{noun} '{name}' is not used: it is not a vector of numbers")
     if not columns:
         return {}, notes, messages
     meaning = map_headers(list(columns), place=place, noun=noun, collect=True)

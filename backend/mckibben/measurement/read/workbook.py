@@ -55,7 +55,7 @@ def open_book(data: bytes, name: str) -> Any:
     except InputError:
         raise
     except (zipfile.BadZipFile, EOFError, NotImplementedError, OSError) as error:
-        raise _refused(name, "the workbook is damaged, it cannot be unpacked", "save it again") from error
+        raise _refused(name, "the workbook is damaged and cannot be unpacked", "save it again") from error
 
 
 def _refused(name: str, why: str, hint: str) -> InputError:
@@ -77,10 +77,10 @@ def _check_parts(parts: list[zipfile.ZipInfo], name: str, size: int) -> None:
     for part in parts:
         shown = part.filename[:80]
         if part.flag_bits & 1:
-            raise _refused(name, "the workbook is protected by a password", "save it without")
+            raise _refused(name, "the workbook is protected by a password", "save it without a password")
         if part.file_size > max(_RATIO_FROM, _MAX_RATIO * part.compress_size):
             why = (
-                f"its part '{shown}' is packed beyond measure, {size_of(part.compress_size)} that unpack to "
+                f"its part '{shown}' is compressed too far, {size_of(part.compress_size)} that unpack to "
                 f"{size_of(part.file_size)}; at most {_MAX_RATIO} times are read"
             )
             raise _refused(name, why, "save it as CSV")

@@ -49,7 +49,7 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
     """The table of a workbook: of the sheet with most channels, or of several sheets that belong together.
 
     Raises:
-        InputError: not a workbook, damaged, packed beyond measure, without a table, or without the sheet that
+        InputError: not a workbook, damaged, compressed too far, without a table, or without the sheet that
             the user names.
     """
     return open_sheets(_sheets(data, name), name, correction)
@@ -207,7 +207,7 @@ class _Cells:
             check_columns(last, f"{self._name}, {place}, row {number}", f"{place}, row {number}")
             self._cells += last
             if self._cells > _MAX_CELLS:
-                why = f"the workbook has more than {_MAX_CELLS} cells, which is more than is read"
+                why = f"the workbook has more than {_MAX_CELLS} cells, more than can be read"
                 raise self._refused(f"{place}, row {number}", why)
             for cell in cells[:last]:
                 if isinstance(cell, str) and len(cell) > WORD:

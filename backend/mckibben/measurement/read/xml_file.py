@@ -54,7 +54,7 @@ def open_xml(text: str, name: str, correction: Correction | None = None) -> RawT
         )  # fmt: skip
     if text.count("<") > 2 * _MOST_ELEMENTS:
         raise InputError(
-            f"{name}: the XML text has more than {_MOST_ELEMENTS} elements, which is more than is read",
+            f"{name}: the XML text has more than {_MOST_ELEMENTS} elements, more than can be read",
             field="file", hint="save it as CSV",
         )  # fmt: skip
     parser = XMLParser()
