@@ -32,9 +32,9 @@ function unverifiedNote(preset) {
     ),
     // Several effects have a force, so the effect is named too.
     ...Object.entries(preset.effects ?? {}).flatMap(([effect, values]) =>
-      Object.entries(values).map(([key, q]) =>
-        /** @type {[string, typeof q]} */ ([`${effectTitle(effect)}: ${readable(key)}`, q])
-      )
+      Object.entries(values).map((
+        [key, q],
+      ) => /** @type {[string, typeof q]} */ ([`${effectTitle(effect)}: ${readable(key)}`, q]))
     ),
   ].filter(([, q]) => isUnverified(q.grade));
   return h(
