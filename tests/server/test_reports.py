@@ -170,6 +170,7 @@ def test_history_is_told_with_the_error_of_each_model(shared_client: TestClient)
     text = report(shared_client, {**MAP, "history": steps, "diagnose": False, "title": "Two steps"})
     rows = tables(text)
     assert "Two steps" in text
+    assert "Dahl friction, break strain: preset: " in text  # an unverified value of an effect of the preset
     for step in steps:
         body = {**MAP, **({"effects": step["effects"]} if "effects" in step else {})}
         error = post(shared_client, "/api/comparisons", body).json()["rmse"]
