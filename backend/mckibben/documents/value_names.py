@@ -6,6 +6,23 @@ from collections.abc import Iterable, Mapping
 
 from mckibben.physics.effect import Effect
 
+# As the page writes them.
+_WORDS = {
+    "area": "force per pressure",
+    "displacement": "stroke",
+    "mooney": "Mooney",
+    "stribeck": "Stribeck",
+}
+
+
+def value_words(key: str) -> str:
+    """The key of a value in words.
+
+    >>> value_words("mooney_constant")
+    'Mooney constant'
+    """
+    return " ".join(_WORDS.get(word, word) for word in key.split("_"))
+
 
 def value_names(paths: Iterable[str], catalogue: Mapping[str, Effect]) -> tuple[str, ...]:
     """The values at ``paths`` of a preset, one text for each effect and for each other value, in their order.
@@ -16,7 +33,7 @@ def value_names(paths: Iterable[str], catalogue: Mapping[str, Effect]) -> tuple[
     groups: dict[str, list[str]] = {}
     for path in dict.fromkeys(paths):
         section, _, name = path.rpartition(".")
-        words = name.replace("_", " ")
+        words = value_words(name)
         if section.startswith("effects."):
             groups.setdefault(_title(section.removeprefix("effects."), catalogue), []).append(words)
         else:

@@ -18,7 +18,7 @@ from mckibben.application.measurements import summary_of
 from mckibben.application.model_question import ModelQuestion, with_model
 from mckibben.documents.start_model import PresetFacts, StatedMuscle
 from mckibben.documents.studio import Studio
-from mckibben.documents.value_names import value_names
+from mckibben.documents.value_names import value_names, value_words
 from mckibben.identification.predict.fit_model import LOAD
 from mckibben.measurement.corrected import FROM_DRIVE
 from mckibben.measurement.experiment import ACCURACY, FIELDS, LOAD_FORCE, Experiment, shown_value
@@ -181,7 +181,7 @@ def _unverified(
     for path, figure in _figures(question, catalogue, preset, known):
         if figure.grade in ("M", "E"):
             effect, name = path.split(".")
-            words = f"{catalogue[effect].title}, {name.replace('_', ' ')}"
+            words = f"{catalogue[effect].title}, {value_words(name)}"
             yield f"{words}: {figure.source} (grade {figure.grade})"
 
 

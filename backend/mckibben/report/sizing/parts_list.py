@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 
 from mckibben.documents.drive_parts import ENTERING
 from mckibben.documents.studio import Studio
+from mckibben.documents.value_names import value_words
 from mckibben.physics.effect import Effect
 from mckibben.presets import Preset
 from mckibben.presets.order_code import begin_of_order_code
@@ -81,7 +82,7 @@ def _enters(path: str, kind: str) -> bool:
 
 def _figure_name(path: str, catalogue: Mapping[str, Effect]) -> str:
     section, _, name = path.rpartition(".")
-    words = name.replace("_", " ")
+    words = value_words(name)
     if not section.startswith("effects."):
         return words
     return f"{catalogue[section.removeprefix('effects.')].title}: {words}"
