@@ -153,7 +153,7 @@ def test_a_table_on_its_side() -> None:
     ]
     found = read("\n".join(lines))
     assert_is_the_test(found)
-    assert any("turned" in message for message in found.messages)
+    assert any("transposed" in message for message in found.messages)
 
 
 def test_a_plain_table_is_not_turned() -> None:

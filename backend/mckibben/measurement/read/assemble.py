@@ -299,7 +299,7 @@ def _why_unread(meaning: Meaning, index: int) -> str:
     if index in meaning.problems:
         return meaning.problems[index].message
     if any(column.place == index for column in meaning.columns):
-        return "its cells are not what its name says"
+        return "its cells do not fit its name"
     return "its name is not known"
 
 

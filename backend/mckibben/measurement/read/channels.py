@@ -281,7 +281,7 @@ def _read_labels(
         if len(words) == 1 and words[0]:
             reading.conditions.setdefault("sample", words[0][:200])
         else:
-            reading.drop(by_use[SAMPLE], "it names more than one muscle")
+            reading.drop(by_use[SAMPLE], "it names several muscles")
     if SLACK not in labels:
         return None
     marks = {"0": False, "0.0": False, "false": False, "1": True, "1.0": True, "true": True}

@@ -279,7 +279,7 @@ def stacked(tables: list[NamedTable], title: str) -> NamedTable:
     if RUN not in columns and not any(recognise(head).channel == "group" for head in columns):
         numbered = True
         columns[RUN] = np.repeat(np.arange(len(tables), dtype=float), rows)
-    message = f"{len(tables)} parts with the same columns are read one below the other"
+    message = f"{len(tables)} parts with the same columns are read one after another"
     return NamedTable(
         title, columns,
         [note for note in tables[0].notes if note.key not in taken and note.key not in apart],
