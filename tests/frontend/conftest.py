@@ -131,7 +131,7 @@ def page(request: pytest.FixtureRequest, page_guard: PageGuard) -> Iterator[Page
     for other in page.context.pages:
         if other != page:
             other.close()
-    page.unroute_all()
+    page.unroute_all(behavior="ignoreErrors")  # what the page still asks is answered for nobody
     page.keyboard.press("Escape")  # what lies over the view
     page.mouse.move(0, 0)
     page.set_viewport_size({"width": 1280, "height": 720})
