@@ -132,7 +132,9 @@ def page(request: pytest.FixtureRequest, page_guard: PageGuard) -> Iterator[Page
         if other != page:
             other.close()
     page.unroute_all(behavior="ignoreErrors")  # what the page still asks is answered for nobody
-    page.keyboard.press("Escape")  # what lies over the view
+    page.keyboard.press("Escape")
+    if page.locator("[role=dialog]:visible, dialog[open]").count():  # what still lies over the view
+        page.goto("about:blank")
     page.mouse.move(0, 0)
     page.set_viewport_size({"width": 1280, "height": 720})
     page.emulate_media(color_scheme="light", reduced_motion="no-preference")

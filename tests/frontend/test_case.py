@@ -34,8 +34,6 @@ from tests.frontend.guard import PageGuard
 from tests.frontend.importing import CORPUS, answer_everything
 from tests.frontend.views import marked, open_compare, open_design, run
 
-pytestmark = pytest.mark.kept_page
-
 needs_corpus = pytest.mark.skipif(
     not (CORPUS / "lab_de.csv").exists(), reason="the files of laboratories are not beside the project"
 )

@@ -381,6 +381,7 @@ FIGURES = ["5", "6", "7", "9", "10a", "10b", "11a", "11b", "12a", "12b", "13"]
     "tests/test_scenarios.py::test_its_figures_are_the_printed_ones_within_their_tolerance"
 )
 def test_the_figures_of_the_paper(page: Page) -> None:
+    page.goto("about:blank")  # as it opens, whatever the page showed before
     open_design(page)
     for figure in FIGURES:
         example(page, f"Figure {figure}:")

@@ -199,6 +199,12 @@ def test_whatever_nobody_said_is_visible_for_every_file_of_the_corpus(case: Page
         choose(case, payload)
         dialog = panel(case)
         preview = preview_of(case, payload)
+        stops = [question["proposed"] for question in preview["questions"] if question["stops"]]
+        if preview["measurement"] is None and stops and all(stops):  # the page assumes it, and says so
+            expect(dialog.get_by_text("assumed").first, path.name).to_be_visible()
+            case.keyboard.press("Escape")
+            expect(dialog).to_be_hidden()
+            continue
         for row, text in values_to_see(preview):
             expect(dialog.locator(row).filter(has_text=text).first, path.name).to_be_visible()
             seen += 1

@@ -741,6 +741,7 @@ def test_another_window_ends_what_pinned_runs_were_asked_for(page: Page) -> None
 
 @pytest.mark.examination("tests/frontend/test_state.py::test_a_link_holds_the_whole_document")
 def test_the_link_restores_the_zoomed_phase_plot(page: Page) -> None:
+    page.goto("about:blank")  # as it opens, whatever the page showed before
     open_transient(page)
     range_of = """
       const { xaxis, yaxis } = document.querySelector("#run-phase .canvas")._fullLayout;
