@@ -283,11 +283,13 @@ class PresetLibrary:
         """The built-in presets; nothing changes them, so the libraries of a process share what they hold."""
         table = None if self.effects is None else _hashable(self.effects)
         key = (self._folder, tuple(_signature(self._folder / kind) for kind in KINDS), table)
-        if key not in _SHARED:
-            while len(_SHARED) >= _MOST_SHARED:
-                _SHARED.pop(next(iter(_SHARED)), None)
-            _SHARED[key] = {kind: self._scan(kind, "built-in", {}) for kind in KINDS}
-        return _SHARED[key]
+        shelves = _SHARED.get(key)
+        if shelves is None:
+            shelves = {kind: self._scan(kind, "built-in", {}) for kind in KINDS}
+            for oldest in list(_SHARED)[: 1 - _MOST_SHARED]:  # another thread may do the same
+                _SHARED.pop(oldest, None)
+            _SHARED[key] = shelves
+        return shelves
 
     def _scan(self, kind: str, origin: Origin, taken: dict[str, Preset]) -> _Shelf:
         root = self._folder if origin == "built-in" else self.user_folder
