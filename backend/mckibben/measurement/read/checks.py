@@ -94,11 +94,11 @@ def _units(evidence: Evidence) -> list[Question]:
                 continue
             *others, last = found.choices[:4] or ("",)
             likely = f"{', '.join(others)} or {last}" if others else last
-            may = f"; {likely} would be plausible" if likely else ""
+            may = f"; they would be plausible in {likely}" if likely else ""
             asked.append(
                 Question(
                     f"unit of {channel}",
-                    f"{named} ({channel}) has no unit and holds {span}{may}; which unit is it",
+                    f"{named} ({channel}) has no unit; its readings are {span}{may}",
                     column_option(channel, bare_name(column), found.unit),
                     column.header,
                     found.unit,
