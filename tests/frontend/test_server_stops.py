@@ -100,17 +100,22 @@ def is_back(page: Page) -> None:
         expect(page.locator(".banner"), name).to_have_count(0)
 
 
-@pytest.mark.examination("tests/frontend/test_network.py::test_a_server_that_is_gone_and_comes_back")
-def test_a_server_that_is_stopped_killed_and_started_again(browser: Browser, tmp_path: Path) -> None:
+def page_of_a_port(browser: Browser) -> tuple[Page, tuple[str, ...], list[str]]:
+    """A page of a server yet to be started, the arguments that start it, and the page's errors as they come."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]
-    arguments = ("--port", str(port))
     context = browser.new_context(
         base_url=f"http://127.0.0.1:{port}", viewport={"width": 1440, "height": 1000}
     )
     page, faults = context.new_page(), list[str]()
     page.on("pageerror", lambda error: faults.append(str(error)))
+    return page, ("--port", str(port)), faults
+
+
+@pytest.mark.examination("tests/frontend/test_network.py::test_a_server_that_is_gone_and_comes_back")
+def test_a_server_that_is_stopped_killed_and_started_again(browser: Browser, tmp_path: Path) -> None:
+    page, arguments, faults = page_of_a_port(browser)
     with RunningServer(tmp_path, arguments=arguments) as server:
         open_compare(page)
         page.route("**/api/diagnoses", lambda route: None)
@@ -149,7 +154,7 @@ def test_a_server_that_is_stopped_killed_and_started_again(browser: Browser, tmp
         expect(page.locator(".studies")).to_contain_text("Many runs, one answer", timeout=20_000)
         is_back(page)
         assert INNER_WORDS.findall(page.locator("body").inner_text()) == []
-        context.close()
+        page.context.close()
     assert faults == []
 
 
@@ -175,15 +180,7 @@ def is_made(page: Page, runs: int) -> None:
 
 @pytest.mark.examination("tests/frontend/test_network.py::test_a_server_that_is_gone_and_comes_back")
 def test_a_study_goes_on_after_a_stop_and_after_a_restart(browser: Browser, tmp_path: Path) -> None:
-    with socket.socket() as free:
-        free.bind(("127.0.0.1", 0))
-        port = free.getsockname()[1]
-    arguments = ("--port", str(port))
-    context = browser.new_context(
-        base_url=f"http://127.0.0.1:{port}", viewport={"width": 1440, "height": 1000}
-    )
-    page, faults = context.new_page(), list[str]()
-    page.on("pageerror", lambda error: faults.append(str(error)))
+    page, arguments, faults = page_of_a_port(browser)
     banner = page.locator(".banner")
     with RunningServer(tmp_path, arguments=arguments) as server:
         page.goto("/")
@@ -214,5 +211,5 @@ def test_a_study_goes_on_after_a_stop_and_after_a_restart(browser: Browser, tmp_
         expect(banner).to_contain_text("does not answer", timeout=20_000)
     with RunningServer(tmp_path, arguments=arguments):
         is_made(page, 60)
-        context.close()
+        page.context.close()
     assert faults == []
