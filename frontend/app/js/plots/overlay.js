@@ -103,9 +103,12 @@ export function dragLine(chart, o) {
 const CLEAR_PX = 15, NAME_PX = 13, SHIFT_PX = 20;
 /** Letters of a name, its height, and how many points it may cover. */
 const LETTER_PX = 6.6, HIGH_PX = 16, MOST_COVERED = 2;
+/** Distance of the places at which a line is looked at [px], and the share of a name that lines may run through. */
+const STROKE_PX = 4, MOST_STRUCK = 0.4;
 
 /** Writes the name of each line beside its start or end, and the name of each shaded zone into it. A name that would
- * lie over another one, far from its line or over a crowd of points is left out; the highest and the lowest stay.
+ * lie over another one, far from its line, along a line or over a crowd of points is left out; the highest and the
+ * lowest stay.
  * @param {Chart} chart */
 export function writeLabels(chart) {
   const box = h("div", { class: "labels" });
@@ -122,7 +125,7 @@ export function writeLabels(chart) {
     const { room = 0 } = chart.spec;
     const nodes = room && !lines.some((line) => line.end)
       ? besideAxis(lines, axes)
-      : overPlot(lines, axes, pointsOf(chart.spec, axes), room);
+      : overPlot(lines, axes, pointsOf(chart.spec, axes), strokesOf(chart.spec, axes), room);
     for (const zone of chart.spec.zones) nodes.push(...zoneLabel(zone, axes));
     box.replaceChildren(...nodes);
   });
@@ -152,8 +155,8 @@ function besideAxis(lines, axes) {
 
 /** Names over the plot, where they cover fewest points: behind the end of a line, above or below it.
  * @param {PlacedLabel[]} lines from the top @param {any} axes @param {[number, number][]} points
- * @param {number} room right of the axes [px] */
-function overPlot(lines, axes, points, room) {
+ * @param {[number, number][]} strokes places on the lines @param {number} room right of the axes [px] */
+function overPlot(lines, axes, points, strokes, room) {
   const { _length: width } = axes.xaxis, { _length: height } = axes.yaxis;
   /** @type {HTMLElement[]} */
   const nodes = [];
@@ -175,9 +178,15 @@ function overPlot(lines, axes, points, room) {
       points.filter(([x, y]) => x > left - 3 && x < left + wide + 3 && y > top - 2 && y < top + HIGH_PX + 2)
         .length
     );
-    const least = Math.min(...counts), isOuter = i === 0 || i === lines.length - 1;
-    if (!places.length || (least > MOST_COVERED && !isOuter)) continue;
-    const [left, top] = places[counts.indexOf(least)];
+    const struck = places.map(([left, top]) =>
+      strokes.filter(([x, y]) => x > left && x < left + wide && y > top + 3 && y < top + HIGH_PX - 3).length *
+      STROKE_PX / wide
+    );
+    const isOuter = i === 0 || i === lines.length - 1;
+    const fit = places.map((_, k) => k).filter((k) => counts[k] <= MOST_COVERED && struck[k] <= MOST_STRUCK);
+    const from = fit.length ? fit : isOuter ? places.map((_, k) => k) : [];
+    if (!from.length) continue;
+    const [left, top] = places[from.reduce((a, b) => (counts[b] + struck[b] < counts[a] + struck[a] ? b : a))];
     taken.push([left, top, wide]);
     nodes.push(place(nameOf(line), axes, left, top));
   }
@@ -195,6 +204,24 @@ const pointsOf = (spec, axes) =>
         : [/** @type {[number, number]} */ ([axes.xaxis.c2p(x), axes.yaxis.c2p(y)])];
     })
   );
+
+/** Places along the drawn lines in pixels, `STROKE_PX` apart. @param {import("./chart.js").Spec} spec @param {any} axes
+ * @returns {[number, number][]} */
+const strokesOf = (spec, axes) =>
+  spec.traces.filter((t) => !t.marker).flatMap((t) => {
+    /** @type {[number, number][]} */
+    const places = [];
+    for (let k = 1; k < t.x.length; k++) {
+      const [x0, y0, x1, y1] = [t.x[k - 1], t.y[k - 1], t.x[k], t.y[k]];
+      if (x0 == null || y0 == null || x1 == null || y1 == null) continue;
+      const from = [axes.xaxis.c2p(x0), axes.yaxis.c2p(y0)], to = [axes.xaxis.c2p(x1), axes.yaxis.c2p(y1)];
+      const parts = Math.max(1, Math.round(Math.abs(to[0] - from[0]) / STROKE_PX));
+      for (let i = 0; i < parts; i++) {
+        places.push([from[0] + (to[0] - from[0]) * i / parts, from[1] + (to[1] - from[1]) * i / parts]);
+      }
+    }
+    return places;
+  });
 
 /** @param {import("./chart.js").Zone} zone @param {any} axes */
 function zoneLabel(zone, axes) {
