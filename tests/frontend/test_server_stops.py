@@ -101,7 +101,7 @@ def is_back(page: Page) -> None:
 
 
 def page_of_a_port(browser: Browser) -> tuple[Page, tuple[str, ...], list[str]]:
-    """A page of a server yet to be started, the arguments that start it, and the page's errors as they come."""
+    """A page of a server yet to be started, the arguments that start it, the page's errors as they come."""
     with socket.socket() as free:
         free.bind(("127.0.0.1", 0))
         port = free.getsockname()[1]

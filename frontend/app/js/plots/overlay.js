@@ -186,7 +186,8 @@ function overPlot(lines, axes, points, strokes, room) {
     const fit = places.map((_, k) => k).filter((k) => counts[k] <= MOST_COVERED && struck[k] <= MOST_STRUCK);
     const from = fit.length ? fit : isOuter ? places.map((_, k) => k) : [];
     if (!from.length) continue;
-    const [left, top] = places[from.reduce((a, b) => (counts[b] + struck[b] < counts[a] + struck[a] ? b : a))];
+    const [left, top] =
+      places[from.reduce((a, b) => (counts[b] + struck[b] < counts[a] + struck[a] ? b : a))];
     taken.push([left, top, wide]);
     nodes.push(place(nameOf(line), axes, left, top));
   }
