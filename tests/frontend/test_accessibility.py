@@ -33,7 +33,7 @@ VIEWS = {
 
 def open_view(page: Page, view: str, mark: str) -> None:
     load(page, link_to({"schema": 1, "view": view, "design": {}}))
-    marked(page, mark, 30_000)
+    marked(page, mark, 120_000)  # the first run of a fresh checkout waits for the compiler
     expect(page.get_by_role("main").get_by_role("button").first).to_be_visible()
 
 
