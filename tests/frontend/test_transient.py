@@ -34,7 +34,7 @@ START = link_to({"schema": 1, "view": "transient", "design": {}})
 def open_transient(page: Page, link: str = START) -> None:
     """The Transient view with its first run drawn; the Design view is not even built."""
     load(page, link)
-    marked(page, "[data-ran]", 30_000)  # a busy machine takes its time
+    marked(page, "[data-ran]", 120_000)  # a busy machine takes its time
 
 
 def runs(page: Page) -> int:
