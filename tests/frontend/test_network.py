@@ -88,7 +88,8 @@ def test_a_server_that_is_gone_and_comes_back(page: Page, page_guard: PageGuard)
     page.get_by_role("button", name="Catalogue", exact=True).click()
     expect(banner).to_be_visible()
     page.get_by_role("button", name="Design", exact=True).click()
-    with page.expect_response("**/api/curves"):
+    # The server may be compiling its integrators, which the test before this one asked for.
+    with page.expect_response("**/api/curves", timeout=120_000):
         page.unroute("**/api/curves")
         page.unroute("**/api/health")
     expect(banner).to_have_count(0)  # by itself
