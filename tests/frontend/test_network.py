@@ -87,13 +87,39 @@ def test_a_server_that_is_gone_and_comes_back(page: Page, page_guard: PageGuard)
     expect(page.locator(".centre")).to_have_class(re.compile("stale"))
     page.get_by_role("button", name="Catalogue", exact=True).click()
     expect(banner).to_be_visible()
-    page.get_by_role("button", name="Design", exact=True).click()
-    # The server may be compiling its integrators, which the test before this one asked for.
-    with page.expect_response("**/api/curves", timeout=120_000):
+    # A request that is held up while its route is taken away may never end: wait for the one of the view.
+    with page.expect_event("requestfailed", lambda request: request.url.endswith("/api/curves")):
+        page.get_by_role("button", name="Design", exact=True).click()
+    with page.expect_response("**/api/curves"):
         page.unroute("**/api/curves")
         page.unroute("**/api/health")
     expect(banner).to_have_count(0)  # by itself
     expect(page.locator(".centre")).not_to_have_class(re.compile("stale"))
+
+
+def test_a_question_that_gets_lost_is_asked_again(blank: Page) -> None:
+    """A network that sleeps answers nothing and refuses nothing: the page must not wait for it for ever."""
+    limits, asked, before, after = run(
+        blank,
+        """
+        const { connection, look, lost } = await import("/js/server/connection.js");
+        const limits = [], timeout = AbortSignal.timeout;
+        AbortSignal.timeout = (ms) => (limits.push(ms), timeout.call(AbortSignal, 20));
+        let asked = 0;
+        window.fetch = (path, { signal } = {}) =>
+          asked++ ? Promise.resolve({ ok: true }) : new Promise((_, fail) => {
+            signal?.addEventListener("abort", () => fail(signal.reason));
+          });
+        lost();
+        await Promise.race([look(), new Promise((done) => setTimeout(done, 2000))]);
+        const before = connection.peek();
+        const pause = () => new Promise((done) => setTimeout(done, 20));
+        for (let i = 0; i < 500 && connection.peek() !== "up"; i++) await pause();
+        return [limits, asked, before, connection.peek()];
+        """,
+    )
+    assert (before, after, asked) == ("gone", "up", 2)
+    assert limits == [10_000, 10_000]
 
 
 def test_nothing_to_start_with(page: Page, page_guard: PageGuard) -> None:

@@ -5,6 +5,8 @@ import { batch, signal } from "../reactive.js";
 /** `slow`: a short request waits for long. @typedef {"up" | "slow" | "gone"} Connection */
 
 const SLOW_MS = 5000, FIRST_MS = 1000, LONGEST_MS = 10_000;
+/** How long the server may take to say that it is there [ms]. */
+const HEALTH_MS = 10_000;
 
 export const connection = signal(/** @type {Connection} */ ("up"));
 /** How often the server has come back, or may have: whoever waits for it asks again. */
@@ -31,14 +33,18 @@ export function found() {
   }
 }
 
+/** Whether the server is there. A question that gets lost, in a sleeping network for example, would wait for ever.
+ * @throws when there is no answer in time */
+const isThere = async () =>
+  (await fetch("/api/health", { cache: "no-store", signal: AbortSignal.timeout(HEALTH_MS) })).ok;
+
 /** Looks whether the server is there, less and less often. */
 export async function look() {
   clearTimeout(timer);
   timer = 0;
   pause = Math.min(2 * pause, LONGEST_MS);
   try {
-    const answer = await fetch("/api/health", { cache: "no-store" });
-    if (answer.ok) return found();
+    if (await isThere()) return found();
   } catch {
     // still gone
   }
@@ -74,7 +80,7 @@ export function attend() {
     isAsking = true;
     const end = watch();
     try {
-      if ((await fetch("/api/health", { cache: "no-store" })).ok) found();
+      if (await isThere()) found();
     } catch {
       lost();
     }
