@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import os
 import signal
+import sqlite3
 import subprocess
 import sys
 import threading
@@ -55,6 +56,19 @@ def test_servers_that_start_together_migrate_once(tmp_path: Path) -> None:
     assert len(made) == 4
     for store in stores:
         store.close()
+
+
+def test_a_new_file_that_another_program_writes_is_waited_for(tmp_path: Path) -> None:
+    """SQLite itself waits, but not where it would have to switch the file to its write-ahead log."""
+    holder = sqlite3.connect(tmp_path / "projects.sqlite", isolation_level=None, check_same_thread=False)
+    holder.execute("BEGIN IMMEDIATE")
+    held = threading.Timer(0.3, lambda: holder.execute("ROLLBACK"))
+    held.start()
+    store = ProjectStore(Database(tmp_path))
+    assert store.create({}, title="Lift").summary.title == "Lift"
+    held.join()
+    store.close()
+    holder.close()
 
 
 def test_a_database_of_a_later_version_is_left_alone(database: Database) -> None:
