@@ -60,6 +60,8 @@ def send(
         with urllib.request.urlopen(request, timeout=300) as answer:
             return answer.status, answer.read().decode(), answer.headers
     except urllib.error.HTTPError as error:
+        if error.code == 500:
+            raise AssertionError(server.output) from error
         return error.code, error.read().decode(), error.headers
 
 

@@ -113,48 +113,53 @@ def perform(kind: str, body: Any, address: str, key: bytes, number: int) -> byte
     """
     assert _own is not None, "begin() comes first"  # noqa: S101 - the pool's initializer
     job = JOBS[kind]
-    with Client(address, authkey=key) as line:
-        line.send(number)
-        stop, speaking = threading.Event(), threading.Lock()
+    line = Client(address, authkey=key)
+    line.send(number)
+    stop, speaking = threading.Event(), threading.Lock()
 
-        def say(message: Message) -> None:
-            with speaking:  # a job may have threads
-                line.send(message)
+    def say(message: Message) -> None:
+        with speaking:  # a job may have threads
+            line.send(message)
 
-        threading.Thread(target=_listen, args=(line, stop), daemon=True).start()
-        try:
-            work = job.prepare(body, _own.studio, _own.store)
-            say(Message("prepared"))
-            watch = Watch(
-                cancelled=stop.is_set,
-                progress=lambda share: say(Message("progress", to_json({"share": share}))),
-                found=lambda found: say(Message("progress", to_json({"found": found}))),
-                time_limit=job.time_limit,
-            )
-            return work(watch)
-        except InputError as error:
-            return Refused(error.message, error.field, error.hint, error.code)
-        except MemoryError:
-            return Refused(
-                f"this needs more than the {_own.memory / 1e9:.1f} GB of memory that one request may use",
-                None,
-                job.hint,
-                "stopped",
-            )
-        finally:
-            # The server closes its end, which wakes `_listen`: a connection that a thread reads stays open.
-            with suppress(OSError):
-                say(Message("over"))
+    threading.Thread(target=_listen, args=(line, stop, speaking), daemon=True).start()
+    try:
+        work = job.prepare(body, _own.studio, _own.store)
+        say(Message("prepared"))
+        watch = Watch(
+            cancelled=stop.is_set,
+            progress=lambda share: say(Message("progress", to_json({"share": share}))),
+            found=lambda found: say(Message("progress", to_json({"found": found}))),
+            time_limit=job.time_limit,
+        )
+        return work(watch)
+    except InputError as error:
+        return Refused(error.message, error.field, error.hint, error.code)
+    except MemoryError:
+        return Refused(
+            f"this needs more than the {_own.memory / 1e9:.1f} GB of memory that one request may use",
+            None,
+            job.hint,
+            "stopped",
+        )
+    finally:
+        with suppress(OSError):
+            say(Message("over"))
 
 
-def _listen(line: Connection, stop: threading.Event) -> None:
+def _listen(line: Connection, stop: threading.Event, speaking: threading.Lock) -> None:
     """Wait for the word to stop; the end of the connection is one too.
 
-    A connection that is closed while it is read raises TypeError, because its handle is None by then.
+    The server closes its end when the job is over; then this thread closes the one here. Nobody else may: if
+    it was about to read a connection closed by another thread, it would read the next job's, which gets its
+    number.
     """
-    with suppress(EOFError, OSError, TypeError):
-        line.recv()
+    with suppress(EOFError, OSError):
+        while True:
+            line.recv()
+            stop.set()
     stop.set()
+    with speaking:
+        line.close()
 
 
 def _limit_memory(most: int) -> None:

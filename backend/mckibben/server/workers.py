@@ -50,6 +50,7 @@ class Running:
     Attributes:
         news: what the worker says; None when the job has ended.
         line: on which it speaks; None = it has not begun.
+        speaking: held while something is said on it, or while it is closed.
         stopped: whether it shall end.
         again: how often it was given away once more because it did not begin.
         lost: whether the processes have stopped taking jobs, this one among them.
@@ -61,6 +62,7 @@ class Running:
     future: ProcessFuture[bytes | Refused]
     news: asyncio.Queue[Message | None] = field(default_factory=asyncio.Queue)
     line: Connection | None = None
+    speaking: threading.Lock = field(default_factory=threading.Lock)
     stopped: bool = False
     again: int = 0
     lost: bool = False
@@ -234,9 +236,10 @@ class Workers:
         def ended() -> None:
             error = None if running.future.cancelled() else running.future.exception()
             died = isinstance(error, ProcessExpired | BrokenProcessPool)
-            never_began = running.line is None and (running.lost or died)
+            never_began = running.lost or (running.line is None and died)
             if never_began and running.again < _MOST_TRIES and not (running.stopped or self.ending):
-                running.again, running.lost = running.again + 1, False  # nobody need know
+                # Nobody need know. A process found lost may have spoken after all, a moment too late.
+                running.again, running.lost, running.line = running.again + 1, False, None
                 self._starter.submit(lambda: (schedule(), follow()))
                 return
             self._running.pop(running.number, None)
@@ -319,7 +322,7 @@ class Workers:
             return
         running.stopped = True
         if running.line is not None:
-            with suppress(OSError):
+            with running.speaking, suppress(OSError):  # it may be closed by now
                 running.line.send("stop")
         assert self._loop is not None  # noqa: S101 - a job runs
         self._loop.call_later(_GRACE, running.future.cancel)
@@ -385,12 +388,13 @@ class Workers:
     def _hear(self, line: Connection, running: Running) -> None:
         loop = self._loop
         assert loop is not None  # noqa: S101 - a job runs
-        with line, suppress(EOFError, OSError):
-            while True:
-                message = line.recv()
-                if message.kind == "over" or loop.is_closed():
-                    return
-                loop.call_soon_threadsafe(running.news.put_nowait, message)
+        try:
+            with suppress(EOFError, OSError):
+                while (message := line.recv()).kind != "over" and not loop.is_closed():
+                    loop.call_soon_threadsafe(running.news.put_nowait, message)
+        finally:
+            with running.speaking:  # or what is said now would go to the next connection of this number
+                line.close()
 
 
 def _ending() -> InputError:
