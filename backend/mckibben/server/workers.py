@@ -18,9 +18,7 @@ from collections import deque
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
-from contextlib import suppress
-from dataclasses import dataclass, field
-from multiprocessing.connection import Connection, Listener
+from multiprocessing.connection import Listener
 from typing import Any
 
 from pebble import ProcessExpired, ProcessFuture, ProcessPool
@@ -28,8 +26,9 @@ from pebble import ProcessExpired, ProcessFuture, ProcessPool
 from mckibben.physics.errors import InputError
 from mckibben.server.jobs import JOBS
 from mckibben.server.lane import BusyError, Lane, Place, end_pool
+from mckibben.server.running import Running
 from mckibben.server.settings import Settings
-from mckibben.server.worker import Message, Refused, begin, perform
+from mckibben.server.worker import Refused, begin, perform
 
 log = logging.getLogger("mckibben.server")
 
@@ -41,32 +40,6 @@ _RENEWED_AFTER = 200  # jobs, then a process is replaced: what was compiled stay
 _LOOK_EVERY = 0.2  # s; at the place in the queue
 _FIRST_GUESS = 5.0  # s that a job takes, as long as none has ended
 _WEIGHT_OF_LAST = 0.3  # weight of the last job in the mean
-
-
-@dataclass(eq=False)
-class Running:
-    """A job in a worker.
-
-    Attributes:
-        news: what the worker says; None when the job has ended.
-        line: on which it speaks; None = it has not begun.
-        speaking: held while something is said on it, or while it is closed.
-        stopped: whether it shall end.
-        again: how often it was given away once more because it did not begin.
-        lost: whether the processes have stopped taking jobs, this one among them.
-        pool: that has it.
-    """
-
-    kind: str
-    number: int
-    future: ProcessFuture[bytes | Refused]
-    news: asyncio.Queue[Message | None] = field(default_factory=asyncio.Queue)
-    line: Connection | None = None
-    speaking: threading.Lock = field(default_factory=threading.Lock)
-    stopped: bool = False
-    again: int = 0
-    lost: bool = False
-    pool: ProcessPool | None = None
 
 
 class Ticket:
@@ -321,9 +294,7 @@ class Workers:
         if running.future.done() or running.stopped:
             return
         running.stopped = True
-        if running.line is not None:
-            with running.speaking, suppress(OSError):  # it may be closed by now
-                running.line.send("stop")
+        running.ask_to_end()
         assert self._loop is not None  # noqa: S101 - a job runs
         self._loop.call_later(_GRACE, running.future.cancel)
 
@@ -382,19 +353,8 @@ class Workers:
             if running is None:
                 line.close()
                 continue
-            running.line = line
-            threading.Thread(target=self._hear, args=(line, running), daemon=True).start()
-
-    def _hear(self, line: Connection, running: Running) -> None:
-        loop = self._loop
-        assert loop is not None  # noqa: S101 - a job runs
-        try:
-            with suppress(EOFError, OSError):
-                while (message := line.recv()).kind != "over" and not loop.is_closed():
-                    loop.call_soon_threadsafe(running.news.put_nowait, message)
-        finally:
-            with running.speaking:  # or what is said now would go to the next connection of this number
-                line.close()
+            assert self._loop is not None  # noqa: S101 - a job runs
+            threading.Thread(target=running.hear, args=(line, self._loop), daemon=True).start()
 
 
 def _ending() -> InputError:
