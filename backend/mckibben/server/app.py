@@ -122,7 +122,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.versions = versions()
     app.state.plotly = static.PlotlyBundle()
     # Routes are matched in this order: first the one requested at every movement of a slider.
-    for noun in (
+    nouns = (
         curves,
         simulations,
         linearisations,
@@ -146,11 +146,13 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         description,
         help,
         static,
-    ):
+    )
+    for noun in nouns:
         app.include_router(noun.router)
     app.router.redirect_slashes = False
     app.router.default = static.frontend(settings.frontend)
-    errors.install(app)
+    routes = [route for noun in nouns for route in noun.router.routes if isinstance(route, APIRoute)]
+    errors.install(app, list(dict.fromkeys(route.path_format for route in routes if route.include_in_schema)))
     # The middleware added last is the outermost.
     app.add_middleware(GZipMiddleware, minimum_size=_GZIP_FROM, compresslevel=1)
     app.add_middleware(BodyLimitMiddleware)

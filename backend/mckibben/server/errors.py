@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import logging
 import secrets
+from collections.abc import Sequence
 from difflib import get_close_matches
 from typing import Any
 
@@ -81,17 +82,21 @@ def unexpected_answer(error: Exception) -> JsonAnswer:
     )
 
 
-def _nearest_path(path: str, app: FastAPI) -> str:
-    # Writing the description takes a moment: skip it for paths that browsers request by themselves.
-    known = list(app.openapi()["paths"]) if path.startswith("/api") else []
+def _nearest_path(path: str, paths: Sequence[str]) -> str:
+    known = paths if path.startswith("/api") else ()  # browsers request others by themselves
     # What begins like a path with parameters is rather that path than one that is spelt alike.
     begun = [name for name in known if name.startswith(f"{path.rstrip('/')}/{{")]
     near = begun[:1] or get_close_matches(path[:200], known, n=1, cutoff=0.6)
     return f"Did you mean '{near[0]}'?" if near else "The list of paths is at /openapi.json."
 
 
-def install(app: FastAPI) -> None:
-    """Register handlers so that every error of the application has this form."""
+def install(app: FastAPI, paths: Sequence[str]) -> None:
+    """Register handlers so that every error of the application has this form.
+
+    Args:
+        app: the application.
+        paths: of its interface, for those that nearly named one.
+    """
 
     @app.exception_handler(InputError)
     async def _input_error(request: Request, error: InputError) -> JsonAnswer:
@@ -118,15 +123,14 @@ def install(app: FastAPI) -> None:
             return error_answer(404, problem.message, field=problem.field, hint=problem.hint)
         return error_answer(422, problem.message, code=problem.code, field=problem.field, hint=problem.hint)
 
-    # In a worker thread: writing the list of paths takes half a second the first time.
     @app.exception_handler(HTTPException)
-    def _http_error(request: Request, error: HTTPException) -> JsonAnswer:
+    async def _http_error(request: Request, error: HTTPException) -> JsonAnswer:
         path, hint, field = request.url.path, None, None
         message = str(error.detail)
         if isinstance(error, BodyError):
             field, hint = error.field, error.hint
         elif error.status_code == 404:
-            message, hint = f"There is nothing at {path[:200]}.", _nearest_path(path, app)
+            message, hint = f"There is nothing at {path[:200]}.", _nearest_path(path, paths)
         elif error.status_code == 405:
             allowed = (error.headers or {}).get("Allow", "GET")
             message, hint = f"{path[:200]} does not take {request.method}.", f"It takes {allowed}."
