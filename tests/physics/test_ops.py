@@ -70,6 +70,15 @@ def test_where_with_a_plain_condition_and_a_symbol() -> None:
     assert ops.where(np.bool_(False), X, 3.0) == 3.0
 
 
+def test_where_on_numbers_is_what_numpy_gives_and_divides_like_it() -> None:
+    for a, b in ((1.5, -2.0), (-0.0, 0.0), (math.nan, 1.0), (np.float64(3.0), 2.0)):
+        found = ops.where(ops.greater(a, b), a, b)
+        assert np.array_equal(found, np.where(a > b, a, b), equal_nan=True)
+        assert isinstance(found, np.float64)
+    with np.errstate(divide="ignore"):
+        assert 1.0 / ops.positive_part(-1.0) == -math.inf  # a float of Python would raise; 0 * -1 is -0
+
+
 def test_is_symbolic() -> None:
     assert ops.is_symbolic(X)
     assert ops.is_symbolic(se.Integer(1))

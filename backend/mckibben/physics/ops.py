@@ -70,6 +70,8 @@ def arcsin(x: Value) -> Value:
 
 def greater(a: Value, b: Value) -> Value:
     """The condition a > b, for `where`; complex numbers (complex-step derivatives) compare by real part."""
+    if isinstance(a, float) and isinstance(b, float):
+        return a > b
     if is_symbolic(a) or is_symbolic(b):
         return se.sympify(a) > se.sympify(b)
     return np.real(a) > np.real(b)
@@ -77,6 +79,8 @@ def greater(a: Value, b: Value) -> Value:
 
 def where(condition: Value, a: Value, b: Value) -> Value:
     """``a`` where the condition holds, ``b`` elsewhere."""
+    if isinstance(a, float) and isinstance(b, float) and isinstance(condition, bool | np.bool_):
+        return np.float64(a if condition else b)  # what numpy would give, in a tenth of the time
     if isinstance(condition, se.Basic):
         a, b = se.sympify(a), se.sympify(b)
         return a if a == b else se.Piecewise((a, condition), (b, True))
