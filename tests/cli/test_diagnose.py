@@ -325,7 +325,10 @@ def test_bad_input_is_one_line_that_says_what_would_be_right(run: Run, name: str
         assert word in line
 
 
-@pytest.mark.examination("tests/server/test_diagnoses.py::test_a_wrong_rest_length_is_asked_about_first")
+@pytest.mark.examination(
+    "tests/identification/diagnose/test_contest.py"
+    "::test_a_wrong_rest_length_beside_an_elastic_wall_is_asked_about_first"
+)
 def test_a_wrong_rest_length_is_asked_about_and_answered(run: Run) -> None:
     file, long = rubbing(), write("long.json", {**BRAID, "nominal_length": "345 mm"})
     code, _, err = run("diagnose", file, "--muscle", long)

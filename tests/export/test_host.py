@@ -43,7 +43,20 @@ def built(folder: Path, dialect: Dialect, files: list[str], *flags: str) -> Path
     return folder / "host"
 
 
-@pytest.mark.parametrize(("name", "dialect"), [("propneu-20", FMI2), ("pair", FMI2), ("pair", FMI3)])
+@pytest.mark.parametrize(
+    ("name", "dialect"),
+    [
+        ("propneu-20", FMI2),
+        ("pair", FMI3),
+        pytest.param(
+            "pair",
+            FMI2,
+            marks=pytest.mark.examination(
+                "test_the_binary_runs_without_python_and_the_sources_under_sanitizers"
+            ),
+        ),
+    ],
+)
 def test_the_binary_runs_without_python_and_the_sources_under_sanitizers(name, dialect, tmp_path):
     model = subject_named(name)
     texts = package.sources(model, "drive", dialect)

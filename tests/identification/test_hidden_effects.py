@@ -14,12 +14,11 @@ from tests.truth.generate import case
 FOUND = (
     "threshold-isometric",
     "end-caps-isobaric",
-    "coulomb-isobaric",
     "pressure-zero-isobaric",
     "force-zero-isobaric",
     "length-zero-diameter",
-    "delay-pulses",
 )
+LONG = ("coulomb-isobaric", "delay-pulses")
 TOGETHER = (
     "pair-bladder-ends-isobaric",
     "pair-bladder-length-zero-map",
@@ -39,6 +38,12 @@ def test_a_single_hidden_effect_is_found_and_the_error_falls_to_the_noise(name: 
     assert line.right, line
     assert line.after <= 1.15, line
     assert line.status in ("missing_effects", "ambiguous")
+
+
+@pytest.mark.examination("test_a_single_hidden_effect_is_found_and_the_error_falls_to_the_noise")
+@pytest.mark.parametrize("name", LONG)
+def test_a_hidden_effect_of_many_rows_is_found_as_well(name: str) -> None:
+    test_a_single_hidden_effect_is_found_and_the_error_falls_to_the_noise(name)
 
 
 @pytest.mark.parametrize("name", TOGETHER)

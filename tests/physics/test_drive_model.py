@@ -136,7 +136,18 @@ def test_every_effect_alone_gives_finite_equations_that_vanish_when_off(effect: 
     np.testing.assert_allclose(got, want, rtol=1e-9, atol=1e-12)
 
 
-@pytest.mark.parametrize(("tube", "regulator", "pair"), [(False, True, False), (True, False, True)])
+@pytest.mark.parametrize(
+    ("tube", "regulator", "pair"),
+    [
+        (False, True, False),
+        pytest.param(
+            True,
+            False,
+            True,
+            marks=pytest.mark.examination("test_all_effects_at_once_give_a_finite_jacobian"),
+        ),
+    ],
+)
 def test_all_effects_at_once_give_a_finite_jacobian(tube: bool, regulator: bool, pair: bool) -> None:
     on_muscle = {"flow_control": True, "quick_exhaust": tube}
     model = DriveModel(DriveStructure(tuple(EFFECTS), tube=tube, regulator=regulator, pair=pair, **on_muscle))
@@ -152,7 +163,15 @@ def test_all_effects_at_once_give_a_finite_jacobian(tube: bool, regulator: bool,
         assert np.isfinite(function(np.array(list(at.values()), dtype=float))).all()
 
 
-@pytest.mark.parametrize("motion", [False, True])
+@pytest.mark.parametrize(
+    "motion",
+    [
+        False,
+        pytest.param(
+            True, marks=pytest.mark.examination("test_all_effects_at_once_with_the_muscle_measured")
+        ),
+    ],
+)
 def test_all_effects_at_once_with_the_muscle_measured(motion: bool) -> None:
     model = DrivenModel(tuple(EFFECTS), motion=motion)
     expressions = [*model.rates, *model.outputs, *jacobian(model)]

@@ -17,7 +17,6 @@ from tests.robustness.files import GOOD, KIND, ROWS, SI
 from tests.robustness.variants import Variant, variants
 
 URL = "http://127.0.0.1:8000"
-VARIANTS = variants()
 #: A refusal says where: a row, a column by its name, a key, or the part of the file that is damaged.
 PLACE = re.compile(
     r"row \d+|(column|variable|channel|sheet|struct|group|field) '[^']+'|(variable|segment|byte|sheet) \d+"
@@ -55,7 +54,7 @@ def test_every_format_gives_the_same_measurement(client: TestClient, name: str) 
 def test_300_malformed_files(client: TestClient, tmp_path: Path) -> None:
     outcomes: Counter[str] = Counter()
     failures = []
-    for number, variant in enumerate(VARIANTS):
+    for number, variant in enumerate(variants()):
         before = kept(tmp_path)
         response = put(client, variant.name, variant.content)
         if response.status_code == 200:
@@ -116,7 +115,7 @@ def wrong_reading(client: TestClient, variant: Variant, identity: str) -> list[s
 
 @pytest.mark.examination("test_300_malformed_files")
 def test_a_preview_of_them_never_fails(client: TestClient, tmp_path: Path) -> None:
-    for number, variant in enumerate(VARIANTS):
+    for number, variant in enumerate(variants()):
         response = client.post(
             "/api/measurements/preview", params={"name": variant.name}, content=variant.content
         )

@@ -598,6 +598,10 @@ def doubted(client: TestClient, rubbing: str) -> dict[str, Any]:
     return diagnose(client, measurement=rubbing, muscle=LONG)
 
 
+@pytest.mark.examination(
+    "tests/identification/diagnose/test_contest.py"
+    "::test_a_wrong_rest_length_beside_an_elastic_wall_is_asked_about_first"
+)
 def test_a_wrong_rest_length_is_asked_about_first(doubted: dict[str, Any]) -> None:
     first = doubted["context"][0]
     assert (first["hypothesis"], first["field"], first["asked"]) == (
@@ -614,7 +618,10 @@ def test_a_wrong_rest_length_is_asked_about_first(doubted: dict[str, Any]) -> No
     assert "--keep rest_length" in verdict["sentence"]
 
 
-@pytest.mark.examination("test_a_wrong_rest_length_is_asked_about_first")
+@pytest.mark.examination(
+    "tests/identification/diagnose/test_contest.py"
+    "::test_a_wrong_rest_length_beside_an_elastic_wall_is_asked_about_first"
+)
 def test_an_accepted_entry_is_fitted_and_its_origin_is_a_suggestion(client: TestClient, rubbing: str) -> None:
     used = diagnose(client, measurement=rubbing, muscle=LONG, use=["rest_length"])
     assert set(used["verdict"]["effects"]) == {"bladder_elasticity", "coulomb_friction"}

@@ -204,7 +204,16 @@ def test_whoever_leaves_frees_the_worker(served: RunningServer) -> None:
     assert send(served, "/api/diagnoses", QUICK)[0] == 200
 
 
-@pytest.mark.parametrize("number", [signal.SIGTERM, signal.SIGINT])
+@pytest.mark.parametrize(
+    "number",
+    [
+        signal.SIGTERM,
+        pytest.param(
+            signal.SIGINT,
+            marks=pytest.mark.examination("test_the_server_ends_under_work_and_leaves_no_process"),
+        ),
+    ],
+)
 def test_the_server_ends_under_work_and_leaves_no_process(
     tmp_path: Path, compiled_kernels: None, number: signal.Signals
 ) -> None:

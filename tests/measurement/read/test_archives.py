@@ -6,6 +6,7 @@ import gzip
 import io
 import sqlite3
 import zipfile
+from collections.abc import Callable
 
 import numpy as np
 import pytest
@@ -93,23 +94,24 @@ def _false_array() -> bytes:
     return packed(t__npy=data.getvalue().replace(b"(3,)", b"(9" + b"9" * 11 + b",)"))
 
 
-HOSTILE = {
-    "zeros.zip": packed(a__csv=b"0," * 20_000_000),
-    "nested.zip": packed(a__zip=packed(a__csv=TABLE), b__csv=packed(a__csv=TABLE)),
-    "torn.zip": packed(a__csv=TABLE)[:-30],
-    "torn.csv.gz": gzip.compress(TABLE.encode())[:-20],
-    "zeros.csv.gz": gzip.compress(b"0," * 50_000_000),
-    "twice.csv.gz": gzip.compress(gzip.compress(TABLE.encode())),
-    "wide.db": _wide_base(),
-    "torn.db": _wide_base()[:5000],
-    "false.npz": _false_array(),
-    "odd.ods": packed(mimetype="a", content__xml="<a><b></a>"),
-    "several.zip": packed(a__json="{}", b__json="{}"),
+HOSTILE: dict[str, Callable[[], bytes]] = {
+    "zeros.zip": lambda: packed(a__csv=b"0," * 20_000_000),
+    "nested.zip": lambda: packed(a__zip=packed(a__csv=TABLE), b__csv=packed(a__csv=TABLE)),
+    "torn.zip": lambda: packed(a__csv=TABLE)[:-30],
+    "torn.csv.gz": lambda: gzip.compress(TABLE.encode())[:-20],
+    "zeros.csv.gz": lambda: gzip.compress(b"0," * 50_000_000),
+    "twice.csv.gz": lambda: gzip.compress(gzip.compress(TABLE.encode())),
+    "wide.db": _wide_base,
+    "torn.db": lambda: _wide_base()[:5000],
+    "false.npz": _false_array,
+    "odd.ods": lambda: packed(mimetype="a", content__xml="<a><b></a>"),
+    "several.zip": lambda: packed(a__json="{}", b__json="{}"),
 }
 
 
 @pytest.mark.parametrize("name", HOSTILE)
 def test_what_is_packed_beyond_measure_or_damaged_is_refused(name: str) -> None:
+    content = HOSTILE[name]()
     with pytest.raises(InputError) as caught:
-        read(HOSTILE[name], name)
+        read(content, name)
     assert name.split(".")[0] in str(caught.value)

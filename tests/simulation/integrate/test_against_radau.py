@@ -75,13 +75,19 @@ def sampled_radau(drive: Drive, start: Start) -> np.ndarray:
     return np.array(found)
 
 
-@pytest.mark.parametrize("scenario", sorted(CONTROLLED))
+@pytest.mark.parametrize("scenario", sorted(CONTROLLED)[:1])
 def test_controlled_scenario(scenario: str) -> None:
     drive = CONTROLLED[scenario]
     assert drive.controller is not None
     grid = np.arange(round(HORIZON / drive.controller.sample_time) + 1) * drive.controller.sample_time
     run = simulate_controlled(drive, grid=grid)
     assert np.max(np.abs(run.states["stroke"] - sampled_radau(drive, run.start))) <= 1e-5
+
+
+@pytest.mark.examination("test_controlled_scenario")
+@pytest.mark.parametrize("scenario", sorted(CONTROLLED)[1:])
+def test_further_controlled_scenarios(scenario: str) -> None:
+    test_controlled_scenario(scenario)
 
 
 def test_there_are_scenarios_of_both_kinds() -> None:
