@@ -5,7 +5,7 @@ from __future__ import annotations
 import gc
 import hashlib
 import os
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from pathlib import Path
 
 import hypothesis
@@ -21,11 +21,15 @@ hypothesis.settings.register_profile("mckibben", hypothesis.settings(), deadline
 hypothesis.settings.load_profile("mckibben")
 
 
-# The tools first, which need nothing compiled; then where most of the time goes, the longest first: whoever
+FOLDER = Path(__file__).parent
+# What needs no integrator, for the workers that would wait while one of them compiles those.
+WITHOUT_KERNELS = ("test_toolchain.py", "measurement/read")
+# First the one that compiles, beside the tools; then where most of the time goes, the longest first: whoever
 # takes one of these last lets the other workers wait.
 FIRST = (
     "test_toolchain.py",
     "frontend/test_transient.py",
+    "measurement/read",
     "frontend/test_sizing.py",
     "frontend/test_case.py",
     "frontend/test_compare_flows.py",
@@ -43,12 +47,16 @@ FIRST = (
 
 
 def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Begin with the files of `FIRST`; the others keep their order."""
-    folder = Path(__file__).parent
-    rank = {folder / name: number for number, name in enumerate(FIRST)}
-    absent = [path for path in rank if not path.exists()]
-    assert not absent, f"FIRST in {__file__} names files that are gone: {absent}"
-    items.sort(key=lambda item: rank.get(item.path, len(rank)))
+    """Begin with the files and folders of `FIRST`; the others keep their order."""
+    absent = [name for name in (*FIRST, *WITHOUT_KERNELS) if not (FOLDER / name).exists()]
+    assert not absent, f"{__file__} names files that are gone: {absent}"
+    items.sort(key=lambda item: place_of(item.path, FIRST))
+
+
+def place_of(path: Path, names: Sequence[str]) -> int:
+    """The number of the first name that is the file or one of its folders; behind all if there is none."""
+    places = (FOLDER / name for name in names)
+    return next((number for number, place in enumerate(places) if path.is_relative_to(place)), len(names))
 
 
 def pytest_configure(config: pytest.Config) -> None:
@@ -96,9 +104,10 @@ def compiled_kernels(tmp_path_factory: pytest.TempPathFactory) -> None:
 def _kernels_before_tests(request: pytest.FixtureRequest) -> None:
     """Workers side by side would otherwise all compile them, and so would the programs that they start.
 
-    The tools that check the sources need no kernels: they come first, beside the compilation.
+    The tools that check the sources and the readers need none: they come first, beside the compilation.
     """
-    if os.environ.get("PYTEST_XDIST_WORKER") and request.path.name != "test_toolchain.py":
+    needed = place_of(request.path, WITHOUT_KERNELS) == len(WITHOUT_KERNELS)
+    if os.environ.get("PYTEST_XDIST_WORKER") and needed:
         request.getfixturevalue("compiled_kernels")
 
 
