@@ -5,7 +5,8 @@ from __future__ import annotations
 import gc
 import hashlib
 import os
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterator
+from functools import cache
 from pathlib import Path
 
 import hypothesis
@@ -53,7 +54,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     items.sort(key=lambda item: place_of(item.path, FIRST))
 
 
-def place_of(path: Path, names: Sequence[str]) -> int:
+@cache
+def place_of(path: Path, names: tuple[str, ...]) -> int:
     """The number of the first name that is the file or one of its folders; behind all if there is none."""
     places = (FOLDER / name for name in names)
     return next((number for number, place in enumerate(places) if path.is_relative_to(place)), len(names))
