@@ -21,7 +21,7 @@ LENGTH, DIAMETER, ANGLE, WALL = 0.3, 0.0218, 0.46303585055409563, 0.0018
 C10, PRESTRESS, FRICTION = 0.5e6, 60.0, 15.0
 # Pressure [Pa] -> contraction up to which this muscle pulls.
 REACH = {1e5: 0.01, 2e5: 0.05, 3e5: 0.1, 4e5: 0.14, 5e5: 0.17, 6e5: 0.19}
-POINTS = 40
+POINTS = 30
 ADD = re.compile("^Add (?!all|a term)")  # the button of one effect
 
 
@@ -43,7 +43,7 @@ def wall_force(contraction: float, c10: float) -> float:
 def measured(seed: int, *, points: int = POINTS, c10: float = C10, friction: float = FRICTION) -> str:
     """A file of slow sweeps, shortening and lengthening, with three effects the ideal muscle lacks.
 
-    Its diagnosis takes 5 s of processor time; with the prestress alone and half the points less than 1 s.
+    Its diagnosis takes 3 s of processor time; with the prestress alone and half the points less than 1 s.
     """
     draw = random.Random(seed)
     text = io.StringIO()

@@ -242,7 +242,8 @@ def test_the_link_restores_data_model_and_history(page: Page, sweeps: FilePayloa
     assert error(page) == left
     expect(page.locator(".path-table tr:is(.past, .now)")).to_have_count(4)
     expect(page.locator(".in-model")).to_have_count(3)
-    expect(page.locator(".file")).to_contain_text("480 of 480 rows")
+    rows = 2 * POINTS * len(REACH)
+    expect(page.locator(".file")).to_contain_text(f"{rows} of {rows} rows")
 
 
 def test_data_and_residuals_as_csv(page: Page, sweeps: FilePayload, tmp_path: Path) -> None:
