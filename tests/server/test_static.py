@@ -28,6 +28,8 @@ def page(tmp_path: Path) -> TestClient:
     (folder / "app.css").write_text("body {}", "utf-8")
     (tmp_path / "secret.txt").write_text("secret", "utf-8")
     (folder / "link.txt").symlink_to(tmp_path / "secret.txt")
+    (folder / "js" / "out.js").symlink_to(tmp_path / "secret.txt")
+    (folder / "js" / "nowhere.js").symlink_to(tmp_path / "none.js")
     return TestClient(create_app(Settings(data=tmp_path, frontend=folder)), base_url=URL)
 
 
@@ -68,8 +70,22 @@ def test_what_the_page_links_is_kept_for_good_until_a_file_changes(page: TestCli
     assert "immutable" in page.get(new).headers["cache-control"]
 
 
+def test_linked_files_are_compressed_and_the_same_each_time(page: TestClient) -> None:
+    (link,) = re.findall(r'src="(/[0-9a-f]{16}/js/main.js)"', page.get("/").text)
+    for _ in range(2):
+        packed = page.get(link)
+        plain = page.get(link, headers={"accept-encoding": "identity"})
+        assert packed.headers["content-encoding"] == "gzip"
+        assert "content-encoding" not in plain.headers
+        assert packed.content == plain.content == page.get("/js/main.js").content
+        for response in (packed, plain):
+            assert response.headers["content-type"] == "text/javascript; charset=utf-8"
+            assert response.headers["vary"].lower() == "accept-encoding"
+    assert not page.head(link).content
+
+
 @pytest.mark.parametrize(
-    "path", ["js/none.js", "index.html", "api/health", "link.txt", "js/../../secret.txt"]
+    "path", ["js/none.js", "js/out.js", "index.html", "api/health", "link.txt", "js/../../secret.txt"]
 )
 def test_nothing_else_lies_under_that_name(page: TestClient, path: str) -> None:
     (name,) = re.findall(r'src="/([0-9a-f]{16})/js', page.get("/").text)

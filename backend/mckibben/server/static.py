@@ -8,6 +8,7 @@ import mimetypes
 import os
 import re
 import threading
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 
@@ -35,6 +36,7 @@ for _suffix, _type in {
 # are revalidated every time.
 _REVALIDATE = "no-cache"
 _FOREVER = "public, max-age=31536000, immutable"
+_COMPRESSED_FROM = 1000  # bytes
 _PAGE = ("/", "/index.html")
 _LINK = re.compile(r'(?<=["\'])/(?=(?:js|css)/)')
 _NAMED = re.compile(r"/([0-9a-f]{16})(/(?:js|css)/.+)")
@@ -57,18 +59,20 @@ class _Frontend(StaticFiles):
 def frontend(folder: Path) -> ASGIApp:
     """Serve a folder at ``/``; missing files and unknown API paths answer 404."""
     files, kept = (
-        GZipMiddleware(_Frontend(folder, kept), minimum_size=1000) for kept in (_REVALIDATE, _FOREVER)
+        GZipMiddleware(_Frontend(folder, kept), minimum_size=_COMPRESSED_FROM)
+        for kept in (_REVALIDATE, _FOREVER)
     )
+    linked = _Linked(folder)
 
     async def page(scope: Scope, receive: Receive, send: Send) -> None:
-        state, text = await to_thread.run_sync(_linked_page, folder)
+        state, text = await to_thread.run_sync(linked.page)
         headers = {"cache-control": _REVALIDATE, "etag": f'"{state}"'}
         if Headers(scope=scope).get("if-none-match") == headers["etag"]:
             await Response(status_code=304, headers=headers)(scope, receive, send)
         else:
             await HTMLResponse(text, headers=headers)(scope, receive, send)
 
-    whole_page = GZipMiddleware(page, minimum_size=1000)
+    whole_page = GZipMiddleware(page, minimum_size=_COMPRESSED_FROM)
 
     async def serve(scope: Scope, receive: Receive, send: Send) -> None:
         if scope["type"] != "http":
@@ -79,30 +83,101 @@ def frontend(folder: Path) -> ASGIApp:
         if path in _PAGE and scope["method"] in ("GET", "HEAD") and (folder / "index.html").is_file():
             await whole_page(scope, receive, send)
         elif named := _NAMED.fullmatch(path):
-            # A page opened before an upgrade gets the new file, which its browser must not keep for the old.
-            current = named[1] == await to_thread.run_sync(_state, folder)
-            await (kept if current else files)({**scope, "path": named[2]}, receive, send)
+            content = await to_thread.run_sync(linked.content, named[1], named[2])
+            if content is not None and scope["method"] == "GET":
+                await content.answer(Headers(scope=scope))(scope, receive, send)
+            else:
+                # A page opened before an upgrade gets the new file, which its browser must not keep for the
+                # old.
+                current = named[1] == linked.state
+                await (kept if current else files)({**scope, "path": named[2]}, receive, send)
         else:
             await files(scope, receive, send)
 
     return serve
 
 
-def _linked_page(folder: Path) -> tuple[str, str]:
-    """Name of the state of all files, and the page with its links under that name."""
-    state = _state(folder)
-    return state, _LINK.sub(f"/{state}/", (folder / "index.html").read_text(encoding="utf-8"))
+@dataclass(frozen=True, slots=True)
+class _Content:
+    """A file in memory, and compressed if that pays."""
+
+    kind: str | None
+    plain: bytes
+    compressed: bytes | None
+
+    def answer(self, headers: Headers) -> Response:
+        """To a request with these headers."""
+        given = {"cache-control": _FOREVER, "vary": "accept-encoding"}
+        if self.compressed is not None and "gzip" in headers.get("accept-encoding", ""):
+            given["content-encoding"] = "gzip"
+            return Response(self.compressed, media_type=self.kind, headers=given)
+        return Response(self.plain, media_type=self.kind, headers=given)
 
 
-def _state(folder: Path) -> str:
-    """Sixteen hexadecimal digits that differ when any file of the folder does."""
-    found = hashlib.blake2b(digest_size=8)
-    for place, inside, names in os.walk(folder):
-        inside.sort()
-        for name in sorted(names):
-            file = os.stat(os.path.join(place, name))
-            found.update(f"{place}/{name} {file.st_mtime_ns} {file.st_size}\n".encode())
-    return found.hexdigest()
+class _Linked:
+    """The files under the name of their state, from memory while they are as they were in that state.
+
+    A page asks for two hundred of them when it is first opened.
+    """
+
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
+        self._lock = threading.Lock()
+        self._marks: dict[str, tuple[int, int]] = {}
+        self._contents: dict[str, _Content] = {}
+        self.state = ""
+
+    def page(self) -> tuple[str, str]:
+        """Name of the present state of all files, and the page with its links under that name."""
+        with self._lock:
+            self._look()
+            text = (self._folder / "index.html").read_text(encoding="utf-8")
+            return self.state, _LINK.sub(f"/{self.state}/", text)
+
+    def content(self, state: str, path: str) -> _Content | None:
+        """A file in a state; None when that is not the present one, or there is no such file in it."""
+        with self._lock:
+            if state != self.state:
+                self._look()
+            if state != self.state or path not in self._marks:
+                return None
+            try:
+                if path in self._contents and _mark(os.stat(self._place(path))) == self._marks[path]:
+                    return self._contents[path]
+                with open(self._place(path), "rb") as file:
+                    mark, plain = _mark(os.fstat(file.fileno())), file.read()
+            except OSError:
+                mark, plain = None, b""
+            if mark != self._marks[path]:  # the file has changed, and with it the state
+                self._look()
+                return None
+            compressed = gzip.compress(plain, 6, mtime=0) if len(plain) >= _COMPRESSED_FROM else None
+            self._contents[path] = _Content(mimetypes.guess_type(path)[0], plain, compressed)
+            return self._contents[path]
+
+    def _place(self, path: str) -> str:
+        return f"{self._folder}{path}"
+
+    def _look(self) -> None:
+        """Look at all files: sixteen hexadecimal digits that differ when any of them does."""
+        found, marks = hashlib.blake2b(digest_size=8), {}
+        for place, inside, names in os.walk(self._folder):
+            inside.sort()
+            for name in sorted(names):
+                file = os.path.join(place, name)
+                try:
+                    mark = _mark(os.stat(file))
+                except OSError:  # removed meanwhile, or a link to nothing
+                    continue
+                found.update(f"{file} {mark[0]} {mark[1]}\n".encode())
+                if not os.path.islink(file):  # a link may lead out of the folder: served by nobody
+                    marks[file.removeprefix(str(self._folder)).replace(os.sep, "/")] = mark
+        if found.hexdigest() != self.state:
+            self.state, self._marks, self._contents = found.hexdigest(), marks, {}
+
+
+def _mark(file: os.stat_result) -> tuple[int, int]:
+    return file.st_mtime_ns, file.st_size
 
 
 _compressing = threading.Lock()
