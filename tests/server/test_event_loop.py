@@ -40,6 +40,7 @@ from tests.server.test_simulations import LIFT
 ID = hashlib.sha256(CSV).hexdigest()
 MINE = {"preset": "mine-20"}
 MODEL = {"muscle": MINE, "effects": {"prestress": {}}, "measurement": ID}
+NOISY = {"noise": 9e3}  # nothing is above it: nothing is searched
 TASK = {
     "load": {"mass": "20 kg"},
     "stroke": "60 mm",
@@ -80,7 +81,7 @@ REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("POST", "/api/studies/parquet"): ("/api/studies/parquet", {"json": STUDY}),
     ("POST", "/api/studies/options"): ("/api/studies/options", {"json": {"subject": {"drive": DRIVE}}}),
     ("POST", "/api/comparisons"): ("/api/comparisons", {"json": MODEL}),
-    ("POST", "/api/diagnoses"): ("/api/diagnoses", {"json": MODEL}),
+    ("POST", "/api/diagnoses"): ("/api/diagnoses", {"json": MODEL | NOISY}),
     ("POST", "/api/experiments"): ("/api/experiments", {"json": MODEL}),
     ("GET", "/api/health"): ("/api/health", {}),
     ("GET", "/api/effects"): ("/api/effects", {}),
@@ -100,7 +101,7 @@ REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("POST", "/api/kept/{kind}/{identity}/restore"): ("/api/kept/muscles/gone-20/restore", {}),
     ("POST", "/api/reports"): (
         "/api/reports",
-        {"json": MODEL | {"history": [{"label": "before", "effects": {}}], "diagnose": True}},
+        {"json": MODEL | NOISY | {"history": [{"label": "before", "effects": {}}], "diagnose": True}},
     ),
     ("GET", "/api/exports"): ("/api/exports", {}),
     ("POST", "/api/exports"): ("/api/exports", {"json": {"as": "c", "muscle": MINE}}),
