@@ -62,6 +62,8 @@ class ComparableRows:
         rest_length: the nominal length that the lengths are calculated with [m].
         by_rest_length: derivative of each length by it: 0 where the length itself is measured, 1 for a
             displacement, 1 - contraction for a contraction.
+        corners: mask of the rows that were put between those of the file, see
+            `mckibben.identification.predict.corners`; None without any.
     """
 
     kind: str
@@ -79,6 +81,7 @@ class ComparableRows:
     messages: tuple[str, ...]
     rest_length: float = 0.0
     by_rest_length: np.ndarray | float = 0.0
+    corners: np.ndarray | None = None
 
     def chosen(self, keep: np.ndarray) -> ComparableRows:
         """Only some of the rows (a mask or indices)."""
@@ -94,6 +97,7 @@ class ComparableRows:
             by_rest_length=self.by_rest_length[keep]
             if isinstance(self.by_rest_length, np.ndarray)
             else self.by_rest_length,
+            corners=None if self.corners is None else self.corners[keep],
         )
 
 

@@ -56,11 +56,10 @@ class Memory:
     def __init__(self, task: ComparableRows) -> None:
         self._task = task
         self._kept: dict[tuple, dict[str, np.ndarray]] = {}
-        self._records = [
-            np.flatnonzero(task.records == label)
-            for label in np.unique(task.records)
-            if np.count_nonzero(task.records == label) >= 2
-        ]
+        # A model remembers the same with and without a late reading, so corners do not belong to its path.
+        path = np.ones(len(task.records), bool) if task.corners is None else ~task.corners
+        records = [np.flatnonzero(path & (task.records == label)) for label in np.unique(task.records)]
+        self._records = [rows for rows in records if len(rows) >= 2]
 
     def states(self, fit_model: FitModel, before: float = 0.0) -> dict[str, np.ndarray]:
         """Value of each state ("effect.state") at each row, after one of `HISTORIES`."""
@@ -157,6 +156,9 @@ class Memory:
             for trajectories, of_run in zip(found, states, strict=True):
                 for name in names:
                     trajectories[name][rows] = of_run[name]
+                    if task.corners is not None:
+                        between = np.flatnonzero(task.corners & (task.records == task.records[rows[0]]))
+                        trajectories[name][between] = np.interp(clock[between], clock[rows], of_run[name])
         return found
 
     def _first_motion(self, rows: np.ndarray) -> float:

@@ -9,6 +9,7 @@ from dataclasses import replace
 import numpy as np
 
 from mckibben.identification.predict.comparable_rows import ComparableRows
+from mckibben.identification.predict.corners import with_corners
 from mckibben.identification.predict.evaluate import Evaluation, sorted_effects
 from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.identification.predict.folds import folds_of, ranges_of, sweeps_of
@@ -35,10 +36,13 @@ class QuasistaticPredictor(Predictor):
     """
 
     def __init__(self, task: ComparableRows, *, largest_load: float = 0.0) -> None:
-        self.task = task
         self.kind = task.kind
-        # Rows where the motion turns belong to the path, but are not scored.
-        self._counted = ~task.turning if np.any(~task.turning) else np.ones(len(task.turning), bool)
+        self._follow(task)
+        # A late reading is one of an instant between two rows, where the way may have turned.
+        cornered = with_corners(task) if np.any(~task.turning) else task
+        self._cornered = None if cornered is task else copy(self)
+        if self._cornered is not None:
+            self._cornered._follow(cornered)
         counted = task.chosen(self._counted)
         self.measured = counted.measured
         self.scale = np.ones(len(self.measured))
@@ -65,11 +69,27 @@ class QuasistaticPredictor(Predictor):
         }
         if task.unknown_load:
             self.unknown_load = Free(LOAD, 0.05 * largest_load, 0.0, largest_load, "N")
+        self._wide: tuple[Effect, ...] = ()
+
+    def _follow(self, task: ComparableRows) -> None:
+        """Evaluate models along these rows."""
+        self.task = task
+        # Rows where the motion turns belong to the path, but are not scored.
+        self._counted = ~task.turning if np.any(~task.turning) else np.ones(len(task.turning), bool)
         self._idle = (
             _like_slack(task.measured) if task.channel == "force" else np.zeros(len(task.measured), bool)
         )
         self._evaluation = Evaluation(task)
-        self._wide: tuple[Effect, ...] = ()
+
+    def _along(self, fit_model: FitModel) -> QuasistaticPredictor:
+        """This predictor, for late readings along the rows and the corners between them."""
+        if self._cornered is None or not any(map(late, fit_model.effects)):
+            return self
+        other, along = self._cornered, copy(self)
+        along.task, along._counted, along._idle = other.task, other._counted, other._idle
+        along._evaluation = other._evaluation.after(self._evaluation.history(_at_once(fit_model)))
+        along._cornered = None
+        return along
 
     def why_hidden(self, effect: Effect) -> str:
         """Checked by the kinds of the effect; memory needs an order in time.
@@ -118,18 +138,21 @@ class QuasistaticPredictor(Predictor):
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """Force, length or diameter of each row; the length is limited by the lock of the braid."""
-        return self._everywhere(fit_model, clipped=clipped)[self._counted]
+        along = self._along(fit_model)
+        return along._everywhere(fit_model, clipped=clipped)[along._counted]
 
     def input_slope(self, fit_model: FitModel, channel: str) -> np.ndarray:
         """Central difference over all rows at once; a slack muscle has none."""
-        values = self.task.state.get(channel)
+        along = self._along(fit_model)
+        values = along.task.state.get(channel)
         if values is None:
             return super().input_slope(fit_model, channel)
         step = _INPUT_STEP * float(np.max(np.abs(values)))
-        ends, (history,) = [], self.history(fit_model)
+        ends, (history,) = [], along.history(fit_model)
         for sign in (-1.0, 1.0):
-            other = copy(self)
-            other.task = replace(self.task, state={**self.task.state, channel: values + sign * step})
+            other = copy(along)
+            other._cornered = None
+            other.task = replace(along.task, state={**along.task.state, channel: values + sign * step})
             other._evaluation = Evaluation(other.task).after(history)
             ends.append(other.predict(fit_model))
         slope = (ends[1] - ends[0]) / (2.0 * step) if step > 0.0 else np.zeros(len(self.measured))
@@ -157,7 +180,7 @@ class QuasistaticPredictor(Predictor):
         if self.task.channel == "diameter":
             return super().linearised(fit_model, free)
         if any(map(late, fit_model.effects)):
-            return self._late_linearised(fit_model, free)
+            return self._along(fit_model)._late_linearised(fit_model, free)
         if self.task.channel == "force":
             out, gradient = self._evaluation.at(fit_model, names)
             gradient[self._slack(out)] = 0.0
