@@ -77,7 +77,7 @@ const delta = (d) => {
   return h(
     "small",
     { class: d > 0 ? "more" : "less" },
-    `${d > 0 ? "▲" : "▼"} ${percent < 10 ? percent.toFixed(1) : percent.toFixed(0)} %`,
+    `${d > 0 ? "▲" : "▼"} ${percent < 9.95 ? percent.toFixed(1) : percent.toFixed(0)} %`,
   );
 };
 
