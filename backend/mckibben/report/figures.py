@@ -32,6 +32,7 @@ PLAIN = Scale("")
 
 _CONDUCTANCE = ("m^3/(s*Pa)", "m3/(s*Pa)")
 _LEAK = 1e-9  # m3/(s Pa); a valve has more
+_SHORT = 0.1  # s; below, times are in ms
 
 #: SI unit -> display unit.
 _SCALES = {
@@ -73,10 +74,12 @@ def variable(name: str) -> tuple[str, Scale]:
 
 
 def scale_of(unit: str, value: float | None = None) -> Scale:
-    """Display unit of an SI unit; of pressures and conductances it depends on the value: Pa, kPa or MPa."""
+    """Display unit of an SI unit; that of pressures, conductances and times depends on the value."""
     if unit == "Pa":
         size = abs(value or 0.0)
         return Scale("MPa", 1e6) if size >= 1e5 else Scale("kPa", 1e3) if size >= 100.0 else Scale("Pa")
+    if unit == "s" and 0.0 < abs(value or 0.0) < _SHORT:
+        return Scale("ms", 1e-3)
     if unit in _CONDUCTANCE and 0.0 < abs(value or 0.0) < _LEAK:
         return Scale("ml/(s·bar)", 1e-11)
     return _SCALES.get(unit) or Scale(pretty(unit))

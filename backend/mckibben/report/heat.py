@@ -6,12 +6,11 @@ import math
 from collections.abc import Sequence
 
 from mckibben.report.chart import label, margin, text
-from mckibben.report.figures import plain
 from mckibben.report.html import Html, tag
 from mckibben.report.marks import EDGE, INK, SOFT, Axis
 
 _LOW, _ZERO, _HIGH = (33, 102, 172), (247, 247, 247), (178, 24, 43)
-_TOP, _BOTTOM, _CELL = 8.0, 44.0, 26.0
+_TOP, _BOTTOM, _CELL = 8.0, 44.0, 23.0
 _DARK = 0.55  # share of the scale above which numbers are white
 
 Values = Sequence[Sequence[float]]
@@ -47,9 +46,8 @@ def heat(
             )  # fmt: skip
             if share is not None:
                 ink = "#fff" if abs(share) > _DARK else INK
-                parts.append(
-                    text(plain(value, 2), f"{left + 0.5 * wide:.1f}", top + 17.0, anchor="middle", colour=ink)
-                )
+                shown = _number(value, largest)
+                parts.append(text(shown, f"{left + 0.5 * wide:.1f}", top + 15.5, anchor="middle", colour=ink))
     for i, edge in enumerate(x_edges):
         parts.append(text(_edge(edge, x_edges), f"{begin + wide * i:.1f}", bottom + 16.0, anchor="middle"))
     for j, edge in enumerate(y_edges):
@@ -69,6 +67,13 @@ def heat(
         fill=SOFT,
         xmlns="http://www.w3.org/2000/svg",
     )
+
+
+def _number(value: float, largest: float) -> str:
+    """The number in a cell: all have the decimals that two digits of the largest one need."""
+    decimals = max(1 - math.floor(math.log10(largest)), 0)
+    shown = f"{value:.{decimals}f}"
+    return shown.lstrip("-") if float(shown) == 0.0 else shown.replace("-", "\N{MINUS SIGN}")
 
 
 def _colour(share: float) -> str:

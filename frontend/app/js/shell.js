@@ -136,8 +136,12 @@ export function shell(views, { examples, help }) {
     projectButton(),
     menuButton({ label: ["Examples", icon("down")], name: "Examples", class: "quiet", items: examples }),
     h("span", { class: "space" }),
-    historyButton(() => past.value.at(-1)?.label, "undo", undoAndReport, "Ctrl+Z"),
-    historyButton(() => future.value.at(-1)?.label, "redo", redoAndReport, "Ctrl+Shift+Z"),
+    h(
+      "span",
+      { class: "history" },
+      historyButton(() => past.value.at(-1)?.label, "undo", undoAndReport, "Ctrl+Z"),
+      historyButton(() => future.value.at(-1)?.label, "redo", redoAndReport, "Ctrl+Shift+Z"),
+    ),
     h(
       "select",
       {

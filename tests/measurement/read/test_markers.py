@@ -24,7 +24,7 @@ def test_a_row_without_a_reading_is_left_out_and_said(text: str) -> None:
     result = read_measurement(f"{HEAD}{ROWS}5,{text},50\n".encode(), "a.csv")
     assert result.rows == 4
     assert result.skipped == {MARKERS[text]: 1}
-    assert f"1 rows left out: {MARKERS[text]} (first: row 6, column 'length_mm')" in result.messages
+    assert f"1 row left out: {MARKERS[text]} (first: row 6, column 'length_mm')" in result.messages
 
 
 def test_the_large_table_does_the_same() -> None:

@@ -186,7 +186,8 @@ def assemble(
     )  # fmt: skip
     skipped = dict(reading.table.skipped)
     for reason, left_out in skipped.items():
-        messages.append(f"{left_out.rows} rows left out: {reason} (first: {left_out.first})")
+        rows = "1 row" if left_out.rows == 1 else f"{left_out.rows} rows"
+        messages.append(f"{rows} left out: {reason} (first: {left_out.first})")
     questions = questions_of(_evidence(source, meaning, reading, by_use, columns, correction))
     tare += zero_questions(columns, by_use, source.unzeroed, conditions) if not tare else []
     tare += air_questions(conditions, by_use, source.notes)

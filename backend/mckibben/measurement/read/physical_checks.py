@@ -12,6 +12,8 @@ from mckibben.measurement.read.plausible import ENOUGH
 from mckibben.measurement.read.questions import column_option
 from mckibben.measurement.read.signs import SHORTENING_POSITIVE, STROKE_SIGN
 
+_REVERSE, _KEEP = "reverse the sign", "keep the sign"
+
 
 def physical_questions(evidence: Evidence) -> list[Question]:
     """Signs, reference of the pressure, zero of the force."""
@@ -27,11 +29,11 @@ def _signs(evidence: Evidence) -> list[Question]:
             Question(
                 "sign of force",
                 f"{evidence.noun} '{column.header}' is negative in nearly all rows, but a pulling force "
-                "is positive here; does the file count compression as positive",
+                "is positive here; reverse its sign if the file counts compression as positive",
                 column_option("force", bare_name(column), sign=-1),
                 column.header,
-                "turned",
-                ("turned", "as it is"),
+                _REVERSE,
+                (_REVERSE, _KEEP),
             )
         )
         force = -force
@@ -59,8 +61,8 @@ def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Arra
             f"{'shortens' if falls else 'lengthens'}, but shortening is positive here; reverse its sign",
             f"{turned}{as_length}",
             column.header,
-            "turned",
-            ("turned", "as it is"),
+            _REVERSE,
+            (_REVERSE, _KEEP),
         )
     ]
 

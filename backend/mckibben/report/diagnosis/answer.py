@@ -111,6 +111,8 @@ def _steps(material: DiagnosisMaterial) -> Html:
     drawn: list[Bar] = []
 
     def add(name: str, rmse: float | None, holdout: float | None, how: str, *, pale: bool = False) -> None:
+        if holdout == rmse:  # no value was fitted, so no group was left out
+            holdout = None
         rows.append([name, how, figure(rmse, scale), figure(holdout, scale)])
         value, tick = (None if number is None else scale.of(number) for number in (rmse, holdout))
         drawn.append(Bar(f"RMS error of {name}", value or 0.0, tick, pale))
@@ -136,7 +138,7 @@ def _steps(material: DiagnosisMaterial) -> Html:
         Head("Model"), Head(""), Head("RMS error", number=True), Head("Held-out", number=True),
         Head("", bar=True),
     ]  # fmt: skip
-    caption = "Bars: RMS error; black tick: held-out error, on groups left out of the fit" + (
+    caption = "Bars: RMS error; black tick: held-out error, on groups left out of a fit of all values" + (
         "." if level is None else "; dashed line: noise."
     )
     cells = [[*row, bar] for row, bar in zip(rows, bars(drawn, level=level), strict=True)]

@@ -15,7 +15,7 @@ from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import Axis
 
 _MOST_SENTENCES, _LEAST_SHARE = 3, 0.05  # variables named in sentences: how many, from which share on
-_ROUNDING = 1e-9  # share of the error below which a mean is rounding
+_ROUNDING = 1e-7  # share of the error below which a mean is rounding
 #: Unit of an error that combines several channels.
 TIMES_NOISE = Scale("× noise")
 
@@ -152,7 +152,7 @@ def where_it_fails(answer: ComparisonResult) -> Html:
         parts.append(
             paragraph(
                 "Area of the residual over a closed loop, mean of ", str(len(areas)), " loops: ",
-                figure(float(np.mean(areas)), Scale("J"), 3),
+                figure(float(np.mean(areas)), Scale("mJ", 1e-3), 3),
                 ". Positive: friction missing in the model dissipates this energy.",
             )
         )  # fmt: skip

@@ -71,12 +71,12 @@ def _channel(all_series: Sequence[ComparedSeries], answer: ComparisonResult, cha
     else:
         overlay = chart(
             x, Axis(words.capitalize(), scale.unit), [*dots, *lines],
-            title=f"Measured and modelled {about}", height=240.0, left=_LEFT, legend=True,
+            title=f"Measured and modelled {about}", height=216.0, left=_LEFT, legend=True,
         )  # fmt: skip
         legend = f"{words.capitalize()}: dots are measured, lines are the {name}."
     below = chart(
         x, Axis(f"Residual of {words}", scale.unit, zero=True), errors,
-        title=f"Residual of {about}", height=185.0, left=_LEFT, legend=True,
+        title=f"Residual of {about}", height=170.0, left=_LEFT, legend=True,
     )  # fmt: skip
     return html(
         figure_of(overlay, legend),

@@ -31,6 +31,7 @@ def curves_section(material: SizingMaterial, chosen: Chosen) -> Html:
     if chosen.curves.run:
         caption += " Times and air come from a run with the dashed linear load."
     return html(
+        figure_of(_drawing(chosen), caption),
         _table(material, chosen, who),
         paragraph(
             "Stiffness at the end of the stroke, at the load: ",
@@ -39,7 +40,6 @@ def curves_section(material: SizingMaterial, chosen: Chosen) -> Html:
             figure(chosen.proposal.stiffness_closed, PER_MILLIMETRE, 3),
             " with it closed.",
         ),
-        figure_of(_drawing(chosen), caption),
     )
 
 

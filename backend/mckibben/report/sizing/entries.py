@@ -36,6 +36,8 @@ def entries_of(document: SizingTask, considered: Mapping[str, Sequence[str]]) ->
             continue
         if entry.value is None and entry.path in _DEFAULT_WORDS:
             entry = entry._replace(value=_DEFAULT_WORDS[entry.path])
+        if entry.path == "operation.air_price":
+            entry = entry._replace(unit=f"{document.operation.currency}/m^3")
         kind = entry.path.removeprefix("catalogue.")
         if kind in considered and entry.value is None:
             entry = entry._replace(value=", ".join(considered[kind]) or "none")

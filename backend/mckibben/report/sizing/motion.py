@@ -23,6 +23,7 @@ _MOST_ROWS = 420
 _AFTER, _LEAST_AFTER = 1.2, 0.02  # shown time: this multiple of the motion, and at least so many s more
 _LEAVES = 1e-5  # travel from which the load has started to move [m]
 _MILLISECONDS = Scale("ms", 1e-3)
+_PANEL = 70.0  # height of a drawing: both strokes stand below the table of the operating points
 _SPEED, _ACCELERATION, _FLOW = Scale("mm/s", 1e-3), Scale("m/s²"), Scale("g/s", 1e-3)
 
 #: Figure of the timing table -> name, unit, whether it is multiplied by the number of muscles.
@@ -131,6 +132,7 @@ def _drawing(material: SizingMaterial, chosen: Chosen, phase: _DrawnPhase) -> Ht
             Panel(Axis("Speed", "mm/s"), [*bare, line(run.velocity, _SPEED)], "Speed of the load over time"),
             Panel(Axis("Air flow", "g/s"), [*bare, line(run.mass_flow, _FLOW)], "Mass flow into a muscle"),
         ],
+        height=_PANEL,
     )  # fmt: skip
 
 

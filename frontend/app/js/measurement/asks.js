@@ -18,6 +18,13 @@ export function questionsOf(m) {
   );
 }
 
+/** A question of the command line as a sentence: it asks in its last clause, or says what would be right.
+ * @param {string} text */
+const asSentence = (text) =>
+  `${capitalized(text).replace(/[.?]$/, "")}${
+    /(?:^|; |: )(?:what|which|is|are|does|do|was)\b[^;]*$/i.test(text) ? "?" : "."
+  }`;
+
 /** The questions of the file that is shown, each with its answers; first those whose proposal is assumed.
  * @param {Model} m */
 export const questionList = (m) =>
@@ -31,7 +38,7 @@ export const questionList = (m) =>
         "legend",
         null,
         icon(q.stops ? "warn" : "info"),
-        h("span", null, `${capitalized(q.text)}${q.text.endsWith("?") ? "" : "."}`),
+        h("span", null, asSentence(q.text)),
       ),
       q.stops || answers.length
         ? h(

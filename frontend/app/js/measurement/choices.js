@@ -108,8 +108,8 @@ export function answersOf(q, p) {
       ...more.map((channel) => answer(channel, { [column.header]: { channel } })),
     ];
   }
-  if (column && q.choices.includes("as it is")) {
-    found.push(answer("as it is", { [column.header]: { ...choiceOf(column), sign: 1 } }));
+  if (column && q.choices.includes("keep the sign")) {
+    found.push(answer("keep the sign", { [column.header]: { ...choiceOf(column), sign: 1 } }));
   }
   if (column && q.about === "specimens") {
     return [{ ...answer("read all as one muscle", { [column.header]: null }), ignores: false }];
@@ -130,7 +130,7 @@ function spoken(option, p) {
   const kept = now?.channel === channel ? choiceOf(now) : { channel };
   const { sign: _, ...choice } = kept;
   return {
-    label: minus ? "turned" : channel,
+    label: minus ? "reverse the sign" : channel,
     columns: { [header]: { ...choice, ...(minus ? { sign: -1 } : {}), ...(unit ? { unit } : {}) } },
   };
 }

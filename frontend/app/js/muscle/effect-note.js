@@ -43,7 +43,7 @@ export function effectNote(e) {
     e.parameters.length
       ? h(
         "table",
-        { class: "data small" },
+        { class: "data small parameters-table" },
         h(
           "thead",
           null,

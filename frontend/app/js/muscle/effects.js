@@ -72,7 +72,7 @@ function summary(c, e) {
   return e.parameters.slice(0, 3).flatMap((p, i) => {
     const quantity = quantityOf(p.unit, p.name);
     const s = quantity ? scaleOf(quantity, units.value) : plainScale(p.unit);
-    const value = ` = ${number(toShown(valueOf(c, e, p), s), s.digits)} ${s.unit}`;
+    const value = ` = ${number(toShown(valueOf(c, e, p), s), s.digits)} ${s.unit}`.trimEnd();
     return [i ? ", " : "", h("span", { class: "pair" }, mathml(p.symbol_mathml), value)];
   });
 }

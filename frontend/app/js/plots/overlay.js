@@ -126,7 +126,7 @@ export function writeLabels(chart) {
     const nodes = room && !lines.some((line) => line.end)
       ? besideAxis(lines, axes)
       : overPlot(lines, axes, pointsOf(chart.spec, axes), strokesOf(chart.spec, axes), room);
-    for (const zone of chart.spec.zones) nodes.push(...zoneLabel(zone, axes));
+    for (const zone of chart.spec.zones) nodes.push(...zoneLabel(zone, axes, chart.spec.zones));
     box.replaceChildren(...nodes);
   });
 }
@@ -224,13 +224,16 @@ const strokesOf = (spec, axes) =>
     return places;
   });
 
-/** @param {import("./chart.js").Zone} zone @param {any} axes */
-function zoneLabel(zone, axes) {
+/** @param {import("./chart.js").Zone} zone @param {any} axes @param {import("./chart.js").Zone[]} all */
+function zoneLabel(zone, axes, all) {
   const span = h("span", { class: "zone" }, zone.text);
   if (zone.y) {
-    const top = axes.yaxis.c2p(zone.y[0]);
-    if (top < 16) return [];
-    return [place(span, axes, axes.xaxis._length - 8, top - 17, "translateX(-100%)")];
+    const low = axes.yaxis.c2p(zone.y[zone.above ? 1 : 0]);
+    if (low < 16) return [];
+    // Left of a zone that ends the axis, whose name runs down there.
+    const ends = all.flatMap(({ x }) => x && axes.xaxis.c2p(x[1]) > axes.xaxis._length - 2 ? [x[0]] : []);
+    const right = Math.min(axes.xaxis._length, ...ends.map((x) => axes.xaxis.c2p(x)));
+    return [place(span, axes, right - 8, low - 17, "translateX(-100%)")];
   }
   if (!zone.x) return [];
   const [from, to] = zone.x.map((v) => Math.min(axes.xaxis._length, Math.max(0, axes.xaxis.c2p(v))));

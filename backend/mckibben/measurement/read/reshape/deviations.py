@@ -33,7 +33,7 @@ def without_deviations(grid: Grid) -> Rewritten | None:
                 row[column] = mean
         rows.append(row)
     shown = ", ".join(str(column + 1) for column in sorted(columns))
-    said = f"the cells of column {shown} hold a mean and its deviation: the mean is read"
+    said = f"the cells of column {shown} hold a mean and its deviation: the mean is read, not the deviation"
     return RowsGrid(grid, rows, range(len(rows)), units=getattr(grid, "units", {})), [said], []
 
 

@@ -48,7 +48,7 @@ def without_labels(grid: Grid) -> Rewritten | None:
     content: list[Sequence[Cell]] = [*(grid.cells(i) for i in range(first)), head]
     content += [grid.cells(i) for i in range(body, len(grid))]
     where = f"{grid.where(first)} to {grid.where(rows[-1])}"
-    message = f"each channel has its labels before it ({where}): read as heads"
+    message = f"a column of labels stands before each channel ({where}): the labels are read as its name"
     return RowsGrid(grid, content, places, units={}), [message], []
 
 

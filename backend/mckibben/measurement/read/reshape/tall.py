@@ -19,6 +19,7 @@ from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import NO_CHANNEL, VALUE_WORDS, has_word, words_of
 
 _MOST_TAGS = 60
+_NAMED = 8  # signals that a message names
 _FEWEST_ROWS = 6
 _FURTHER = 200  # rows beyond the first ones that are looked at
 _SPARSE = 0.5  # of the readings of the other signals; fewer are of a slow one
@@ -76,8 +77,8 @@ def pivoted(grid: Grid) -> Rewritten | None:
         rows.append([*beside, *(values.get(tag) for tag in tags)])
         places.append(index)
     said = [
-        f"one value per line, told apart by '{_name(clock_head, columns.tag)}': "
-        f"{len(tags)} signals are read as columns, {', '.join(tags[:8])}"
+        f"one value per line, its signal named in '{_name(clock_head, columns.tag)}': "
+        f"{len(tags)} signals are read as columns, {', '.join(tags[:_NAMED])}{', …' * (len(tags) > _NAMED)}"
     ]
     said += [f"'{name}' is not read: {why}" for name, why in unread]
     return RowsGrid(grid, rows, places, units={}), said, unread

@@ -54,7 +54,7 @@ def turned(grid: Grid) -> Rewritten | None:
             ]
             places += [index] * (count + 1)
     first, last = grid.where(blocks[0][0]), grid.where(blocks[-1][-1])
-    said = f"a row per quantity ({first} to {last}): the table is transposed to a column per quantity"
+    said = f"each row holds one quantity ({first} to {last}): the table is transposed"
     return RowsGrid(grid, rows, places, units={}), [said], []
 
 

@@ -30,7 +30,7 @@ def without_units(grid: Grid) -> Rewritten | None:
     seen: dict[int, Counter[str]] = {column: Counter() for column in units}
     rows = [_row(grid.cells(index), units, style, seen) for index in range(len(grid))]
     said = [
-        f"column {column + 1} holds its unit in the cells, {', '.join(counts)}: read in {units[column]}"
+        f"the cells of column {column + 1} state their unit ({', '.join(counts)}): read in {units[column]}"
         for column, counts in seen.items()
     ]
     return RowsGrid(grid, rows, range(len(rows)), units=units), said, []

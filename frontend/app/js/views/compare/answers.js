@@ -254,3 +254,7 @@ export function showToAtlas() {
     };
   });
 }
+
+/** The held-out error of the model, one number wherever it stands. */
+export const heldOut = () =>
+  compare.value.holdout ?? diagnosis.value?.baseline.holdout_rmse ?? answer.value?.holdout_rmse ?? null;

@@ -124,7 +124,7 @@ const choice = (label, options, get, set, explained) =>
 
 function stateNote() {
   const error = fault.value, field = faultField();
-  if (!error) return curves.value ? null : h("p", { class: "notice" }, "Computing the curves…");
+  if (!error) return curves.value ? null : h("p", { class: "notice waiting" }, "Computing the curves…");
   return faultNotice(`${error.words}${curves.value ? " The plots show the last valid model." : ""}`, {
     goTo: field === null ? null : () => goToField(field, ".design"),
     retry,

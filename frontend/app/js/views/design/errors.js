@@ -52,11 +52,12 @@ function source() {
 
 function body() {
   const { model: now, ideal } = errors.value ?? {};
-  if (!reference.value) {
+  const isComing = design.value.reference !== null && !references.value.length;
+  if (!reference.value && !isComing) {
     return h("p", { class: "muted" }, "Choose points above to see the error of the model.");
   }
   if (errorFault.value) return h("p", { class: "error" }, errorFault.value.words);
-  if (!now || !ideal) return h("p", { class: "muted" }, "Comparing…");
+  if (!now || !ideal) return h("p", { class: "muted comparing" }, "Comparing…");
   const widest = Math.max(now.rmse ?? 0, ideal.rmse ?? 0, 1e-9);
   const left = Object.entries(now.excluded).filter(([, n]) => n > 0);
   return [

@@ -1,6 +1,6 @@
 // @ts-check
 // Inverse calculations: which pressure, contraction or range is needed. Repeated whenever the model changes.
-import { h, icon } from "../../dom.js";
+import { h } from "../../dom.js";
 import { signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { design, modelInput } from "../../muscle/document.js";
@@ -8,6 +8,7 @@ import { readable, scaleOf, withUnit } from "../../format.js";
 import { post } from "../../server/client.js";
 import { Question } from "../../server/question.js";
 import { quantityField } from "../../ui/field.js";
+import { flag } from "../../ui/flag.js";
 import { curves, curvesAreCurrent } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -122,11 +123,7 @@ function shown() {
         ]),
       )
       : null,
-    ...got.flags.map((f) => {
-      const note = f.code === "unverified";
-      const text = h("span", { title: f.message }, f.message);
-      return h("p", { class: `flag ${note ? "note" : "bad"}` }, icon(note ? "info" : "warn"), text);
-    }),
+    ...got.flags.map((f) => flag(f, f.code === "unverified")),
   ];
 }
 

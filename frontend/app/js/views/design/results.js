@@ -6,14 +6,19 @@ import { units } from "../../state.js";
 import { design } from "../../muscle/document.js";
 import { aligned, number, readable, scaleOf, withUnit } from "../../format.js";
 import { shown } from "../../plots/axes.js";
+import { flag } from "../../ui/flag.js";
 import { curves, fault } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../types.js").Curves} Curves */
 /** @typedef {[title: string, quantity: Quantity]} Column */
+/** @typedef {{cells: (number | null)[], mark?: string}} Row */
 
-/** @param {string} title @param {Column[]} columns
- * @param {() => {cells: (number | null)[], mark?: string}[]} rows */
+/** @param {Column[]} columns @returns {Row[]} */
+const emptyRows = (columns) => design.value.pressures.map(() => ({ cells: columns.map(() => null) }));
+
+/** A table with a row for each pressure; before the first answer they are empty, so that nothing moves later.
+ * @param {string} title @param {Column[]} columns @param {() => Row[]} rows */
 function figures(title, columns, rows) {
   return h(
     "div",
@@ -34,7 +39,7 @@ function figures(title, columns, rows) {
         ),
       ),
       h("tbody", null, () => {
-        const all = rows();
+        const all = curves.value ? rows() : emptyRows(columns);
         const texts = columns.map(([, quantity], i) => column(all.map((r) => r.cells[i]), quantity));
         return all.map(({ mark }, k) =>
           h(
@@ -81,7 +86,6 @@ function characteristics() {
   }));
 }
 
-/** The flag that is only a note; all others are about limits. */
 /** Remarks that are no limits of the muscle. */
 const NOTES = ["unverified", "outside_measured_range"];
 
@@ -116,21 +120,14 @@ function verdict() {
         reach,
       ),
     ),
-    ...[...hard, ...notes].map((f) =>
-      h(
-        "p",
-        { class: `flag ${NOTES.includes(f.code) ? "note" : "bad"}` },
-        icon(NOTES.includes(f.code) ? "info" : "warn"),
-        h("span", { title: f.message }, f.message),
-      )
-    ),
+    ...[...hard, ...notes].map((f) => flag(f, NOTES.includes(f.code))),
   ];
 }
 
 /** How much of each limit is used, as one bar each. */
 function margins() {
   const c = curves.value;
-  if (!c) return null;
+  if (!c) return h("div", { class: "margins" });
   const most = (/** @type {(number | null | undefined)[]} */ all) => Math.max(...all.map((v) => v ?? 0));
   /** @type {[string, number, number | null, Quantity][]} */
   const rows = [
@@ -139,7 +136,7 @@ function margins() {
     ["Contraction", most(c.operating_points.map((o) => o.contraction)), c.limits.max_contraction, "ratio"],
   ];
   const known = rows.filter(([, , limit]) => limit);
-  if (!known.length) return null;
+  if (!known.length) return null; // the muscle has no known limit
   return h(
     "div",
     { class: "margins" },

@@ -119,7 +119,7 @@ function statedWords(paths) {
     const field = FIELDS[path], value = valueAt(path);
     if (Array.isArray(value)) return value.length > 2 ? `${value.length} ${nameOf(path)}` : value.join(", ");
     if (!field || typeof value !== "number") return nameOf(path);
-    const shown = field.quantity ? asText(value, field.quantity) : String(value);
+    const shown = field.quantity && !field.whole ? asText(value, field.quantity) : String(value);
     return `${field.label.toLowerCase()} ${shown}`;
   }).join(", ") || usualWords(paths[0]);
 }

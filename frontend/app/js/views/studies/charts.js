@@ -10,7 +10,7 @@ import { computed, effect, signal } from "../../reactive.js";
 import { units, view } from "../../state.js";
 import { answer, shown } from "./model.js";
 import { figures, front, numbersOf, pins } from "./rows.js";
-import { scaleFor, titleOf, withUnitOf } from "./words.js";
+import { columnText, scaleFor, titleOf } from "./words.js";
 
 /** @typedef {import("../../plots/chart.js").Spec} Spec */
 /** @typedef {import("./model.js").Column} Column */
@@ -96,13 +96,12 @@ function percentileLine() {
   const s = summaryNow.value, column = histogramOf.now.value;
   if (!s || !column) return "";
   const scale = scaleFor(column.name, column.unit, units.value);
-  return MARKED.flatMap((q) => {
-    const e = s.percentiles[q];
-    if (!e) return [];
-    const ends = e.low === null || e.high === null
-      ? ""
-      : ` (${withUnitOf(e.low, scale)} to ${withUnitOf(e.high, scale)})`;
-    return [h("span", null, h("b", null, `${q}\u00a0%: ${withUnitOf(e.value, scale)}`), ends)];
+  const found = MARKED.flatMap((q) => s.percentiles[q] ? [{ q, ...s.percentiles[q] }] : []);
+  const text = columnText(found.flatMap((e) => [e.value, e.low, e.high]), scale);
+  const unit = scale.unit ? `\u00a0${scale.unit}` : "";
+  return found.map((e) => {
+    const ends = e.low === null || e.high === null ? "" : ` (${text(e.low)} to ${text(e.high)}${unit})`;
+    return h("span", null, h("b", null, `${e.q}\u00a0%: ${text(e.value)}${unit}`), ends);
   });
 }
 

@@ -6,7 +6,7 @@ import { effect } from "../../reactive.js";
 import { units, view } from "../../state.js";
 import { shown } from "./model.js";
 import { front, numbersOf, pins, places } from "./rows.js";
-import { scaleFor, titleOf, valueText } from "./words.js";
+import { columnText, scaleFor, titleOf, valueText } from "./words.js";
 
 const HEIGHT = 250, TOP = 46, BOTTOM = 24, STEP = 124, SIDE = 62;
 /** More lines would not be seen apart. */
@@ -66,6 +66,7 @@ function drawing() {
     svg("path", { class: "line pinned", d: of(isPinned) }),
     ...columns.flatMap((c, k) => {
       const scale = scales[k], [name, ...more] = titleOf(c.name).split(", ");
+      const [least, most] = extremes(lists[k]), text = columnText([least, most], scale);
       /** @param {number} at @param {string} text @param {string} [kind] */
       const label = (at, text, kind = "") =>
         svg("text", { x: x(k), y: at, "text-anchor": "middle", class: kind }, text);
@@ -73,8 +74,8 @@ function drawing() {
         svg("line", { x1: x(k), x2: x(k), y1: TOP, y2: HEIGHT - BOTTOM, class: "axis" }),
         label(13, name, "name"),
         label(26, [more.join(", "), scale.unit].filter(Boolean).join(", "), "unit"),
-        label(TOP - 6, valueText(extremes(lists[k])[1], scale)),
-        label(HEIGHT - BOTTOM + 14, valueText(extremes(lists[k])[0], scale)),
+        label(TOP - 6, text(most)),
+        label(HEIGHT - BOTTOM + 14, text(least)),
       ];
     }),
   );

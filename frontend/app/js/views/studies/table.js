@@ -7,7 +7,7 @@ import { columnField } from "./fields.js";
 import { shown, study } from "./model.js";
 import { openRun } from "./open.js";
 import { filter, front, pin, pins, places, sortBy, sorting, valueAt } from "./rows.js";
-import { columnText, outcomeText, scaleFor, titleOf, valueText } from "./words.js";
+import { columnText, outcomeText, scaleFor, titleOf } from "./words.js";
 
 /** @typedef {import("./model.js").Column} Column */
 
@@ -45,6 +45,9 @@ const writers = (columns, rows) =>
     return [c.name, columnText(numbers, scaleFor(c.name, c.unit, units.value))];
   }));
 
+/** Digits of the largest number of a run: the buttons behind the numbers stand below each other. */
+const numberWidth = () => String(shown.value?.table.run.length ?? 0).length;
+
 /** @param {number} place @param {Column[]} columns @param {ReturnType<typeof writers>} written */
 function row(place, columns, written) {
   const run = Number(valueAt("run", place)), outcome = String(valueAt("outcome", place));
@@ -56,7 +59,7 @@ function row(place, columns, written) {
     h(
       "th",
       { scope: "row" },
-      String(run + 1),
+      h("span", { class: "nr", style: `min-width:${numberWidth()}ch` }, String(run + 1)),
       h(
         "span",
         { class: "acts" },
@@ -194,14 +197,11 @@ export function tableCard() {
 
 /** The pinned runs beside each other, with their difference from the first. */
 export function pinsCard() {
-  const text = (/** @type {Column} */ c, /** @type {number} */ place) => {
-    const value = valueAt(c.name, place);
-    return typeof value === "string" ? value : valueText(value, scaleFor(c.name, c.unit, units.value));
-  };
   /** @param {Column} c @param {number} place @param {number} first */
   const change = (c, place, first) => {
     const a = valueAt(c.name, first), b = valueAt(c.name, place);
-    if (typeof a !== "number" || typeof b !== "number" || a === 0 || place === first) return null;
+    if (place === first) return null;
+    if (typeof a !== "number" || typeof b !== "number" || a === 0) return h("small");
     const share = (100 * (b - a)) / Math.abs(a);
     return h("small", null, `${share < 0 ? "−" : "+"}${Math.abs(share).toFixed(1)}\u00a0%`);
   };
@@ -218,6 +218,12 @@ export function pinsCard() {
       const now = shown.value;
       if (!now || !pins.value.length) return null;
       const at = pins.value.map((run) => now.table.run.indexOf(run)).filter((i) => i >= 0);
+      const written = writers(now.columns, at);
+      /** @param {Column} c @param {number} place */
+      const text = (c, place) => {
+        const value = valueAt(c.name, place);
+        return typeof value === "string" ? value : written.get(c.name)?.(value);
+      };
       return h(
         "div",
         { class: "scroll", tabindex: 0, role: "region", "aria-label": "Pinned runs compared" },

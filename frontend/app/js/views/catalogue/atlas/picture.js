@@ -9,7 +9,7 @@ import { seen } from "../../../muscle/seen.js";
 
 const WIDE = 240, HIGH = 96, EDGE = 5, MOST_DOTS = 250;
 /** @type {Record<string, string>} */
-const NAMES = { contraction: "ε", pressure: "pressure", time: "time", length: "length", load: "load" };
+const NAMES = { contraction: "ε", pressure: "P", time: "time", length: "L" };
 
 /** @param {string} unit @param {string} name */
 function scale(unit, name) {
@@ -59,6 +59,7 @@ export function picture(p, title) {
     ...over.map(([x, y]) => svg("circle", { class: "seen", cx: atX(x), cy: atY(y), r: 1.6 })),
     ...lines,
   );
+  const xName = NAMES[p.x] ?? readable(p.x);
   const levels = p.curves.map((c) => c.level).filter((level) => level !== null);
   return h(
     "figure",
@@ -68,12 +69,12 @@ export function picture(p, title) {
     h(
       "small",
       null,
-      h("span", null, `${NAMES[p.x] ?? readable(p.x)} ${short(toShown(low, sx))} … ${shown(low + wide, sx)}`),
+      h("span", { title: readable(p.x) }, `${xName} ${short(toShown(low, sx))} … ${shown(low + wide, sx)}`),
       levels.length
         ? h(
           "span",
-          null,
-          `${readable(p.held)} ${levels.map((v) => short(v / held.factor)).join(", ")} ${held.unit}`,
+          { title: `The lines: ${readable(p.held)}` },
+          `at ${levels.map((v) => short(v / held.factor)).join(", ")}\u00a0${held.unit}`,
         )
         : null,
     ),

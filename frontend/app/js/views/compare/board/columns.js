@@ -1,12 +1,11 @@
 // @ts-check
 // The models of the board as columns: the pinned ones and the case itself; pinning, using, removing.
 import { computed } from "../../../reactive.js";
-import { answer, compare, diagnosis, editCompare, lookCompare, stale, steps } from "../answers.js";
+import { answer, compare, diagnosis, editCompare, heldOut, lookCompare, stale, steps } from "../answers.js";
 import { contextOf, fitOf, MOST_PINS, surer } from "../document.js";
 import { effectsNow, go, here } from "../model/history.js";
 import { filesOf, isHere, pinnedAnswers } from "../pinned.js";
 import { titleOf } from "../words.js";
-import { heldOut } from "../strip/number.js";
 
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** @typedef {import("../../../types.js").Pinned} Pinned */

@@ -3,7 +3,7 @@
 import { h, icon } from "../../../dom.js";
 import { goTo, units } from "../../../state.js";
 import { capitalized, scaleOf, withUnit } from "../../../format.js";
-import { answer } from "../answers.js";
+import { answer, heldOut } from "../answers.js";
 import { useInDesign } from "../exports.js";
 import { exchange } from "../model/steps.js";
 import { fitting } from "../model/history.js";
@@ -80,6 +80,7 @@ export function adequate(result) {
   const a = answer.value, wide = wideNoise.value;
   const asText = (/** @type {number | null | undefined} */ si) =>
     errorText(si, result.unit, result.predicted, units.value);
+  const held = asText(heldOut());
   return [
     h(
       "div",
@@ -95,12 +96,8 @@ export function adequate(result) {
           wide
             ? `${asText(a?.rmse)} is of the size of the noise: ${
               asText(wide.low)
-            } between neighbouring readings, ${asText(wide.high)} in all. Held-out ${
-              asText(result.baseline.holdout_rmse)
-            }. `
-            : `${asText(a?.rmse)} is the noise of the data, held-out ${
-              asText(result.baseline.holdout_rmse)
-            }. `,
+            } between neighbouring readings, ${asText(wide.high)} in all. Held-out ${held}. `
+            : `${asText(a?.rmse)} is the noise of the data, held-out ${held}. `,
           "No effect left lowers it by more than chance.",
         ),
       ),

@@ -108,7 +108,9 @@ function proof(entry, result) {
   const stated = entry.stated === null ? "As stated" : `With ${asText(entry.stated, entry.unit)}`;
   const other = isReading(entry) ? String(entry.value).replace(/^/, "Read ") : `With ${valueOf(entry)}`;
   const estimate = typeof entry.value === "number" && entry.stderr !== null
-    ? ` The data say ${measuredText(entry.value, entry.stderr, scaleOfUnit(entry.unit))}.`
+    ? ` The data say ${
+      measuredText(entry.value, entry.stderr, scaleOfUnit(entry.unit)).replaceAll(" ", "\u00a0")
+    }.`
     : "";
   return h(
     "p",

@@ -287,7 +287,7 @@ export const soFarRow = (c) =>
         onclick: () => addCandidate(c),
       }, "Add"),
     ),
-    h("p", { class: "why" }, capitalized(effectsById.value.get(c.effect)?.signature?.text ?? "")),
+    h("p", { class: "why" }, sentence(effectsById.value.get(c.effect)?.signature?.text ?? "")),
   );
 
 /** The place of an entry that is not known yet. @param {number} index */

@@ -56,7 +56,8 @@ function rowsText(file) {
   }
   const out = Object.entries({ ...info.skipped, ...info.excluded });
   const left = out.length ? `; left out: ${out.map(([why, n]) => `${n} ${why}`).join(", ")}` : "";
-  return `${info.usable_rows} of ${info.rows} rows${left}`;
+  const unread = Object.values(info.skipped).reduce((sum, n) => sum + n, 0);
+  return `${info.usable_rows} of ${info.rows + unread} rows${left}`;
 }
 
 /** @param {Chosen} file */

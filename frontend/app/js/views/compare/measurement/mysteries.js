@@ -112,9 +112,16 @@ export function mysteryCard() {
 
 const MOST_LETTERS = 120;
 
-/** The first words of a story. @param {string} story */
-const beginning = (story) =>
-  story.length <= MOST_LETTERS ? story : `${story.slice(0, MOST_LETTERS).replace(/[\s,;.:]*\s\S*$/, "")}…`;
+/** The first sentences of a story, as many as a tile holds; at least one. @param {string} story */
+function beginning(story) {
+  const [first, ...more] = story.split(/(?<=[.?!])\s+/);
+  let text = first;
+  for (const next of more) {
+    if (text.length + next.length >= MOST_LETTERS) break;
+    text += ` ${next}`;
+  }
+  return text;
+}
 
 /** Buttons that open a mystery. */
 export function mysteryList() {

@@ -196,7 +196,7 @@ export const next = computed(() => {
       return {
         tone: "warn",
         what: result ? nextMeasurement(result) : "",
-        effect: "No effect explains the rest",
+        effect: "No effect explains it",
         label: "Copy plan",
         run: async () => {
           if (!result) return;

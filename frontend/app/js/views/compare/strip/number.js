@@ -5,7 +5,7 @@ import { computed, effect, signal } from "../../../reactive.js";
 import { brief } from "../../../format.js";
 import { units } from "../../../state.js";
 import { caseId } from "../cases.js";
-import { ahead, answer, compare, diagnosis, stale, steps } from "../answers.js";
+import { ahead, answer, diagnosis, heldOut, stale, steps } from "../answers.js";
 import { state, wideNoise } from "../list/state.js";
 import { errorText, errorUnit, overNoise } from "../words.js";
 
@@ -120,10 +120,6 @@ const ofStroke = computed(() => {
   const share = a.rmse / stroke; // far off it needs fewer letters, which have room
   return share > 1 ? ` · ${brief(share)}\u00a0× stroke` : ` · ${brief(100 * share)}\u00a0% of stroke`;
 });
-
-/** The held-out error of the model. */
-export const heldOut = () =>
-  compare.value.holdout ?? diagnosis.value?.baseline.holdout_rmse ?? answer.value?.holdout_rmse ?? null;
 
 const NOTABLE = 1.01;
 

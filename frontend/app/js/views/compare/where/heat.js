@@ -141,18 +141,29 @@ function isNoise(a, map, row) {
   return rms <= sigma * Math.max(WITHIN, 1 + 2 / Math.sqrt(2 * n)); // two standard deviations of an RMS
 }
 
+/** Numbers of an axis with one number of decimals, as many as one of them needs; 0 has none.
+ * @param {number[]} values @param {number} most */
+function evenly(values, most) {
+  const places = values.every((v) => Math.abs(v - Math.round(v)) < 0.5 * 10 ** -most) ? 0 : most;
+  return values.map((v) => (Math.abs(v) < 0.5 * 10 ** -places ? "0" : v.toFixed(places)).replace("-", "−"));
+}
+
 /** @param {Comparison} a @param {Grid} map */
 function table(a, map) {
   const system = units.value, ys = VARIABLES[map.y], xs = VARIABLES[map.x];
   const xScale = xs ? scaleOf(xs.quantity, system) : null;
   const yScale = ys ? scaleOf(ys.quantity, system) : null;
-  const shownAt = (/** @type {number} */ si) =>
-    number(yScale ? toShown(si, yScale) : si, map.rows[0]?.level === null ? 1 : 2);
+  const inRows = (/** @type {number} */ si) => yScale ? toShown(si, yScale) : si;
+  const inColumns = (/** @type {number} */ si) => xScale ? toShown(si, xScale) : si;
+  const edges = map.edges.slice(0, -1), edgeTexts = evenly(edges.map(inColumns), 1);
+  const ranges = map.rows.filter((row) => row.channel === undefined && row.level === null);
+  const ends = evenly(ranges.flatMap((row) => row.range.map(inRows)), 1);
+  const shownAt = (/** @type {number} */ si) => number(inRows(si), 2);
   const label = (/** @type {import("./map.js").Row} */ row) =>
     row.channel !== undefined
       ? readable(row.channel)
       : row.level === null
-      ? `${shownAt(row.range[0])}…${shownAt(row.range[1])}`
+      ? ends.slice(2 * ranges.indexOf(row), 2 * ranges.indexOf(row) + 2).join("…")
       : `${shownAt(row.level)} ${yScale?.unit ?? ""}`;
   const cell = (/** @type {Cell | null} */ c, /** @type {number} */ ix, /** @type {number} */ iy) => {
     if (!c) return h("td", null, h("span", { class: "none" }));
@@ -211,9 +222,7 @@ function table(a, map) {
         "tr",
         { class: "foot-row" },
         h("td", null),
-        ...map.edges.slice(0, -1).map((edge) =>
-          h("th", { scope: "col" }, number(xScale ? toShown(edge, xScale) : edge, 1))
-        ),
+        ...edgeTexts.map((text) => h("th", { scope: "col" }, text)),
       ),
     ),
   );

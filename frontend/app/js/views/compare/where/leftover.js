@@ -220,7 +220,7 @@ function loopsSpec(all, system, p) {
       range: [y.some((a) => a < -band) ? -1.15 * most : -1.6 * band, 1.15 * most],
     },
     traces: [...set("lost", true, p.load), ...set("gained", false, p.accent)],
-    zones: band > 0 ? [{ x: null, y: [-band, band], text: "±2σ of the noise" }] : [],
+    zones: band > 0 ? [{ x: null, y: [-band, band], text: "±2σ of the noise", above: true }] : [],
     revision: `loops${all.length}${system}`,
     table: {
       columns: [{ title: "loop", text: true }, { title: "area", unit: energy.unit }],

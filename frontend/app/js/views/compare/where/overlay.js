@@ -53,7 +53,7 @@ const overChoice = () =>
 /** Whether the model one step before is drawn too; it is, until its name in the legend is pressed. */
 export const ghostShown = signal(true);
 
-/** A name in the legend that draws or hides its line. @param {string} name @param {() => boolean} isOn
+/** A name in the legend that draws or hides its line. @param {import("../../../dom.js").Leaf[]} name @param {() => boolean} isOn
  * @param {() => void} flip @param {import("../../../dom.js").Child} sign */
 const toggle = (name, isOn, flip, sign) =>
   h(
@@ -68,7 +68,7 @@ const toggle = (name, isOn, flip, sign) =>
         onclick: flip,
       },
       sign,
-      name,
+      ...name,
     ),
   );
 
@@ -86,7 +86,7 @@ function legend() {
     h("li", null, h("i"), "model"),
     previous.value
       ? toggle(
-        "one step before",
+        [h("span", { class: "wider" }, "one step\u00a0"), "before"],
         () => ghostShown.value,
         () => (ghostShown.value = !ghostShown.peek()),
         h("i", { class: "ghost" }),
@@ -95,7 +95,7 @@ function legend() {
     ...traces.flatMap((i) =>
       pins[i]
         ? [toggle(
-          pins[i].name,
+          [pins[i].name],
           () => true,
           () => lookCompare({ traces: compare.peek().traces.filter((k) => k !== i) }),
           h("i", { class: "pin" }),

@@ -60,7 +60,7 @@ export function residualSpec(v, p, fixed) {
       },
       column: "residual",
     }],
-    zones: band === null ? [] : [{ x: null, y: [-band, band], text: "±2σ of the noise" }],
+    zones: band === null ? [] : [{ x: null, y: [-band, band], text: "±2σ of the noise", above: true }],
     revision: `${v.picture}${v.over}${system}`,
     table: table(v, ["measured", "residual"]),
   };

@@ -34,7 +34,7 @@ export const pulseWidth = () => [
     regulated.value && !at(drive.value, "pwm") ? null : choiceField(
       "Pulse width",
       () => [
-        [NONE, "No: it opens as commanded"],
+        [NONE, "None"],
         ["two", "Two valves: fill, vent"],
         ["one", "One 3/2 valve"],
       ],

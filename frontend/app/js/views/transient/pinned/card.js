@@ -71,23 +71,28 @@ function columns() {
 
 /** @param {number | null} d relative to the baseline */
 const delta = (d) => {
-  if (d === null) return null;
+  if (d === null) return h("small");
   if (Math.abs(d) < 5e-4) return h("small", null, "=");
   const percent = Math.abs(100 * d);
   return h(
     "small",
     { class: d > 0 ? "more" : "less" },
-    `${d > 0 ? "▲" : "▼"} ${percent < 10 ? percent.toFixed(1) : percent.toFixed(0)} %`,
+    `${d > 0 ? "▲" : "▼"} ${percent < 9.95 ? percent.toFixed(1) : percent.toFixed(0)} %`,
   );
 };
 
-/** @param {{label: string, unit: string, texts: string[], deltas: (number | null)[]}} r */
+/** @typedef {{label: string, unit: string, texts: string[], deltas: (number | null)[]}} Row */
+
+/** Whether it is a row of figures, whose numbers have room for a difference beside them. @param {Row} r */
+const hasDeltas = (r) => r.unit !== "" || r.deltas.some((d) => d !== null);
+
+/** @param {Row} r */
 const tableRow = (r) =>
   h(
     "tr",
     null,
     h("th", { scope: "row" }, r.label, r.unit ? h("small", null, ` ${r.unit}`) : null),
-    ...r.texts.map((text, i) => h("td", null, text, " ", delta(r.deltas[i]))),
+    ...r.texts.map((text, i) => h("td", null, text, " ", i && hasDeltas(r) ? delta(r.deltas[i]) : null)),
   );
 
 function table() {
