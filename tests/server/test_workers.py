@@ -116,7 +116,8 @@ def test_a_full_queue_is_told_and_curves_are_answered_meanwhile(served: RunningS
         until(lambda: sum(answer.done() for answer in answers) >= 4)
         status, text, headers = send(served, "/api/diagnoses", QUICK)
         now = health(served)
-        assert (now["running"], now["workers"]) == (2, 2)
+        assert now["workers"] == 2
+        assert now["running"] <= 2  # a short one may just have ended
         if status == 429:  # unless the others were quicker
             assert json.loads(text)["error"]["code"] == "busy"
             assert int(headers["Retry-After"]) >= 1
