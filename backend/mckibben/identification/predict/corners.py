@@ -88,9 +88,8 @@ def _corners(time: np.ndarray, way: np.ndarray, records: np.ndarray) -> tuple[np
         return np.empty(0, int), np.empty(0)
     row = np.arange(2, len(way) - 3)
     row = row[records[row - 2] == records[row + 3]]
-    with np.errstate(
-        divide="ignore", invalid="ignore"
-    ):  # time steps back between records; no change of speed
+    # Between records time may step back or stand still, and the speed need not change.
+    with np.errstate(divide="ignore", invalid="ignore"):
         step = np.diff(time)
         speed = np.diff(way) / step
         left, right = speed[row - 1], speed[row + 1]
@@ -102,8 +101,7 @@ def _corners(time: np.ndarray, way: np.ndarray, records: np.ndarray) -> tuple[np
     row, after, left, right = row[found], after[found], left[found], right[found]
     off = np.abs(left - speed[row]) * after
     longer = step[row] * np.maximum(np.abs(left), np.abs(right))
-    noise = (
-        float(np.median(np.abs(np.diff(way, 3)))) / _NOISE
-    )  # corners are few, and do not count in a median
+    # Corners are few, and do not count in a median.
+    noise = float(np.median(np.abs(np.diff(way, 3)))) / _NOISE
     clear = off > np.maximum(_CLEAR * noise, _APPARENT * longer)
     return row[clear], after[clear]

@@ -9,9 +9,9 @@ with the slope s of the line. Stages in series are a sum of such lags, by partia
 
 .. math:: \prod_i \frac{1}{1+\tau_i p} = \sum_i \frac{1}{1+\tau_i p}\prod_{j\ne i}\frac{\tau_i}{\tau_i-\tau_j}
 
-A skew shifts the signal in time. A corner between two rows of the file is one of the rows here
-(`mckibben.identification.predict.corners`). Both are linear, so derivatives by a model's parameters pass
-through the same filter.
+A skew shifts the signal in time. Lag and skew are linear, so derivatives by a model's parameters pass through
+the same filter. A corner between two rows of the file is one of the rows here
+(`mckibben.identification.predict.corners`).
 """
 
 from __future__ import annotations
