@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -13,7 +14,7 @@ from mckibben.physics.drive import DriveModel
 from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
-from mckibben.simulation.integrate.compiling import one_at_a_time
+from mckibben.simulation.integrate.compiling import COMPILING, one_at_a_time
 from mckibben.simulation.integrate.elimination import Plan, plan_of
 from mckibben.simulation.integrate.invariants import Invariants
 from mckibben.simulation.integrate.lane_code import Functions, LaneCodes
@@ -32,8 +33,6 @@ class Codes:
         rates: -> rates.
         outputs: -> outputs.
         guards: -> guards of the switches.
-        jacobian: -> rates, the entries of ``entries``, the derivatives by time of the rates ``timed``, and
-            the guards.
         entries: (row, column) of the nonzero entries of the Jacobian; shape (entries, 2).
         timed: rates that depend on time.
         plan: elimination for ``entries``.
@@ -44,11 +43,21 @@ class Codes:
     rates: Function
     outputs: Function
     guards: Function
-    jacobian: Function
     entries: np.ndarray
     timed: np.ndarray
     plan: Plan
     clock: int
+    _wanted: Mapping[str, tuple[Sequence[Any], Sequence[Any]]] = field(repr=False)
+    _level: int
+
+    @cached_property
+    def jacobian(self) -> Function:
+        """-> rates, entries of ``entries``, derivatives by time of the rates ``timed``, and guards.
+
+        Compiled when first used: it is half of the work, and runs in lanes have one of their own.
+        """
+        with COMPILING:
+            return machine_code(self._wanted, level=self._level)["jacobian"]
 
 
 @dataclass(frozen=True)
@@ -220,7 +229,8 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
         "guards": (arguments, guards),
         "jacobian": (arguments, [*rates, *derivatives, *guards]),
     }
-    codes = machine_code(functions, level=level)
+    wanted = {"jacobian": functions["jacobian"]}
+    codes = machine_code({n: each for n, each in functions.items() if n not in wanted}, level=level)
     return CompiledDrive(
         model,
         Codes(
@@ -228,11 +238,12 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
             codes["rates"],
             codes["outputs"],
             codes["guards"],
-            codes["jacobian"],
             np.array(entries, np.int64).reshape(-1, 2),
             np.array(timed, np.int64),
             plan_of(len(states), entries, without=clock),
             clock,
+            wanted,
+            level,
         ),
         np.array([state.scale for state in model.states]),
         functions,
