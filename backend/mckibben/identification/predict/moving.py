@@ -29,6 +29,7 @@ from mckibben.identification.predict.predictor import PredictedChannel, Predicto
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.noise import noise_floor
 from mckibben.measurement.settled import settled
+from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
@@ -40,8 +41,9 @@ from mckibben.simulation.statics.model import StaticModel
 _LOST = 1e3  # residual after a run has stopped early, over the noise
 _READINGS = {"pressure": "pressure_reading", "displacement": "stroke_reading", "force": "force_reading"}
 # Derivatives by runs that take the same steps: relative step, fewest parameters, and the number of runs for
-# derivatives of a structure after which its fits need them; so many segments of a command count as another run.
+# derivatives of a structure after which its fits need them; so many segments of a command count as a run.
 _STEP_TOGETHER, _FEWEST_TOGETHER, _MANY, _SEGMENTS = 1e-4, 3, 200.0, 50.0
+_FEW = 400.0  # runs of a structure, counted likewise, up to which a quick compilation pays
 # Slots of the air flow only; irrelevant when the pressure is measured.
 _AIR = (
     "extra_volume", "heat", "leakage", "command_delay", "opening", "fill_conductance", "exhaust_conductance",
@@ -128,6 +130,7 @@ class TransientPredictor(Predictor):
         self.inputs = {name: np.tile(v, len(recorded)) for name, v in {"time": time, **others}.items()}
         self._wide: tuple[Effect, ...] = ()
         self._spent: dict[tuple[Effect, ...], float] = {}
+        self._made: dict[DriveStructure, float] = {}
         self._kept = KeptRuns()
         self._next: tuple[list[FitModel], list[np.ndarray | None]] = [], []
 
@@ -281,7 +284,9 @@ class TransientPredictor(Predictor):
         for record in self._records:
             drives = [_drive_with(model, record) for model in models]
             pieces = [record.pieces(drive) for drive in drives]
-            runs = readings_of_many(drives, pieces, grid=record.time, together=True)
+            runs = readings_of_many(
+                drives, pieces, grid=record.time, together=True, few=self._few(drives, record)
+            )
             of_records.append([_named(run) for run in runs])
         return [
             self._stacked(readings) if all(readings) else None for readings in zip(*of_records, strict=True)
@@ -296,9 +301,16 @@ class TransientPredictor(Predictor):
             return self._motions(drives, record)
         pieces = [record.pieces(drive) for drive in drives]
         try:
-            return [_named(run) for run in readings_of_many(drives, pieces, grid=record.time)]
+            runs = readings_of_many(drives, pieces, grid=record.time, few=self._few(drives, record))
         except InputError:
             return [{} for _ in drives]
+        return [_named(run) for run in runs]
+
+    def _few(self, drives: Sequence[Drive], record: Record) -> bool:
+        """Whether few runs of a structure have been made; counts these."""
+        structure, weight = drives[0].structure, 1.0 + record.segments / _SEGMENTS
+        made = self._made[structure] = self._made.get(structure, 0.0) + len(drives) * weight
+        return made <= _FEW
 
     @staticmethod
     def _motions(drives: Sequence[Drive], record: Record) -> list[dict[str, np.ndarray]]:

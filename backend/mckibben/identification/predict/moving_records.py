@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -54,7 +55,7 @@ class Record:
             self._pieces[delays] = segments_after(drive, delays)[:2]
         return self._pieces[delays]
 
-    @property
+    @cached_property
     def segments(self) -> int:
         """Pieces of the command, at each of which the integration starts afresh."""
         return len(self.drive.command.segments(self.drive.duration).slopes)

@@ -10,7 +10,7 @@ from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.initial_state import Start, start_of
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import TOLERANCE, before_of, parameters_of, skewed
-from mckibben.simulation.integrate.engine import CompiledDrive, compiled_drive
+from mckibben.simulation.integrate.engine import CompiledDrive, compiled_drive, quick_drive
 from mckibben.simulation.integrate.many import ManySolutions, integrate_many
 
 READINGS = ("pressure_reading", "stroke_reading", "force_reading")
@@ -25,6 +25,7 @@ def readings_of_many(
     grid: np.ndarray,
     tolerance: float = TOLERANCE,
     together: bool = False,
+    few: bool = False,
 ) -> list[dict[str, np.ndarray]]:
     """Readings of each drive on a grid, by the names of `READINGS`, SI; none of a drive that has no start.
 
@@ -38,11 +39,12 @@ def readings_of_many(
         grid: ascending times of the rows [s].
         tolerance: relative error per step.
         together: see above.
+        few: only some hundred runs of this structure are expected, so that it is compiled quickly.
 
     Raises:
         InputError: a typed term among the effects cannot be compiled.
     """
-    compiled = compiled_drive(drives[0].structure)
+    compiled = (quick_drive if few else compiled_drive)(drives[0].structure)
     parameters = [parameters_of(drive, compiled) for drive in drives]
     starts: dict[int, Start] = {}
     for index, (drive, (times, inputs)) in enumerate(zip(drives, pieces, strict=True)):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -69,17 +69,19 @@ class CompiledDrive:
         codes: the functions for the integrators.
         scales: magnitude of each state, for error control.
         functions: those of ``codes`` as symbols and expressions.
+        quick: whether its code for lanes is compiled quickly, for few runs.
     """
 
     model: DriveModel | DrivenModel
     codes: Codes
     scales: np.ndarray
     functions: Functions
+    quick: bool = False
 
     @cached_property
     def lanes(self) -> LaneCodes:
         """The functions on rows of lanes; compiled when first used."""
-        return LaneCodes(self.functions, self.codes.plan)
+        return LaneCodes(self.functions, self.codes.plan, quick=self.quick)
 
     @cached_property
     def columns(self) -> dict[tuple[str, ...] | None, Any]:
@@ -188,6 +190,17 @@ def compiled_drive(structure: DriveStructure, level: int = 0) -> CompiledDrive:
     """
     with blamed_on_the_term(structure.effects):
         return compile_system(DriveModel(structure), level)
+
+
+@one_at_a_time
+@lru_cache(maxsize=128)
+def quick_drive(structure: DriveStructure) -> CompiledDrive:
+    """As `compiled_drive`, for at most a few hundred runs in lanes: their code is compiled quickly.
+
+    Raises:
+        InputError: a typed term among the effects cannot be compiled.
+    """
+    return replace(compiled_drive(structure), quick=True)
 
 
 @one_at_a_time
