@@ -355,6 +355,42 @@ def test_differences_side_by_side_are_those_of_two_accurate_runs(monkeypatch):
             assert error < before, name
 
 
+@pytest.mark.parametrize("many", [200.0, 0.0])
+def test_a_fit_makes_no_run_twice(monkeypatch, many):
+    lane_kernels.awaited()
+    predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
+    monkeypatch.setattr(moving, "_MANY", many)
+    model = fit_model(HIDDEN | {"dahl": {"force": 20.0}})
+    free = free_numbers(model)
+    calls: list[int] = []
+
+    def counted(drives, *args, **options):
+        calls.append(len(drives))
+        return readings_of_many(drives, *args, **options)
+
+    monkeypatch.setattr(moving, "readings_of_many", counted)
+    here = predictor.within_fit(model, free)
+    slopes = predictor.differences(model, free, here)
+    assert calls == [1 + len(free)], "the runs for the derivatives go beside the first one"
+    assert np.array_equal(predictor.predict(model), here)
+    assert slopes.shape == (len(here), len(free))
+    assert calls == [1 + len(free)]
+
+
+def test_trials_ahead_are_the_trials(monkeypatch):
+    predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
+    model = fit_model(HIDDEN)
+    candidates = [CATALOGUE[name] for name in ("leak", "dead_volume", "flow_coefficient")]
+    alone = predictor.prepared(model, candidates)
+    models = [model.adding(effect) for effect in candidates]
+    expected = [alone.trial(each) for each in models]
+    ahead = predictor_of(measured(drive()), MUSCLE, drive({})).prepared(model, candidates)
+    ahead.try_ahead(models)
+    monkeypatch.setattr(moving, "readings_of_many", None)  # nothing is left to run
+    for one, two in zip(expected, [ahead.trial(each) for each in models], strict=True):
+        assert np.array_equal(one, two)
+
+
 def test_a_fit_with_differences_side_by_side_finds_the_numbers(monkeypatch):
     lane_kernels.awaited()
     predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
