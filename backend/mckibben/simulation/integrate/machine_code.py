@@ -213,6 +213,12 @@ class Writer:
 
     def _computed(self, expression: Any) -> str:
         kind = type(expression).__name__
+        if kind == "Mul":  # the most frequent first: each question to symengine takes its time
+            return self._product(expression.args)
+        if kind == "Add":
+            return self._folded("fadd", expression.args)
+        if kind == "Pow":
+            return self._power(*expression.args)
         if expression.is_Symbol:
             if expression in self._shared:
                 return self._value(self._shared[expression])
@@ -220,12 +226,6 @@ class Writer:
             return self._new(f"load {self.real}, ptr {place}")
         if not expression.args or expression.is_Number:
             return self._number(float(expression.n(53, real=True)))
-        if kind == "Add":
-            return self._folded("fadd", expression.args)
-        if kind == "Mul":
-            return self._product(expression.args)
-        if kind == "Pow":
-            return self._power(*expression.args)
         if kind == "Piecewise":
             branches = list(zip(expression.args[0::2], expression.args[1::2], strict=True))
             value = self._value(branches[-1][0])
