@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from weakref import WeakKeyDictionary
 
@@ -253,13 +253,20 @@ class Fitter:
         basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(fitted_model.residual), 0))
         return basis, fitted_model.residual - basis @ (basis.T @ fitted_model.residual)
 
+    def guess_ahead(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> None:
+        """Simulate side by side what `guessed` asks for effect by effect."""
+        if self.predictor.simulated:
+            self.predictor.try_ahead(self._guess(fitted_model, effect) for effect in effects)
+
     def guessed(self, fitted_model: FittedModel, effect: Effect) -> FittedModel:
         """The model with one more effect of the best first-order size; nothing else is refitted."""
-        free = tuple(
-            p
-            for p in free_numbers(fitted_model.fit_model.adding(effect, effect.off), (), fitted_model.freed)
-            if p.name.startswith(f"{effect.id}.")
-        )
+        fit_model = self._guess(fitted_model, effect)
+        residual = self._trial_residual(fit_model)
+        if float(np.mean(residual**2)) > fitted_model.mean_square:
+            fit_model, residual = fitted_model.fit_model.adding(effect, effect.off), fitted_model.residual
+        return replace(fitted_model, fit_model=fit_model, residual=residual)
+
+    def _guess(self, fitted_model: FittedModel, effect: Effect) -> FitModel:
         off = self.acting(fitted_model, effect)
         reach = np.array([between(effect, off)[name] - value for name, value in off.items()])
         columns = self.changes(fitted_model, effect)
@@ -267,23 +274,10 @@ class Fitter:
         linear = {
             f"{effect.id}.{name}": value + x for (name, value), x in zip(off.items(), size, strict=True)
         }
-        inside = {p.name: float(np.clip(linear[p.name], p.lower, p.upper)) for p in free if p.name in linear}
         fit_model = fitted_model.fit_model.adding(effect, effect.off)
-        fit_model = fit_model.with_numbers(list(inside), list(inside.values()))
-        trial_residual = self._trial_residual(fit_model)
-        if float(np.mean(trial_residual**2)) > fitted_model.mean_square:
-            fit_model, trial_residual = (
-                fitted_model.fit_model.adding(effect, effect.off),
-                fitted_model.residual,
-            )
-        return FittedModel(
-            fit_model,
-            fitted_model.free,
-            fitted_model.freed,
-            trial_residual,
-            fitted_model.jacobian,
-            fitted_model.folds,
-        )
+        free = [p for p in free_numbers(fit_model, (), fitted_model.freed) if p.name in linear]
+        inside = [float(np.clip(linear[p.name], p.lower, p.upper)) for p in free]
+        return fit_model.with_numbers([p.name for p in free], inside)
 
     def changes(self, fitted_model: FittedModel, effect: Effect) -> np.ndarray:
         """Change of the prediction by each parameter of an effect, shape (values, parameters)."""

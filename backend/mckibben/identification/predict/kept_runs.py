@@ -37,7 +37,7 @@ class KeptRuns:
         new = dict(zip(missing, run(list(missing.values())), strict=True)) if missing else {}
         found = [new[key] if key in new else self._known[key] for key in keys]
         for key, prediction in new.items():
-            self._keep(key, prediction)
+            self._keep(key, prediction, least=len(new))
         return found
 
     def __contains__(self, fit_model: FitModel) -> bool:
@@ -47,9 +47,9 @@ class KeptRuns:
         """Keep a prediction that was found otherwise."""
         self._keep(_key(fit_model), prediction)
 
-    def _keep(self, key: Hashable, prediction: np.ndarray) -> None:
+    def _keep(self, key: Hashable, prediction: np.ndarray, *, least: int = 1) -> None:
         self._known[key] = prediction
-        while len(self._known) > max(_NUMBERS // max(len(prediction), 1), 1):
+        while len(self._known) > max(_NUMBERS // max(len(prediction), 1), least):
             del self._known[next(iter(self._known))]
 
 
