@@ -13,7 +13,7 @@ import struct
 import sys
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
-from functools import cache
+from functools import cache, partial
 from typing import Any
 
 import numpy as np
@@ -63,6 +63,17 @@ class Function:
             raise ValueError(f"{self.size} arguments are needed, not {packed.shape}")
         self._call(results.ctypes.data, packed.ctypes.data, None)
         return results
+
+    def bound(self, given: np.ndarray, results: np.ndarray) -> Callable[[], None]:
+        """Calls it with what is in one array, and writes the results to another one; both stay in place.
+
+        Raises:
+            ValueError: arrays that are not of ``size`` and ``width`` numbers in a row.
+        """
+        for array, count in ((given, self.size), (results, self.width)):
+            if array.shape != (count,) or array.dtype != np.float64 or not array.flags.c_contiguous:
+                raise ValueError(f"{count} numbers in a row are needed, not {array.shape}")
+        return partial(self._call, results.ctypes.data, given.ctypes.data, None)
 
 
 def machine_code(
