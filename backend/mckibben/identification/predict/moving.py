@@ -44,6 +44,7 @@ _READINGS = {"pressure": "pressure_reading", "displacement": "stroke_reading", "
 # derivatives of a structure after which its fits need them; so many segments of a command count as a run.
 _STEP_TOGETHER, _FEWEST_TOGETHER, _MANY, _SEGMENTS = 1e-4, 3, 200.0, 50.0
 _FEW = 400.0  # runs of a structure, counted likewise, up to which a quick compilation pays
+_FEW_TRIED = (3, 24)  # models whose compilation takes as long as that of candidates without states, of all
 # Slots of the air flow only; irrelevant when the pressure is measured.
 _AIR = (
     "extra_volume", "heat", "leakage", "command_delay", "opening", "fill_conductance", "exhaust_conductance",
@@ -128,8 +129,9 @@ class TransientPredictor(Predictor):
         if stroke is not None:
             others |= {"displacement": stroke[rows], "velocity": -np.gradient(stroke, columns["time"])[rows]}
         self.inputs = {name: np.tile(v, len(recorded)) for name, v in {"time": time, **others}.items()}
-        self._wide: tuple[Effect, ...] = ()
+        self._wide: tuple[tuple[Effect, ...], ...] = ()
         self._spent: dict[tuple[Effect, ...], float] = {}
+        self._tried: dict[tuple[int, frozenset[Effect]], int] = {}
         self._made: dict[DriveStructure, float] = {}
         self._kept = KeptRuns()
         self._next: tuple[list[FitModel], list[np.ndarray | None]] = [], []
@@ -169,7 +171,11 @@ class TransientPredictor(Predictor):
         return ""
 
     def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> TransientPredictor:
-        """With one compiled model of all candidates that can be off, for quick trials."""
+        """With two models for quick trials, of the candidates without states and of all that can be off.
+
+        Without the states of other effects a run is quicker, and takes the steps that the fitted model takes:
+        an effect that changes nothing then shows no change, not one of the size of the integration error.
+        """
         inside = {effect.id for effect in fit_model.effects}
         # An energy balance instead of a polytrope changes the equations even without heat flow.
         # So does a tube that the drive does not state.
@@ -177,23 +183,36 @@ class TransientPredictor(Predictor):
         other = {"heat", "tube_conductance"} if tubeless else {"heat"}
         further = [e for e in candidates if e.id not in inside and not other & set(e.slots) and not _fast(e)]
         ready = copy(self)
-        ready._wide = Model((*fit_model.effects, *further)).effects
+        plain = [effect for effect in further if not effect.states]
+        ready._wide = tuple(Model((*fit_model.effects, *added)).effects for added in (plain, further))
         return ready
 
     def trial(self, fit_model: FitModel) -> np.ndarray:
-        """As `predict`, with the compiled model of all candidates if it contains this model."""
-        if not set(fit_model.effects) <= set(self._wide):
-            return self.predict(fit_model)
+        """As `predict`, with a compiled model of all candidates if there is one that contains this model."""
         return self.predict(self._widened(fit_model))
 
     def try_ahead(self, fit_models: Iterable[FitModel]) -> None:
-        """As of the base class; models that the compiled model of all candidates does not contain wait."""
-        wide = set(self._wide)
-        self.predictions([self._widened(model) for model in fit_models if set(model.effects) <= wide])
+        """As of the base class."""
+        fit_models = list(fit_models)
+        for fit_model in fit_models:
+            kind = self._kind(fit_model)
+            self._tried[kind] = self._tried.get(kind, 0) + 1
+        self.predictions([self._widened(fit_model) for fit_model in fit_models])
+
+    def _kind(self, fit_model: FitModel) -> tuple[int, frozenset[Effect]]:
+        """Which of the two contains a model, and the effects that are in neither."""
+        effects = frozenset(fit_model.effects)
+        further = effects.difference(*self._wide)
+        return next((n for n, wide in enumerate(self._wide) if effects - further <= set(wide)), 0), further
 
     def _widened(self, fit_model: FitModel) -> FitModel:
-        values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in self._wide}
-        return replace(fit_model, effects=self._wide, values=values)
+        """The model with candidates that are off, where so many are tried that compiling them pays."""
+        number, further = kind = self._kind(fit_model)
+        if not self._wide or (further and self._tried.get(kind, 0) <= _FEW_TRIED[number]):
+            return fit_model
+        effects = Model((*self._wide[number], *further)).effects
+        values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in effects}
+        return replace(fit_model, effects=effects, values=values)
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """The channels of all records, stacked; far from the measurement after a run has stopped early."""
