@@ -9,6 +9,8 @@ from typing import Any
 
 import numpy as np
 
+from mckibben.physics.custom import blamed_on_the_term
+from mckibben.physics.effect import Effect
 from mckibben.simulation.integrate.compiling import COMPILING
 from mckibben.simulation.integrate.elimination import Plan
 from mckibben.simulation.integrate.lane_algebra import algebra_texts
@@ -94,18 +96,25 @@ class LaneCodes:
     Args:
         functions: as `mckibben.simulation.integrate.system.CompiledDrive.functions`.
         plan: elimination of the structure.
+        effects: those of the structure, for messages about a typed term among them.
         quick: see `lane_code`.
     """
 
-    def __init__(self, functions: Functions, plan: Plan, *, quick: bool = False) -> None:
-        self._functions, self._plan, self._quick = functions, plan, quick
+    def __init__(
+        self, functions: Functions, plan: Plan, effects: Sequence[Effect] = (), *, quick: bool = False
+    ) -> None:
+        self._functions, self._plan, self._quick, self._effects = functions, plan, quick, effects
         self._step: dict[str, LaneFunction] | None = None
         self._outputs: dict[tuple[int, ...], tuple[LaneFunction, np.ndarray]] = {}
 
     @property
     def step(self) -> dict[str, LaneFunction]:
-        """What a step needs: ``rates``, ``jacobian``, ``factorise`` and ``solve``."""
-        with COMPILING:
+        """What a step needs: ``rates``, ``jacobian``, ``factorise`` and ``solve``.
+
+        Raises:
+            InputError: a typed term among the effects cannot be compiled.
+        """
+        with COMPILING, blamed_on_the_term(self._effects):
             if self._step is None:
                 wanted = {name: self._functions[name] for name in ("rates", "jacobian")}
                 self._step = lane_code(wanted, plan=self._plan, quick=self._quick)
@@ -114,7 +123,7 @@ class LaneCodes:
     def outputs(self, chosen: Sequence[int]) -> tuple[LaneFunction, np.ndarray]:
         """A function that computes only these outputs, and the numbers of the arguments it depends on."""
         key = tuple(chosen)
-        with COMPILING:
+        with COMPILING, blamed_on_the_term(self._effects):
             found = self._outputs.get(key)
             if found is None:
                 arguments, results = self._functions["outputs"]

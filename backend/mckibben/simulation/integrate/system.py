@@ -49,14 +49,18 @@ class Codes:
     clock: int
     _wanted: Mapping[str, tuple[Sequence[Any], Sequence[Any]]] = field(repr=False)
     _level: int
+    _effects: tuple[Effect, ...] = field(repr=False)
 
     @cached_property
     def jacobian(self) -> Function:
         """-> rates, entries of ``entries``, derivatives by time of the rates ``timed``, and guards.
 
         Compiled when first used: it is half of the work, and runs in lanes have one of their own.
+
+        Raises:
+            InputError: a typed term among the effects cannot be compiled.
         """
-        with COMPILING:
+        with COMPILING, blamed_on_the_term(self._effects):
             return machine_code(self._wanted, level=self._level)["jacobian"]
 
 
@@ -69,6 +73,7 @@ class CompiledDrive:
         codes: the functions for the integrators.
         scales: magnitude of each state, for error control.
         functions: those of ``codes`` as symbols and expressions.
+        effects: those acting, for messages about a typed term among them.
         quick: whether its code for lanes is compiled quickly, for few runs.
     """
 
@@ -76,12 +81,13 @@ class CompiledDrive:
     codes: Codes
     scales: np.ndarray
     functions: Functions
+    effects: tuple[Effect, ...] = ()
     quick: bool = False
 
     @cached_property
     def lanes(self) -> LaneCodes:
         """The functions on rows of lanes; compiled when first used."""
-        return LaneCodes(self.functions, self.codes.plan, quick=self.quick)
+        return LaneCodes(self.functions, self.codes.plan, self.effects, quick=self.quick)
 
     @cached_property
     def columns(self) -> dict[tuple[str, ...] | None, Any]:
@@ -189,7 +195,7 @@ def compiled_drive(structure: DriveStructure, level: int = 0) -> CompiledDrive:
         InputError: a typed term among the effects cannot be compiled.
     """
     with blamed_on_the_term(structure.effects):
-        return compile_system(DriveModel(structure), level)
+        return compile_system(DriveModel(structure), level, structure.effects)
 
 
 @one_at_a_time
@@ -212,11 +218,13 @@ def compiled_driven(effects: tuple[Effect, ...], motion: bool, level: int = 0) -
         InputError: a typed term among the effects cannot be compiled.
     """
     with blamed_on_the_term(effects):
-        return compile_system(DrivenModel(effects, motion=motion), level)
+        return compile_system(DrivenModel(effects, motion=motion), level, effects)
 
 
-def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledDrive:
-    """Machine code of a system and of its exact Jacobian."""
+def compile_system(
+    model: DriveModel | DrivenModel, level: int = 0, effects: tuple[Effect, ...] = ()
+) -> CompiledDrive:
+    """Machine code of a system and of its exact Jacobian; a typed term among ``effects`` is named in errors."""
     states = list(model.symbols.values())
     clock = [state.name for state in model.states].index(_CLOCK)
     invariants = Invariants(model.parameters.values())
@@ -257,7 +265,9 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
             clock,
             wanted,
             level,
+            effects,
         ),
         np.array([state.scale for state in model.states]),
         functions,
+        effects,
     )
