@@ -20,6 +20,7 @@ from mckibben.measurement.measurement import Measurement, build
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.driven import driven_motion
+from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.integrate.many import lane_kernels
@@ -334,12 +335,12 @@ def test_differences_side_by_side_are_those_of_two_accurate_runs(monkeypatch):
     names = [parameter.name for parameter in free]
     here = predictor.predict(model, clipped=False)
     usual = predictor.differences(model, free, here)
-    monkeypatch.setattr(moving, "_PAYS_OFF", 0.0)
+    monkeypatch.setattr(moving, "_MANY", 0.0)
     found = predictor.differences(model, free, here)
     delays = [index for index, name in enumerate(names) if name.startswith("valve_delay")]
     assert delays, "they move the instants of the command"
     assert np.array_equal(found[:, delays], usual[:, delays]), "by runs of their own"
-    monkeypatch.setattr(moving, "simulate", partial(simulate, tolerance=1e-10))
+    monkeypatch.setattr(moving, "readings_of_many", partial(readings_of_many, tolerance=1e-10))
     for column, name in enumerate(names):
         if column in delays:
             continue
@@ -354,10 +355,46 @@ def test_differences_side_by_side_are_those_of_two_accurate_runs(monkeypatch):
             assert error < before, name
 
 
+@pytest.mark.parametrize("many", [200.0, 0.0])
+def test_a_fit_makes_no_run_twice(monkeypatch, many):
+    lane_kernels.awaited()
+    predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
+    monkeypatch.setattr(moving, "_MANY", many)
+    model = fit_model(HIDDEN | {"dahl": {"force": 20.0}})
+    free = free_numbers(model)
+    calls: list[int] = []
+
+    def counted(drives, *args, **options):
+        calls.append(len(drives))
+        return readings_of_many(drives, *args, **options)
+
+    monkeypatch.setattr(moving, "readings_of_many", counted)
+    here = predictor.within_fit(model, free)
+    slopes = predictor.differences(model, free, here)
+    assert calls == [1 + len(free)], "the runs for the derivatives go beside the first one"
+    assert np.array_equal(predictor.predict(model), here)
+    assert slopes.shape == (len(here), len(free))
+    assert calls == [1 + len(free)]
+
+
+def test_trials_ahead_are_the_trials(monkeypatch):
+    predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
+    model = fit_model(HIDDEN)
+    candidates = [CATALOGUE[name] for name in ("leak", "dead_volume", "flow_coefficient")]
+    alone = predictor.prepared(model, candidates)
+    models = [model.adding(effect) for effect in candidates]
+    expected = [alone.trial(each) for each in models]
+    ahead = predictor_of(measured(drive()), MUSCLE, drive({})).prepared(model, candidates)
+    ahead.try_ahead(models)
+    monkeypatch.setattr(moving, "readings_of_many", None)  # nothing is left to run
+    for one, two in zip(expected, [ahead.trial(each) for each in models], strict=True):
+        assert np.array_equal(one, two)
+
+
 def test_a_fit_with_differences_side_by_side_finds_the_numbers(monkeypatch):
     lane_kernels.awaited()
     predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
-    monkeypatch.setattr(moving, "_PAYS_OFF", 0.0)
+    monkeypatch.setattr(moving, "_MANY", 0.0)
     monkeypatch.setattr(moving, "_FEWEST_TOGETHER", 1)
     model = fit_model(
         {"bladder_elasticity": {"shear_modulus": 0.3e6}, "viscous_damping": {"coefficient": 120.0}}

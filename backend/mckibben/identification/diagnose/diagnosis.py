@@ -249,6 +249,8 @@ def _diagnose(
         if number < len(promising):
             fitted_singles.append((effect, fitter.adding(root, effect)))
         else:
+            if not guesses:
+                fitter.guess_ahead(root, [each for each in candidates if each not in promising])
             guesses.append((effect, fitter.guessed(root, effect)))
         found = fitted_singles[-1] if number < len(promising) else guesses[-1]
         on_candidate(single_addition(fitter, root, *found, before, ()))

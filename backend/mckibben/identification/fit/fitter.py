@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Sequence
-from dataclasses import dataclass, field
-from functools import cache, cached_property
+from collections.abc import Callable, Collection, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 from weakref import WeakKeyDictionary
 
 import numpy as np
@@ -12,6 +12,7 @@ import numpy as np
 from mckibben.identification.fit.effort import SearchEffort
 from mckibben.identification.fit.first_order import between, gain
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
+from mckibben.identification.fit.trials import at_places, off_of, place_of, with_each
 from mckibben.identification.predict.fit_model import FitModel, free_numbers, held_beside
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
@@ -24,7 +25,6 @@ _LEAST_PROMISE, _LEAST_NEAR_FLOOR = 0.01, 0.02
 _ROUNDING = 1e-9  # rms change over rms of the measured values, below which nothing has changed
 _LEAST_FREED = 0.03  # least first-order gain of freed constants, share of the mean square
 _ELSEWHERE = (0.1, 0.4)  # shares of the way to the farther bound at which a hidden constant is tried
-_PLACES = 12  # places tried of an effect that acts beyond some state only
 _NEAR_FLOOR = 1.2  # error over noise below which only effects with a clear gain of their own are tried
 
 
@@ -121,10 +121,7 @@ class Fitter:
         These are the parameters declared as fitted, or the further constants if those change nothing.
         """
         if effect.id not in self.off_values:
-            choices = [
-                {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted is fitted}
-                for fitted in (True, False)
-            ]
+            choices = [off_of(effect, fitted=fitted) for fitted in (True, False)]
             visible = (
                 off
                 for off in choices
@@ -191,12 +188,11 @@ class Fitter:
         for name in sorted(hidden):
             p, value = effect.parameter(name.partition(".")[2]), fitted_model.fit_model.number(name)
             end = p.upper if p.upper - value > value - p.lower else p.lower
-            explained = self._explained(
-                fitted_model, lambda there, n=name: fitted_model.fit_model.with_numbers([n], [there])
-            )
             tried = [value + share * (end - value) for share in _ELSEWHERE]
-            best = max(tried, key=explained)
-            if explained(best) > 0.0:
+            models = {there: fitted_model.fit_model.with_numbers([name], [there]) for there in tried}
+            explained = self._explained(fitted_model, models)
+            best = max(explained, key=lambda there: explained[there])
+            if explained[best] > 0.0:
                 places[name] = best
         return places
 
@@ -243,6 +239,7 @@ class Fitter:
         """Effect -> first-order reduction of the sum of squares if it is added and all is refitted."""
         basis, unexplained = self._unexplained(fitted_model)
         gains = self.known_gains.setdefault(fitted_model, {})
+        self._try_ahead(fitted_model, [effect for effect in effects if effect.id not in gains])
         for effect in effects:
             if effect.id in gains:
                 continue
@@ -256,13 +253,20 @@ class Fitter:
         basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(fitted_model.residual), 0))
         return basis, fitted_model.residual - basis @ (basis.T @ fitted_model.residual)
 
+    def guess_ahead(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> None:
+        """Simulate side by side what `guessed` asks for effect by effect."""
+        if self.predictor.simulated:
+            self.predictor.try_ahead(self._guess(fitted_model, effect) for effect in effects)
+
     def guessed(self, fitted_model: FittedModel, effect: Effect) -> FittedModel:
         """The model with one more effect of the best first-order size; nothing else is refitted."""
-        free = tuple(
-            p
-            for p in free_numbers(fitted_model.fit_model.adding(effect, effect.off), (), fitted_model.freed)
-            if p.name.startswith(f"{effect.id}.")
-        )
+        fit_model = self._guess(fitted_model, effect)
+        residual = self._trial_residual(fit_model)
+        if float(np.mean(residual**2)) > fitted_model.mean_square:
+            fit_model, residual = fitted_model.fit_model.adding(effect, effect.off), fitted_model.residual
+        return replace(fitted_model, fit_model=fit_model, residual=residual)
+
+    def _guess(self, fitted_model: FittedModel, effect: Effect) -> FitModel:
         off = self.acting(fitted_model, effect)
         reach = np.array([between(effect, off)[name] - value for name, value in off.items()])
         columns = self.changes(fitted_model, effect)
@@ -270,23 +274,10 @@ class Fitter:
         linear = {
             f"{effect.id}.{name}": value + x for (name, value), x in zip(off.items(), size, strict=True)
         }
-        inside = {p.name: float(np.clip(linear[p.name], p.lower, p.upper)) for p in free if p.name in linear}
         fit_model = fitted_model.fit_model.adding(effect, effect.off)
-        fit_model = fit_model.with_numbers(list(inside), list(inside.values()))
-        trial_residual = self._trial_residual(fit_model)
-        if float(np.mean(trial_residual**2)) > fitted_model.mean_square:
-            fit_model, trial_residual = (
-                fitted_model.fit_model.adding(effect, effect.off),
-                fitted_model.residual,
-            )
-        return FittedModel(
-            fit_model,
-            fitted_model.free,
-            fitted_model.freed,
-            trial_residual,
-            fitted_model.jacobian,
-            fitted_model.folds,
-        )
+        free = [p for p in free_numbers(fit_model, (), fitted_model.freed) if p.name in linear]
+        inside = [float(np.clip(linear[p.name], p.lower, p.upper)) for p in free]
+        return fit_model.with_numbers([p.name for p in free], inside)
 
     def changes(self, fitted_model: FittedModel, effect: Effect) -> np.ndarray:
         """Change of the prediction by each parameter of an effect, shape (values, parameters)."""
@@ -301,13 +292,32 @@ class Fitter:
 
     def _new_columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
         columns = [np.empty((len(fitted_model.residual), 0))]
-        for name in off:
-            single = effect.off | self._placed(fitted_model, effect) | {name: between(effect, off)[name]}
-            trial = self._trial_residual(fitted_model.fit_model.adding(effect, single))
-            columns.append((fitted_model.residual - trial)[:, None])
+        for single in with_each(fitted_model.fit_model, effect, off, self._placed(fitted_model, effect)):
+            columns.append((fitted_model.residual - self._trial_residual(single))[:, None])
         changes = np.hstack(columns)
         # What changes nothing differs in the last digits, which would explain as much as any other column.
         return np.where(self._sizes(changes) > self._rounding, changes, 0.0)
+
+    def _try_ahead(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> None:
+        """Simulate side by side what `gains` asks for one after the other."""
+        if not self.predictor.simulated:
+            return
+        fit_model, places = fitted_model.fit_model, self.known_places.get(fitted_model, {})
+        waiting = [(effect, place) for effect in effects if (place := place_of(effect)) is not None]
+        self.predictor.try_ahead(
+            model
+            for effect, place in waiting
+            if effect.id not in places
+            for model in at_places(fit_model, effect, place).values()
+        )
+        known = self.known_columns.get(fitted_model, {})
+        self.predictor.try_ahead(
+            model
+            for effect in effects
+            for off in [self.off_values.get(effect.id, off_of(effect))]
+            if (effect.id, *off) not in known
+            for model in with_each(fit_model, effect, off, self._placed(fitted_model, effect))
+        )
 
     def _placed(self, fitted_model: FittedModel, effect: Effect) -> dict[str, float]:
         """Where an effect begins that acts beyond some state only: the place that explains most.
@@ -315,38 +325,27 @@ class Fitter:
         At its usual place it may lie beyond the data, where it changes nothing and would never be tried. Such
         a place is a fitted parameter without an off value.
         """
-        places = [p for p in effect.parameters if p.off is None and p.fitted]
-        known = self.known_places.setdefault(fitted_model, {})
-        if len(places) != 1:
+        place, known = place_of(effect), self.known_places.setdefault(fitted_model, {})
+        if place is None:
             return {}
         if effect.id not in known:
-            (place,) = places
-            off = {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted}
-            acting = effect.off | between(effect, off)
-            explained = self._explained(
-                fitted_model,
-                lambda value: fitted_model.fit_model.adding(effect, acting | {place.name: value}),
-            )
-            tried = [place.default, *np.linspace(place.lower, place.upper, _PLACES + 2)[1:-1].tolist()]
-            known[effect.id] = {place.name: max(tried, key=explained)}
+            explained = self._explained(fitted_model, at_places(fitted_model.fit_model, effect, place))
+            known[effect.id] = {place.name: max(explained, key=lambda value: explained[value])}
         return known[effect.id]
 
-    def _explained(
-        self, fitted_model: FittedModel, changed: Callable[[float], FitModel]
-    ) -> Callable[[float], float]:
-        """How much of the residual a change of the model explains, by the value that is changed.
+    def _explained(self, fitted_model: FittedModel, changed: Mapping[float, FitModel]) -> dict[float, float]:
+        """How much of the residual changes of the model explain, by the value that is changed.
 
         0 where it changes nothing that the free parameters do not change as well.
         """
         basis, unexplained = self._unexplained(fitted_model)
-
-        @cache
-        def explained(value: float) -> float:
-            column = fitted_model.residual - self._trial_residual(changed(value))
+        self.predictor.try_ahead(changed.values())
+        explained = {}
+        for value, model in changed.items():
+            column = fitted_model.residual - self._trial_residual(model)
             rest = column - basis @ (basis.T @ column)
             size = float(np.linalg.norm(rest))
-            return float(rest @ unexplained) / size if size > self._least else 0.0
-
+            explained[value] = float(rest @ unexplained) / size if size > self._least else 0.0
         return explained
 
     def _trial_residual(self, fit_model: FitModel) -> np.ndarray:

@@ -48,8 +48,8 @@ class Misfit:
             predictor, fit_model = self._predictor, self.fit_model(numbers)
             self._predicted, self._slopes = None, None
             with np.errstate(all="ignore"):
-                if predictor.simulated:  # derivatives need further runs: only for accepted steps
-                    predicted = self._predicted = predictor.predict(fit_model, clipped=False)
+                if predictor.simulated:
+                    predicted = self._predicted = predictor.within_fit(fit_model, self._free)
                 else:
                     predicted, slopes = predictor.linearised(fit_model, self._free)
                     slopes = np.where(np.isfinite(predicted)[:, None], slopes, 0.0)

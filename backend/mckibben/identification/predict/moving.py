@@ -7,7 +7,7 @@ are scaled by their noise.
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import replace
 
@@ -17,6 +17,7 @@ from mckibben.identification.predict.comparable_rows import records_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.folds import FEWEST
 from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.kept_runs import KeptRuns
 from mckibben.identification.predict.moving_records import (
     MOST_ROWS,
     Record,
@@ -24,27 +25,26 @@ from mckibben.identification.predict.moving_records import (
     recorded_channels,
     stroke_of,
 )
-from mckibben.identification.predict.predictor import PredictedChannel, Predictor, farther
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.noise import noise_floor
 from mckibben.measurement.settled import settled
+from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
 from mckibben.simulation.drive.driven import driven_motions
-from mckibben.simulation.drive.neighbours import neighbours
+from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.transient import simulate
-from mckibben.simulation.integrate.many import lane_kernels
-from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.statics.model import StaticModel
 
 _LOST = 1e3  # residual after a run has stopped early, over the noise
 _READINGS = {"pressure": "pressure_reading", "displacement": "stroke_reading", "force": "force_reading"}
-# Derivatives side by side: relative step, fewest parameters, and the number of runs that take as long as the
-# compilation; so many segments of a command take as long as another run.
-_STEP_TOGETHER, _FEWEST_TOGETHER, _PAYS_OFF, _SEGMENTS = 1e-4, 3, 200.0, 50.0
-_TIME_LIMIT = 2.0  # s; a longer run means implausible values of a fit
+# Derivatives by runs that take the same steps: relative step, fewest parameters, and the number of runs for
+# derivatives of a structure after which its fits need them; so many segments of a command count as a run.
+_STEP_TOGETHER, _FEWEST_TOGETHER, _MANY, _SEGMENTS = 1e-4, 3, 200.0, 50.0
+_FEW = 400.0  # runs of a structure, counted likewise, up to which a quick compilation pays
+_FEW_TRIED = (3, 24)  # models whose compilation takes as long as that of candidates without states, of all
 # Slots of the air flow only; irrelevant when the pressure is measured.
 _AIR = (
     "extra_volume", "heat", "leakage", "command_delay", "opening", "fill_conductance", "exhaust_conductance",
@@ -129,8 +129,12 @@ class TransientPredictor(Predictor):
         if stroke is not None:
             others |= {"displacement": stroke[rows], "velocity": -np.gradient(stroke, columns["time"])[rows]}
         self.inputs = {name: np.tile(v, len(recorded)) for name, v in {"time": time, **others}.items()}
-        self._wide: tuple[Effect, ...] = ()
+        self._wide: tuple[tuple[Effect, ...], ...] = ()
         self._spent: dict[tuple[Effect, ...], float] = {}
+        self._tried: dict[tuple[int, frozenset[Effect]], int] = {}
+        self._made: dict[DriveStructure, float] = {}
+        self._kept = KeptRuns()
+        self._next: tuple[list[FitModel], list[np.ndarray | None]] = [], []
 
     @property
     def drives(self) -> tuple[Drive, ...]:
@@ -167,7 +171,11 @@ class TransientPredictor(Predictor):
         return ""
 
     def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> TransientPredictor:
-        """With one compiled model of all candidates that can be off, for quick trials."""
+        """With two models for quick trials, of the candidates without states and of all that can be off.
+
+        Without the states of other effects a run is quicker, and takes the steps that the fitted model takes:
+        an effect that changes nothing then shows no change, not one of the size of the integration error.
+        """
         inside = {effect.id for effect in fit_model.effects}
         # An energy balance instead of a polytrope changes the equations even without heat flow.
         # So does a tube that the drive does not state.
@@ -175,19 +183,72 @@ class TransientPredictor(Predictor):
         other = {"heat", "tube_conductance"} if tubeless else {"heat"}
         further = [e for e in candidates if e.id not in inside and not other & set(e.slots) and not _fast(e)]
         ready = copy(self)
-        ready._wide = Model((*fit_model.effects, *further)).effects
+        plain = [effect for effect in further if not effect.states]
+        ready._wide = tuple(Model((*fit_model.effects, *added)).effects for added in (plain, further))
         return ready
 
     def trial(self, fit_model: FitModel) -> np.ndarray:
-        """As `predict`, with the compiled model of all candidates if it contains this model."""
-        if not set(fit_model.effects) <= set(self._wide):
-            return self.predict(fit_model)
-        values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in self._wide}
-        return self.predict(replace(fit_model, effects=self._wide, values=values))
+        """As `predict`, with a compiled model of all candidates if there is one that contains this model."""
+        return self.predict(self._widened(fit_model))
+
+    def try_ahead(self, fit_models: Iterable[FitModel]) -> None:
+        """As of the base class."""
+        fit_models = list(fit_models)
+        for fit_model in fit_models:
+            kind = self._kind(fit_model)
+            self._tried[kind] = self._tried.get(kind, 0) + 1
+        self.predictions([self._widened(fit_model) for fit_model in fit_models])
+
+    def _kind(self, fit_model: FitModel) -> tuple[int, frozenset[Effect]]:
+        """Which of the two contains a model, and the effects that are in neither."""
+        effects = frozenset(fit_model.effects)
+        further = effects.difference(*self._wide)
+        return next((n for n, wide in enumerate(self._wide) if effects - further <= set(wide)), 0), further
+
+    def _widened(self, fit_model: FitModel) -> FitModel:
+        """The model with candidates that are off, where so many are tried that compiling them pays."""
+        number, further = kind = self._kind(fit_model)
+        if not self._wide or (further and self._tried.get(kind, 0) <= _FEW_TRIED[number]):
+            return fit_model
+        effects = Model((*self._wide[number], *further)).effects
+        values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in effects}
+        return replace(fit_model, effects=effects, values=values)
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """The channels of all records, stacked; far from the measurement after a run has stopped early."""
-        return self._stacked([self._run(_drive_with(fit_model, record), record) for record in self._records])
+        del clipped  # a slack muscle reads no force in either case
+        return self.predictions([fit_model])[0]
+
+    def predictions(self, fit_models: Sequence[FitModel]) -> list[np.ndarray]:
+        """`predict` of several models; those with the same effects run side by side."""
+        return self._kept.of(fit_models, self._new_predictions)
+
+    def _new_predictions(self, fit_models: Sequence[FitModel]) -> list[np.ndarray]:
+        alike: dict[frozenset[Effect], list[int]] = {}
+        for index, fit_model in enumerate(fit_models):
+            alike.setdefault(frozenset(fit_model.effects), []).append(index)
+        found: dict[int, np.ndarray] = {}
+        for group in alike.values():
+            of_records = [
+                self._runs([_drive_with(fit_models[index], record) for index in group], record)
+                for record in self._records
+            ]
+            for index, readings in zip(group, zip(*of_records, strict=True), strict=True):
+                found[index] = self._stacked(readings)
+        return [found[index] for index in range(len(fit_models))]
+
+    def within_fit(self, fit_model: FitModel, free: Sequence[Free]) -> np.ndarray:
+        """As of the base class: the lanes beside the run make those that the derivatives need."""
+        if not (self.commanded and self._needs_smooth(fit_model, len(free))):
+            moved = self.moved(fit_model, free, self.step)
+            return self.predictions([fit_model, *(model for _, model in moved)])[0]
+        if fit_model not in self._kept:
+            moved = self.moved(fit_model, free, _STEP_TOGETHER)
+            models = [fit_model, *(model for _, model in moved)]
+            self._next = models, self._side_by_side(models)
+            if (here := self._next[1][0]) is not None:
+                self._kept.keep(fit_model, here)
+        return self.predict(fit_model)
 
     def _stacked(self, readings: Sequence[Mapping[str, np.ndarray]]) -> np.ndarray:
         """The channels of the readings of all records; far from the measurement where there are none."""
@@ -200,106 +261,75 @@ class TransientPredictor(Predictor):
         predicted = np.concatenate([np.concatenate(part) for part in parts])
         return np.where(np.isfinite(predicted), predicted, self.measured + _LOST * self._noises())
 
-    def _alone_side_by_side(self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray) -> np.ndarray:
-        """One-sided differences of runs under the measured pressure: all in one call, each as if alone."""
-        changed = [self.ends(fit_model, parameter, self.step) for parameter in free]
-        others = [farther(*ends) for ends in changed]
-        models = [
-            fit_model.with_numbers([parameter.name], [other])
-            for parameter, other in zip(free, others, strict=True)
-        ]
-        readings = [
-            self._motions([_drive_with(model, record) for model in models], record)
-            for record in self._records
-        ]
-        columns = [
-            (self._stacked(of_model) - here) / (other - value)
-            for of_model, other, (value, _, _) in zip(
-                zip(*readings, strict=True), others, changed, strict=True
-            )
-        ]
-        return np.column_stack(columns)
-
     def differences(
         self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None
     ) -> np.ndarray:
-        """As `Predictor.differences`; after many runs of a structure, all parameters run side by side.
+        """As `Predictor.differences`; after many runs of a structure, all runs take the same steps.
 
-        That gives smooth differences from much smaller steps, but each structure is compiled for it first.
+        That gives smooth differences from much smaller changes.
         """
-        if here is not None and free and not self.commanded:
-            return self._alone_side_by_side(fit_model, free, here)
-        if here is None or not self._many_runs(fit_model, len(free)):
+        if here is None or not self.commanded or not self._many_runs(fit_model, len(free)):
             return super().differences(fit_model, free, here)
-        changed = [self.ends(fit_model, parameter, _STEP_TOGETHER) for parameter in free]
-        others = [farther(*ends) for ends in changed]
-        models = [
-            fit_model,
-            *(
-                fit_model.with_numbers([parameter.name], [other])
-                for parameter, other in zip(free, others, strict=True)
-            ),
+        moved = self.moved(fit_model, free, _STEP_TOGETHER)
+        models = [fit_model, *(model for _, model in moved)]
+        first, *others = self._next[1] if self._next[0] == models else self._side_by_side(models)
+        # What runs another course takes a run of its own.
+        lost = [p for p, found in zip(free, others, strict=True) if first is None or found is None]
+        alone = iter(super().differences(fit_model, lost, here).T)
+        columns = [
+            next(alone) if first is None or found is None else (found - first) / size
+            for found, (size, _) in zip(others, moved, strict=True)
         ]
-        values = self._side_by_side(models)
-        first = values[0]
-        columns = []
-        for parameter, (value, _, _), other, found in zip(free, changed, others, values[1:], strict=True):
-            if first is None or found is None:  # it runs another course: by a run of its own
-                columns.append(super().differences(fit_model, [parameter], here)[:, 0])
-            else:
-                columns.append((found - first) / (other - value))
         return np.column_stack(columns)
 
     def _many_runs(self, fit_model: FitModel, count: int) -> bool:
-        """Whether the runs for derivatives so far would have paid the compilation; counts these.
-
-        The kernel of the lanes is awaited, so that a fit never depends on whether it was ready.
-        """
+        """Whether derivatives need runs that take the same steps; counts these runs."""
         if count < _FEWEST_TOGETHER:
             return False
-        lane_kernels.warm()
+        smooth = self._needs_smooth(fit_model, count)
+        self._spent[fit_model.effects] = self._spent_with(fit_model, count)
+        return smooth
+
+    def _needs_smooth(self, fit_model: FitModel, count: int) -> bool:
+        return count >= _FEWEST_TOGETHER and self._spent_with(fit_model, count) > _MANY
+
+    def _spent_with(self, fit_model: FitModel, count: int) -> float:
         segments = sum(record.segments for record in self._records)
-        runs = self._spent.get(fit_model.effects, 0.0) + count * (len(self._records) + segments / _SEGMENTS)
-        self._spent[fit_model.effects] = runs
-        if runs <= _PAYS_OFF:
-            return False
-        lane_kernels.awaited()
-        return True
+        return self._spent.get(fit_model.effects, 0.0) + count * (len(self._records) + segments / _SEGMENTS)
 
     def _side_by_side(self, models: Sequence[FitModel]) -> list[np.ndarray | None]:
         """`predict` of models that differ little from the first; None for one that runs another course."""
-        parts: list[list[list[np.ndarray]]] = [[[] for _ in self.channels] for _ in models]
-        lost: set[int] = set()
+        of_records = []
         for record in self._records:
             drives = [_drive_with(model, record) for model in models]
-            for number, readings in enumerate(neighbours(drives, grid=record.time)):
-                if readings is None:
-                    lost.add(number)
-                    continue
-                for part, channel in zip(parts[number], self.channels, strict=True):
-                    part.append(readings[_READINGS[channel.name]])
+            pieces = [record.pieces(drive) for drive in drives]
+            runs = readings_of_many(
+                drives, pieces, grid=record.time, together=True, few=self._few(drives, record)
+            )
+            of_records.append([_named(run) for run in runs])
         return [
-            None if number in lost else np.concatenate([np.concatenate(part) for part in parts[number]])
-            for number in range(len(models))
+            self._stacked(readings) if all(readings) else None for readings in zip(*of_records, strict=True)
         ]
 
     def _noises(self) -> np.ndarray:
         return np.repeat([channel.noise for channel in self.channels], len(self.rows))
 
-    def _run(self, drive: Drive, record: Record) -> dict[str, np.ndarray]:
+    def _runs(self, drives: Sequence[Drive], record: Record) -> Sequence[Mapping[str, np.ndarray]]:
+        """Readings of drives with the same effects; none where the values of a fit are those of no drive."""
+        if not self.commanded:
+            return self._motions(drives, record)
+        pieces = [record.pieces(drive) for drive in drives]
         try:
-            if self.commanded:
-                # Fits run thousands of times: always the compiled engine, so that digits never depend on what
-                # is loaded.
-                run = simulate(drive, grid=record.time, watch=Watch(time_limit=_TIME_LIMIT), engine="rodas")
-                if run.outcome is Outcome.CANCELLED:
-                    return {}
-                results = run.outputs
-            else:
-                return self._motions([drive], record)[0]
-        except InputError:  # values of the fit that no drive can have
-            return {}
-        return _named(results)
+            runs = readings_of_many(drives, pieces, grid=record.time, few=self._few(drives, record))
+        except InputError:
+            return [{} for _ in drives]
+        return [_named(run) for run in runs]
+
+    def _few(self, drives: Sequence[Drive], record: Record) -> bool:
+        """Whether few runs of a structure have been made; counts these."""
+        structure, weight = drives[0].structure, 1.0 + record.segments / _SEGMENTS
+        made = self._made[structure] = self._made.get(structure, 0.0) + len(drives) * weight
+        return made <= _FEW
 
     @staticmethod
     def _motions(drives: Sequence[Drive], record: Record) -> list[dict[str, np.ndarray]]:

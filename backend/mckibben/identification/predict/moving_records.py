@@ -2,17 +2,21 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import TableSignal
+from mckibben.simulation.drive.many_runs import Pieces
 from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.transient import dead_times, segments_after
 
 #: Most rows of a run; more are thinned evenly.
 MOST_ROWS = 1000
+_PIECES = 8  # kept; only dead times change them
 _FEW_LEVELS = 0.2  # share of rows at which the command changes, up to which it is held between changes
 _FIRST_ROWS = 50  # most rows for the start pressure
 _NOT_VENTED = 30e3  # Pa from the documented start pressure; less may be a zero error of the gauge
@@ -38,8 +42,20 @@ class Record:
     pressure: np.ndarray | None
     stroke: float
     rows: np.ndarray
+    _pieces: dict[tuple[float, float], Pieces] = field(
+        default_factory=dict, init=False, repr=False, compare=False
+    )
 
-    @property
+    def pieces(self, drive: Drive) -> Pieces:
+        """Segments of the command and inputs of a drive that differs in model and supply from this one's."""
+        delays = dead_times(drive)
+        if delays not in self._pieces:
+            if len(self._pieces) >= _PIECES:
+                del self._pieces[next(iter(self._pieces))]
+            self._pieces[delays] = segments_after(drive, delays)[:2]
+        return self._pieces[delays]
+
+    @cached_property
     def segments(self) -> int:
         """Pieces of the command, at each of which the integration starts afresh."""
         return len(self.drive.command.segments(self.drive.duration).slopes)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -88,9 +88,22 @@ class Predictor(ABC):
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """Predicted values, shape (values,); ``clipped``: a slack muscle reads no force."""
 
+    def predictions(self, fit_models: Sequence[FitModel]) -> list[np.ndarray]:
+        """Unclipped predictions of several models; simulated runs go side by side."""
+        return [self.predict(fit_model, clipped=False) for fit_model in fit_models]
+
+    def within_fit(self, fit_model: FitModel, free: Sequence[Free]) -> np.ndarray:
+        """Unclipped prediction of a model whose `differences` are likely to be asked for next."""
+        del free
+        return self.predict(fit_model, clipped=False)
+
     def trial(self, fit_model: FitModel) -> np.ndarray:
         """Unclipped prediction by the quickest method, for the change caused by a candidate."""
         return self.predict(fit_model, clipped=False)
+
+    def try_ahead(self, fit_models: Iterable[FitModel]) -> None:
+        """Simulate the trials of these models side by side, so that `trial` has them; else do nothing."""
+        del fit_models
 
     def history(self, fit_model: FitModel) -> tuple[str, ...]:
         """What went before each measurement, of `mckibben.identification.predict.memory.HISTORIES`.
@@ -140,27 +153,34 @@ class Predictor(ABC):
 
     def linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """Predicted values and their derivatives by the free parameters, shape (values, free)."""
-        predicted = self.predict(fit_model, clipped=False)
+        predicted = self.within_fit(fit_model, free)
         return predicted, self.differences(fit_model, free, predicted if self.simulated else None)
 
     def differences(
         self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None
     ) -> np.ndarray:
         """Finite differences of `predict`, shape (values, free): central, or from the prediction ``here``."""
-        columns = []
-        for parameter in free:
-            value, low, high = self.ends(fit_model, parameter, self.step)
-            if here is not None:
-                other = farther(value, low, high)
-                changed = self.predict(fit_model.with_numbers([parameter.name], [other]), clipped=False)
-                columns.append((changed - here) / (other - value))
-                continue
-            ends = [
-                self.predict(fit_model.with_numbers([parameter.name], [end]), clipped=False)
-                for end in (low, high)
-            ]
-            columns.append((ends[1] - ends[0]) / (high - low))
+        if here is not None:
+            moved = self.moved(fit_model, free, self.step)
+            changed = self.predictions([model for _, model in moved])
+            columns = [(end - here) / size for end, (size, _) in zip(changed, moved, strict=True)]
+        else:
+            columns = []
+            for parameter in free:
+                _, low, high = self.ends(fit_model, parameter, self.step)
+                first, last = self.predictions([
+                    fit_model.with_numbers([parameter.name], [end]) for end in (low, high)
+                ])  # fmt: skip
+                columns.append((last - first) / (high - low))
         return np.column_stack(columns) if columns else np.empty((len(self.measured), 0))
+
+    def moved(self, fit_model: FitModel, free: Sequence[Free], step: float) -> list[tuple[float, FitModel]]:
+        """For one-sided differences: of each parameter its change, and the model with it."""
+        changes = [self.ends(fit_model, parameter, step) for parameter in free]
+        return [
+            (farther(*change) - change[0], fit_model.with_numbers([parameter.name], [farther(*change)]))
+            for parameter, change in zip(free, changes, strict=True)
+        ]
 
     def ends(self, fit_model: FitModel, parameter: Free, step: float) -> tuple[float, float, float]:
         """The value of a parameter, and the ends of a difference with this relative step."""

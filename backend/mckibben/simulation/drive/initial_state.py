@@ -117,10 +117,9 @@ def _rest(drive: Drive, net_force: Callable[[float], float]) -> tuple[float, Res
     if net_force(high) > BALANCED:
         return high, Rest.HIGH_STOP
 
-    from scipy.optimize import root_scalar
+    from scipy.optimize import brentq
 
-    found = root_scalar(lambda x: net_force(x) - BALANCED, bracket=(lowest, high), xtol=1e-14)
-    return float(found.root), Rest.BALANCED
+    return float(brentq(lambda x: net_force(x) - BALANCED, lowest, high, xtol=1e-14)), Rest.BALANCED
 
 
 class _Search:
@@ -149,6 +148,8 @@ class _Search:
         self.middle = float(table["nominal_length"] - table["precontraction"])
         self.lengths = self._places("length")
         self.net = compiled.model.output_names.index("net_force")
+        self._outputs = np.empty(compiled.codes.outputs.width)
+        self._call_outputs = compiled.codes.outputs.bound(self.packed, self._outputs)
         self.slack = [
             index for index, switch in enumerate(compiled.model.switches) if switch.name.startswith(SLACK)
         ]
@@ -161,7 +162,8 @@ class _Search:
         self.packed[self.stroke] = stroke
         for place, sense in zip(self.lengths, (1.0, -1.0), strict=False):
             self.packed[place] = self.middle - sense * stroke
-        return float(self.compiled.codes.outputs(self.packed)[self.net])
+        self._call_outputs()
+        return float(self._outputs[self.net])
 
     def settled(self, switches: np.ndarray) -> np.ndarray:
         """The states where `net_force` was asked last; sets the switches of slack muscles."""
@@ -182,7 +184,7 @@ class _Search:
 
     def _free_length(self, place: int, number: int) -> float:
         """Length at which a slack muscle carries no tension [m]."""
-        from scipy.optimize import root_scalar
+        from scipy.optimize import brentq
 
         def tension(length: float) -> float:
             self.packed[place] = length
@@ -194,7 +196,7 @@ class _Search:
             long = longest
         if not (long > short and tension(long) >= 0.0):
             return short
-        return float(root_scalar(tension, bracket=(short, long), xtol=1e-14).root)
+        return float(brentq(tension, short, long, xtol=1e-14))
 
 
 def settle(compiled: CompiledDrive, start: np.ndarray, parameters: np.ndarray, inputs: np.ndarray) -> None:

@@ -150,7 +150,12 @@ def external_force(drive: Drive) -> Segments:
 
 def segments_of(drive: Drive) -> tuple[np.ndarray, np.ndarray, Segments]:
     """Segment boundaries, inputs of each segment, and the command after the dead times of the effects."""
-    on, off = dead_times(drive)
+    return segments_after(drive, dead_times(drive))
+
+
+def segments_after(drive: Drive, delays: tuple[float, float]) -> tuple[np.ndarray, np.ndarray, Segments]:
+    """As `segments_of`, with these dead times of opening and of closing [s]."""
+    on, off = delays
     unshifted = drive.command.segments(drive.duration)
     command = delayed(_switched(drive, unshifted), on, off, before=drive.command.before)
     command, external = merged(command, external_force(drive))

@@ -27,6 +27,7 @@ from mckibben.simulation.integrate.system import (
     compile_system,
     compiled_drive,
     compiled_driven,
+    quick_drive,
 )
 from mckibben.simulation.outcome import Outcome, Watch
 
@@ -47,6 +48,7 @@ __all__ = [
     "integrate",
     "kernel",
     "outcome_of",
+    "quick_drive",
 ]
 
 _FEW_SEGMENTS = 20  # LSODA needs less for them than the 0.6 s that loading the kernel takes

@@ -9,13 +9,15 @@ from typing import Any
 
 import numpy as np
 
+from mckibben.physics.custom import blamed_on_the_term
+from mckibben.physics.effect import Effect
 from mckibben.simulation.integrate.compiling import COMPILING
 from mckibben.simulation.integrate.elimination import Plan
 from mckibben.simulation.integrate.lane_algebra import algebra_texts
 from mckibben.simulation.integrate.lane_writer import lane_writer, lanes_of_machine
 from mckibben.simulation.integrate.machine_code import engine_of, texts_of
 
-_LEVEL = 2  # of LLVM's code generator
+_LEVEL, _QUICK_LEVEL = 2, 0  # of LLVM's code generator
 _ALIGNED = 64  # bytes
 # Rows of 8 lanes are meant to be one register.
 _FEATURES = "-prefer-256-bit"
@@ -64,7 +66,7 @@ class LaneFunction:
 
 
 def lane_code(
-    functions: Functions, *, plan: Plan | None = None, lanes: int | None = None, level: int = _LEVEL
+    functions: Functions, *, plan: Plan | None = None, lanes: int | None = None, quick: bool = False
 ) -> dict[str, LaneFunction]:
     """Compile functions together.
 
@@ -72,16 +74,16 @@ def lane_code(
         functions: name -> (symbols in the order of their rows, expressions).
         plan: adds ``factorise`` and ``solve`` of `mckibben.simulation.integrate.lane_algebra`.
         lanes: numbers in a row; default those of a register of this machine.
-        level: level of LLVM's code generator.
+        quick: compile in a third of the time code that runs half as fast.
 
     Raises:
         NotImplementedError: an expression with a function that has no machine code here.
     """
     lanes = lanes or lanes_of_machine()
-    texts = texts_of(functions, lane_writer(lanes))
+    texts = texts_of(functions, lane_writer(lanes), quick=quick)
     if plan is not None:
         texts = list(dict.fromkeys([*texts, *algebra_texts(plan, lanes)]))
-    engine = engine_of(texts, level, _FEATURES if lanes_of_machine() == 8 else "")
+    engine = engine_of(texts, _QUICK_LEVEL if quick else _LEVEL, _FEATURES if lanes_of_machine() == 8 else "")
     sizes = {name: (len(arguments), len(results)) for name, (arguments, results) in functions.items()}
     if plan is not None:
         sizes |= {"factorise": (len(plan.places), plan.size), "solve": (plan.size, len(plan.places))}
@@ -94,32 +96,40 @@ class LaneCodes:
     Args:
         functions: as `mckibben.simulation.integrate.system.CompiledDrive.functions`.
         plan: elimination of the structure.
+        effects: those of the structure, for messages about a typed term among them.
+        quick: see `lane_code`.
     """
 
-    def __init__(self, functions: Functions, plan: Plan) -> None:
-        self._functions, self._plan = functions, plan
+    def __init__(
+        self, functions: Functions, plan: Plan, effects: Sequence[Effect] = (), *, quick: bool = False
+    ) -> None:
+        self._functions, self._plan, self._quick, self._effects = functions, plan, quick, effects
         self._step: dict[str, LaneFunction] | None = None
         self._outputs: dict[tuple[int, ...], tuple[LaneFunction, np.ndarray]] = {}
 
     @property
     def step(self) -> dict[str, LaneFunction]:
-        """What a step needs: ``rates``, ``jacobian``, ``factorise`` and ``solve``."""
-        with COMPILING:
+        """What a step needs: ``rates``, ``jacobian``, ``factorise`` and ``solve``.
+
+        Raises:
+            InputError: a typed term among the effects cannot be compiled.
+        """
+        with COMPILING, blamed_on_the_term(self._effects):
             if self._step is None:
                 wanted = {name: self._functions[name] for name in ("rates", "jacobian")}
-                self._step = lane_code(wanted, plan=self._plan)
+                self._step = lane_code(wanted, plan=self._plan, quick=self._quick)
             return self._step
 
     def outputs(self, chosen: Sequence[int]) -> tuple[LaneFunction, np.ndarray]:
         """A function that computes only these outputs, and the numbers of the arguments it depends on."""
         key = tuple(chosen)
-        with COMPILING:
+        with COMPILING, blamed_on_the_term(self._effects):
             found = self._outputs.get(key)
             if found is None:
                 arguments, results = self._functions["outputs"]
                 results = [results[index] for index in key]
                 used = set().union(*(result.free_symbols for result in results))
                 needs = [index for index, symbol in enumerate(arguments) if symbol in used]
-                code = lane_code({"outputs": (arguments, results)})["outputs"]
+                code = lane_code({"outputs": (arguments, results)}, quick=self._quick)["outputs"]
                 found = self._outputs[key] = code, np.array(needs, np.int64)
             return found

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property, lru_cache
 from typing import Any
 
@@ -13,7 +14,7 @@ from mckibben.physics.drive import DriveModel
 from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
-from mckibben.simulation.integrate.compiling import one_at_a_time
+from mckibben.simulation.integrate.compiling import COMPILING, one_at_a_time
 from mckibben.simulation.integrate.elimination import Plan, plan_of
 from mckibben.simulation.integrate.invariants import Invariants
 from mckibben.simulation.integrate.lane_code import Functions, LaneCodes
@@ -32,8 +33,6 @@ class Codes:
         rates: -> rates.
         outputs: -> outputs.
         guards: -> guards of the switches.
-        jacobian: -> rates, the entries of ``entries``, the derivatives by time of the rates ``timed``, and
-            the guards.
         entries: (row, column) of the nonzero entries of the Jacobian; shape (entries, 2).
         timed: rates that depend on time.
         plan: elimination for ``entries``.
@@ -44,11 +43,25 @@ class Codes:
     rates: Function
     outputs: Function
     guards: Function
-    jacobian: Function
     entries: np.ndarray
     timed: np.ndarray
     plan: Plan
     clock: int
+    _wanted: Mapping[str, tuple[Sequence[Any], Sequence[Any]]] = field(repr=False)
+    _level: int
+    _effects: tuple[Effect, ...] = field(repr=False)
+
+    @cached_property
+    def jacobian(self) -> Function:
+        """-> rates, entries of ``entries``, derivatives by time of the rates ``timed``, and guards.
+
+        Compiled when first used: it is half of the work, and runs in lanes have one of their own.
+
+        Raises:
+            InputError: a typed term among the effects cannot be compiled.
+        """
+        with COMPILING, blamed_on_the_term(self._effects):
+            return machine_code(self._wanted, level=self._level)["jacobian"]
 
 
 @dataclass(frozen=True)
@@ -60,17 +73,21 @@ class CompiledDrive:
         codes: the functions for the integrators.
         scales: magnitude of each state, for error control.
         functions: those of ``codes`` as symbols and expressions.
+        effects: those acting, for messages about a typed term among them.
+        quick: whether its code for lanes is compiled quickly, for few runs.
     """
 
     model: DriveModel | DrivenModel
     codes: Codes
     scales: np.ndarray
     functions: Functions
+    effects: tuple[Effect, ...] = ()
+    quick: bool = False
 
     @cached_property
     def lanes(self) -> LaneCodes:
         """The functions on rows of lanes; compiled when first used."""
-        return LaneCodes(self.functions, self.codes.plan)
+        return LaneCodes(self.functions, self.codes.plan, self.effects, quick=self.quick)
 
     @cached_property
     def columns(self) -> dict[tuple[str, ...] | None, Any]:
@@ -178,7 +195,18 @@ def compiled_drive(structure: DriveStructure, level: int = 0) -> CompiledDrive:
         InputError: a typed term among the effects cannot be compiled.
     """
     with blamed_on_the_term(structure.effects):
-        return compile_system(DriveModel(structure), level)
+        return compile_system(DriveModel(structure), level, structure.effects)
+
+
+@one_at_a_time
+@lru_cache(maxsize=128)
+def quick_drive(structure: DriveStructure) -> CompiledDrive:
+    """As `compiled_drive`, for at most a few hundred runs in lanes: their code is compiled quickly.
+
+    Raises:
+        InputError: a typed term among the effects cannot be compiled.
+    """
+    return replace(compiled_drive(structure), quick=True)
 
 
 @one_at_a_time
@@ -190,11 +218,13 @@ def compiled_driven(effects: tuple[Effect, ...], motion: bool, level: int = 0) -
         InputError: a typed term among the effects cannot be compiled.
     """
     with blamed_on_the_term(effects):
-        return compile_system(DrivenModel(effects, motion=motion), level)
+        return compile_system(DrivenModel(effects, motion=motion), level, effects)
 
 
-def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledDrive:
-    """Machine code of a system and of its exact Jacobian."""
+def compile_system(
+    model: DriveModel | DrivenModel, level: int = 0, effects: tuple[Effect, ...] = ()
+) -> CompiledDrive:
+    """Machine code of a system and of its exact Jacobian; a typed term among ``effects`` is named in errors."""
     states = list(model.symbols.values())
     clock = [state.name for state in model.states].index(_CLOCK)
     invariants = Invariants(model.parameters.values())
@@ -220,7 +250,8 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
         "guards": (arguments, guards),
         "jacobian": (arguments, [*rates, *derivatives, *guards]),
     }
-    codes = machine_code(functions, level=level)
+    wanted = {"jacobian": functions["jacobian"]}
+    codes = machine_code({n: each for n, each in functions.items() if n not in wanted}, level=level)
     return CompiledDrive(
         model,
         Codes(
@@ -228,12 +259,15 @@ def compile_system(model: DriveModel | DrivenModel, level: int = 0) -> CompiledD
             codes["rates"],
             codes["outputs"],
             codes["guards"],
-            codes["jacobian"],
             np.array(entries, np.int64).reshape(-1, 2),
             np.array(timed, np.int64),
             plan_of(len(states), entries, without=clock),
             clock,
+            wanted,
+            level,
+            effects,
         ),
         np.array([state.scale for state in model.states]),
         functions,
+        effects,
     )
