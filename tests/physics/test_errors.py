@@ -23,6 +23,8 @@ EFFECTS = (
         ("blader", "Did you mean 'bladder_elasticity'?"),
         ("Coulomb", "Did you mean 'coulomb_friction'?"),
         ("elastic", "Did you mean one of bladder_elasticity, linear_elasticity?"),
+        ("delay", "Did you mean 'valve_delay'?"),
+        ("valve", "Did you mean one of valve_deadband, valve_delay?"),
         ("xyz", f"Known: {', '.join(sorted(EFFECTS))}."),
     ],
 )

@@ -20,6 +20,18 @@ REFUSED = [
     ("/api/curves", {"muscle": {"presett": "DMSP-20"}}, "muscle.presett", "Did you mean 'preset'?"),
     (
         "/api/curves",
+        {"muscle": {**DMSP, "length": 0.3}},
+        "muscle.length",
+        "one of nominal_length, thread_length",
+    ),
+    (
+        "/api/curves",
+        {"muscle": DMSP, "effects": {"custom": {"term": "(" * 3000 + "P" + ")" * 3000}}},
+        "effects.custom.term",
+        "must have at most",
+    ),
+    (
+        "/api/curves",
         {"muscle": {**DMSP, "nominal_length": "3 kg"}},
         "muscle.nominal_length",
         "a length is needed",

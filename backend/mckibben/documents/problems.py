@@ -171,8 +171,11 @@ def first_problem(
         subject: name of the request or file in messages.
     """
     # A misspelt field explains a missing one, so it is reported first.
-    ordered = sorted(errors, key=lambda error: error["type"] != "extra_forbidden")
-    return _problem(ordered[0], model, body, subject)
+    first = min(errors, key=lambda error: error["type"] != "extra_forbidden")
+    # A text that is too long for a number or a text is not a number either, which helps nobody.
+    same = (error for error in errors if error.get("input") is first.get("input"))
+    first = next((error for error in same if error["type"] == "string_too_long"), first)
+    return _problem(first, model, body, subject)
 
 
 def validated(model: type[Model], document: object, subject: str) -> Model:

@@ -7,6 +7,7 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from difflib import get_close_matches
 
+_WORDS = re.compile(r"[^a-z0-9]+")  # between the words of a name
 _LONGEST = 300  # most characters shown of an error in a user's code
 
 
@@ -51,9 +52,12 @@ def did_you_mean(word: str, options: Iterable[str]) -> str | None:
     """A sentence with the nearest known word, or the list of known words if none is near."""
     known = sorted(options)
     by_lower = {option.lower(): option for option in known}
-    near = get_close_matches(word.lower(), by_lower, n=1, cutoff=0.6)
+    # A whole word of names, as "length" of "nominal_length" and "thread_length", may mean each of them.
+    near = [word.lower()] if word.lower() in by_lower else []
+    near = near or [option for option in by_lower if word.lower() in _WORDS.split(option)]
+    near = near or get_close_matches(word.lower(), by_lower, n=1, cutoff=0.6)
     if not near:  # near to a part of a name, as "blader" to "bladder_elasticity"
-        parts = [(p, option) for option in by_lower for p in re.split(r"[^a-z0-9]+", option) if len(p) > 3]
+        parts = [(p, option) for option in by_lower for p in _WORDS.split(option) if len(p) > 3]
         nearest = get_close_matches(word.lower(), {part for part, _ in parts}, n=1, cutoff=0.75)
         near = [option for part, option in parts if part in nearest]
     if len(near) == 1:

@@ -224,7 +224,7 @@ def compiled_driven(effects: tuple[Effect, ...], motion: bool, level: int = 0) -
 def compile_system(
     model: DriveModel | DrivenModel, level: int = 0, effects: tuple[Effect, ...] = ()
 ) -> CompiledDrive:
-    """Machine code of a system and of its exact Jacobian; a typed term among ``effects`` is named in errors."""
+    """Machine code of a system and of its exact Jacobian; errors name a typed term among ``effects``."""
     states = list(model.symbols.values())
     clock = [state.name for state in model.states].index(_CLOCK)
     invariants = Invariants(model.parameters.values())
