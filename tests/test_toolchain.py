@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 import sysconfig
@@ -11,6 +10,8 @@ from pathlib import Path
 
 import pytest
 from deno import find_deno_bin
+
+from tests.pyright_environment import pyright_environment
 
 ROOT = Path(__file__).parents[1]
 FRONTEND = ROOT / "frontend"
@@ -21,11 +22,10 @@ PYTHON = ("backend", "tests")
 def check(command: Sequence[str], tmp_path: Path) -> None:
     """Run a tool at the root of the checkout, offline and with caches of its own; fail with its report."""
     environment = {
-        **os.environ,
+        **pyright_environment(),
         "NO_COLOR": "1",
         "DENO_DIR": str(tmp_path / "deno"),
         "DENO_NO_UPDATE_CHECK": "1",
-        "PYRIGHT_PYTHON_IGNORE_WARNINGS": "1",  # else it asks the network for a newer version of itself
     }
     run = subprocess.run(
         command,

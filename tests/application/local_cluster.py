@@ -1,4 +1,4 @@
-"""A Dask scheduler with two workers on this machine."""
+"""A Dask scheduler with workers on this machine."""
 
 from __future__ import annotations
 
@@ -14,21 +14,25 @@ _HERE = ("--host", "127.0.0.1")
 
 
 class LocalCluster:
-    """A scheduler and two workers, each a process of its own.
+    """A scheduler and workers, each a process of its own.
+
+    Args:
+        folder: for their files.
+        workers: how many.
 
     Attributes:
         address: of the scheduler.
         workers: their processes.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, *, workers: int = 2) -> None:
         self._folder = folder
         self._scheduler = self._start("scheduler", *_HERE, "--port", "0", "--no-dashboard",
                                       "--scheduler-file", str(folder / "scheduler.json"))  # fmt: skip
         self.workers = [
             self._start("worker", *_HERE, "--scheduler-file", str(folder / "scheduler.json"),
                         "--nthreads", "1", "--no-nanny", "--no-dashboard")
-            for _ in range(2)
+            for _ in range(workers)
         ]  # fmt: skip
         end = time.monotonic() + 60.0
         while not (file := folder / "scheduler.json").exists() or not file.read_text():

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -23,12 +24,15 @@ from tests.application.test_keep import MODEL
 from tests.application.test_study import SHORT, patient, question
 from tests.shipped import shipped_studio
 
-pytest.importorskip("distributed", reason="needs the extra cluster: pip install 'mckibben[cluster]'")
+# Not by importing it: that takes a second, which each process of the suite would spend.
+pytestmark = pytest.mark.skipif(
+    find_spec("distributed") is None, reason="needs the extra cluster: pip install 'mckibben[cluster]'"
+)
 
 
-@pytest.fixture(scope="module")
-def cluster(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LocalCluster]:
-    started = LocalCluster(tmp_path_factory.mktemp("dask"))
+@pytest.fixture
+def cluster(request: pytest.FixtureRequest, tmp_path: Path) -> Iterator[LocalCluster]:
+    started = LocalCluster(tmp_path, workers=request.param)
     yield started
     started.stop()
 
@@ -39,6 +43,7 @@ def studio() -> Studio:
 
 
 @pytest.mark.examination("test_a_lost_scheduler_pauses_the_study")
+@pytest.mark.parametrize("cluster", [2], indirect=True)
 def test_two_workers_one_killed_give_the_table_of_one_process(cluster: LocalCluster, studio: Studio) -> None:
     asked = question(studio, method={"type": "monte_carlo", "runs": 120, "seed": 3})
     alone = prepare(asked)(patient()).table
@@ -58,8 +63,8 @@ def test_two_workers_one_killed_give_the_table_of_one_process(cluster: LocalClus
     assert one.table == alone
 
 
+@pytest.mark.parametrize("cluster", [1], indirect=True)
 def test_a_lost_scheduler_pauses_the_study(cluster: LocalCluster, studio: Studio, tmp_path: Path) -> None:
-    """Last of the tests with the cluster: it ends the scheduler."""
     asked, journal = question(studio, method={"type": "monte_carlo", "runs": 40, "seed": 3}), tmp_path / "j"
 
     def kept(resume: bool) -> Journal:

@@ -5,22 +5,19 @@ The suite checks all files with ty in a tenth of that, and with pyright the publ
 
 from __future__ import annotations
 
-import os
 import subprocess
 import sys
 from pathlib import Path
+
+from tests.pyright_environment import pyright_environment
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
 def main() -> int:
     """Run pyright as pyproject.toml says; its exit code."""
-    offline = {
-        **os.environ,
-        "PYRIGHT_PYTHON_IGNORE_WARNINGS": "1",
-    }  # else it asks for a newer version of itself
     command = [sys.executable, "-m", "pyright", "--pythonpath", sys.executable]
-    return subprocess.call(command, cwd=ROOT, env=offline)
+    return subprocess.call(command, cwd=ROOT, env=pyright_environment())
 
 
 if __name__ == "__main__":

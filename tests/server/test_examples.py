@@ -4,11 +4,9 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterator
-from pathlib import Path
 from typing import Any
 
 import pytest
-from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from mckibben.documents.study import StudyDocument
@@ -17,6 +15,7 @@ from mckibben.server.schemas.diagnoses import DiagnosisRequest
 from mckibben.server.schemas.sizing_reports import SizingReportRequest
 from mckibben.server.settings import Settings
 from tests.server.conftest import CSV, URL
+from tests.server.typescript import published
 
 # Seconds of search each: their examples are read by their models, and what they hold is asked elsewhere here.
 LONG = {
@@ -76,7 +75,7 @@ def own_client(tmp_path_factory: pytest.TempPathFactory) -> Iterator[TestClient]
         yield client
 
 
-DOCUMENT = create_app(Settings(data=Path("unused"), user_presets=Path("unused"))).openapi()
+DOCUMENT = published()
 EXAMPLES = list(examples(DOCUMENT))
 
 
@@ -151,7 +150,3 @@ def test_the_example_of_a_diagnosis_leaves_no_question_open(own_client: TestClie
     answer = own_client.post("/api/experiments", json=value)
     assert answer.status_code == 200, answer.text
     assert answer.json()["problem"] is None
-
-
-def test_the_examples_do_not_depend_on_the_settings(app: FastAPI) -> None:
-    assert list(examples(app.openapi())) == EXAMPLES

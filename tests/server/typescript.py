@@ -13,6 +13,7 @@ import json
 import re
 import sys
 from collections.abc import Iterator
+from functools import cache
 from pathlib import Path
 from typing import Any
 
@@ -27,6 +28,13 @@ _METHODS = ("get", "put", "post", "delete", "patch")
 Schema = dict[str, Any]
 
 
+@cache
+def published() -> Schema:
+    """The committed OpenAPI document, which a test of ``test_openapi.py`` holds to be that of the server."""
+    return json.loads((FOLDER / "openapi.json").read_text("utf-8"))
+
+
+@cache
 def generated_files() -> dict[str, str]:
     """File name -> text, the same on every machine."""
     document = create_app().openapi()

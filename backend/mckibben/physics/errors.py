@@ -62,7 +62,7 @@ def did_you_mean(word: str, options: Iterable[str]) -> str | None:
         near = [option for part, option in parts if part in nearest]
     if len(near) == 1:
         return f"Did you mean '{by_lower[near[0]]}'?"
-    if 1 < len(near) <= 4:
+    if 1 < len(near) <= 6:
         return f"Did you mean one of {', '.join(sorted(by_lower[option] for option in near))}?"
     return f"Known: {', '.join(known)}." if 0 < len(known) <= 60 else None
 
