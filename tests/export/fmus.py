@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from dataclasses import replace
 from pathlib import Path
 from typing import Any
@@ -15,6 +16,7 @@ from mckibben.export.fmu.variables import PLAY, Plant
 from mckibben.export.subject import Subject
 from mckibben.simulation.drive.transient import Run, simulate
 from mckibben.simulation.timing.of_run import timing_of, trace_of
+from tests.one_at_a_time import one_at_a_time
 
 STRICT = Compiler("linux64", (("", ("gcc", "-Wall", "-Wextra", "-Werror", "-pedantic")),))
 KINDS = ("CoSimulation", "ModelExchange")
@@ -28,6 +30,23 @@ def fmu_of(subject: Subject, folder: Path, name: str, dialect: Dialect = FMI2) -
     path = folder / file.name
     path.write_bytes(file.content)
     return path
+
+
+def shared_fmu(subject: Subject, base: Path, name: str, dialect: Dialect = FMI2) -> Path:
+    """As `fmu_of`, compiled by one of the processes of the suite for all modules.
+
+    Args:
+        base: pytest's temporary folder of this process (``tmp_path_factory.getbasetemp()``).
+    """
+    shared = base.parent if os.environ.get("PYTEST_XDIST_WORKER") else base
+    folder = shared / f"fmu-{name}-{dialect.version}"
+    with one_at_a_time(shared / f"{folder.name}.lock"):
+        if not folder.exists():
+            made = folder.with_suffix(".part")  # complete, or not there
+            made.mkdir(exist_ok=True)
+            fmu_of(subject, made, name, dialect)
+            made.rename(folder)
+    return next(folder.iterdir())
 
 
 def simulated(path: Path, subject: Subject, kind: str, *, interval: float = 1e-3, **more: Any) -> np.ndarray:

@@ -35,6 +35,7 @@ from tests.export.fmus import (
     opening_signal,
     our_run,
     position_error,
+    shared_fmu,
     simulated,
     timing_error,
 )
@@ -66,9 +67,9 @@ def subject_named(name: str) -> Subject:
 @pytest.fixture(scope="module")
 def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Subject, Path]]:
     pytest.importorskip("fmpy", reason="FMPy is not installed")
-    folder = tmp_path_factory.mktemp("fmus")
+    base = tmp_path_factory.getbasetemp()
     models = {name: subject_named(name) for name in (*DRIVES, MUSCLE)}
-    return {name: (model, fmu_of(model, folder, name)) for name, model in models.items()}
+    return {name: (model, shared_fmu(model, base, name)) for name, model in models.items()}
 
 
 @gcc

@@ -18,7 +18,7 @@ from mckibben.export.fmu.build import Compiler, built
 from mckibben.export.fmu.dialects import FMI2, FMI3, Dialect
 from mckibben.export.fmu.variables import INDICATOR, OUTPUT, PARAMETER, PLAY, RATE, STATE, SWITCH, TIME, Plant
 from mckibben.export.subject import Subject, subject_of
-from tests.export.fmus import KINDS, fmu_of, opening_signal, our_run, position_error, simulated
+from tests.export.fmus import KINDS, opening_signal, our_run, position_error, shared_fmu, simulated
 from tests.export.models import studio, subject
 from tests.export.test_fmu import DRIVES, MUSCLE, subject_named
 from tests.export.test_formats import hostile, hostile_saved
@@ -30,11 +30,11 @@ pytestmark = pytest.mark.skipif(shutil.which("gcc") is None, reason="gcc is not 
 def fmus(tmp_path_factory: pytest.TempPathFactory) -> dict[str, tuple[Subject, Path, Path]]:
     """Of each model its FMU of FMI 2.0 and of 3.0."""
     pytest.importorskip("fmpy", reason="FMPy is not installed")
-    folder = tmp_path_factory.mktemp("fmus")
+    base = tmp_path_factory.getbasetemp()
     found = {}
     for name in (*DRIVES, MUSCLE):
         model = subject_named(name)
-        one, other = (fmu_of(model, folder, f"{name}-{n}", each) for n, each in enumerate((FMI2, FMI3)))
+        one, other = (shared_fmu(model, base, name, each) for each in (FMI2, FMI3))
         found[name] = model, one, other
     return found
 
