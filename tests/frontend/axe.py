@@ -20,6 +20,22 @@ _COLOURS: dict[str, Any] = {
     "resultTypes": ["violations"],
     "runOnly": {"type": "rule", "values": ["color-contrast", "link-in-text-block"]},
 }
+_NO_COLOURS = {rule: {"enabled": False} for rule in _COLOURS["runOnly"]["values"]}
+# Reading the colours of every text is more than half of the work; texts of one kind have the same ones.
+_SAMPLED = """() => {
+  const seen = {};
+  const kind = (element) => element && element.tagName + "." + element.getAttribute("class");
+  for (const text of document.querySelectorAll("body *")) {
+    if (![...text.childNodes].some((node) => node.nodeType === Node.TEXT_NODE && node.data.trim())) continue;
+    const { color, backgroundColor } = getComputedStyle(text), above = text.parentElement;
+    const key = [kind(text), kind(above), kind(above.parentElement), color, backgroundColor].join();
+    seen[key] = (seen[key] ?? 0) + 1;
+    text.toggleAttribute("data-sampled", seen[key] <= 2);
+  }
+}"""
+_UNSAMPLED = """() => {
+  for (const text of document.querySelectorAll("[data-sampled]")) text.removeAttribute("data-sampled");
+}"""
 
 
 def violations(page: Page, within: str = "body", *, themes: int = 1) -> list[str]:
@@ -27,8 +43,8 @@ def violations(page: Page, within: str = "body", *, themes: int = 1) -> list[str
 
     Args:
         within: the only part that is looked at, as a CSS selector: a dialog, a panel, a menu just opened.
-        themes: 2: and to its colours in the other theme, which costs half as much again. Every view is looked
-            at in the other theme by an examination (test_accessibility.py).
+        themes: 1: of the whole page, the colours of two texts of each kind. 2: the colours of all texts, in
+            both themes; every view is looked at so by an examination (test_accessibility.py).
     """
     page.locator(within).filter(visible=True).first.wait_for()
     theme = page.locator("html").get_attribute("data-theme")
@@ -40,6 +56,12 @@ def violations(page: Page, within: str = "body", *, themes: int = 1) -> list[str
         )
         found = _objections(page, _ALL, theme, within)
         hidden.evaluate("(style) => style.remove()")
+        return found
+    if themes == 1 and within == "body":
+        found = _objections(page, _ALL | {"rules": _ALL["rules"] | _NO_COLOURS}, theme, within)
+        page.evaluate(_SAMPLED)
+        found += _objections(page, _COLOURS, theme, "[data-sampled]")
+        page.evaluate(_UNSAMPLED)
         return found
     found = _objections(page, _ALL, theme, within)
     if themes == 2:
