@@ -205,7 +205,7 @@ def check_drive_claims(effect: Effect) -> None:
     assert (signature.energy == "reading") == bool(channels)
     if "guide" in slots:
         for speed in (-1.0, -SPEED, SPEED, 1.0):
-            context = {"stroke": 0.01, "speed": speed, "direction": math.copysign(1.0, speed)}
+            context = {"stroke": 0.01, "speed": speed, "direction": math.copysign(1.0, speed), "load": 200.0}
             values = effect.defaults | _slid(effect, context, way=0.1)
             assert effect.call("guide", context, values) * speed > 0.0
         assert signature.energy == "dissipative"

@@ -39,6 +39,7 @@ RANGES: dict[str, tuple[float, float]] = {
     "force": (0.0, 1500.0),
     "stroke": (-0.01, 0.08),
     "speed": (-1.0, 1.0),
+    "load": (0.0, 1500.0),
     "reading": (-1e5, 1e6),
     "instant_pressure_reading": (0.0, 8e5),
     "instant_force_reading": (-20.0, 1500.0),

@@ -29,6 +29,7 @@ from collections.abc import Mapping
 
 import symengine as se
 
+from mckibben.physics import ops
 from mckibben.physics.chamber import SIGN_SPEED, Motion, Side, muscle_side, sign_of, with_energy_balance
 from mckibben.physics.drive_terms import (
     CONSTANTS,
@@ -183,10 +184,11 @@ class DriveModel:
         factor = model.product("load_factor", values, {})
         inertia = factor * c["mass"] + c["own_mass"] + model.sum("inertia", values, {"muscle": muscle})
         direction = sign_of(velocity=speed, sign_speed=self._sign_speed)
-        guide = model.sum("guide", values, {"stroke": stroke, "speed": speed, "direction": direction})
         lever = c["lever_ratio"]
         hung = model.sum("hung_mass", values, {}) * c["gravity"]
-        resisting = factor * (c["mass"] * c["gravity"] + external) + hung + guide
+        load = factor * (c["mass"] * c["gravity"] + external) + hung
+        guided = {"stroke": stroke, "speed": speed, "direction": direction, "load": ops.absolute(load)}
+        resisting = load + model.sum("guide", values, guided)
         return lever**2 * pull - lever * resisting - c["spring"] * stroke, inertia
 
     def _values(self, model: Model, states: Mapping[str, Value]) -> dict[str, dict[str, Value]]:

@@ -123,11 +123,12 @@ def _equations(
     if motion:
         factor = model.product("load_factor", values, {})
         inertia = factor * c["mass"] + c["own_mass"] + model.sum("inertia", values, {"muscle": muscle})
-        guide = model.sum("guide", values, {"stroke": stroke, "speed": speed, "direction": -direction})
         external = u["external_force"] + u["external_force_slope"] * passed
         lever = c["lever_ratio"]
         hung = model.sum("hung_mass", values, {}) * c["gravity"]
-        resisting = factor * (c["mass"] * c["gravity"] + external) + hung + guide
+        load = factor * (c["mass"] * c["gravity"] + external) + hung
+        guided = {"stroke": stroke, "speed": speed, "direction": -direction, "load": ops.absolute(load)}
+        resisting = load + model.sum("guide", values, guided)
         net = lever**2 * force - lever * resisting - c["spring"] * stroke
         switches = stop_switches(constants=c, stroke=stroke, net_force=net)
         rates["stroke"] = speed

@@ -111,7 +111,11 @@ SLOTS: dict[str, Slot] = {
     "inertia": Slot("mass that moves with the load [kg]", ("muscle",), "sum"),
     "hung_mass": Slot("mass whose weight acts on the load besides its own [kg]", (), "sum"),
     "load_factor": Slot("multiplies mass and force of the load [-]", (), "product"),
-    "guide": Slot("force of the guide against the motion [N]", ("stroke", "speed", "direction"), "sum"),
+    "guide": Slot(
+        "force of the guide against the motion [N]; load is the force of the load along it, unsigned",
+        ("stroke", "speed", "direction", "load"),
+        "sum",
+    ),
     "drive_rates": Slot("rates of the effect's states in the drive, in their order", _DRIVE, "concatenate"),
     "pressure_reading": Slot("measured gauge pressure [Pa]", ("reading",), "chain"),
     "force_reading": Slot("measured force [N]", ("reading",), "chain"),

@@ -184,7 +184,7 @@ def test_guide_friction_holds_then_slides() -> None:
     values = {"force": 5.0, "static_share": 0.4, "stribeck_speed": 0.01, "break_way": 1e-4}
 
     def force(speed: float, states: dict[str, np.ndarray]) -> np.ndarray:
-        return effect.call("guide", {"speed": speed}, {**effect.defaults, **values, **states})
+        return effect.call("guide", {"speed": speed, "load": 0.0}, {**effect.defaults, **values, **states})
 
     time = np.linspace(0.0, 1.0, 10001)
     turned = 0.5
@@ -206,4 +206,11 @@ def test_guide_friction_holds_then_slides() -> None:
 def test_guide_friction_of_grease_grows_with_the_speed() -> None:
     guide = CATALOGUE["guide_friction"]
     values = {**guide.defaults, "force": 0.0, "coefficient": 10.0, "presliding": 1.0}
-    assert guide.call("guide", {"speed": -0.3}, values) == pytest.approx(-3.0)
+    assert guide.call("guide", {"speed": -0.3, "load": 0.0}, values) == pytest.approx(-3.0)
+
+
+def test_guide_friction_grows_with_the_load_that_presses_on_it() -> None:
+    """Coulomb's law: 5 N of the seals, and 2 % of a load of 400 N."""
+    guide = CATALOGUE["guide_friction"]
+    values = {**guide.defaults, "force": 5.0, "load_share": 0.02, "presliding": -1.0}
+    assert guide.call("guide", {"speed": 0.0, "load": 400.0}, values) == pytest.approx(-13.0)

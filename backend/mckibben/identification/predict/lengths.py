@@ -117,6 +117,7 @@ def _load(stated: np.ndarray, fit_model: FitModel, state: State, length: np.ndar
         "stroke": fit_model.muscle.nominal_length - length,
         "speed": -creeping,
         "direction": -state["direction"],
+        "load": np.abs(stated + fit_model.load),
     }
     guides = [effect for effect in fit_model.effects if "guide" in effect.slots]
     values = {

@@ -2,12 +2,13 @@ r"""Friction of the load's guide: presliding and sliding friction, and a viscous
 
 With the share z of the friction at high speed
 
-.. math:: F_g = F_{cg}\,z + c_g\,\dot s, \qquad x_g\,\dot z = \dot s - \frac{|\dot s|\,z}{g},
+.. math:: F_g = (F_{cg} + \mu_g |W|)\,z + c_g\,\dot s, \qquad x_g\,\dot z = \dot s - \frac{|\dot s|\,z}{g},
    \quad g = 1 + \varsigma\,e^{-|\dot s|/v_s}, \quad \varsigma = F_{sg}/F_{cg} - 1
 
 After a travel of a few x_g it reaches :math:`F_{cg}\,g\operatorname{sgn}\dot s`, which falls with the speed
-if there is a static excess (Stribeck). Over a shorter travel the guide acts like a spring. The friction acts
-on the load, so a force sensor at the muscle does not see it.
+if there is a static excess (Stribeck). Over a shorter travel the guide acts like a spring. A load beside
+the axis of the guide presses its contacts together with a share of its force W, which adds
+:math:`\mu_g |W|`. The friction acts on the load, so a force sensor at the muscle does not see it.
 """
 
 from mckibben.physics import ops
@@ -16,9 +17,11 @@ from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
 
-def guide(*, presliding: Value, speed: Value, force: Value, coefficient: Value) -> Value:
-    """F_cg z + c_g v [N], positive against a growing stroke."""
-    return force * presliding + coefficient * speed
+def guide(
+    *, presliding: Value, speed: Value, load: Value, force: Value, coefficient: Value, load_share: Value
+) -> Value:
+    """(F_cg + mu_g |W|) z + c_g v [N], positive against a growing stroke."""
+    return (force + load_share * load) * presliding + coefficient * speed
 
 
 def drive_rates(
@@ -40,7 +43,7 @@ EFFECT = Effect(
     type="rate",
     cause="The carriage, its seals and the pulleys rub while the load moves. On the way up the load "
     "receives less force than the muscle exerts; on the way down the muscle has to hold less.",
-    equation=r"F_g = F_{cg}\,z + c_g\,\dot s,\quad x_g\,\dot z = \dot s - "
+    equation=r"F_g = (F_{cg} + \mu_g |W|)\,z + c_g\,\dot s,\quad x_g\,\dot z = \dot s - "
     r"\frac{|\dot s|\,z}{1+\varsigma\,e^{-|\dot s|/v_s}}",
     parameters=(
         Parameter(
@@ -63,6 +66,18 @@ EFFECT = Effect(
             upper=500.0,
             source=Source("grease and seals of linear guides", "E"),
             description="Friction in proportion to the speed of the load.",
+            off=0.0,
+            fitted=False,
+        ),
+        Parameter(
+            "load_share",
+            r"\mu_g",
+            "1",
+            default=0.0,
+            lower=0.0,
+            upper=0.3,
+            source=_RANGE,
+            description="Share of the load's force by which the friction grows.",
             off=0.0,
             fitted=False,
         ),
@@ -127,12 +142,12 @@ EFFECT = Effect(
     examples=(
         Example(
             "slot:guide",
-            -7.0,
+            -9.0,
             1e-12,
             _DEFINITION,
-            {"force": 5.0, "coefficient": 20.0},
+            {"force": 5.0, "coefficient": 20.0, "load_share": 0.02},
             {},
-            {"presliding": -1.0, "speed": -0.1},
+            {"presliding": -1.0, "speed": -0.1, "load": 100.0},
         ),
         Example(
             "slot:drive_rates",
