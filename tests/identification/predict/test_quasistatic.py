@@ -187,7 +187,14 @@ def test_length_under_an_unknown_load():
     assert np.all(exact > 0.0)
 
 
-def test_dry_friction_holds_a_length_between_two_branches():
+@pytest.mark.parametrize(
+    ("effect", "values"),
+    [
+        ("coulomb_friction", {"force": 40.0}),
+        ("guide_friction", {"force": 15.0, "load_share": 0.1}),  # of 250 N
+    ],
+)
+def test_dry_friction_holds_a_length_between_two_branches(effect, values):
     """Pressure up and down under a load: the length follows one branch, sticks, and follows the other."""
     pressure = np.concatenate([np.linspace(3e5, 6e5, 31), np.linspace(5.9e5, 3e5, 30)])
     branches = {sign: np.array([length_under(250.0 + sign * 40.0, p) for p in pressure]) for sign in (1, -1)}
@@ -203,13 +210,16 @@ def test_dry_friction_holds_a_length_between_two_branches():
     predictor = predictor_of(
         csv(rows, "time_s,pressure_bar,length_mm", "kind: isotonic", "load_force: 250 N"), MUSCLE
     )
-    model = fit_model(coulomb_friction={"force": 40.0})
+    model = fit_model(**{effect: values})
     found = predictor.predict(model)
     assert found[1:] == pytest.approx(predictor.measured[1:], abs=1e-6)
     assert np.ptp(found[31:34]) < 1e-9  # it sticks at the turn
-    gradient = predictor.linearised(model, free_numbers(model))[1][:, 0]
     assert isinstance(predictor, QuasistaticPredictor)
-    assert_alike(gradient[2:], central(predictor, model, "coulomb_friction.force", 0.01)[2:], 1e-2)
+    for name in values:
+        named = f"{effect}.{name}"
+        gradient = predictor.linearised(model, numbers(model, [named]))[1][:, 0]
+        step = 1e-3 * values[name]
+        assert_alike(gradient[2:], central(predictor, model, named, step)[2:], 1e-2)
 
 
 def test_a_load_beyond_the_braid_lock_ends_there():

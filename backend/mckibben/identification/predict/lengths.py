@@ -26,6 +26,7 @@ _LARGEST_STEP = 0.02  # per Newton step, share of the nominal length
 _SHORTEST = 0.35  # shortest length of the search, share of the nominal length
 _CREEP = 1e-9  # m/s; speed that carries the direction where the measured speed is 0
 _STEP = 1e-3  # difference step of a guide's parameter, share of its range
+_LOAD_STEP = 1.0  # N; on a guide the friction may grow with the load, which it does in proportion
 
 LengthAndGradient = tuple[np.ndarray, np.ndarray]
 
@@ -104,7 +105,7 @@ def _balance(
     out, gradient = evaluation.at(fit_model, names, {**state, "length": length})
     gradient = -gradient
     for column, name in enumerate(names):
-        gradient[:, column] += _load_slope(name, fit_model, state, length)
+        gradient[:, column] += _load_slope(name, fit_model, task.state["load"], state, length)
     slope = out["force_by_length"]
     inside = (length > low) & (length < high) & (slope > 0.0)
     return length, np.where(inside[:, None], gradient / np.where(inside, slope, 1.0)[:, None], 0.0)
@@ -139,17 +140,19 @@ def _sliding(
     return {s.name: low / (low - high) for s, low, high in zip(effect.states, empty, full, strict=True)}
 
 
-def _load_slope(name: str, fit_model: FitModel, state: State, length: np.ndarray) -> np.ndarray | float:
+def _load_slope(
+    name: str, fit_model: FitModel, stated: np.ndarray, state: State, length: np.ndarray
+) -> np.ndarray | float:
     if name == LOAD:
-        return 1.0
-    effect = next((e for e in fit_model.effects if e.id == name.partition(".")[0]), None)
-    if effect is None or "guide" not in effect.slots:
-        return 0.0
-    declared = effect.parameter(name.partition(".")[2])
-    step = _STEP * (declared.upper - declared.lower)
-    zero = np.zeros(len(length))
+        step = _LOAD_STEP
+    else:
+        effect = next((e for e in fit_model.effects if e.id == name.partition(".")[0]), None)
+        if effect is None or "guide" not in effect.slots:
+            return 0.0
+        declared = effect.parameter(name.partition(".")[2])
+        step = _STEP * (declared.upper - declared.lower)
     here = fit_model.number(name)
     ends = [
-        _load(zero, fit_model.with_numbers([name], [value]), state, length) for value in (here, here + step)
+        _load(stated, fit_model.with_numbers([name], [value]), state, length) for value in (here, here + step)
     ]
     return (ends[1] - ends[0]) / step
