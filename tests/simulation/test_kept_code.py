@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import select
+import subprocess
 import sys
 import time
 from collections.abc import Iterator
@@ -11,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from mckibben.simulation import kept_code
-from mckibben.simulation.kept_code import keep, kept
+from mckibben.simulation.kept_code import keep, kept, one_process_at_a_time
 
 
 @pytest.fixture
@@ -33,6 +35,23 @@ def test_code_is_found_by_its_key(place: Path) -> None:
     keep(b"two", b"other code")
     assert (kept(b"one"), kept(b"two"), kept(b"three")) == (b"code", b"other code", None)
     assert len(files(place)) == 2
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="files are not locked there")
+def test_a_second_process_waits_until_the_first_has_compiled(place: Path) -> None:
+    code = (
+        "from mckibben.simulation.kept_code import one_process_at_a_time\n"
+        "print('ready', flush=True)\n"
+        "with one_process_at_a_time('kernels'):\n    print('mine', flush=True)\n"
+    )
+    with one_process_at_a_time("kernels"):
+        other = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True)
+        assert other.stdout is not None
+        assert other.stdout.readline() == "ready\n"
+        assert not select.select([other.stdout], [], [], 0.3)[0]  # it does not come any further
+    with other:
+        assert other.stdout.read() == "mine\n"
+    assert other.returncode == 0
 
 
 @pytest.mark.parametrize("spoilt", [b"", b"short", b"\0" * 40])

@@ -62,6 +62,7 @@ async def finished(
     gone = threading.Event()
     watch = Watch(cancelled=gone.is_set, time_limit=time_limit)
     running = asyncio.get_running_loop().run_in_executor(None, lambda: written(work(watch)))
+    running.add_done_callback(_exception_of)
     while True:
         done, _ = await asyncio.wait({running}, timeout=_LOOK_EVERY)
         if done:
@@ -93,8 +94,7 @@ async def _events(work: Work, time_limit: float) -> AsyncIterator[bytes]:
     )
     running = loop.run_in_executor(None, lambda: _event("done", _bytes(work(watch))))
     running.add_done_callback(lambda _: news.put_nowait(None))
-    # Retrieve the exception of cancelled work, which nobody else may do.
-    running.add_done_callback(lambda ended: None if ended.cancelled() else ended.exception())
+    running.add_done_callback(_exception_of)
     try:
         share: object = 0.0
         yield _event("progress", to_json({"share": share}))
@@ -109,6 +109,11 @@ async def _events(work: Work, time_limit: float) -> AsyncIterator[bytes]:
             yield _event("error", bytes(unexpected_answer(error).body))
     finally:
         gone.set()
+
+
+def _exception_of(ended: asyncio.Future[Any]) -> BaseException | None:
+    """Retrieve the exception of work that nobody may wait for any more; asyncio would report it as lost."""
+    return None if ended.cancelled() else ended.exception()
 
 
 async def answered(
@@ -161,13 +166,16 @@ async def whole(
         work = await prepared(request, job.prepare, body, studio, store)
         return await finished(request, work, lambda found: found, time_limit=job.time_limit)
     ending = asyncio.ensure_future(_last(_worked(workers, kind, body)))
-    while True:
-        done, _ = await asyncio.wait({ending}, timeout=_LOOK_EVERY)
-        if done:
-            return ending.result()
-        if await request.is_disconnected():
-            ending.cancel()
-            raise ClientDisconnect
+    ending.add_done_callback(_exception_of)
+    try:
+        while True:
+            done, _ = await asyncio.wait({ending}, timeout=_LOOK_EVERY)
+            if done:
+                return ending.result()
+            if await request.is_disconnected():
+                raise ClientDisconnect
+    finally:
+        ending.cancel()
 
 
 def contained(request: Request, body: object) -> bool:

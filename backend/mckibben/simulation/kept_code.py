@@ -8,9 +8,11 @@ from __future__ import annotations
 
 import os
 import platform
+import sys
 import tempfile
 import time
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import ExitStack, contextmanager, suppress
 from functools import cache
 from hashlib import blake2b
 from pathlib import Path
@@ -49,6 +51,28 @@ def keep(key: bytes, code: bytes) -> None:
             os.replace(name, folder / _name(key))  # at once: no other process ever reads a part
         except OSError:
             Path(name).unlink(missing_ok=True)
+
+
+@contextmanager
+def one_process_at_a_time(what: str) -> Iterator[None]:
+    """Hold back other processes of this machine that compile the same; they find it compiled then.
+
+    Where files cannot be locked, each compiles for itself.
+
+    Args:
+        what: is compiled, part of the name of a file.
+    """
+    folder = _folder()
+    if folder is None or sys.platform == "win32":
+        yield
+        return
+    import fcntl
+
+    with ExitStack() as held:
+        with suppress(OSError):
+            file = held.enter_context((folder / f"{what}.lock").open("ab"))
+            fcntl.lockf(file, fcntl.LOCK_EX)  # of this process alone: a fork does not hold it on
+        yield
 
 
 def _name(key: bytes) -> str:

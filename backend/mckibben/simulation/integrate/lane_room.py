@@ -12,6 +12,7 @@ import numpy as np
 from mckibben.simulation.integrate.background import Background
 from mckibben.simulation.integrate.lane_code import aligned
 from mckibben.simulation.integrate.system import CompiledDrive
+from mckibben.simulation.kept_code import one_process_at_a_time
 
 _KEPT_ROOMS = 4  # of a structure and its columns, for as many threads
 
@@ -31,13 +32,15 @@ class LaneKernels(NamedTuple):
 
 
 def _load() -> LaneKernels:
-    # numba: 1 s cached, 20 s the first time ever; one after the other, what every run needs first.
-    from mckibben.simulation.integrate.lane_control import CONTROL_ROWS
-    from mckibben.simulation.integrate.lane_controller import NO_LOOP
-    from mckibben.simulation.integrate.lane_kernel import rodas4_lanes
-    from mckibben.simulation.integrate.lane_rows import ENTRIES, NUMBERS, WINDOW
-    from mckibben.simulation.integrate.lane_type import LANES
-    from mckibben.simulation.integrate.repeated import call_blocks, find_roots
+    # numba: half a second cached, 20 s the first time ever, of which server and worker would take the cores
+    # from each other; one after the other, what every run needs first.
+    with one_process_at_a_time("lane-kernels"):
+        from mckibben.simulation.integrate.lane_control import CONTROL_ROWS
+        from mckibben.simulation.integrate.lane_controller import NO_LOOP
+        from mckibben.simulation.integrate.lane_kernel import rodas4_lanes
+        from mckibben.simulation.integrate.lane_rows import ENTRIES, NUMBERS, WINDOW
+        from mckibben.simulation.integrate.lane_type import LANES
+        from mckibben.simulation.integrate.repeated import call_blocks, find_roots
 
     return LaneKernels(
         rodas4_lanes, call_blocks, find_roots, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS, NO_LOOP
