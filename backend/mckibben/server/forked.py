@@ -1,4 +1,4 @@
-"""What the fork server loads before it makes a worker: the program, and silence for a worker too late.
+"""What the fork server loads before it makes a worker: program and units, and silence for a worker too late.
 
 A worker that is made while its pool ends does not find the pool's locks any more. Nobody waits for it, and a
 traceback of it among the last lines of the server would look like a fault.
@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from types import TracebackType
 
-import mckibben.server.worker  # noqa: F401 - so that no worker needs to load it
+from mckibben.server.worker import load_readers
 
 _LOCKS = "multiprocessing.synchronize"
 
@@ -29,3 +29,4 @@ def _show(kind: type[BaseException], error: BaseException, trace: TracebackType 
 
 
 sys.excepthook = _show
+load_readers()  # with the units, which presets need too: a third of the start of each worker

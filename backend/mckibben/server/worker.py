@@ -72,6 +72,11 @@ class _Own:
 _own: _Own | None = None
 
 
+def load_readers() -> None:
+    """Import what every measurement file needs."""
+    read_measurement(_ANY_FILE, "any.csv")
+
+
 def begin(settings: Settings, memory: int, compiled: bool) -> None:
     """Open presets and store, and take the limits of a worker; called once in each process.
 
@@ -94,7 +99,7 @@ def begin(settings: Settings, memory: int, compiled: bool) -> None:
     if compiled:
         lane_kernels.warm().join(_KERNELS_WITHIN)
     else:
-        read_measurement(_ANY_FILE, "any.csv")  # loads what every file needs
+        load_readers()
     _own = _Own(studio, MeasurementStore(settings.data, quota=settings.quota), memory)
     gc.freeze()  # what is loaded by now stays; looking at it again would stop a job for a tenth of a second
 
