@@ -1709,6 +1709,8 @@ export interface components {
       memory: number | null;
       /** Program -> version. */
       versions: { [key: string]: string };
+      /** Whether the integrators are being compiled for this machine: once after an installation, about 20 s of a core. What needs them waits. */
+      compiling: boolean;
       /** Whether the server has a folder for the user's presets. */
       can_save_presets: boolean;
     };

@@ -17,9 +17,11 @@ from mckibben.application.json_text import answer_json
 from mckibben.application.text_file import write_text
 from mckibben.physics.errors import InputError
 from mckibben.report.summary import Summary, Table
+from mckibben.simulation.integrate.background import is_compiling
 from mckibben.simulation.outcome import Watch
 
 _SHOWN_AFTER = 1.0  # s
+_COMPILING = "compiling, once on this machine"
 
 
 def write_json(answer: object) -> None:
@@ -97,11 +99,16 @@ def progress(words: str) -> Iterator[Watch]:
 
     Until the work tells a share, the bar only moves; work that cannot tell one need not use the watch.
     """
-    from rich.progress import BarColumn, Progress, TaskProgressColumn, TextColumn, TimeElapsedColumn
+    from rich.progress import BarColumn, Progress, ProgressColumn, TaskProgressColumn, TimeElapsedColumn
+    from rich.text import Text
+
+    class _Words(ProgressColumn):
+        def render(self, _task: object) -> Text:
+            return Text(f"{words} ({_COMPILING})" if is_compiling() else words)
 
     console = Console(stderr=True)
     bar = Progress(
-        TextColumn(words), BarColumn(), TaskProgressColumn(show_speed=False), TimeElapsedColumn(),
+        _Words(), BarColumn(), TaskProgressColumn(show_speed=False), TimeElapsedColumn(),
         console=console, transient=True, disable=not console.is_terminal,
     )  # fmt: skip
     task = bar.add_task(words, total=None)

@@ -9,6 +9,7 @@ from fastapi import APIRouter, Request
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.health import Health
+from mckibben.simulation.integrate.background import is_compiling
 from mckibben.version import __version__
 
 router = APIRouter(prefix="/api/health", tags=["health"], route_class=StrictRoute)
@@ -34,6 +35,7 @@ async def read_health(request: Request) -> JsonAnswer:
                 {"name": name, "processes": lane.processes, "running": lane.running, "waiting": lane.waiting}
                 for name, lane in workers.each.items()
             ],
+            "compiling": is_compiling(),
             "memory": _memory(),
             "versions": request.app.state.versions,
         }

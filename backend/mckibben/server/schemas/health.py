@@ -37,4 +37,8 @@ class Health(Strict):
         description="Most memory that the server itself took so far [bytes]; null on Windows."
     )
     versions: dict[str, str] = Field(description="Program -> version.")
+    compiling: bool = Field(
+        description="Whether the integrators are being compiled for this machine: once after an installation, "
+        "about 20 s of a core. What needs them waits."
+    )
     can_save_presets: bool = Field(description="Whether the server has a folder for the user's presets.")

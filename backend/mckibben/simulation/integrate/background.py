@@ -3,10 +3,21 @@
 from __future__ import annotations
 
 import threading
+import time
 from collections.abc import Callable
 from typing import Generic, TypeVar
 
 Loaded = TypeVar("Loaded")
+_LONG = 2.0  # s; what is only loaded is ready before
+_under_way: dict[str, float] = {}  # name -> when it was begun, see `time.monotonic`
+
+
+def is_compiling() -> bool:
+    """Whether something is being compiled for this machine: it is loaded for longer than loading alone takes.
+
+    That happens once after an installation, for about 20 s of a core; people who wait for it want to know.
+    """
+    return any(time.monotonic() - begun > _LONG for begun in list(_under_way.values()))
 
 
 class Background(Generic[Loaded]):
@@ -49,4 +60,8 @@ class Background(Generic[Loaded]):
         return self._loaded
 
     def _run(self) -> None:
-        self._loaded = self._load()
+        _under_way[self._name] = time.monotonic()
+        try:
+            self._loaded = self._load()
+        finally:
+            del _under_way[self._name]
