@@ -38,7 +38,7 @@ class Health(Strict):
     )
     versions: dict[str, str] = Field(description="Program -> version.")
     compiling: bool = Field(
-        description="Whether the integrators are being compiled for this machine: once after an installation, "
-        "about 20 s of a core. What needs them waits."
+        description="Whether the integrators are being compiled for this machine: once after an "
+        "installation, about 20 s of a core. What needs them waits."
     )
     can_save_presets: bool = Field(description="Whether the server has a folder for the user's presets.")
