@@ -84,6 +84,7 @@ class ComparisonResult:
         rmse: root mean square of the residual.
         nrmse_percent, full_scale: rmse over the largest measured magnitude; this magnitude.
         holdout_rmse: with whole groups left out of the fit; None with one group.
+        fitted: number of fitted values; with 0 ``holdout_rmse`` equals ``rmse``.
         noise_floor, noise_how: noise of the data, None when it cannot be estimated; how it was obtained.
         residual_mean: mean of the residual over its scale.
         channels: each channel where there are several.
@@ -113,6 +114,7 @@ class ComparisonResult:
     nrmse_percent: float
     full_scale: float
     holdout_rmse: float | None
+    fitted: int
     noise_floor: float | None
     noise_how: str
     residual_mean: float
@@ -212,6 +214,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         nrmse_percent=comparison.nrmse_percent,
         full_scale=comparison.full_scale,
         holdout_rmse=comparison.holdout_rmse,
+        fitted=0 if comparison.fit is None else len(comparison.fit.numbers),
         noise_floor=comparison.noise,
         noise_how=comparison.noise_how,
         residual_mean=comparison.residual_mean,

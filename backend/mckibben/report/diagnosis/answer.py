@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from mckibben.application.diagnosis_result import DiagnosisResult, Verdict
+from mckibben.application.compare import ComparisonResult
+from mckibben.application.diagnosis_result import DiagnosisResult, PathPoint, Verdict
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.bars import Bar, bars
 from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
@@ -110,28 +111,27 @@ def _steps(material: DiagnosisMaterial) -> Html:
     rows: list[list[Child]] = []
     drawn: list[Bar] = []
 
-    def add(name: str, rmse: float | None, holdout: float | None, how: str, *, pale: bool = False) -> None:
-        if holdout == rmse:  # no value was fitted, so no group was left out
-            holdout = None
+    def add(name: str, step: PathPoint | ComparisonResult, how: str, *, pale: bool = False) -> None:
+        rmse, holdout = step.rmse, step.holdout_rmse if step.fitted else None
         rows.append([name, how, figure(rmse, scale), figure(holdout, scale)])
         value, tick = (None if number is None else scale.of(number) for number in (rmse, holdout))
         drawn.append(Bar(f"RMS error of {name}", value or 0.0, tick, pale))
 
     for past in material.history:
-        add(past.label, past.comparison.rmse, past.comparison.holdout_rmse, "an earlier model")
+        add(past.label, past.comparison, "an earlier model")
     answer, diagnosis = material.comparison, material.diagnosis
     if diagnosis is None:
-        add("this model", answer.rmse, answer.holdout_rmse, "as given")
+        add("this model", answer, "as given")
     else:
         for number, step in enumerate(diagnosis.path):
             if number == 0:
-                add("this model", step.rmse, step.holdout_rmse, "as given")
+                add("this model", step, "as given")
             elif step.added is None:
-                add("refitted", step.rmse, step.holdout_rmse, "its parameters fitted", pale=True)
+                add("refitted", step, "its parameters fitted", pale=True)
             else:
                 name = f"+ {material.title_of(step.added)}"
                 how = "kept as a correction" if step.correction else "added by the diagnosis"
-                add(name, step.rmse, step.holdout_rmse, how, pale=True)
+                add(name, step, how, pale=True)
     floor = answer.noise_floor if diagnosis is None else diagnosis.noise_floor.rmse
     level = None if floor is None else scale.of(floor)
     columns = [
