@@ -25,6 +25,7 @@ from mckibben.application.measurements import UnreadColumn
 from mckibben.application.model_question import EffectDocument, ModelQuestion
 from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
 from mckibben.application.specimens import Specimens
+from mckibben.identification.digits import brief
 from mckibben.identification.fit.comparison import (
     ChannelMisfit,
     Comparison,
@@ -255,7 +256,7 @@ def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
     """Where the model fails, and whether the residual is noise, in words."""
     factor, shown = (1e3, " mm") if unit == "m" else (1.0, "" if unit == "1" else f" {unit}")
     words = [
-        f"{profile.worst}: {factor * profile.rmse:.3g}{shown} rms; this variable alone predicts "
+        f"{profile.worst}: {brief(factor * profile.rmse)}{shown} rms; this variable alone predicts "
         f"{100.0 * profile.share_explained:.0f} % of the error"
         for profile in where[:3]
         if profile.share_explained > _TELLING
