@@ -25,7 +25,6 @@ from mckibben.application.measurements import UnreadColumn
 from mckibben.application.model_question import EffectDocument, ModelQuestion
 from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
 from mckibben.application.specimens import Specimens
-from mckibben.identification.digits import brief
 from mckibben.identification.fit.comparison import (
     ChannelMisfit,
     Comparison,
@@ -36,6 +35,7 @@ from mckibben.identification.fit.comparison import (
 )
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.predict.specimens import own_muscle
+from mckibben.identification.residual.digits import brief
 from mckibben.identification.residual.parts import ResidualPart, residual_parts
 from mckibben.identification.residual.profiles import (
     Profile,

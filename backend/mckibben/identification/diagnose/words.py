@@ -8,8 +8,8 @@ from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.verdict import Status, is_force
-from mckibben.identification.digits import brief
 from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.residual.digits import brief
 from mckibben.physics.effect import Effect
 
 _REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned

@@ -6,7 +6,7 @@ import math
 
 import pytest
 
-from mckibben.identification.digits import brief
+from mckibben.identification.residual.digits import brief
 
 
 @pytest.mark.parametrize(
