@@ -277,6 +277,8 @@ export interface components {
       full_scale: number | null;
       /** RMSE with whole groups left out of the fit. */
       holdout_rmse: number | null;
+      /** Number of fitted values; with 0 no group was left out of anything. */
+      fitted: number;
       /** Noise of the data, if it can be estimated. */
       noise_floor: number | null;
       /** How the noise was estimated. */
@@ -2726,6 +2728,8 @@ export interface components {
       model: components["schemas"]["ModelJson"];
       /** Constants fitted as well, as effect.parameter. */
       freed: string[];
+      /** Number of fitted values; with 0 no group was left out of anything. */
+      fitted: number;
     };
     /** A pole; of a complex pair the one with the positive imaginary part. */
     Pole: {

@@ -10,7 +10,8 @@ import pytest
 from playwright.sync_api import Page, expect
 
 from tests.frontend.axe import violations
-from tests.frontend.views import enter, load, open_catalogue, open_design
+from tests.frontend.test_layout import SCROLLS
+from tests.frontend.views import enter, load, open_catalogue, open_design, run
 from tests.running_server import RunningServer
 
 pytestmark = pytest.mark.kept_page
@@ -98,6 +99,11 @@ def test_units_of_the_table(page: Page) -> None:
     expect(row).to_contain_text("20 mm")
     page.get_by_label("Units", exact=True).select_option("us")
     expect(row).to_contain_text("0.787 in")
+    page.locator(".kinds button", has_text="Valves").click()
+    flows = {text.partition("\xa0")[2] for text in page.locator(".parts td:last-child").all_inner_texts()}
+    assert flows - {""} == {"ft³/min"}  # one source states that of its valve so, the others l/min
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert run(page, SCROLLS) == []
 
 
 @pytest.fixture
@@ -123,6 +129,10 @@ def test_the_atlas_shows_each_effect_and_puts_it_into_the_model(page: Page) -> N
     cards = page.locator(".atlas-grid > li")
     expect(cards.first.locator("svg")).to_be_visible(timeout=20_000)
     assert cards.count() > 40
+    captions = "return [...document.querySelectorAll('.atlas-grid figcaption, .atlas-grid figure > small')]"
+    lines = run(page, f"{captions}.filter((el) => el.checkVisibility()).map((el) => el.clientHeight);")
+    assert lines
+    assert max(lines) < 24  # one line each
     page.get_by_label("Search the catalogue").fill("coulomb")
     page.locator(".atlas-grid").get_by_role("button", name="Coulomb friction").click()
     detail = page.get_by_role("region", name="Effect", exact=True)

@@ -47,6 +47,7 @@ def sweeps() -> FilePayload:
 
 def test_from_the_empty_page_to_the_noise_in_five_clicks(page: Page, sweeps: FilePayload) -> None:
     open_design(page)
+    page.set_viewport_size({"width": 1440, "height": 1000})  # of a window on a desk, the ladder is in it
     watch_shifts(page)
     drop(page, sweeps)
     page.get_by_role("button", name="Use this file").click()

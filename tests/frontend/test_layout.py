@@ -50,6 +50,26 @@ return [...all].filter((el) => el.checkVisibility() && !el.matches(".skip, label
 """
 
 
+# Boxes that scroll sideways; the first rows of a file and a long equation have no other way.
+SCROLLS = """
+return [...document.querySelectorAll("#main .scroll")]
+  .filter((el) => el.checkVisibility() && el.scrollWidth > el.clientWidth + 2).map((el) => el.ariaLabel);
+"""
+
+# From the legend of the case's plot to its axes [px].
+GAP = """
+const axes = document.querySelector("#overlay-force .bglayer"), card = axes?.closest(".card");
+if (!card?.checkVisibility()) return null;
+return axes.getBoundingClientRect().top - card.querySelector(".legend").getBoundingClientRect().bottom;
+"""
+
+# Decimals of the numbers along the axes of the map; a 0 has none.
+MAP_DECIMALS = """
+const texts = [...document.querySelectorAll(".heat .foot-row th")].map((el) => el.textContent);
+return [...new Set(texts.filter((text) => Number(text)).map((text) => text.split(".")[1]?.length ?? 0))];
+"""
+
+
 @pytest.mark.parametrize("view", OPENERS)
 def test_every_width(page: Page, page_guard: PageGuard, view: str) -> None:
     """No sideways scroll, no overlaps, targets of at least 24 px."""
@@ -62,6 +82,11 @@ def test_every_width(page: Page, page_guard: PageGuard, view: str) -> None:
         assert wide["out"] == [], width
         assert run(page, OVERLAPS) == [], width
         assert run(page, TOO_SMALL) == [], width
+        if width < 700:
+            assert run(page, SCROLLS) == [], width
+        gap = run(page, GAP)
+        assert gap is None or gap <= 40, width
+        assert len(run(page, MAP_DECIMALS)) <= 1, width
 
 
 def test_results_come_before_inputs_on_a_phone_and_plots_follow_the_width(page: Page) -> None:

@@ -83,6 +83,14 @@ def test_a_server_that_is_gone_and_comes_back(page: Page, page_guard: PageGuard)
     page.route("**/api/health", lambda route: route.abort())
     banner = page.locator(".banner")
     expect(banner).to_contain_text("server does not answer")
+    for width in (1280, 390):  # its sign stands beside the text
+        page.set_viewport_size({"width": width, "height": 720})
+        sign, text = (banner.locator(part).first.bounding_box() for part in (".icon", "span"))
+        assert sign
+        assert text
+        assert sign["x"] + sign["width"] <= text["x"]
+        assert text["y"] - 4 <= sign["y"] <= text["y"] + text["height"] - sign["height"] + 4
+    page.set_viewport_size({"width": 1280, "height": 720})
     expect(page.locator(".notice")).to_have_count(0)  # said once, for all views
     expect(page.locator(".centre")).to_have_class(re.compile("stale"))
     page.get_by_role("button", name="Catalogue", exact=True).click()

@@ -236,3 +236,27 @@ def test_messages_belong_to_fields(blank: Page) -> None:
     )
     words = "Must be positive."
     assert result == ["load.mass", words, None, words, None, None, None]
+
+
+def test_a_request_that_went_before_a_server_came_back_is_sent_again(blank: Page) -> None:
+    """In a network that slept no answer comes to it, and nothing refuses it."""
+    result = ask(
+        blank,
+        """
+        const { found, lost } = await import("/js/server/connection.js");
+        const wait = window.setTimeout;
+        window.setTimeout = (then, ms, ...more) => wait(then, ms === 2000 ? 20 : ms, ...more);
+        window.fetch = () => new Promise(() => {});
+        const first = [], send = (delay) => (text, stop) =>
+          first.includes(text) ? after(0)(text, stop) : (first.push(text), after(delay)(text, stop));
+        const short = new Question(send(60000)), long = new Question(send(200), { patience: 0 });
+        short.ask("a");
+        long.ask("b");
+        lost();
+        found();
+        await until(() => short.stage.peek() === "answered" && long.stage.peek() === "answered");
+        window.setTimeout = wait;
+        return [asked, ended, short.answer.peek(), long.answer.peek()];
+        """,
+    )
+    assert result == [["a", "b", "a"], ["a aborted", "a", "b"], "A", "B"]

@@ -62,6 +62,10 @@ def test_from_a_drive_to_the_spread_of_its_figures(page: Page) -> None:
     expect(page.locator("#study-histogram .js-line").first).to_be_attached()
     expect(page.locator(".bar-row")).to_have_count(3)
     expect(page.locator(".parallel .axis")).to_have_count(8)
+    # Above and below each axis its largest and its smallest value, with one number of decimals.
+    ends = page.locator(".parallel text:not(.name):not(.unit)").all_text_contents()
+    for most, least in zip(ends[::2], ends[1::2], strict=True):
+        assert len(most.partition(".")[2]) == len(least.partition(".")[2]), (most, least)
     assert violations(page) == []
 
     for width, height in SIZES:

@@ -21,6 +21,7 @@ from mckibben.physics.units import Reference, si
 from tests.frontend.axe import violations
 from tests.frontend.comparing import use
 from tests.frontend.guard import PageGuard
+from tests.frontend.test_layout import SCROLLS
 from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, link_to, load, marked, run
 
 pytestmark = pytest.mark.kept_page
@@ -321,6 +322,13 @@ def test_a_slack_muscle_is_marked_and_saved(page: Page) -> None:
     assert last.all_inner_texts()[-2:] == ["1", "1"]
 
 
+FIGURES_OF_RUNS = """
+return [...document.querySelectorAll(".pinned tbody:last-child tr:not(.group-row)")]
+  .map((row) => [...row.querySelectorAll("td")].map((cell) => cell.firstChild.textContent.trim()))
+  .filter((texts) => texts.every((text) => Number(text.replace("−", "-"))));
+"""
+
+
 def test_pin_and_difference(page: Page) -> None:
     open_transient(page)
     page.get_by_role("button", name="Pin this run").click()
@@ -332,6 +340,11 @@ def test_pin_and_difference(page: Page) -> None:
     )
     row = table.locator("tr", has_text="Positioning time, fill")
     expect(row).to_contain_text(re.compile("▼.*%"))
+    for texts in run(page, FIGURES_OF_RUNS):  # one number of decimals in each row
+        assert len({len(text.partition(".")[2]) for text in texts}) == 1, texts
+    page.set_viewport_size({"width": 390, "height": 844})
+    assert run(page, SCROLLS) == []
+    page.set_viewport_size({"width": 1280, "height": 720})
     expect(page.locator("#run-position .js-line")).to_have_count(4)
     every = table.locator("tbody tr").count()
     page.get_by_label("Differences only").check()

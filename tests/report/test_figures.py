@@ -8,7 +8,7 @@ import re
 import pytest
 
 from mckibben.physics.catalogue import default_catalogue
-from mckibben.report.figures import Scale, figure, plain, pretty, scale_of, variable, with_error
+from mckibben.report.figures import Scale, figure, plain, pretty, probability, scale_of, variable, with_error
 
 
 @pytest.mark.parametrize(
@@ -54,6 +54,11 @@ def test_values_with_errors(value: float, error: float | None, scale: Scale, tex
     assert f'value="{value!r}"' in shown
 
 
+def test_probabilities_are_not_known_to_the_last_digit() -> None:
+    shown = [re.sub("<[^>]*>", "", probability(share)) for share in (None, 0.0, 0.2, 0.94, 0.9999)]
+    assert shown == ["–", "&lt; 1\xa0%", "20\xa0%", "94\xa0%", "&gt; 99\xa0%"]
+
+
 def test_a_figure_carries_its_exact_value() -> None:
     assert figure(0.0123456789, Scale("mm", 1e-3), 3) == '<data value="0.0123456789">12.3\xa0mm</data>'
     assert figure(math.radians(25.0), scale_of("rad"), exact=True).endswith(">25°</data>")
@@ -63,15 +68,15 @@ def test_a_figure_carries_its_exact_value() -> None:
 def test_units() -> None:
     assert pretty("N*s/m^2") == "N·s/m²"
     assert pretty("W/(m^2*K)") == "W/(m²·K)"
-    assert scale_of("Pa", 4.7e5) == Scale("MPa", 1e6)
-    assert scale_of("Pa", 2.8e4) == Scale("kPa", 1e3)
+    assert scale_of("Pa", 4.7e5, "shear_modulus") == Scale("N/mm²", 1e6)
+    assert scale_of("Pa", 2.8e4, "threshold") == Scale("bar", 1e5)
     assert variable("pressure")[1].of(3e5) == pytest.approx(3.0)
     assert scale_of("m").all([0.3, None]) == pytest.approx([300.0, math.nan], nan_ok=True)
 
 
 def test_values_of_effects_have_units_of_engineers() -> None:
     shown = {
-        f"{effect.id}.{p.name}": plain(scale_of(p.unit, p.default).of(p.default))
+        f"{effect.id}.{p.name}": plain(scale_of(p.unit, p.default, p.name).of(p.default))
         for effect in default_catalogue().values()
         for p in effect.parameters
     }

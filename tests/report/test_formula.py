@@ -7,7 +7,7 @@ from xml.etree import ElementTree
 import pytest
 
 from mckibben.physics.catalogue import default_catalogue
-from mckibben.report.formula import formula
+from mckibben.report.formula import equation, formula
 
 
 @pytest.mark.parametrize("effect", default_catalogue().values(), ids=lambda effect: effect.id)
@@ -25,6 +25,14 @@ def test_only_what_draws_passes(latex: str) -> None:
     for element in ElementTree.fromstring(formula(latex)).iter():
         assert element.tag.startswith("m") or element.tag == "code"
         assert not {"href", "style", "class", "id"} & set(element.attrib)
+
+
+def test_an_equation_may_continue_on_the_next_line_where_its_parts_end() -> None:
+    box = ElementTree.fromstring(equation(r"a = \frac{b \quad c}{d}, \quad e = \left( f \quad g \right)"))
+    assert [child.tag for child in box] == ["math", "math"]
+    first, second = ("".join(part.itertext()) for part in box)
+    assert {"a", "b", "c", "d"} <= set(first)
+    assert {"e", "f", "g"} <= set(second)
 
 
 def test_what_is_no_latex_is_shown_as_it_is() -> None:

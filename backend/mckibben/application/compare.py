@@ -35,6 +35,7 @@ from mckibben.identification.fit.comparison import (
 )
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.predict.specimens import own_muscle
+from mckibben.identification.residual.digits import brief
 from mckibben.identification.residual.parts import ResidualPart, residual_parts
 from mckibben.identification.residual.profiles import (
     Profile,
@@ -84,6 +85,7 @@ class ComparisonResult:
         rmse: root mean square of the residual.
         nrmse_percent, full_scale: rmse over the largest measured magnitude; this magnitude.
         holdout_rmse: with whole groups left out of the fit; None with one group.
+        fitted: number of fitted values; with 0 ``holdout_rmse`` equals ``rmse``.
         noise_floor, noise_how: noise of the data, None when it cannot be estimated; how it was obtained.
         residual_mean: mean of the residual over its scale.
         channels: each channel where there are several.
@@ -113,6 +115,7 @@ class ComparisonResult:
     nrmse_percent: float
     full_scale: float
     holdout_rmse: float | None
+    fitted: int
     noise_floor: float | None
     noise_how: str
     residual_mean: float
@@ -212,6 +215,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         nrmse_percent=comparison.nrmse_percent,
         full_scale=comparison.full_scale,
         holdout_rmse=comparison.holdout_rmse,
+        fitted=0 if comparison.fit is None else len(comparison.fit.numbers),
         noise_floor=comparison.noise,
         noise_how=comparison.noise_how,
         residual_mean=comparison.residual_mean,
@@ -252,7 +256,7 @@ def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
     """Where the model fails, and whether the residual is noise, in words."""
     factor, shown = (1e3, " mm") if unit == "m" else (1.0, "" if unit == "1" else f" {unit}")
     words = [
-        f"{profile.worst}: {factor * profile.rmse:.3g}{shown} rms; this variable alone predicts "
+        f"{profile.worst}: {brief(factor * profile.rmse)}{shown} rms; this variable alone predicts "
         f"{100.0 * profile.share_explained:.0f} % of the error"
         for profile in where[:3]
         if profile.share_explained > _TELLING

@@ -202,6 +202,7 @@ def _result(
                 holdout_rmse=step.fitted_model.holdout_rmse,
                 model=_model(question, step.fitted_model),
                 freed=sorted(step.fitted_model.freed),
+                fitted=len(step.fitted_model.free),
             )
             for step in diagnosis.path
         ],
@@ -299,7 +300,8 @@ def _candidate(
     question: ModelQuestion, candidate: SingleAddition, catalogue: Mapping[str, Effect]
 ) -> CandidateResult:
     fitted, effect = candidate.fitted_model, candidate.effect
-    twin = catalogue.get(candidate.twins[0]) if candidate.twins else None
+    other = catalogue.get(candidate.twins[0]) if candidate.twins else None
+    twin = None if other is None else declared(effect, other)
     return CandidateResult(
         effect=effect.id,
         title=effect.title,
@@ -312,7 +314,7 @@ def _candidate(
         why=candidate.why,
         equation=effect.equation,
         freed=sorted(fitted.freed),
-        next_measurement=None if twin is None else declared(effect, twin) or None,
+        next_measurement=None if twin is None else twin.separated_by,
         model=_model(question, fitted),
     )
 

@@ -102,7 +102,8 @@ class CorrectionResult:
 class PathPoint:
     """The error after each addition; the first is the start model as given, then its own numbers refitted.
 
-    Corrections, which are kept but not called missing, come last.
+    Corrections, which are kept but not called missing, come last. ``fitted``: number of fitted values; with 0
+    no group was left out of anything, and ``holdout_rmse`` equals ``rmse``.
     """
 
     added: str | None
@@ -112,6 +113,7 @@ class PathPoint:
     holdout_rmse: float
     model: ModelDocument
     freed: list[str]
+    fitted: int
 
 
 @dataclass(frozen=True, slots=True)

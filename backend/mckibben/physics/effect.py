@@ -86,10 +86,17 @@ class Signature:
 
 @dataclass(frozen=True, slots=True)
 class Twin:
-    """Another effect that looks alike, and the experiment that separates the two."""
+    """Another effect that looks alike, and the experiment that separates the two.
+
+    Attributes:
+        effect: id of the other effect.
+        separated_by: the experiment in words.
+        by_muscle_test: False where no test of the muscle separates the two, only a check of the rig.
+    """
 
     effect: str
     separated_by: str
+    by_muscle_test: bool = True
 
 
 @dataclass(frozen=True, slots=True)

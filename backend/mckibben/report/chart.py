@@ -226,9 +226,17 @@ def _grid(x: Axis, y: Axis, across: _Scale, up: _Scale) -> Html:
     middle, centre = 0.5 * (across.begin + across.end), 0.5 * (up.begin + up.end)
     if not x.bare:
         parts.append(text(x.text, middle, up.begin + 36.0, anchor="middle", colour=INK))
-    turned = f"rotate(-90 14 {centre:.1f})"
-    parts.append(text(y.text, 14.0, centre, anchor="middle", colour=INK, transform=turned))
+    for words, at in _lines(y, up.begin - up.end):
+        turned = f"rotate(-90 {at:g} {centre:.1f})"
+        parts.append(text(words, at, centre, anchor="middle", colour=INK, transform=turned))
     return html(parts)
+
+
+def _lines(axis: Axis, length: float) -> list[tuple[str, float]]:
+    """Title of a vertical axis and where it stands; the unit has a second line beside a low drawing."""
+    if not axis.unit or _LETTER * len(axis.text) <= length + _TOP:
+        return [(axis.text, 14.0)]
+    return [(axis.title, 11.0), (f"[{axis.unit}]", 25.0)]
 
 
 def label(value: float) -> str:

@@ -131,9 +131,9 @@ def bullets(items: Iterable[Child]) -> Html:
     return tag("ul", [tag("li", item) for item in items])
 
 
-def paragraph(*content: Child, note: bool = False) -> Html:
-    """A paragraph; a note is smaller."""
-    return tag("p", *content, class_="note" if note else None)
+def paragraph(*content: Child, note: bool = False, long: bool = False) -> Html:
+    """A paragraph; a note is smaller, and in a table a long one may continue on the next printed page."""
+    return tag("p", *content, class_=("note long" if long else "note") if note else None)
 
 
 def heading(text: Child) -> Html:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import re
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -33,6 +34,8 @@ PLAIN = Scale("")
 _CONDUCTANCE = ("m^3/(s*Pa)", "m3/(s*Pa)")
 _LEAK = 1e-9  # m3/(s Pa); a valve has more
 _SHORT = 0.1  # s; below, times are in ms
+_MODULUS = re.compile("modulus|constant")  # the page tells them apart in the same way
+_NEARLY_SURE, _UNLIKELY = 0.99, 0.01
 
 #: SI unit -> display unit.
 _SCALES = {
@@ -73,11 +76,16 @@ def variable(name: str) -> tuple[str, Scale]:
     return VARIABLES.get(name, (name.replace("_", " "), Scale("")))
 
 
-def scale_of(unit: str, value: float | None = None) -> Scale:
-    """Display unit of an SI unit; that of pressures, conductances and times depends on the value."""
+def scale_of(unit: str, value: float | None = None, name: str = "") -> Scale:
+    """Display unit of an SI unit; that of conductances and times depends on the value.
+
+    Args:
+        unit: SI.
+        value: SI.
+        name: of the parameter; moduli and constants of elasticity are in N/mm², pressures in bar.
+    """
     if unit == "Pa":
-        size = abs(value or 0.0)
-        return Scale("MPa", 1e6) if size >= 1e5 else Scale("kPa", 1e3) if size >= 100.0 else Scale("Pa")
+        return Scale("N/mm²", 1e6) if _MODULUS.search(name) else Scale("bar", 1e5)
     if unit == "s" and 0.0 < abs(value or 0.0) < _SHORT:
         return Scale("ms", 1e-3)
     if unit in _CONDUCTANCE and 0.0 < abs(value or 0.0) < _LEAK:
@@ -124,7 +132,7 @@ def figure(value: float | None, scale: Scale = PLAIN, digits: int = 4, *, exact:
 
 
 def with_error(value: float, error: float | None, scale: Scale) -> Html:
-    """Value and standard error, rounded to two digits of the error: (0.9047 ± 0.0088) MPa."""
+    """Value and standard error, rounded to two digits of the error: (0.9047 ± 0.0088) N/mm²."""
     if error is None or not math.isfinite(error) or error <= 0.0:
         return figure(value, scale, exact=True)
     shown, spread = scale.of(value), scale.of(error)
@@ -147,6 +155,15 @@ def percent(share: float | None, digits: int = 2) -> Html:
     if share is not None and 0.0 < abs(share) < _LEAST_SHARE:
         return tag("data", "< 0.001\N{NO-BREAK SPACE}%", value=repr(float(share)))
     return figure(share, Scale("%", 0.01), digits)
+
+
+def probability(share: float | None) -> Html:
+    """A probability in percent; near its ends no digits, because nothing is known that exactly."""
+    if share is None:
+        return html("–")
+    if share > _NEARLY_SURE:
+        return html("> 99\N{NO-BREAK SPACE}%")
+    return html("< 1\N{NO-BREAK SPACE}%") if share < _UNLIKELY else percent(share)
 
 
 def _with_unit(text: str, unit: str) -> str:

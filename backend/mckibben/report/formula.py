@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+import re
 from functools import lru_cache
 from xml.etree import ElementTree
 
-from mckibben.report.html import Html, tag
+from mckibben.report.html import Html, html, tag
 
 _TAGS = frozenset({
     "math", "mrow", "mi", "mn", "mo", "mtext", "mspace", "mfrac", "msqrt", "mroot", "msub", "msup", "msubsup",
@@ -16,6 +17,8 @@ _ATTRIBUTES = frozenset({
     "mathvariant", "columnalign", "accent", "displaystyle", "scriptlevel", "lspace", "rspace",
     "movablelimits",
 })  # fmt: skip
+_OPENING, _CLOSING = ("{", r"\left", r"\begin"), ("}", r"\right", r"\end")
+_TOKENS = re.compile(r"(\\[a-zA-Z]+|[{}])")
 
 
 @lru_cache(maxsize=512)
@@ -31,6 +34,24 @@ def formula(latex: str, *, block: bool = False) -> Html:
     except Exception:  # a formula that cannot be converted must not prevent the report
         return tag("code", latex)
     return _copied(root)
+
+
+def equation(latex: str) -> Html:
+    r"""An equation in a line of its own, whose parts between ``\quad`` may continue on the next one."""
+    return tag("div", [html(formula(part, block=True), " ") for part in _parts(latex)], class_="equation")
+
+
+def _parts(latex: str) -> list[str]:
+    """The parts between spaces that stand in no bracket or environment."""
+    parts, depth = [""], 0
+    for token in _TOKENS.split(latex):
+        depth += token in _OPENING
+        depth -= token in _CLOSING
+        if token == "\\quad" and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += token
+    return [part.strip() for part in parts]
 
 
 def _copied(element: ElementTree.Element) -> Html:

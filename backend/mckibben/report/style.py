@@ -48,7 +48,9 @@ td.bar { width: 25%; min-width: 100px; vertical-align: middle; }
 figure { margin: 10px 0 14px; }
 figcaption { color: var(--soft); font-size: 12.5px; }
 svg { display: block; width: 100%; height: auto; font: 11.5px Inter, "Segoe UI", Roboto, Arial, sans-serif; }
-.equation { margin: 6px 0; padding: 6px 12px; background: var(--tint); overflow-x: auto; }
+.equation { margin: 6px 0; padding: 6px 12px; background: var(--tint); overflow-x: auto;
+  text-align: center; }
+.equation math { display: inline math; margin: 2px 10px; }
 math { font-size: 1.05em; }
 code, pre { font: 12px/1.5 ui-monospace, "SF Mono", Menlo, Consolas, "DejaVu Sans Mono", monospace; }
 code { overflow-wrap: anywhere; }
@@ -79,8 +81,8 @@ pre { background: var(--tint); padding: 8px 12px; white-space: pre-wrap;
   figure.panels svg:first-of-type { break-after: avoid; }
   figure.panels svg:last-of-type, figcaption { break-before: avoid; }
   table.short { break-inside: avoid; }
-  /* A row with a remark is tall: it may break within the remark, with two of its lines on either side. */
-  tr:has(td .note) { break-inside: auto; }
+  /* A row with a long remark is tall: it may break within it, with two of its lines on either side. */
+  tr:has(td .long) { break-inside: auto; }
   td .note { orphans: 2; widows: 2; padding-top: 4px;
     box-decoration-break: clone; -webkit-box-decoration-break: clone; }
   /* A head never stands alone at the foot of a page. */

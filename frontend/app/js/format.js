@@ -50,6 +50,11 @@ export const SCALES = {
   sweep: { si: scale("mm/s", 1e-3, 1), bar: scale("mm/s", 1e-3, 1), us: scale("in/s", INCH, 2) },
   acceleration: { si: scale("m/s²", 1, 2), bar: scale("m/s²", 1, 2), us: scale("ft/s²", 12 * INCH, 2) },
   conductance: same(scale("l/(s·bar)", 1e-8, 4)),
+  rate: {
+    si: scale("l/min", 1e-3 / 60, 1),
+    bar: scale("l/min", 1e-3 / 60, 1),
+    us: scale("ft³/min", (12 * INCH) ** 3 / 60, 2),
+  },
   flow: { si: scale("g/s", 1e-3, 3), bar: scale("g/s", 1e-3, 3), us: scale("lb/min", POUND / 60, 3) },
   air: { si: scale("g", 1e-3, 3), bar: scale("g", 1e-3, 3), us: scale("oz", POUND / 16, 4) },
   normal: same(scale("l (ANR)", 1e-3, 3)),
@@ -133,6 +138,9 @@ const TYPED = {
   "l/(min·bar)": ["conductance", 1e-8 / 60],
   "l/(min*bar)": ["conductance", 1e-8 / 60],
   "m3/(s*pa)": ["conductance", 1],
+  "l/min": ["rate", 1e-3 / 60],
+  "ft^3/min": ["rate", (12 * INCH) ** 3 / 60],
+  "ft³/min": ["rate", (12 * INCH) ** 3 / 60],
 };
 
 /** The quantity of a value by its SI unit. @type {Record<string, Quantity>} */

@@ -16,10 +16,26 @@ from tests.identification.synthetic import CATALOGUE
 
 
 def test_the_catalogue_says_it_from_either_side() -> None:
-    words = declared(CATALOGUE["prestress"], CATALOGUE["force_offset"])
-    assert "muscle removed" in words
+    twin = declared(CATALOGUE["prestress"], CATALOGUE["force_offset"])
+    assert twin is not None
+    assert "muscle removed" in twin.separated_by
+    assert not twin.by_muscle_test
     assert declared(CATALOGUE["force_offset"], CATALOGUE["prestress"])
-    assert declared(CATALOGUE["prestress"], CATALOGUE["valve_delay"]) == ""
+    assert declared(CATALOGUE["prestress"], CATALOGUE["valve_delay"]) is None
+
+
+def test_pairs_that_no_muscle_test_separates_are_declared_so_on_both_sides() -> None:
+    pairs = {
+        (effect.id, twin.effect)
+        for effect in CATALOGUE.values()
+        for twin in effect.confused_with
+        if not twin.by_muscle_test
+    }
+    assert pairs == {(second, first) for first, second in pairs}
+    # Braid and force sensor, pressure and its sensor: each pair is one product or sum.
+    assert {frozenset(pair) for pair in pairs} == {
+        frozenset(("prestress", "force_offset")), frozenset(("effectiveness", "pressure_scale")),
+    }  # fmt: skip
 
 
 def test_a_proposal_in_words() -> None:
@@ -32,8 +48,8 @@ def test_a_proposal_in_words() -> None:
     )
     near = SeparatingExperiment("a", "b", "remove the muscle", "any", 0.2).sentence({})
     assert near == "to tell a from b: remove the muscle; no experiment with this rig does"
-    never = SeparatingExperiment("a", "b", "weigh it; no muscle test can tell", "any", 0.2).sentence({})
-    assert never == "to tell a from b: weigh it; no muscle test can tell"
+    never = SeparatingExperiment("a", "b", "weigh it", "any", 0.2, by_muscle_test=False).sentence({})
+    assert never == "to tell a from b: weigh it"
     none = SeparatingExperiment("a", "b", "", "any", 0.2).sentence({})
     assert none == "to tell a from b: no experiment with this rig does, and no other one is known"
 

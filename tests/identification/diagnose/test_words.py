@@ -64,60 +64,62 @@ def result(
 
 
 SENTENCES = {
-    "Nothing is missing: the error of 2 N is of the size of the noise (2 N).": result("adequate", 2.0, 2.0),
-    "Nothing is missing: the error of 2 N (with the numbers of the model refitted; before 50 N) is of the "
-    "size of the noise (2 N).": result("adequate", 50.0, 2.0),
-    "Nothing is missing: the error of 1 times the noise is noise.": result(
+    "Nothing is missing: the error of 2.00 N is of the size of the noise (2.00 N).": result(
+        "adequate", 2.0, 2.0
+    ),
+    "Nothing is missing: the error of 2.00 N (with the numbers of the model refitted; before 50.0 N) is of "
+    "the size of the noise (2.00 N).": result("adequate", 50.0, 2.0),
+    "Nothing is missing: the error of 1.00 times the noise is noise.": result(
         "adequate", 1.0, 1.0, unit="1", noise=1.0
     ),
-    "No catalogued effect lowers the error of 5 N. The noise cannot be estimated from these data: "
+    "No catalogued effect lowers the error of 5.00 N. The noise cannot be estimated from these data: "
     "state it to know whether the error exceeds it.": result("adequate", 5.0, 5.0, noise=None),
-    "Missing: Creep (probability 97 %). With it the error falls from 40 to 2.1 N, the noise of the data "
-    "(2 N).": result("missing_effects", 40.0, 2.1, "creep"),
-    "With the entries as stated, Creep would be missing, and the error would only fall from 40 to 9 N; the "
-    "noise is 2 N.": result("ambiguous", 40.0, 9.0, "creep", doubted=True),
-    "Missing: Creep (probability 97 %). With it the error falls from 40 to 9 N; the noise is 2 N. No "
+    "Missing: Creep (probability 97 %). With it the error falls from 40.0 to 2.10 N, the noise of the data "
+    "(2.00 N).": result("missing_effects", 40.0, 2.1, "creep"),
+    "With the entries as stated, Creep would be missing, and the error would only fall from 40.0 to 9.00 N; "
+    "the noise is 2.00 N.": result("ambiguous", 40.0, 9.0, "creep", doubted=True),
+    "Missing: Creep (probability 97 %). With it the error falls from 40.0 to 9.00 N; the noise is 2.00 N. No "
     "catalogued effect explains the rest: the proposed term takes 80 % of it.": result(
         "unknown_effect", 40.0, 9.0, "creep", term=SimpleNamespace(share=0.8)
     ),
     "Missing: Creep (probability 97 %) and Leak (97 %). "
-    "With them the error falls from 4 to 1.02 times the noise.": result(
+    "With them the error falls from 4.00 to 1.02 times the noise.": result(
         "missing_effects", 4.0, 1.02, "creep", "leak", unit="1", noise=1.0
     ),
     "Missing: Creep (probability 97 %). "
-    "With it the error falls from 40 to 3 mm; the noise is 2 mm. Of the rest, 40 % depends "
+    "With it the error falls from 40.0 to 3.00 mm; the noise is 2.00 mm. Of the rest, 40 % depends "
     "on pressure and time.": result(
         "missing_effects", 0.040, 0.003, "creep", unit="m", noise=2e-3, share=0.4
     ),
     "Missing: Creep (probability 97 %). "
-    "With it the error falls from 40 to 9 N; the noise is 2 N. No catalogued effect explains "
+    "With it the error falls from 40.0 to 9.00 N; the noise is 2.00 N. No catalogued effect explains "
     "the rest: it depends on no measured variable; repeat the run to see whether it recurs.": result(
         "unknown_effect", 40.0, 9.0, "creep"
     ),
-    "No catalogued effect explains the error of 40 N: 90 % of it depends on pressure and time. No short "
-    "formula halves it; look where it is largest: pressure 5.00 to 6.00 bar (52 N) and time 3.00 to 4.00 s "
-    "(44 N).": result("unknown_effect", 40.0, 40.0, share=0.9),
-    "No catalogued effect explains the error of 40 N: 90 % of it depends on pressure and time.": result(
+    "No catalogued effect explains the error of 40.0 N: 90 % of it depends on pressure and time. No short "
+    "formula halves it; look where it is largest: pressure 5.00 to 6.00 bar (52.0 N) and time 3.00 to 4.00 s "
+    "(44.0 N).": result("unknown_effect", 40.0, 40.0, share=0.9),
+    "No catalogued effect explains the error of 40.0 N: 90 % of it depends on pressure and time.": result(
         "unknown_effect", 40.0, 40.0, share=0.9, term=object()
     ),
     "Missing: Creep (probability 97 %). "
-    "With it the error falls from 40 to 10 mm; the noise is 2 mm. No catalogued effect "
+    "With it the error falls from 40.0 to 10.0 mm; the noise is 2.00 mm. No catalogued effect "
     "explains the rest: 90 % of it depends on pressure and time. No formula is proposed; look where it is "
-    "largest: pressure 5.00 to 6.00 bar (13 mm) and time 3.00 to 4.00 s (11 mm).": result(
+    "largest: pressure 5.00 to 6.00 bar (13.0 mm) and time 3.00 to 4.00 s (11.0 mm).": result(
         "unknown_effect", 0.040, 0.010, "creep", unit="m", noise=2e-3, share=0.9
     ),
     "Missing: Creep (probability 97 %). "
-    "The model's own numbers, refitted, lower the error from 40 to 15 N; with it the error "
-    "falls to 2.1 N, the noise of the data (2 N).": result(
+    "The model's own numbers, refitted, lower the error from 40.0 to 15.0 N; with it the error "
+    "falls to 2.10 N, the noise of the data (2.00 N).": result(
         "missing_effects", 40.0, 2.1, "creep", refitted=15.0
     ),
-    "Nothing is missing: the error of 6 N is of the size of the noise (2 N between neighbouring readings, "
-    "6 N in all).": result("adequate", 6.0, 6.0, highest=6.0),
-    "With the entries as stated no catalogued effect explains the error of 40 N.": result(
+    "Nothing is missing: the error of 6.00 N is of the size of the noise (2.00 N between neighbouring "
+    "readings, 6.00 N in all).": result("adequate", 6.0, 6.0, highest=6.0),
+    "With the entries as stated no catalogued effect explains the error of 40.0 N.": result(
         "ambiguous", 40.0, 40.0, doubted=True
     ),
     "Missing: Creep (probability 97 %). "
-    "With it the error falls from 40 to 2.1 N, the noise of the data (2 N). These data "
+    "With it the error falls from 40.0 to 2.10 N, the noise of the data (2.00 N). These data "
     "cannot tell Creep from Leak. The model holds Creep: it is the most common of them; "
     "every rubber relaxes when it is held.": result(
         "ambiguous", 40.0, 2.1, "creep", alternatives=(SimpleNamespace(of="creep", effect="leak"),)
@@ -152,7 +154,7 @@ def test_a_status_has_a_title(status: str, added: bool, title: str) -> None:
 @pytest.mark.parametrize(
     ("rmse", "implausible", "free", "reason"),
     [
-        (2.3, 0, 1, "it leaves 2.1 N; Creep, which is more common, leaves 2.3 N"),
+        (2.3, 0, 1, "it leaves 2.10 N; Creep, which is more common, leaves 2.30 N"),
         (2.05, 1, 1, "Creep is more common and fits as well, but only with values outside their usual range"),
         (2.05, 0, 2, "Creep is more common and fits as well, but needs more values"),
         (2.1001, 0, 1, "Creep is more common and fits as well; nothing in these data decides between them"),
@@ -173,13 +175,13 @@ def test_a_correction_is_said_with_its_errors_and_probability() -> None:
     leak = SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12, kept=True)
     found.corrections = (leak,)
     assert corrections_sentence(found, TITLES) == (
-        "Not called missing, but kept in the model as a correction: Leak (from 2.1 to 1.9 N, probability "
+        "Not called missing, but kept in the model as a correction: Leak (from 2.10 to 1.90 N, probability "
         "12 %). A slightly inexact form of the effects above would explain as much, but with it the model "
         "predicts left-out groups better."
     )
     found.corrections = (SimpleNamespace(effect="leak", before=2.1, after=1.9, probability=0.12, kept=False),)
     assert corrections_sentence(found, TITLES) == (
-        "Neither called missing nor kept: Leak (from 2.1 to 1.9 N, probability 12 %). An inexact form of "
+        "Neither called missing nor kept: Leak (from 2.10 to 1.90 N, probability 12 %). An inexact form of "
         "the effects above would explain as much, and these data do not test what it would predict elsewhere."
     )
     assert corrections_sentence(result("adequate", 2.0, 2.0), TITLES) == ""
@@ -207,14 +209,14 @@ def test_specimens_that_were_left_out_are_told_in_newtons_and_percent() -> None:
     found.left_out = (left_out("short", 2.5, 0.018), left_out("long", 3.0, 0.007))
     text = left_out_sentence(found)
     assert text == (
-        "Fitted to the other specimens alone, the model predicts short to 2.5 N (1.8 %) and "
-        "long to 3 N (0.7 %)."
+        "Fitted to the other specimens alone, the model predicts short to 2.50 N (1.8 %) and "
+        "long to 3.00 N (0.7 %)."
     )
     found.left_out = (*found.left_out, left_out("other", 9.0, 0.05), left_out("last", 2.0, 0.01))
     text = left_out_sentence(found)
-    assert "each of the 4 to at most 9 N" in text
-    assert text.endswith("On left-out groups of the same ones it errs by 2.1 N: they differ by more than the "
-                         "model says.")  # fmt: skip
+    assert "each of the 4 to at most 9.00 N" in text
+    assert text.endswith("On left-out groups of the same ones it errs by 2.10 N: they differ by more than "
+                         "the model says.")  # fmt: skip
 
 
 def left_out(name: str, rmse: float, share: float) -> LeftOutSpecimen:

@@ -12,9 +12,8 @@ from dataclasses import dataclass
 from mckibben.identification.diagnose.design import DECISIVE, DesignedExperiment, Designer
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
-from mckibben.physics.effect import Effect
+from mckibben.physics.effect import Effect, Twin
 
-_NO_TEST = "no muscle test"  # what is declared says it already
 _MATTERS = 1.0  # sigma from which the choice between two effects matters
 
 
@@ -30,6 +29,7 @@ class SeparatingExperiment:
         minutes: how long it takes; None without a protocol.
         differs_in: the simulated experiment where the two models as they are differ most.
         difference: by how many standard deviations of a reading.
+        by_muscle_test: False where the catalogue declares that no test of the muscle separates the two.
     """
 
     first: str
@@ -40,6 +40,7 @@ class SeparatingExperiment:
     minutes: float | None = None
     differs_in: str = ""
     difference: float = 0.0
+    by_muscle_test: bool = True
 
     @property
     def matters(self) -> bool:
@@ -54,18 +55,18 @@ class SeparatingExperiment:
             parts.append(f"simulated best: {self.protocol} ({self.separation:.1f} sigma apart)")
         elif self.protocol and not self.declared:
             parts.append("no experiment with this rig does, and no other one is known")
-        elif self.protocol and _NO_TEST not in self.declared:
+        elif self.protocol and self.by_muscle_test:  # else what is declared says it already
             parts.append("no experiment with this rig does")
         return f"{pair}: {'; '.join(parts)}" if parts else f"{pair}: no experiment is known"
 
 
-def declared(first: Effect, second: Effect) -> str:
-    """What either effect declares to separate it from the other."""
+def declared(first: Effect, second: Effect) -> Twin | None:
+    """What either effect declares about the other; None where neither has an entry."""
     for one, other in ((first, second), (second, first)):
         for twin in one.confused_with:
             if twin.effect == other.id:
-                return twin.separated_by
-    return ""
+                return twin
+    return None
 
 
 def next_measurements(
@@ -90,16 +91,18 @@ def next_measurements(
         sigma, protocol = max(apart, key=lambda pair: pair[0], default=(0.0, None))
         differs = [(designer.difference(best, other.fitted_model, p), p) for p in designer.protocols]
         difference, place = max(differs, key=lambda pair: pair[0], default=(0.0, None))
+        twin = declared(catalogue[other.of], catalogue[other.effect])
         pairs.append(
             SeparatingExperiment(
                 other.of,
                 other.effect,
-                declared(catalogue[other.of], catalogue[other.effect]),
+                "" if twin is None else twin.separated_by,
                 "" if protocol is None else protocol.words,
                 sigma,
                 None if protocol is None else protocol.minutes,
                 "" if place is None else place.words,
                 difference,
+                twin is None or twin.by_muscle_test,
             )
         )
     designs = []

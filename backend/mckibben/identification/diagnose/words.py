@@ -9,6 +9,7 @@ from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.verdict import Status, is_force
 from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.residual.digits import brief
 from mckibben.physics.effect import Effect
 
 _REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned
@@ -62,14 +63,14 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     highest = noise if result.noise_interval is None else scale * result.noise_interval.high
     level = ""
     if noise is not None and highest is not None and not scaled:
-        level = f"{noise:.3g} {unit}"
+        level = f"{brief(noise)} {unit}"
         if highest > AT_FLOOR * noise:
-            level = f"{noise:.3g} {unit} between neighbouring readings, {highest:.3g} {unit} in all"
+            level = f"{brief(noise)} {unit} between neighbouring readings, {brief(highest)} {unit} in all"
     rest = _rest(result)
     if not result.added:
-        error = f"the error of {after:.3g} {unit}"
+        error = f"the error of {brief(after)} {unit}"
         if after < _REFITTED * before:
-            error += f" (with the numbers of the model refitted; before {before:.3g} {unit})"
+            error += f" (with the numbers of the model refitted; before {brief(before)} {unit})"
         if doubted:
             return f"With the entries as stated no catalogued effect explains {error}."
         if result.status == "unknown_effect":
@@ -89,13 +90,14 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     if doubted:
         return (
             f"With the entries as stated, {names} would be missing, and the error would only fall from "
-            f"{before:.3g} to {after:.3g} {unit}{floor}."
+            f"{brief(before)} to {brief(after)} {unit}{floor}."
         )
-    text = f"Missing: {names}. With {these} the error falls from {before:.3g} to {after:.3g} {unit}{floor}."
+    falls = f"the error falls from {brief(before)} to {brief(after)} {unit}{floor}."
+    text = f"Missing: {names}. With {these} {falls}"
     if result.root.free and refitted < _REFITTED * before:
         text = (
-            f"Missing: {names}. The model's own numbers, refitted, lower the error from {before:.3g} to "
-            f"{refitted:.3g} {unit}; with {these} the error falls to {after:.3g} {unit}{floor}."
+            f"Missing: {names}. The model's own numbers, refitted, lower the error from {brief(before)} to "
+            f"{brief(refitted)} {unit}; with {these} the error falls to {brief(after)} {unit}{floor}."
         )
     if result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {rest}. {where_to_look(result)}".rstrip()
@@ -147,7 +149,7 @@ def applied_reasons(result: Diagnosis, catalogue: Mapping[str, Effect]) -> dict[
 def _against_the_likelier(result: Diagnosis, title: str, other: FittedModel) -> str:
     """Why the model does not hold the alternative that is more common."""
     unit, scale = _unit_of(result)
-    here, there = (f"{scale * model.rmse:.3g}" for model in (result.lean, other))
+    here, there = (brief(scale * model.rmse) for model in (result.lean, other))
     if here != there and result.lean.rmse < other.rmse:
         return f"it leaves {here} {unit}; {title}, which is more common, leaves {there} {unit}"
     if other.implausible > result.lean.implausible:
@@ -163,8 +165,8 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
 
     def listed(items: list[Correction]) -> str:
         return _joined([
-            f"{titles.get(item.effect, item.effect)} (from {scale * item.before:.3g} to "
-            f"{scale * item.after:.3g} {unit}, probability {_share(item.probability)})"
+            f"{titles.get(item.effect, item.effect)} (from {brief(scale * item.before)} to "
+            f"{brief(scale * item.after)} {unit}, probability {_share(item.probability)})"
             for item in items
         ])  # fmt: skip
 
@@ -192,19 +194,19 @@ def left_out_sentence(result: Diagnosis) -> str:
     unit, scale = _unit_of(result)
     worst = max(result.left_out, key=lambda each: each.rmse)
     if unit == "times the noise":
-        errors = [f"{each.name} to {each.rmse:.3g} {unit}" for each in result.left_out]
+        errors = [f"{each.name} to {brief(each.rmse)} {unit}" for each in result.left_out]
     else:
         errors = [
-            f"{each.name} to {scale * each.rmse:.3g} {unit} ({100.0 * each.share:.2g} %)"
+            f"{each.name} to {brief(scale * each.rmse)} {unit} ({100.0 * each.share:.2g} %)"
             for each in result.left_out
         ]
     if len(errors) > _FEW:
-        errors = [f"each of the {len(errors)} to at most {scale * worst.rmse:.3g} {unit}"]
+        errors = [f"each of the {len(errors)} to at most {brief(scale * worst.rmse)} {unit}"]
     text = f"Fitted to the other specimens alone, the model predicts {_joined(errors)}."
     groups = result.best.holdout_rmse
     if worst.rmse > _DIFFERENT * max(groups, result.noise or 0.0):
         text += (
-            f" On left-out groups of the same ones it errs by {scale * groups:.3g} {unit}: they differ by "
+            f" On left-out groups of the same ones it errs by {brief(scale * groups)} {unit}: they differ by "
             "more than the model says."
         )
     return text
@@ -233,7 +235,7 @@ def where_to_look(result: Diagnosis) -> str:
     unit, scale = _unit_of(result)
     profiles = {profile.over: profile for profile in result.left_where}
     ranges = [
-        f"{profiles[name].worst} ({scale * profiles[name].rmse:.3g} {unit})"
+        f"{profiles[name].worst} ({brief(scale * profiles[name].rmse)} {unit})"
         for name, _ in result.structure.variables[:2]
         if name in profiles
     ]

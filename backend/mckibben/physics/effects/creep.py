@@ -128,7 +128,7 @@ EFFECT = Effect(
             lower=-0.3,
             upper=0.8,
             source=_POWER,
-            description="Weights the faster arms more: each weight is its time to the power -alpha.",
+            description="Weights the faster arms more: each weight is its time to the power −α.",
             fitted=False,
         ),
     ),

@@ -98,7 +98,11 @@ EFFECT = Effect(
         energy="lumped",
     ),
     confused_with=(
-        Twin("pressure_scale", "a pressure calibrator; no muscle test can tell them apart"),
+        Twin(
+            "pressure_scale",
+            "a pressure calibrator; no muscle test can tell them apart",
+            by_muscle_test=False,
+        ),
         Twin("force_scale", "dead weights on the force sensor"),
         Twin("threshold_pressure", "force against pressure: the slope changes, or the intercept does"),
         Twin(

@@ -46,7 +46,9 @@ EFFECT = Effect(
     ),
     confused_with=(
         Twin(
-            "prestress", "read the force sensor with the muscle removed; no muscle test can tell them apart"
+            "prestress",
+            "read the force sensor with the muscle removed; no muscle test can tell them apart",
+            by_muscle_test=False,
         ),
         Twin("coulomb_friction", "both directions: friction changes sign, an offset does not"),
         Twin("pressure_offset", "lengths near the zero-force length: there a pressure offset vanishes"),

@@ -44,7 +44,9 @@ EFFECT = Effect(
         energy="reading",
     ),
     confused_with=(
-        Twin("effectiveness", "a pressure calibrator; no muscle test can tell them apart"),
+        Twin(
+            "effectiveness", "a pressure calibrator; no muscle test can tell them apart", by_muscle_test=False
+        ),
         Twin("force_scale", "a pressure calibrator and dead weights: two independent calibrations"),
         Twin("thread_extensibility", "diameter against pressure at constant length"),
     ),

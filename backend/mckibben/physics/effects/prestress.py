@@ -50,6 +50,7 @@ EFFECT = Effect(
         Twin(
             "force_offset",
             "read the force sensor with the muscle removed; no muscle test can tell them apart",
+            by_muscle_test=False,
         ),
         Twin("coulomb_friction", "both directions: friction changes sign, the prestress does not"),
         Twin("threshold_pressure", "lengths near the zero-force length: there the threshold vanishes"),

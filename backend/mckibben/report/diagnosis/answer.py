@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from mckibben.application.diagnosis_result import DiagnosisResult, Verdict
+from mckibben.application.compare import ComparisonResult
+from mckibben.application.diagnosis_result import DiagnosisResult, PathPoint, Verdict
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.bars import Bar, bars
 from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.document import Head, Tone, callout, paragraph, table, tiles
-from mckibben.report.figures import figure, percent
+from mckibben.report.figures import figure, percent, probability
 from mckibben.report.html import Child, Html, html
 
 _TONES: dict[Status, Tone] = {
@@ -19,7 +20,7 @@ _TONES: dict[Status, Tone] = {
     "ambiguous": "warn",
     "unknown_effect": "bad",
 }
-_NEARLY_SURE = 0.99
+_TELLS = 1.0  # standard deviations of a reading from which an experiment tells two effects apart
 _SAME = 0.98  # ratio to the first error: below, the refitted error gets a tile of its own
 
 
@@ -50,7 +51,7 @@ def _missing(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
         rows.append(
             [
                 material.title_of(name),
-                _probability(verdict.probabilities.get(name)),
+                probability(verdict.probabilities.get(name)),
                 html(figure(before.rmse, scale, 3), " → ", figure(step.rmse, scale, 3)),
                 figure(step.holdout_rmse, scale, 3),
                 ", ".join(others) or "none",
@@ -59,7 +60,8 @@ def _missing(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
         )
     columns = [
         Head("Missing"), Head("Probability", number=True), Head("Error", number=True),
-        Head("Held-out", number=True), Head("Indistinguishable from"), Head("What would tell", wide=True),
+        Head("Held\N{NON-BREAKING HYPHEN}out", number=True), Head("Indistinguishable from"),
+        Head("What would tell", wide=True),
     ]  # fmt: skip
     return table(columns, rows, whole=False)
 
@@ -67,16 +69,17 @@ def _missing(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
 def _experiment(verdict: Verdict, name: str) -> str:
     """The experiment that would tell this effect from the others of its group."""
     for split in verdict.next_experiments:
-        if name in split.group:
+        if any(name in pair.pair and pair.separation >= _TELLS for pair in split.separations):
             return f"{split.protocol} ({max(split.minutes, 1.0):.0f} min)"
     found = next((item for item in verdict.experiments if name in item.pair), None)
-    return "not known" if found is None else found.protocol or found.declared or "not known"
+    if found is None:
+        return "not known"
+    simulated = found.protocol if found.separation >= _TELLS else ""
+    return simulated or found.declared or "not known"
 
 
-def _probability(share: float | None) -> Html:
-    if share is None:
-        return html("–")
-    return html("> 99 %") if share > _NEARLY_SURE else percent(share)
+def _sentence(clause: str) -> str:
+    return f"{clause[:1].upper()}{clause[1:].removesuffix('.')}."
 
 
 def _verdict(material: DiagnosisMaterial) -> Html:
@@ -100,7 +103,7 @@ def _verdict(material: DiagnosisMaterial) -> Html:
     figures.append(("Noise of the data", figure(diagnosis.noise_floor.rmse, scale, 3)))
     parts = [callout(title, verdict.sentence, tone=tone), tiles(figures)]
     if verdict.next_measurement:
-        parts.append(callout("Next measurement", verdict.next_measurement))
+        parts.append(callout("Next measurement", _sentence(verdict.next_measurement)))
     return html(parts)
 
 
@@ -110,28 +113,27 @@ def _steps(material: DiagnosisMaterial) -> Html:
     rows: list[list[Child]] = []
     drawn: list[Bar] = []
 
-    def add(name: str, rmse: float | None, holdout: float | None, how: str, *, pale: bool = False) -> None:
-        if holdout == rmse:  # no value was fitted, so no group was left out
-            holdout = None
-        rows.append([name, how, figure(rmse, scale), figure(holdout, scale)])
+    def add(name: str, step: PathPoint | ComparisonResult, how: str, *, pale: bool = False) -> None:
+        rmse, holdout = step.rmse, step.holdout_rmse if step.fitted else None
+        rows.append([name, how, figure(rmse, scale, 3), figure(holdout, scale, 3)])
         value, tick = (None if number is None else scale.of(number) for number in (rmse, holdout))
         drawn.append(Bar(f"RMS error of {name}", value or 0.0, tick, pale))
 
     for past in material.history:
-        add(past.label, past.comparison.rmse, past.comparison.holdout_rmse, "an earlier model")
+        add(past.label, past.comparison, "an earlier model")
     answer, diagnosis = material.comparison, material.diagnosis
     if diagnosis is None:
-        add("this model", answer.rmse, answer.holdout_rmse, "as given")
+        add("this model", answer, "as given")
     else:
         for number, step in enumerate(diagnosis.path):
             if number == 0:
-                add("this model", step.rmse, step.holdout_rmse, "as given")
+                add("this model", step, "as given")
             elif step.added is None:
-                add("refitted", step.rmse, step.holdout_rmse, "its parameters fitted", pale=True)
+                add("refitted", step, "its parameters fitted", pale=True)
             else:
                 name = f"+ {material.title_of(step.added)}"
                 how = "kept as a correction" if step.correction else "added by the diagnosis"
-                add(name, step.rmse, step.holdout_rmse, how, pale=True)
+                add(name, step, how, pale=True)
     floor = answer.noise_floor if diagnosis is None else diagnosis.noise_floor.rmse
     level = None if floor is None else scale.of(floor)
     columns = [

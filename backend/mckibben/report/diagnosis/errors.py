@@ -32,16 +32,16 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
     first = columns[0][1]
     scale = error_scale(first)
     rows: list[list[Child]] = [
-        ["RMS error", *(figure(answer.rmse, scale) for _, answer in columns)],
+        ["RMS error", *(figure(answer.rmse, scale, 3) for _, answer in columns)],
         ["… of the largest measured value", *(_percent(answer.nrmse_percent) for _, answer in columns)],
         [
             "RMS error with whole groups left out of the fit",
-            *(figure(answer.holdout_rmse, scale) for _, answer in columns),
+            *(figure(answer.holdout_rmse if answer.fitted else None, scale, 3) for _, answer in columns),
         ],
         ["Mean of the residual", *(figure(_mean(answer), scale, 3) for _, answer in columns)],
         [
             f"Noise of the data ({first.noise_how})",
-            *(figure(answer.noise_floor, scale) for _, answer in columns),
+            *(figure(answer.noise_floor, scale, 3) for _, answer in columns),
         ],
         ["Rows used", *(_rows(answer) for _, answer in columns)],
         [
@@ -54,13 +54,13 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
         rows.append(
             [
                 f"RMS error of {words}",
-                *(figure(answer.channels[name].rmse, channel_scale) for _, answer in columns),
+                *(figure(answer.channels[name].rmse, channel_scale, 3) for _, answer in columns),
             ]
         )
         rows.append(
             [
                 f"Noise of {words}",
-                *(figure(answer.channels[name].noise_floor, channel_scale) for _, answer in columns),
+                *(figure(answer.channels[name].noise_floor, channel_scale, 3) for _, answer in columns),
             ]
         )
     if any(answer.validation for _, answer in columns):
@@ -68,7 +68,7 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
         rows.append(
             [
                 "RMS error on the validation data",
-                *(figure(None if check is None else check.rmse, scale) for check in checks),
+                *(figure(None if check is None else check.rmse, scale, 3) for check in checks),
             ]
         )
         rows.append(
@@ -130,8 +130,6 @@ def where_it_fails(answer: ComparisonResult) -> Html:
         if profile.share_explained > _LEAST_SHARE
     ]  # fmt: skip
     parts: list[Child] = [bullets([*words, f"{answer.sentences[-1]}."])]
-    if rows:
-        parts.append(table(columns, rows))
     heat_map = answer.heat_map
     if heat_map is not None:
         (across, x_scale), (up, y_scale) = variable(heat_map.x), variable(heat_map.y)
@@ -147,6 +145,8 @@ def where_it_fails(answer: ComparisonResult) -> Html:
         parts.append(
             figure_of(drawing, f"Mean residual{unit} over {across} and {up}; red: measured above modelled.")
         )
+    if rows:  # below the map: a table may continue on the next page, a map may not
+        parts.append(table(columns, rows))
     areas = [loop.area for loop in answer.loops]
     if areas:
         parts.append(

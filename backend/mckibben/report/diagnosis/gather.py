@@ -211,7 +211,8 @@ def _proposed(question: ModelQuestion, studio: Studio, diagnosis: DiagnosisResul
     other = with_model(question, studio, muscle, model.effects, freed=tuple(diagnosis.freed))
     # A load missing in the measurement is not stored in the model, so it is fitted again.
     fit_load = LOAD in diagnosis.parameters.get("geometry", {})
-    return replace(compare(other, fit=fit_load), holdout_rmse=diagnosis.path[-1].holdout_rmse)
+    last = diagnosis.path[-1]
+    return replace(compare(other, fit=fit_load), holdout_rmse=last.holdout_rmse, fitted=last.fitted)
 
 
 def _command(

@@ -13,7 +13,7 @@ from mckibben.physics.parameter import Parameter
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.document import Head, bullets, heading, mark, paragraph, table
 from mckibben.report.figures import Scale, figure, scale_of, with_error
-from mckibben.report.formula import formula
+from mckibben.report.formula import equation, formula
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.sources import Figure, source_text
 
@@ -78,7 +78,7 @@ def _card(
     return html(
         heading(title),
         paragraph(effect.cause),
-        tag("div", _equation(effect, document), class_="equation"),
+        _equation(effect, document),
         table(columns, rows, whole=False) if rows else None,
     )
 
@@ -86,8 +86,8 @@ def _card(
 def _equation(effect: Effect, document: Mapping[str, float | str]) -> Html:
     term = document.get("term")
     if isinstance(term, str):  # a formula as the user typed it, not LaTeX
-        return html("F = ", tag("code", term))
-    return formula(effect.equation, block=True)
+        return tag("div", "F = ", tag("code", term), class_="equation")
+    return equation(effect.equation)
 
 
 def _symbol(parameter: Parameter | None, key: str) -> Html:
@@ -103,7 +103,7 @@ def _scale(parameter: Parameter | None, item: ParameterValue) -> Scale:
     size = abs(item.value)
     if parameter is not None and size < _NEGLIGIBLE * abs(parameter.upper):
         size = abs(parameter.upper)
-    return scale_of(item.unit, size)
+    return scale_of(item.unit, size, "" if parameter is None else parameter.name)
 
 
 def _settled(parameter: Parameter | None, item: ParameterValue) -> float:

@@ -16,12 +16,13 @@ from mckibben.report.document import (
     paragraph,
     table,
 )
-from mckibben.report.figures import Scale, figure, percent, plain, variable
+from mckibben.report.figures import Scale, figure, percent, plain, probability, variable
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.marks import SECOND, Axis, Dots, Line
 
 _HELPS = 1.0  # % of the error: candidates that gain less are only counted
 _MOST_TWINS = 4
+_NONE = 0.1  # sigma; experiments that are closer do not differ
 _SHOWN = 8  # candidates listed with reasons; further useful ones are only named
 
 
@@ -36,7 +37,7 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
             c.title,
             figure(c.rmse, scale, 3),
             percent(c.gain_percent / 100.0),
-            "–" if c.probability is None else percent(c.probability),
+            probability(c.probability),
             _twins([material.title_of(name) for name in c.twins]),
             c.why,
         ]
@@ -77,7 +78,7 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
                 " or ".join(material.title_of(name) for name in item.pair),
                 item.declared or "–",
                 item.protocol or "–",
-                figure(item.separation, Scale("σ"), 2),
+                _separation(item.separation),
                 "–" if item.minutes is None else plain(max(item.minutes, 1.0), 2),
             ]
             for item in verdict.experiments
@@ -88,6 +89,10 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
     if verdict.status == "unknown_effect":
         parts.append(_unknown(verdict))
     return html(parts)
+
+
+def _separation(sigma: float) -> Html:
+    return html("< 0.1\N{NO-BREAK SPACE}σ") if sigma < _NONE else figure(sigma, Scale("σ"), 2)
 
 
 def _twins(names: list[str]) -> str:

@@ -73,7 +73,7 @@ def _history(material: DiagnosisMaterial) -> Html:
         [
             past.label,
             ", ".join(material.title_of(name) for name in past.effects) or "ideal model",
-            figure(past.comparison.rmse, scale),
+            figure(past.comparison.rmse, scale, 3),
         ]
         for past in material.history
     ]

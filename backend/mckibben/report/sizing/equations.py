@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 from mckibben.report.document import Head, heading, paragraph, table
 from mckibben.report.figures import figure, scale_of
-from mckibben.report.formula import formula
+from mckibben.report.formula import equation, formula
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sources import source_text
@@ -123,7 +123,7 @@ def _law(law: _Law) -> Html:
     return tag(
         "div",
         heading(law.title),
-        [tag("div", formula(equation, block=True), class_="equation") for equation in law.equations],
+        [equation(one) for one in law.equations],
         paragraph(law.words, note=True),
         class_="whole",
     )
@@ -141,7 +141,7 @@ def _effect(name: str, material: SizingMaterial, chosen: Chosen) -> Html:
         [
             formula(parameter.symbol),
             parameter.description,
-            figure(value, scale_of(parameter.unit, value), exact=True),
+            figure(value, scale_of(parameter.unit, value, parameter.name), exact=True),
             source_text(source) if (source := chosen.figures.get(f"{name}.{parameter.name}")) else "given",
         ]
         for parameter in effect.parameters
@@ -151,6 +151,6 @@ def _effect(name: str, material: SizingMaterial, chosen: Chosen) -> Html:
         "div",
         heading(effect.title),
         paragraph(effect.cause),
-        tag("div", formula(effect.equation, block=True), class_="equation"),
+        equation(effect.equation),
         table(columns, rows, whole=False) if rows else None,
     )

@@ -153,7 +153,7 @@ def rejected_section(material: SizingMaterial) -> Html:
         [_why(items), limit_name(binding).lower(), items[0].would_work_if]
         for (_, _, binding), items in groups.items()
     ]
-    return table(columns, rows, caption=f"{_ORDER} {_GROUPED}")
+    return table(columns, rows, caption=f"{_ORDER} {_GROUPED}", whole=False)
 
 
 def _why(items: list[RejectedParts]) -> Html:

@@ -10,6 +10,9 @@ from mckibben.report.sizing.words import BAR, JOULE, MILLIMETRES
 from mckibben.report.sources import grades_table
 
 _HAIR = 1e-6
+_LONG = 200  # letters of a remark that may be broken between two pages
+#: Units of presets as the rest of the report writes them, with the space before them.
+_UNITS = {"deg": "°", "degC": "\N{NO-BREAK SPACE}°C", "MPa": "\N{NO-BREAK SPACE}N/mm²"}
 
 
 def parts_section(material: SizingMaterial, chosen: Chosen) -> Html:
@@ -107,10 +110,10 @@ def figures_section(chosen: Chosen) -> Html:
 
 
 def _row(known: KnownFigure) -> list[Child]:
-    unit = "" if known.unit == "1" else f"\N{NO-BREAK SPACE}{pretty(known.unit)}"
+    unit = "" if known.unit == "1" else _UNITS.get(known.unit) or f"\N{NO-BREAK SPACE}{pretty(known.unit)}"
     about: list[Child] = [known.figure.source]
     if known.note:
-        about.append(paragraph(known.note, note=True))
+        about.append(paragraph(known.note, note=True, long=len(known.note) > _LONG))
     return [
         known.name,
         f"{plain(known.value, 5, exact=True)}{unit}",

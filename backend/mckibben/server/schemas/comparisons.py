@@ -231,6 +231,7 @@ class ComparisonAnswer(Strict):
     nrmse_percent: float | None = Field(description="RMSE over the largest measured magnitude.")
     full_scale: float | None = Field(description="The largest measured magnitude.")
     holdout_rmse: float | None = Field(description="RMSE with whole groups left out of the fit.")
+    fitted: int = Field(description="Number of fitted values; with 0 no group was left out of anything.")
     noise_floor: float | None = Field(description="Noise of the data, if it can be estimated.")
     noise_how: str = Field(description="How the noise was estimated.")
     residual_mean: float | None = Field(description="Mean of the residual.")

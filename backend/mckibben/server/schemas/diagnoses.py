@@ -114,6 +114,7 @@ class PathStep(Strict):
     holdout_rmse: float = Field(description="RMSE with whole groups left out of the fit.")
     model: ModelJson = Field(description="The model after the step.")
     freed: list[str] = Field(description="Constants fitted as well, as effect.parameter.")
+    fitted: int = Field(description="Number of fitted values; with 0 no group was left out of anything.")
 
 
 class TermCurve(Strict):

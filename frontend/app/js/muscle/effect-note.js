@@ -3,7 +3,7 @@
 import { h, mathml } from "../dom.js";
 import { units } from "../state.js";
 import { effectsById } from "../store.js";
-import { number, plainScale, quantityOf, scaleOf, toShown } from "../format.js";
+import { capitalized, number, plainScale, quantityOf, scaleOf, toShown } from "../format.js";
 import { gradeTag } from "../ui/sources.js";
 
 /** @param {import("../types.js").Parameter} p */
@@ -27,8 +27,8 @@ function parameterRow(p) {
   );
 }
 
-/** @param {import("../types.js").Effect} e */
-export function effectNote(e) {
+/** @param {import("../types.js").Effect} e @param {boolean} [pictured] signature and twins stand beside it in pictures */
+export function effectNote(e, pictured = false) {
   const titleOf = (/** @type {string} */ id) => effectsById.peek().get(id)?.title ?? id;
   return h(
     "div",
@@ -59,11 +59,11 @@ export function effectNote(e) {
         h("tbody", null, ...e.parameters.map(parameterRow)),
       )
       : null,
-    h("h4", null, "What it looks like in the residual"),
-    h("p", null, e.signature.text),
+    pictured ? null : h("h4", null, "What it looks like in the residual"),
+    pictured ? null : h("p", null, `${capitalized(e.signature.text)}.`),
     e.kinds.length ? h("p", { class: "muted" }, `Visible in ${e.kinds.join(", ")} tests.`) : null,
-    e.confused_with.length ? h("h4", null, "Easily confused with") : null,
-    e.confused_with.length
+    e.confused_with.length && !pictured ? h("h4", null, "Easily confused with") : null,
+    e.confused_with.length && !pictured
       ? h(
         "ul",
         { class: "plain" },

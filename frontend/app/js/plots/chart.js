@@ -12,7 +12,7 @@ import { plotly } from "./library.js";
  * @typedef {{id: string, x: (number | null)[], y: (number | null)[], line?: {color: string, width?: number,
  *   dash?: string}, marker?: {size: number, symbol: string | string[], color: string | string[],
  *   edge?: string}, axis?: 2, column?: string}} Trace */
-/** `above`: its name stands above it, where points fill it.
+/** `above`: its name stands above or below it, because points fill it.
  * @typedef {{x: [number, number] | null, y: [number, number] | null, text: string, above?: boolean}} Zone */
 /** `end`: the other end of the line. @typedef {{text: string, x: number, y: number, color: string,
  *   end?: {x: number, y: number}}} Label */

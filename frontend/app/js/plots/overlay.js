@@ -126,7 +126,8 @@ export function writeLabels(chart) {
     const nodes = room && !lines.some((line) => line.end)
       ? besideAxis(lines, axes)
       : overPlot(lines, axes, pointsOf(chart.spec, axes), strokesOf(chart.spec, axes), room);
-    for (const zone of chart.spec.zones) nodes.push(...zoneLabel(zone, axes, chart.spec.zones));
+    const points = chart.spec.zones.some((zone) => zone.above) ? pointsOf(chart.spec, axes) : [];
+    for (const zone of chart.spec.zones) nodes.push(...zoneLabel(zone, axes, chart.spec.zones, points));
     box.replaceChildren(...nodes);
   });
 }
@@ -224,8 +225,9 @@ const strokesOf = (spec, axes) =>
     return places;
   });
 
-/** @param {import("./chart.js").Zone} zone @param {any} axes @param {import("./chart.js").Zone[]} all */
-function zoneLabel(zone, axes, all) {
+/** @param {import("./chart.js").Zone} zone @param {any} axes @param {import("./chart.js").Zone[]} all
+ * @param {[number, number][]} points what a name above a zone should not cover */
+function zoneLabel(zone, axes, all, points) {
   const span = h("span", { class: "zone" }, zone.text);
   if (zone.y) {
     const low = axes.yaxis.c2p(zone.y[zone.above ? 1 : 0]);
@@ -233,7 +235,17 @@ function zoneLabel(zone, axes, all) {
     // Left of a zone that ends the axis, whose name runs down there.
     const ends = all.flatMap(({ x }) => x && axes.xaxis.c2p(x[1]) > axes.xaxis._length - 2 ? [x[0]] : []);
     const right = Math.min(axes.xaxis._length, ...ends.map((x) => axes.xaxis.c2p(x)));
-    return [place(span, axes, right - 8, low - 17, "translateX(-100%)")];
+    if (!zone.above) return [place(span, axes, right - 8, low - 17, "translateX(-100%)")];
+    // Above or below the band, at the right or the left end: where it covers fewest points.
+    const wide = LETTER_PX * zone.text.length, under = axes.yaxis.c2p(zone.y[0]) + 3;
+    const places = [[right - 8, low - 17], [wide + 8, low - 17], [right - 8, under], [wide + 8, under]]
+      .filter(([, top]) => top + HIGH_PX <= axes.yaxis._length);
+    const covered = places.map(([end, top]) =>
+      points.filter(([x, y]) => x > end - wide - 3 && x < end + 3 && y > top - 2 && y < top + HIGH_PX + 2)
+        .length
+    );
+    const [end, top] = places[covered.indexOf(Math.min(...covered))];
+    return [place(span, axes, end, top, "translateX(-100%)")];
   }
   if (!zone.x) return [];
   const [from, to] = zone.x.map((v) => Math.min(axes.xaxis._length, Math.max(0, axes.xaxis.c2p(v))));

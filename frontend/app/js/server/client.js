@@ -22,6 +22,12 @@ export class ApiError extends Error {
 const sentence = (text) =>
   String(text).replace(/^[a-z]/, (c) => c.toUpperCase()).replace(/([^.!?:])$/, "$1.");
 
+/** What is wrong with a file, without its name where the words begin with it. @param {string} name @param {string} words */
+export const aboutFile = (name, words) =>
+  words.toLowerCase().startsWith(name.toLowerCase())
+    ? words.slice(name.length).replace(/^[:,]\s*/, "")
+    : words;
+
 /** The status of an error that is no answer: the server could not be reached. */
 export const UNREACHED = -1;
 

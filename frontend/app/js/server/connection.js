@@ -51,13 +51,15 @@ export async function look() {
   lost();
 }
 
-/** Watches a short request. @returns {() => void} to be called when it has ended */
-export function watch() {
+/** Says that something is slow when it takes for long. @param {() => void} [then] what else happens then
+ * @returns {() => void} to be called when it has ended */
+function time(then) {
   let late = false;
   const bell = setTimeout(() => {
     late = true;
     waiting++;
     if (connection.peek() === "up") connection.value = "slow";
+    then?.();
   }, SLOW_MS);
   return () => {
     clearTimeout(bell);
@@ -65,6 +67,31 @@ export function watch() {
     late = false;
     waiting--;
     if (!waiting && connection.peek() === "slow") connection.value = "up";
+  };
+}
+
+/** Asks whether the server is still there; where it is known to be gone, `look` does. */
+async function check() {
+  if (connection.peek() === "gone") return;
+  try {
+    if (await isThere()) return found();
+  } catch {
+    // it is gone
+  }
+  lost();
+}
+
+/** Watches a short request: when it takes for long, the server is asked whether it is still there.
+ * @returns {() => void} to be called when it has ended */
+export function watch() {
+  let beat = 0;
+  const end = time(() => {
+    check();
+    beat = setInterval(check, SLOW_MS);
+  });
+  return () => {
+    clearInterval(beat);
+    end();
   };
 }
 
@@ -78,12 +105,8 @@ export function attend() {
   const beat = setInterval(async () => {
     if (isAsking || performance.now() - last < SLOW_MS) return;
     isAsking = true;
-    const end = watch();
-    try {
-      if (await isThere()) found();
-    } catch {
-      lost();
-    }
+    const end = time();
+    await check();
     end();
     heard();
     isAsking = false;

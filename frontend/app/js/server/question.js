@@ -9,6 +9,8 @@ import { returned } from "./connection.js";
  * @typedef {"idle" | "asking" | "answered" | "failed" | "cancelled"} Stage */
 /** The request as text, by which it is recognized. @typedef {string | null} Text */
 
+/** How long a short request that was sent before the server went may take once it is back [ms]; then it is lost. */
+const GRACE_MS = 2000;
 /** How long an out-of-date request may still take [ms]: while a slider moves, answers keep coming. */
 const PATIENCE_MS = 400;
 const FAULT = "The page could not process this answer. Reload it; what you entered is kept in the address.";
@@ -33,6 +35,20 @@ export class Memory {
     this.answers.set(text, answer);
     if (this.answers.size > this.most) this.answers.delete([...this.answers.keys()][0]);
   }
+}
+
+/** Calls when the server has been gone and back for a while. @param {() => void} then
+ * @returns {() => void} ends the wait */
+function awaitComeback(then) {
+  const since = returned.peek();
+  let timer = 0;
+  const stop = effect(() => {
+    if (returned.value !== since && !timer) timer = setTimeout(then, GRACE_MS);
+  });
+  return () => {
+    clearTimeout(timer);
+    stop();
+  };
 }
 
 /** `memory`: a text asked before is answered from it, so that undo needs no request. `patience` [ms]: see above;
@@ -175,6 +191,7 @@ export class Question {
     this.waiting = null;
     this.running = { text, control, since };
     if (!this.keeps) batch(() => (this.answer.value = this.answered.value = null));
+    const stopAwaiting = this.patience ? awaitComeback(() => this.lose(control)) : () => {};
     /** @type {{answer: A} | {thrown: unknown}} */
     let outcome;
     try {
@@ -182,6 +199,7 @@ export class Question {
     } catch (thrown) {
       outcome = { thrown };
     }
+    stopAwaiting();
     this.running = null;
     clearTimeout(this.abortTimer);
     this.next();
@@ -194,6 +212,14 @@ export class Question {
       this.settle(text, answer);
       this.arrived?.(answer);
     });
+  }
+
+  /** A request that no answer comes to is sent once more, if it is still wanted. @param {AbortController} control */
+  lose(control) {
+    if (this.running?.control !== control || control.signal.aborted) return;
+    const { text } = this.running;
+    if (this.waiting === null && this.asked.peek() === text) this.waiting = text;
+    control.abort();
   }
 
   /** Asks once more when the server is back; until then the banner of the page tells that it is gone.

@@ -1,6 +1,7 @@
 // @ts-check
 // Which columns the table of each kind has, and how a value of a preset is read, sorted and written.
 import {
+  capitalized,
   number,
   quantityOf,
   quantityOfUnit,
@@ -69,7 +70,7 @@ export function columnsOf(kind, list) {
   return [
     maker,
     ...(kind === "valves" ? [job] : []),
-    ...common.map((key) => value(key, readable(key), "data")),
+    ...common.map((key) => value(key, capitalized(readable(key)), "data")),
   ];
 }
 

@@ -103,7 +103,11 @@ function row(p) {
     ),
     ...columns.value.map((c) => {
       const cell = c.of(p);
-      return h("td", { class: typeof cell === "string" ? "text" : "" }, () => cellText(cell, units.value));
+      return h(
+        "td",
+        { class: typeof cell === "string" ? "text" : "", "data-title": c.title },
+        () => cellText(cell, units.value),
+      );
     }),
   );
 }

@@ -3,7 +3,7 @@
 import { h, icon } from "../../dom.js";
 import { apart, computed, effect, signal } from "../../reactive.js";
 import { view } from "../../state.js";
-import { ApiError } from "../../server/client.js";
+import { aboutFile, ApiError } from "../../server/client.js";
 import { keep, measurement } from "../../server/measurements.js";
 import { cameBack, has, lacks } from "../../server/missing.js";
 import { untilLoaded } from "../../server/patience.js";
@@ -29,7 +29,7 @@ async function send(file) {
   try {
     const [read] = await importFiles([file], {
       asks: false,
-      complain: (name, words) => (refused.value = `${name}: ${words}`),
+      complain: (name, words) => (refused.value = `${name}: ${aboutFile(name, words)}`),
       reading: (name) => (isSending.value = Boolean(name)),
     });
     if (!read) return;
@@ -39,7 +39,7 @@ async function send(file) {
     editTransient({ measurement: { id: answer.id, name: answer.name } }, `measured trace ${answer.name}`);
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
-    refused.value = `${file.name}: ${error.words}`;
+    refused.value = `${file.name}: ${aboutFile(file.name, error.words)}`;
   } finally {
     isSending.value = false;
   }
@@ -49,7 +49,8 @@ async function send(file) {
 function complaint() {
   const error = columns.error.value;
   const isMissing = error?.status === 404; // the banner says so
-  return refused.value || (error && chosen.value && !isMissing ? `${chosen.value.name}: ${error.words}` : "");
+  const { name } = chosen.value ?? { name: "" };
+  return refused.value || (error && name && !isMissing ? `${name}: ${aboutFile(name, error.words)}` : "");
 }
 
 /** What is shown of the file, and the messages of the server. */

@@ -130,16 +130,19 @@ function pair(e, twin) {
   const other = effectsById.value.get(twin.effect);
   if (!other) return null;
   const mine = usual(e.id)?.pictures ?? [], theirs = usual(other.id)?.pictures ?? [];
-  const kind = mine.find((p) => theirs.some((q) => q.kind === p.kind))?.kind;
+  // A test in which both change the same reading, else one in which both change any.
+  const shared = (/** @type {boolean} */ same) =>
+    mine.find((p) => theirs.some((q) => q.kind === p.kind && (!same || q.quantity === p.quantity)))?.kind;
+  const kind = shared(true) ?? shared(false);
   const of = (/** @type {typeof mine} */ list) => list.find((p) => p.kind === kind);
-  const a = of(mine), b = of(theirs);
+  const a = of(mine), b = of(theirs), named = a?.quantity !== b?.quantity;
   return h(
     "li",
     { class: "twin-pair" },
     h(
       "div",
       null,
-      h("div", null, h("b", null, e.title), a ? picture(a, e.title) : null),
+      h("div", null, h("b", null, e.title), a ? picture(a, e.title, named) : null),
       h(
         "div",
         null,
@@ -148,7 +151,7 @@ function pair(e, twin) {
           { type: "button", class: "link", onclick: () => setFilter({ selected: other.id }) },
           other.title,
         ),
-        b ? picture(b, other.title) : null,
+        b ? picture(b, other.title, named) : null,
       ),
     ),
     h("p", null, icon("flask"), h("span", null, capitalized(twin.separated_by))),
@@ -203,7 +206,7 @@ function detail(e) {
     h(
       "div",
       { class: "scroll", tabindex: 0, role: "region", "aria-label": "Cause, equation, sources" },
-      effectNote(e),
+      effectNote(e, true),
     ),
   ];
 }

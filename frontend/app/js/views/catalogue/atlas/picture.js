@@ -33,8 +33,9 @@ function dots(p) {
   });
 }
 
-/** @param {Picture} p @param {string} title of the effect */
-export function picture(p, title) {
+/** @param {Picture} p @param {string} title of the effect
+ * @param {boolean} [named] whether the picture names the reading, because that beside it shows another */
+export function picture(p, title, named = false) {
   const over = dots(p);
   const xs = [...p.curves.flatMap((c) => c.x), ...over.map(([x]) => x)];
   const ys = [...p.curves.flatMap((c) => c.y), ...over.map(([, y]) => y)];
@@ -64,7 +65,12 @@ export function picture(p, title) {
   return h(
     "figure",
     { class: "signature-figure" },
-    h("figcaption", null, h("b", null, p.kind), h("span", null, `±\u2009${shown(most, sy)}`)),
+    h(
+      "figcaption",
+      null,
+      h("b", null, p.kind, named ? `, ${readable(p.quantity)}` : ""),
+      h("span", null, `±\u2009${shown(most, sy)}`),
+    ),
     drawing,
     h(
       "small",

@@ -163,7 +163,7 @@ export const table = () =>
     { class: "scroll", tabindex: 0, role: "region", "aria-label": "Models" },
     h(
       "table",
-      { class: "board-table" },
+      { class: "board-table", style: `--models:${order.value.length}` },
       h("caption", { class: "unseen" }, "Pinned models and the case"),
       h(
         "thead",

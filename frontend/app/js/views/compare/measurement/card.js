@@ -1,6 +1,7 @@
 // @ts-check
 // The measurements card: drop zone, built-in examples, the files and their use.
 import { h, icon } from "../../../dom.js";
+import { aboutFile } from "../../../server/client.js";
 import { references } from "../../../store.js";
 import { menuButton } from "../../../ui/menu.js";
 import {
@@ -144,7 +145,7 @@ export const complaintNotices = () =>
       "p",
       { class: "flag bad", role: "alert" },
       icon("warn"),
-      h("span", null, h("b", null, name), `: ${words}`),
+      h("span", null, h("b", null, name), `: ${aboutFile(name, words)}`),
     )
   );
 

@@ -81,8 +81,9 @@ function nextCell() {
     "aria-label": () => next.value.name ?? next.value.label,
     // Not disabled, which would take the focus from it: it stays here from step to step.
     "aria-disabled": () => isReady.value ? null : "true",
-    onclick: () => {
-      if (isReady.peek()) next.peek().run();
+    // The second click of a double click would do what the button says after the first: stop the diagnosis.
+    onclick: (/** @type {MouseEvent} */ e) => {
+      if (e.detail < 2 && isReady.peek()) next.peek().run();
     },
     ...Object.fromEntries(
       ["onpointerenter", "onpointerleave", "onfocus", "onblur"].map((name) => [

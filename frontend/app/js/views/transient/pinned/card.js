@@ -104,7 +104,7 @@ function table() {
     { class: "scroll", tabindex: 0, role: "region", "aria-label": "Pinned runs and the current run" },
     h(
       "table",
-      { class: "data pinned" },
+      { class: "data pinned", style: `--runs:${all.length}` },
       h("caption", { class: "unseen" }, "Pinned runs and the current run; the first is the baseline"),
       h(
         "thead",

@@ -126,6 +126,17 @@ const TIMED = /** @type {("extend" | "retract")[]} */ (["extend", "retract"]).fl
   }))
 );
 
+/** Numbers of a row with one number of decimals: that of the smallest, but at most one more than the largest needs.
+ * @param {(number | null)[]} values */
+function alike(values) {
+  const placesOf = (/** @type {number} */ size) => brief(size).split(".")[1]?.length ?? 0;
+  const sizes = values.map((v) => Math.abs(v ?? 0)).filter(Boolean);
+  const places = Math.min(placesOf(Math.min(...sizes)), placesOf(Math.max(...sizes)) + 1);
+  return values.map((v) =>
+    v === null ? "–" : v.toFixed(sizes.length ? places : 0).replace("-", "−").replace(/^−?0(\.0+)?$/, "0")
+  );
+}
+
 /** Rows of the figures that at least one run has. @param {Column[]} all @returns {Row[]} */
 export function figureRows(all) {
   const tracked = all.some((c) => c.run?.tracking);
@@ -136,7 +147,7 @@ export function figureRows(all) {
     return {
       label,
       unit: s.unit,
-      texts: values.map((v) => v === null ? "–" : brief(v / s.factor)),
+      texts: alike(values.map((v) => v === null ? null : v / s.factor)),
       deltas: values.map((v, i) => i && v !== null && base ? v / base - 1 : null),
     };
   }).filter((r) => r.texts.some((text) => text !== "–"));
