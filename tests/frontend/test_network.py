@@ -104,6 +104,22 @@ def test_a_server_that_is_gone_and_comes_back(page: Page, page_guard: PageGuard)
     expect(banner).to_have_count(0)  # by itself
     expect(page.locator(".centre")).not_to_have_class(re.compile("stale"))
 
+    # A server just installed says what makes it slow.
+    for compiling, words in (("true", "compiles the simulation"), ("false", "takes long to answer")):
+        run(
+            page,
+            f"""
+            const server = await import("/js/server/connection.js"), ask = window.fetch;
+            window.fetch = async () => new Response('{{"compiling": {compiling}}}');
+            await server.look();
+            window.fetch = ask;
+            server.connection.value = "slow";
+            """,
+        )
+        expect(banner).to_contain_text(words)
+    run(page, '(await import("/js/server/connection.js")).connection.value = "up"')
+    expect(banner).to_have_count(0)
+
 
 def test_a_question_that_gets_lost_is_asked_again(blank: Page) -> None:
     """A network that sleeps answers nothing and refuses nothing: the page must not wait for it for ever."""
@@ -115,7 +131,7 @@ def test_a_question_that_gets_lost_is_asked_again(blank: Page) -> None:
         AbortSignal.timeout = (ms) => (limits.push(ms), timeout.call(AbortSignal, 20));
         let asked = 0;
         window.fetch = (path, { signal } = {}) =>
-          asked++ ? Promise.resolve({ ok: true }) : new Promise((_, fail) => {
+          asked++ ? Promise.resolve({ ok: true, json: async () => ({ compiling: false }) }) : new Promise((_, fail) => {
             signal?.addEventListener("abort", () => fail(signal.reason));
           });
         lost();

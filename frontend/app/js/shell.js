@@ -5,7 +5,7 @@ import { left, linkOf, PARTLY } from "./link.js";
 import { setTheme, themeChoice } from "./plots/theme.js";
 import { projectButton } from "./projects/menu.js";
 import { apart } from "./reactive.js";
-import { connection, look } from "./server/connection.js";
+import { compiling, connection, look } from "./server/connection.js";
 import { deleted, lookForMissing, lostPresets, missing, restoreDeleted } from "./server/missing.js";
 import { loadAll } from "./server/presets.js";
 import { doc, edit, future, goTo, past, units, view } from "./state.js";
@@ -28,6 +28,9 @@ const WORDS = {
     "The server does not answer. Is “mckibben serve” still running? The page tries again by itself; what you " +
     "entered stays. Dimmed plots show the state before.",
   slow: "The server takes long to answer. Dimmed plots show the state before.",
+  compiling:
+    "The server compiles the simulation for this machine. That takes about half a minute, once after an " +
+    "installation; what needs it waits.",
 };
 
 export async function share() {
@@ -185,7 +188,7 @@ export function shell(views, { examples, help }) {
     const now = connection.value;
     if (now === "up" && !outage.value && missing.value.length) return missingBanner(views);
     if (now === "up" && !outage.value && lostPresets.value.length) return lostBanner();
-    const text = now === "up" ? outage.value : WORDS[now];
+    const text = now === "up" ? outage.value : WORDS[now === "slow" && compiling.value ? "compiling" : now];
     return text
       ? h(
         "div",

@@ -33,10 +33,16 @@ export function found() {
   }
 }
 
+/** Whether the server compiles its integrators, once after an installation: what needs them waits. */
+export const compiling = signal(false);
+
 /** Whether the server is there. A question that gets lost, in a sleeping network for example, would wait for ever.
  * @throws when there is no answer in time */
-const isThere = async () =>
-  (await fetch("/api/health", { cache: "no-store", signal: AbortSignal.timeout(HEALTH_MS) })).ok;
+const isThere = async () => {
+  const answer = await fetch("/api/health", { cache: "no-store", signal: AbortSignal.timeout(HEALTH_MS) });
+  if (answer.ok) compiling.value = (await answer.json()).compiling;
+  return answer.ok;
+};
 
 /** Looks whether the server is there, less and less often. */
 export async function look() {
