@@ -24,7 +24,9 @@ from tests.frontend.comparing import (
     measured,
     opened,
     setup,
+    shifts,
     use,
+    watch_shifts,
 )
 from tests.frontend.guard import PageGuard
 from tests.frontend.views import REFUSED, open_compare, open_compared, redo, run
@@ -96,8 +98,12 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
 def test_a_mystery_with_a_drive_brings_it_along(page: Page) -> None:
     open_compare(page)
     page.route("**/api/diagnoses", lambda route: None)  # only what the mystery brings is looked at
+    page.set_viewport_size({"width": 1440, "height": 1000})
+    watch_shifts(page)
     page.locator(".tile", has_text="Slow to let go").click()
     expect(page.locator("#error-now")).to_contain_text("× noise", timeout=20_000)
+    expect(page.locator("#overlay-pressure .js-line").last).to_be_attached()
+    assert shifts(page) == []  # the places of two plots are kept free
     expect(page.locator("#overlay-pressure .js-line").last).to_be_attached()
     expect(page.locator("#overlay-displacement .js-line").last).to_be_attached()
     setup(page)

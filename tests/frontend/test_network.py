@@ -130,8 +130,9 @@ def test_a_question_that_gets_lost_is_asked_again(blank: Page) -> None:
         const limits = [], timeout = AbortSignal.timeout;
         AbortSignal.timeout = (ms) => (limits.push(ms), timeout.call(AbortSignal, 20));
         let asked = 0;
+        const found = { ok: true, json: async () => ({ compiling: false }) };
         window.fetch = (path, { signal } = {}) =>
-          asked++ ? Promise.resolve({ ok: true, json: async () => ({ compiling: false }) }) : new Promise((_, fail) => {
+          asked++ ? Promise.resolve(found) : new Promise((_, fail) => {
             signal?.addEventListener("abort", () => fail(signal.reason));
           });
         lost();

@@ -9,7 +9,7 @@ from playwright.sync_api import Locator, Page, expect
 
 from tests.frontend.axe import violations
 from tests.frontend.guard import PageGuard
-from tests.frontend.test_layout import OVERLAPS, SIDEWAYS, TOO_SMALL
+from tests.frontend.test_layout import OVERLAPS, SCROLLS, SIDEWAYS, TOO_SMALL
 from tests.frontend.views import REFUSED, SIZES, enter, link_of, load, marked, run
 
 CLICKS = 6
@@ -76,6 +76,9 @@ def test_from_a_drive_to_the_spread_of_its_figures(page: Page) -> None:
         assert wide["out"] == [], width
         assert run(page, OVERLAPS) == [], width
         assert run(page, TOO_SMALL) == [], width
+    # On a phone only the long table of all runs and the axes beside each other scroll sideways.
+    wide = [name for name in run(page, SCROLLS) if not name.startswith("Parallel coordinates")]
+    assert wide == ["Table of runs"]
 
 
 @pytest.mark.examination("test_from_a_drive_to_the_spread_of_its_figures")

@@ -153,6 +153,6 @@ def test_a_report_without_a_drive_is_well_formed_and_takes_texts_as_texts() -> N
     assert "script" not in {element.tag for element in root.iter()}
     assert root.findtext("head/title") == f"{NASTY} – sizing report"
     assert ["".join(h.itertext()) for h in root.iter("h2")] == [
-        "1 Result", "2 Task", "3 Rejected parts", "4 Assumptions", "5 How to reproduce",
+        "1 Result", "2 Rejected parts", "3 Task", "4 Assumptions", "5 How to reproduce",
     ]  # fmt: skip
     assert "ab" * 32 in page

@@ -103,7 +103,7 @@ def progress(words: str) -> Iterator[Watch]:
     from rich.text import Text
 
     class _Words(ProgressColumn):
-        def render(self, _task: object) -> Text:
+        def render(self, task: object) -> Text:
             return Text(f"{words} ({_COMPILING})" if is_compiling() else words)
 
     console = Console(stderr=True)

@@ -95,6 +95,7 @@ class Measurement:
         kind_reason: why this kind was detected; empty when the file states it.
         segmented: segments known from the original rows of a reduced measurement.
         unread: columns that nothing is read from, and why.
+        undecided: those among them of which neither name nor unit tells what they are.
         stated: the conditions with their origin.
         questions: what the file leaves open.
     """
@@ -115,6 +116,7 @@ class Measurement:
     kind_reason: str = ""
     segmented: Sweeps | None = None
     unread: tuple[tuple[str, str], ...] = ()
+    undecided: tuple[str, ...] = ()
     stated: tuple[StatedValue, ...] = ()
     questions: tuple[Question, ...] = ()
 

@@ -74,13 +74,14 @@ pre { background: var(--tint); padding: 8px 12px; white-space: pre-wrap;
   .tile strong { font-size: 16px; }
   section { margin-top: 20px; }
   h2, h3, caption { break-after: avoid; }
-  figure, .callout, .tiles, tr, .equation, .whole, dl, li { break-inside: avoid; }
+  figure, .callout, .tiles, tr, .equation, dl, li { break-inside: avoid; }
   /* A tall stack would leave a third of a page white: it may break, with two panels on either side. */
   figure.panels { break-inside: auto; }
   figure.panels svg { break-inside: avoid; }
   figure.panels svg:first-of-type { break-after: avoid; }
   figure.panels svg:last-of-type, figcaption { break-before: avoid; }
   table.short { break-inside: avoid; }
+  .law .note { break-before: avoid; } /* the equations of a law may part */
   /* A row with a long remark is tall: it may break within it, with two of its lines on either side. */
   tr:has(td .long) { break-inside: auto; }
   td .note { orphans: 2; widows: 2; padding-top: 4px;

@@ -26,6 +26,11 @@ export function showCommands(views, keys, actions) {
           sizing: { ...d.sizing, mode: /** @type {"muscle" | "task"} */ (mode) },
         })),
     })),
+    {
+      label: "Effects: what each leaves in a residual",
+      kind: "view",
+      run: () => look((d) => ({ ...d, view: "catalogue", catalogue: { ...d.catalogue, kind: "effects" } })),
+    },
     ...actions,
     ...views.filter(({ id }) => id === view.peek()).flatMap(({ exports }) =>
       exports().flatMap((item) =>

@@ -34,8 +34,6 @@ __all__ = [
 ]  # fmt: skip
 
 _PRESSURE = 6e5  # Pa; required by the drive, but unused because the pressure is measured
-#: Ends of the reasons for which a column that is not read could still be the force.
-_OPEN = ("its name is not known", "not a calibrated value")
 _ANY_VALVE = Valve(1e-8, 1e-8)  # the pressure is measured, so no air flows through it
 
 
@@ -96,7 +94,7 @@ def driven_by_pressure(measurement: Measurement, muscle: Muscle) -> Drive:
         )
     conditions = measurement.conditions
     if not {"load_mass", "load_force"} & set(conditions):
-        unused = ", ".join(f"'{header}'" for header, why in measurement.unread if why.endswith(_OPEN))
+        unused = ", ".join(f"'{header}'" for header in measurement.undecided)
         also = f"; is the force in one of the unused columns {unused}?" if unused else ""
         also = "" if "force" in measurement.columns else also
         raise InputError(

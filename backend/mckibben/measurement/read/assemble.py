@@ -29,11 +29,12 @@ from mckibben.measurement.read.contradictions import condition_questions, number
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.hangers import add_hanger
-from mckibben.measurement.read.head_text import channel_number
+from mckibben.measurement.read.head_text import channel_number, without_paths
 from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
 from mckibben.measurement.read.held_by_text import hold_pressure, hold_stroke
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.signs import FORCE_SIGN, STROKE_SIGN
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import KIND_SAID, REFERENCE_OF
@@ -225,6 +226,7 @@ def assemble(
     measurement = replace(
         measurement,
         unread=unread_columns(source, meaning, reading.ignored),
+        undecided=_undecided(source, meaning),
         stated=stated_values(source, meaning, conditions, correction),
         questions=tuple(questions),
     )
@@ -292,6 +294,21 @@ def unread_columns(source: RawTable, meaning: Meaning, dropped: Sequence[str]) -
         if index not in taken
     ]
     return (*found, *source.unread)
+
+
+def _undecided(source: RawTable, meaning: Meaning) -> tuple[str, ...]:
+    """Columns that nothing is read from because neither their name nor their unit tells what they are."""
+    used = {column.place for column in meaning.columns} | {c.place for c in meaning.constants}
+    used |= {other.place for _, other in meaning.rivals} | set(meaning.problems) | meaning.dismissed
+    units = [*source.units, *[None] * (len(source.headers) - len(source.units))]
+    names = without_paths([header.strip() for header in source.headers])
+    return tuple(
+        header or f"column {index + 1}"
+        for index, header in enumerate(source.headers)
+        if index not in used
+        and (known := recognise(names[index], units[index])).undecided
+        and meaning.reasons.get(index, known.why) == known.why
+    )
 
 
 def _why_unread(meaning: Meaning, index: int) -> str:

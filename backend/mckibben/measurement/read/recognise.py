@@ -29,7 +29,10 @@ _RAW = 3  # of LESS_WANTED: a raw column
 
 
 class Recognised(NamedTuple):
-    """What a head means. ``channel`` None = none, because ``why``; ``sign`` -1 = counted the other way."""
+    """What a head means. ``channel`` None = none, because ``why``; ``sign`` -1 = counted the other way.
+
+    ``undecided``: no channel, because neither name nor unit tells what it is.
+    """
 
     channel: str | None
     unit: str | None
@@ -37,6 +40,11 @@ class Recognised(NamedTuple):
     penalty: int
     why: str
     extends: bool = False
+    undecided: bool = False
+
+
+def _unknown(unit: str | None) -> Recognised:
+    return Recognised(None, unit, None, 0, "its name is not known", undecided=True)
 
 
 def recognise(header: str, unit_below: str | None = None) -> Recognised:
@@ -56,7 +64,8 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     if head.unit == COUNT:
         return Recognised(None, head.unit, None, 0, "it holds counts of a converter, not a physical value")
     if dimension in RAW_DIMENSIONS:
-        return Recognised(None, head.unit, None, 0, f"'{head.unit}' is {dimension}, not a calibrated value")
+        why = f"'{head.unit}' is {dimension}, not a calibrated value"
+        return Recognised(None, head.unit, None, 0, why, undecided=True)
     meant = _without_statistic(words, dimension)
     named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
     if "command" in named:
@@ -84,7 +93,7 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     if channel is not None and (not dimension or dimension in DIMENSIONS[channel]):
         ambiguous = set(words) & {"last", "charge", "carga", "load"} and len(words) > 2
         if channel == "force" and not dimension and (ambiguous or set(words) & _ALSO_VOLTAGE):
-            return Recognised(None, None, None, 0, "its name is not known")
+            return _unknown(None)
         return Recognised(
             proper(channel), head.unit, head.absolute, penalty, "by its name", channel == "extension"
         )
@@ -92,12 +101,12 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         return Recognised(None, head.unit, None, 0, f"its name says {channel}, '{head.unit}' is {dimension}")
     if not dimension or dimension == "a plain number or a share":
         no_channel = next((NO_CHANNEL[word] for word in words if word in NO_CHANNEL), None)
-        return Recognised(
-            None, head.unit, None, 0, f"it is {no_channel}" if no_channel else "its name is not known"
-        )
+        if no_channel is None:
+            return _unknown(head.unit)
+        return Recognised(None, head.unit, None, 0, f"it is {no_channel}")
     by_unit = {"a force": "force", "a pressure": "pressure", "a time": "time"}.get(dimension)
     if by_unit is None:
-        return Recognised(None, head.unit, None, 0, "its name is not known")
+        return _unknown(head.unit)
     return Recognised(
         by_unit, head.unit, head.absolute, penalty + BY_UNIT, f"by its unit '{head.unit}' alone"
     )

@@ -125,7 +125,7 @@ def _law(law: _Law) -> Html:
         heading(law.title),
         [equation(one) for one in law.equations],
         paragraph(law.words, note=True),
-        class_="whole",
+        class_="law",
     )
 
 

@@ -39,8 +39,8 @@ def _sections(material: SizingMaterial) -> Iterator[Section]:
         yield Section("Motion", motion_section(material, chosen))
         yield Section("Uncertainty", uncertainty_section(chosen))
         yield Section("Alternatives", alternatives_section(material, chosen))
-    yield Section("Task", task_section(material))
     yield Section("Rejected parts", rejected_section(material))
+    yield Section("Task", task_section(material))
     yield Section("Assumptions", assumptions_section(material))
     if chosen is not None:
         yield Section("Figures and their grades", figures_section(chosen))

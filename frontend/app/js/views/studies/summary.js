@@ -17,7 +17,7 @@ const table = (caption, heads, rows) =>
     { class: "scroll", tabindex: 0, role: "region", "aria-label": caption },
     h(
       "table",
-      { class: "data" },
+      { class: "data figures" },
       h("caption", { class: "unseen" }, caption),
       h(
         "thead",
@@ -32,7 +32,7 @@ const table = (caption, heads, rows) =>
             "tr",
             null,
             h("th", { scope: "row", class: "text" }, first),
-            ...rest.map((cell) => h("td", null, cell)),
+            ...rest.map((cell, i) => h("td", { "data-title": heads[i + 1] }, cell)),
           )
         ),
       ),

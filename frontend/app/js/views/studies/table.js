@@ -229,7 +229,7 @@ export function pinsCard() {
         { class: "scroll", tabindex: 0, role: "region", "aria-label": "Pinned runs compared" },
         h(
           "table",
-          { class: "data" },
+          { class: "data", style: `--runs:${at.length}` },
           h("caption", { class: "unseen" }, "Pinned runs"),
           h(
             "thead",

@@ -178,17 +178,21 @@ export function overlayCards() {
     { class: () => `column${stale.value ? " stale" : ""}` },
     () => {
       overlays.length = 0;
-      if (!names.value) return fault.value ? null : skeleton();
+      // A drive predicts pressure and stroke: the places of both are kept free.
+      if (!names.value) {
+        return fault.value ? null : compare.value.drive ? [skeleton(), skeleton(false)] : skeleton();
+      }
       return names.value.split(",").map((name, i) => plotCard(name, i === 0));
     },
   );
 }
 
-const skeleton = () =>
+/** @param {boolean} [first] has the legend */
+const skeleton = (first = true) =>
   h(
     "section",
     { class: "card chart overlay", "aria-label": "Overlay" },
     h("div", { class: "card-head" }, h("h2", null, "Measured and model")),
-    h("ul", { class: "legend", "aria-hidden": "true" }),
+    first ? h("ul", { class: "legend", "aria-hidden": "true" }) : null,
     h("div", { class: "plot skeleton", role: "status" }, h("span", { class: "unseen" }, "Comparing…")),
   );

@@ -73,7 +73,7 @@ export function marksOf(s, factor) {
     for (const step of [5, 1]) {
       const value = (step * power) / 10;
       const place = placeOf(value * factor, s), last = round.at(-1);
-      if (value < 0.7 * end && place > 0.16 && (!last || last.place - place > 0.24) && place < ENDS_FREE) {
+      if (value < 0.7 * end && place > 0.24 && (!last || last.place - place > 0.24) && place < ENDS_FREE) {
         round.push({ value, place });
       }
     }
