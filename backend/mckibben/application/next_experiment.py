@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.identification.diagnose.design import DesignedExperiment
+from mckibben.identification.diagnose.design import APART, DesignedExperiment
 from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
 
@@ -131,7 +131,7 @@ def next_measurement(diagnosis: Diagnosis, titles: Mapping[str, str]) -> str | N
     sentences = []
     for design in diagnosis.designs:
         names = {name: titles.get(name, name) for name in design.group}
-        split = [s for s in design.separations if s.sigma >= 1.0]
+        split = [s for s in design.separations if s.sigma >= APART]
         if split:
             parts = []
             for first in dict.fromkeys(s.first for s in split[:_TOLD]):

@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from mckibben.identification.diagnose.design import DECISIVE, DesignedExperiment, Designer
+from mckibben.identification.diagnose.design import APART, DECISIVE, DesignedExperiment, Designer
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.physics.effect import Effect
@@ -50,7 +50,7 @@ class SeparatingExperiment:
         """The proposal in words."""
         pair = f"to tell {titles.get(self.first, self.first)} from {titles.get(self.second, self.second)}"
         parts = [self.declared] if self.declared else []
-        if self.protocol and self.separation >= 1.0:
+        if self.protocol and self.separation >= APART:
             parts.append(f"simulated best: {self.protocol} ({self.separation:.1f} sigma apart)")
         elif self.protocol and not self.declared:
             parts.append("no experiment with this rig does, and no other one is known")
@@ -86,8 +86,7 @@ def next_measurements(
     """
     pairs = []
     for other in others:
-        apart = [(designer.separation(best, other.fitted_model, p), p) for p in designer.protocols]
-        sigma, protocol = max(apart, key=lambda pair: pair[0], default=(0.0, None))
+        sigma, protocol = designer.farthest(best, other.fitted_model)
         differs = [(designer.difference(best, other.fitted_model, p), p) for p in designer.protocols]
         difference, place = max(differs, key=lambda pair: pair[0], default=(0.0, None))
         pairs.append(
@@ -107,9 +106,7 @@ def next_measurements(
         members = {other.effect: other.fitted_model for other in others if other.of == name}
         group = [name, *members]
         weights = {effect: catalogue[effect].prior.share for effect in group}
-        designed = designer.design(group, {name: best, **members}, weights)
-        if designed is not None:
-            designs.append(designed)
+        designs += designer.designs(group, {name: best, **members}, weights)
     return pairs, sorted(designs, key=lambda one: -_decided(one))
 
 
