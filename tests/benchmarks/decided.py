@@ -3,8 +3,9 @@
     python -m tests.benchmarks.decided [--seeds 0,1,2,3,4,5] [--only TEXT] [--keep FILE]
 
 A case counts where the data cannot tell a hidden effect from one that is not there, and experiments of the
-rig are said to tell them apart, by more than what a diagnosis counts as the same. It is decided where the
-diagnosis of all files together names the hidden effect, and none of those any more.
+rig are said to tell them apart (`design.APART`; of several hidden effects of a group the first counts, which
+is the model's own if it is one). It is decided where the diagnosis of all files together names the hidden
+effect, and none of those any more.
 
 FIGURES
 """
@@ -59,12 +60,10 @@ def decided(case: Case) -> list[Line]:
         rivals = [name for name in group if name not in accepted]
         if not true or not rivals:
             continue
-        promised = [
-            name
-            for name in rivals
-            if any((design.between(one, name) or 0.0) >= APART for one in true for design in designs)
-        ]
-        words = ", then ".join(design.words for design in designs)
+        apart = {name: max(design.between(true[0], name) or 0.0 for design in designs) for name in rivals}
+        promised = [name for name, sigma in apart.items() if sigma >= APART]
+        largest = f" ({max(apart.values()):.1f} sigma)"
+        words = ", then ".join(design.words for design in designs) + largest
         line = Line(case.id, true[0], tuple(rivals), tuple(promised), words)
         lines.append(line)
         if not promised:

@@ -23,7 +23,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from mckibben.identification.diagnose.adapting import Experiment, left_after_refit
+from mckibben.identification.diagnose.adapting import left_after_refit
 from mckibben.identification.diagnose.drive_protocol import drive_protocols
 from mckibben.identification.diagnose.protocol import Protocol, Rig, Schedule, protocols, rig_of
 from mckibben.identification.diagnose.twins import SAME
@@ -35,10 +35,10 @@ from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.physics.errors import InputError
 
 DECISIVE = 3.0  # separation [sigma] from which an experiment decides
-#: Separation [sigma] from which an experiment tells two effects apart at all: a diagnosis counts predictions
-#: that differ by less as the same.
-APART = SAME
-_FEWEST = 8  # values with tension that a run needs
+#: Separation [sigma] from which an experiment tells two effects apart: twice what a diagnosis counts as the
+#: same, because the noise and the form of the laws take their part of it.
+APART = 2.0 * SAME
+_FEWEST = 8  # values that a run needs
 _MOST_MODELS = 5  # of a group that are simulated, the likeliest
 _VERIFIED = 3  # experiments whose separations are verified, the most promising
 
@@ -81,11 +81,14 @@ class DesignedExperiment:
 
 @dataclass(frozen=True)
 class _Predicted:
-    """Prediction of an experiment and its derivatives, over the noise; rows where the muscle is tight."""
+    """Prediction of an experiment and its derivatives over the noise, and the rows that have one.
+
+    A slack muscle reads the zero of the sensor, which no constant of the muscle changes.
+    """
 
     values: np.ndarray
     slopes: np.ndarray
-    tight: np.ndarray
+    rows: np.ndarray
 
 
 @dataclass
@@ -212,10 +215,10 @@ class Designer:
             one, two = self._predicted(truth, protocol), self._predicted(rival, protocol)
             if one is None or two is None or self.present is None:
                 return 0.0
-            rows = one.tight & two.tight
-            wanted = one.values * self.noise * protocol.predictor.scale
-            experiment = Experiment(protocol.predictor, wanted, rows, truth.fit_model.ids)
-            left = left_after_refit(rival, self.present, experiment, self.noise)
+            rows = one.rows & two.rows
+            wanted = np.where(one.rows, one.values, 0.0) * self.noise * protocol.predictor.scale
+            experiment = protocol.predictor.reading(wanted)
+            left = left_after_refit(rival, self.present, experiment, rows, self.noise)
             self._verified[key] = self._largest(left, rows, protocol)
         return self._verified[key]
 
@@ -224,13 +227,13 @@ class Designer:
         one, two = self._predicted(first, protocol), self._predicted(second, protocol)
         if one is None or two is None:
             return 0.0
-        return self._largest(one.values - two.values, one.tight & two.tight, protocol)
+        return self._largest(one.values - two.values, one.rows & two.rows, protocol)
 
     def _apart(self, truth: FittedModel, other: FittedModel, protocol: Protocol) -> float:
         one, two = self._predicted(truth, protocol), self._predicted(other, protocol)
         if one is None or two is None:
             return 0.0
-        rows = one.tight & two.tight
+        rows = one.rows & two.rows
         difference = np.where(rows, one.values - two.values, 0.0)
         span = np.array([p.upper - p.lower for p in other.free])
         if len(span):
@@ -247,14 +250,16 @@ class Designer:
         if key not in self._seen:
             predictor = protocol.predictor
             try:
-                values, slopes = predictor.linearised(model.fit_model, model.free)
-                tight = np.isclose(values, predictor.predict(model.fit_model))
+                free, slopes = predictor.linearised(model.fit_model, model.free)
+                values = predictor.predict(model.fit_model)
             except InputError:
                 self._seen[key] = None
             else:
                 scale = self.noise * predictor.scale
+                tight = np.isclose(values, free)
+                slopes = np.where(tight[:, None], slopes, 0.0) / scale[:, None]
                 finite = np.isfinite(values) & np.all(np.isfinite(slopes), axis=1)
-                self._seen[key] = _Predicted(values / scale, slopes / scale[:, None], tight & finite)
+                self._seen[key] = _Predicted(values / scale, slopes, finite)
         return self._seen[key]
 
     @staticmethod
