@@ -282,7 +282,7 @@ def test_prestress_and_zero_error_of_the_sensor_are_one_group(client: TestClient
     verdict = diagnose(client, measurement=shifted)["verdict"]
     assert verdict["status"] == "ambiguous"
     assert [sorted(group) for group in verdict["indistinguishable"]] == [["force_offset", "prestress"]]
-    assert "muscle removed" in verdict["separating"][0]["declared"]
+    assert "muscle removed" in verdict["experiments"][0]["declared"]
     assert "sigma" in verdict["next_measurement"]
     assert sorted(verdict["experiments"][0]["pair"]) == ["force_offset", "prestress"]
     assert "cannot tell" in verdict["sentence"]
