@@ -344,8 +344,8 @@ export interface components {
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
       /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
-      /** Standard deviation of the predicted channel in SI, when it is known. */
-      noise?: number | null;
+      /** Standard deviation of the predicted channel, when it is known: a number above 0 in SI, or a text with a unit. */
+      noise?: number | string | null;
       /** For every measurement that does not say it in its own 'experiment'. */
       experiment?: components["schemas"]["ExperimentInput"] | null;
       /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
@@ -921,8 +921,8 @@ export interface components {
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
       /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
-      /** Standard deviation of the predicted channel in SI, when it is known. */
-      noise?: number | null;
+      /** Standard deviation of the predicted channel, when it is known: a number above 0 in SI, or a text with a unit. */
+      noise?: number | string | null;
       /** For every measurement that does not say it in its own 'experiment'. */
       experiment?: components["schemas"]["ExperimentInput"] | null;
       /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
@@ -1526,8 +1526,8 @@ export interface components {
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
       /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
-      /** Standard deviation of the predicted channel in SI, when it is known. */
-      noise?: number | null;
+      /** Standard deviation of the predicted channel, when it is known: a number above 0 in SI, or a text with a unit. */
+      noise?: number | string | null;
       /** For every measurement that does not say it in its own 'experiment'. */
       experiment?: components["schemas"]["ExperimentInput"] | null;
       /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
@@ -3177,8 +3177,8 @@ export interface components {
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
       /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
-      /** Standard deviation of the predicted channel in SI, when it is known. */
-      noise?: number | null;
+      /** Standard deviation of the predicted channel, when it is known: a number above 0 in SI, or a text with a unit. */
+      noise?: number | string | null;
       /** For every measurement that does not say it in its own 'experiment'. */
       experiment?: components["schemas"]["ExperimentInput"] | null;
       /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
