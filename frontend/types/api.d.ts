@@ -4415,7 +4415,7 @@ export interface components {
       next_measurement: string | null;
       /** For each pair of effects that the data cannot distinguish. */
       experiments: components["schemas"]["Experiment"][];
-      /** For each group of effects the experiment that splits it best, the best first. */
+      /** For each group of effects that an experiment of this rig splits the best one, and a second one for the pairs that it leaves together; the group that is split best comes first. */
       next_experiments: components["schemas"]["NextExperiment"][];
       /** The verdict in one to four sentences. */
       sentence: string;

@@ -269,7 +269,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
         where_to_look=where_to_look(diagnosis) or None,
         next_measurement=next_measurement(diagnosis, titles),
         experiments=[proposal(pair) for pair in diagnosis.proposals],
-        next_experiments=[next_experiment(design) for design in diagnosis.designs],
+        next_experiments=[next_experiment(design) for design in diagnosis.designs if design.decided()],
         sentence=" ".join(
             text
             for text in (

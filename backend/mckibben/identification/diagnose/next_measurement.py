@@ -76,7 +76,7 @@ def next_measurements(
 ) -> tuple[list[SeparatingExperiment], list[DesignedExperiment]]:
     """Experiments for each pair of indistinguishable effects, and the one that splits each group best.
 
-    The experiment that separates most of its group, by the likelihood of the effects, comes first.
+    The group of which its first experiment separates most comes first; a second one follows its first.
 
     Args:
         designer: what the rig can run.
@@ -101,13 +101,14 @@ def next_measurements(
                 difference,
             )
         )
-    designs = []
+    designed = []
     for name in dict.fromkeys(other.of for other in others):
         members = {other.effect: other.fitted_model for other in others if other.of == name}
         group = [name, *members]
         weights = {effect: catalogue[effect].prior.share for effect in group}
-        designs += designer.designs(group, {name: best, **members}, weights)
-    return pairs, sorted(designs, key=lambda one: -_decided(one))
+        designed.append(designer.designs(group, {name: best, **members}, weights))
+    designed.sort(key=lambda of_group: -_decided(of_group[0]) if of_group else 0.0)
+    return pairs, [design for of_group in designed for design in of_group]
 
 
 def _decided(design: DesignedExperiment) -> float:

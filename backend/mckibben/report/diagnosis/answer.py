@@ -5,6 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 from mckibben.application.diagnosis_result import DiagnosisResult, Verdict
+from mckibben.identification.diagnose.design import APART
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.bars import Bar, bars
 from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
@@ -67,10 +68,12 @@ def _missing(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
 def _experiment(verdict: Verdict, name: str) -> str:
     """The experiment that would tell this effect from the others of its group."""
     for split in verdict.next_experiments:
-        if name in split.group:
+        if any(name in one.pair and one.separation >= APART for one in split.separations):
             return f"{split.protocol} ({max(split.minutes, 1.0):.0f} min)"
     found = next((item for item in verdict.experiments if name in item.pair), None)
-    return "not known" if found is None else found.protocol or found.declared or "not known"
+    if found is None:
+        return "not known"
+    return found.protocol if found.separation >= APART else found.declared or "no experiment of this rig"
 
 
 def _probability(share: float | None) -> Html:
