@@ -24,6 +24,9 @@ from tests.truth.again import played
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
 
+#: Of effects that are one under tension, the one that a truth is: the new experiments have slack muscles.
+_PLAYED = {"tight wall": frozenset({"prestress"}), "force zero": frozenset({"force_offset"})}
+
 
 @dataclass
 class Line:
@@ -53,7 +56,8 @@ def decided(case: Case) -> list[Line]:
     predictor, fit_model = subject_and_start(case, studio)
     result = diagnose(predictor, fit_model, catalogue=studio.catalogue)
     lines = []
-    accepted = frozenset().union(*case.hidden)
+    played_ones = (_PLAYED.get(truth, ids) for truth, ids in zip(case.truths, case.hidden, strict=True))
+    accepted = frozenset().union(*played_ones)
     for group in dict.fromkeys(design.group for design in result.designs):
         designs = [design for design in result.designs if design.group == group]
         true = [name for name in group if name in accepted]
