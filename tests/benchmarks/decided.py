@@ -56,8 +56,8 @@ def decided(case: Case) -> list[Line]:
     predictor, fit_model = subject_and_start(case, studio)
     result = diagnose(predictor, fit_model, catalogue=studio.catalogue)
     lines = []
-    played_ones = (_PLAYED.get(truth, ids) for truth, ids in zip(case.truths, case.hidden, strict=True))
-    accepted = frozenset().union(*played_ones)
+    hidden = [_PLAYED.get(truth, ids) for truth, ids in zip(case.truths, case.hidden, strict=True)]
+    accepted = frozenset().union(*hidden)
     for group in dict.fromkeys(design.group for design in result.designs):
         designs = [design for design in result.designs if design.group == group]
         true = [name for name in group if name in accepted]
@@ -79,7 +79,8 @@ def decided(case: Case) -> list[Line]:
         except Exception as failure:  # a case that breaks is a line of the table, not its end
             line.problem = f"{type(failure).__name__}: {failure}"[:120]
             continue
-        named = [name for name in after.added if name in accepted]
+        alike = next(ids for ids in hidden if true[0] in ids)
+        named = [name for name in after.added if name in alike]
         line.effect = next((name for name in (*true, *named) if name in named), line.effect)
         line.named = after.added
         line.left = tuple(other.effect for other in after.alternatives if other.of == line.effect)
