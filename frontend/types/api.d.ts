@@ -346,8 +346,8 @@ export interface components {
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
       /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
-      /** Standard deviation of the predicted channel in SI, when it is known. */
-      noise?: number | null;
+      /** Standard deviation of the predicted channel, when it is known: a number above 0 in SI, or a text with a unit. */
+      noise?: number | string | null;
       /** For every measurement that does not say it in its own 'experiment'. */
       experiment?: components["schemas"]["ExperimentInput"] | null;
       /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
@@ -923,8 +923,8 @@ export interface components {
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
       /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
-      /** Standard deviation of the predicted channel in SI, when it is known. */
-      noise?: number | null;
+      /** Standard deviation of the predicted channel, when it is known: a number above 0 in SI, or a text with a unit. */
+      noise?: number | string | null;
       /** For every measurement that does not say it in its own 'experiment'. */
       experiment?: components["schemas"]["ExperimentInput"] | null;
       /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
@@ -1528,8 +1528,8 @@ export interface components {
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
       /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
-      /** Standard deviation of the predicted channel in SI, when it is known. */
-      noise?: number | null;
+      /** Standard deviation of the predicted channel, when it is known: a number above 0 in SI, or a text with a unit. */
+      noise?: number | string | null;
       /** For every measurement that does not say it in its own 'experiment'. */
       experiment?: components["schemas"]["ExperimentInput"] | null;
       /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
@@ -3183,8 +3183,8 @@ export interface components {
       free?: ("nominal_length" | "braid_diameter" | "braid_angle" | "wall_thickness" | "inside_diameter")[];
       /** Additional parameters to fit, as effect.parameter. */
       freed?: string[];
-      /** Standard deviation of the predicted channel in SI, when it is known. */
-      noise?: number | null;
+      /** Standard deviation of the predicted channel, when it is known: a number above 0 in SI, or a text with a unit. */
+      noise?: number | string | null;
       /** For every measurement that does not say it in its own 'experiment'. */
       experiment?: components["schemas"]["ExperimentInput"] | null;
       /** Standard deviation of each channel of all measurements (% of the largest value), or sensors: 'length steel rule'. */
@@ -4421,7 +4421,7 @@ export interface components {
       next_measurement: string | null;
       /** For each pair of effects that the data cannot distinguish. */
       experiments: components["schemas"]["Experiment"][];
-      /** For each group of effects the experiment that splits it best, the best first. */
+      /** For each group of effects that an experiment of this rig splits the best one, and a second one for the pairs that it leaves together; the group that is split best comes first. */
       next_experiments: components["schemas"]["NextExperiment"][];
       /** The verdict in one to four sentences. */
       sentence: string;

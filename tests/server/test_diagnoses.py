@@ -263,7 +263,7 @@ def test_several_measurements_and_one_to_judge_by(client: TestClient, rubbing: s
 
 def test_a_stated_noise_is_the_floor(client: TestClient, rubbing: str) -> None:
     effects = {"bladder_elasticity": {}, "coulomb_friction": {}}
-    answer = diagnose(client, measurement=rubbing, noise=1.3, effects=effects)
+    answer = diagnose(client, measurement=rubbing, noise="0.0013 kN", effects=effects)
     assert answer["noise_floor"] | {"interval": None} == {"rmse": 1.3, "how": "given", "interval": None}
     assert answer["verdict"]["status"] == "adequate"
 
@@ -282,7 +282,8 @@ def test_prestress_and_zero_error_of_the_sensor_are_one_group(client: TestClient
     verdict = diagnose(client, measurement=shifted)["verdict"]
     assert verdict["status"] == "ambiguous"
     assert [sorted(group) for group in verdict["indistinguishable"]] == [["force_offset", "prestress"]]
-    assert "muscle removed" in verdict["next_measurement"]
+    assert "muscle removed" in verdict["experiments"][0]["declared"]
+    assert "sigma" in verdict["next_measurement"]
     assert sorted(verdict["experiments"][0]["pair"]) == ["force_offset", "prestress"]
     assert "cannot tell" in verdict["sentence"]
 
@@ -383,8 +384,9 @@ def test_every_row_of_a_diagnosis_is_accounted_for(client: TestClient) -> None:
 
 
 def test_several_channels_have_no_one_noise(client: TestClient, lifted: str) -> None:
-    body = {"drive": LIFT, "measurement": lifted, "noise": 5.0}
-    assert_error(post(client, PATH, body), 422, field="noise")
+    for noise in (5.0, "5 N"):
+        body = {"drive": LIFT, "measurement": lifted, "noise": noise}
+        assert_error(post(client, PATH, body), 422, field="noise")
 
 
 # --- streams
@@ -490,7 +492,10 @@ REFUSED: dict[str, tuple[dict[str, Any], int, str, str]] = {
     "constant of nothing": ({"freed": ["prestress.force", "nothing.force"]}, 422, "freed.1", ""),
     "no path": ({"freed": ["force"]}, 422, "freed.0", ""),
     "no noise": ({"noise": 0}, 422, "noise", ""),
-    "noise with a unit": ({"noise": "1 N"}, 422, "noise", ""),
+    "noise below zero": ({"noise": "-1 N"}, 422, "noise", "estimated"),
+    "infinite noise": ({"noise": "inf"}, 422, "noise", "estimated"),
+    "noise of another channel": ({"noise": "1 bar"}, 422, "noise", "N"),
+    "noise in words": ({"noise": "little"}, 422, "noise", ""),
     "unknown measurement": ({"measurement": "martens-dmsp-20"}, 404, "measurement", "martens-dmsp-20-300"),
     "unknown of several": (
         {"measurement": None, "measurements": [{"id": "musclesim-2"}]}, 404, "measurements.0.id", "Did you"

@@ -141,7 +141,7 @@ def _(rng: np.random.Generator, seed: int) -> Case:
 
 @BOOK.recipe("wall-isobaric")
 def _(rng: np.random.Generator, seed: int) -> Case:
-    m = made((20, 40, 20)[seed], rng)
+    m = made((20, 40, 20)[seed % 3], rng)
     truth = Truth(m, hidden=(geometry.thinning_wall(m, 0.9e-3, 0.15, "wall_thickness"),))
     return case_of("wall-isobaric", seed, truth, isobaric(truth, levels=FIVE, high=0.22), "isobaric", rng)
 

@@ -34,6 +34,7 @@ from mckibben.application.model_question import ModelQuestion
 from mckibben.application.muscle_summary import geometry_of
 from mckibben.application.next_experiment import next_experiment, next_measurement, proposal
 from mckibben.application.saved_model import drive_of_model
+from mckibben.application.stated_noise import of_one_channel
 from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.diagnosis import FEWEST_VALUES, Diagnosis
 from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
@@ -101,10 +102,8 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
             hint=f"measure at least {FEWEST_VALUES}, at several pressures or lengths; 'compare' takes fewer",
         )
     geometry = question.free_geometry()
-    if question.noise is not None and len(data.predictor.channels) > 1:
-        raise InputError(
-            "one noise cannot be stated for several predicted channels", field="noise", hint="omit it"
-        )
+    if question.noise is not None:
+        of_one_channel(data.predictor)
     # A custom term is not a candidate, but stays in a model that has it.
     catalogue = {**studio.catalogue, **question.start.catalogue}
 
@@ -271,7 +270,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
         where_to_look=where_to_look(diagnosis) or None,
         next_measurement=next_measurement(diagnosis, titles),
         experiments=[proposal(pair) for pair in diagnosis.proposals],
-        next_experiments=[next_experiment(design) for design in diagnosis.designs],
+        next_experiments=[next_experiment(design) for design in diagnosis.designs if design.decided()],
         sentence=" ".join(
             text
             for text in (

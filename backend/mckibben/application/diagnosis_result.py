@@ -155,7 +155,8 @@ class Verdict:
         where_to_look: without a formula, the ranges of these variables with the largest error.
         next_measurement: recommended next measurement.
         experiments: for each pair of effects that the data cannot distinguish.
-        next_experiments: for each group of them, the experiment that splits it best; the first is the best.
+        next_experiments: for each group of them that an experiment of the rig splits, the best one, and
+            one for the pairs that it leaves; the group that is split best comes first.
         sentence: the verdict in one to four sentences.
     """
 

@@ -172,7 +172,6 @@ def question_of(
     *,
     free: Sequence[str] = (),
     freed: Sequence[str] = (),
-    noise: float | None = None,
     strict: bool = False,
 ) -> ModelQuestion:
     """A checked question.
@@ -181,7 +180,7 @@ def question_of(
         model: muscle, effects and drive, as they were stated.
         measurements: the data, with what was stated about each.
         studio: presets and effects.
-        free, freed, noise: see `ModelQuestion`.
+        free, freed: see `ModelQuestion`.
         strict: refuse instead of assuming.
 
     Raises:
@@ -199,7 +198,7 @@ def question_of(
                 f"there is no constant '{name}'", field=f"freed.{place}", hint=did_you_mean(name, similar)
             )
     question = ModelQuestion(
-        start, found.specimens, found.validation, free, freed, noise, found.assumptions, found.remarks
+        start, found.specimens, found.validation, free, freed, None, found.assumptions, found.remarks
     )
     if not found.specimens.remounted:
         return question

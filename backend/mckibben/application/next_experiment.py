@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.identification.diagnose.design import DesignedExperiment
+from mckibben.identification.diagnose.design import APART, DesignedExperiment
 from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
 
@@ -131,7 +131,7 @@ def next_measurement(diagnosis: Diagnosis, titles: Mapping[str, str]) -> str | N
     sentences = []
     for design in diagnosis.designs:
         names = {name: titles.get(name, name) for name in design.group}
-        split = [s for s in design.separations if s.sigma >= 1.0]
+        split = [s for s in design.separations if s.sigma >= APART]
         if split:
             parts = []
             for first in dict.fromkeys(s.first for s in split[:_TOLD]):
@@ -143,7 +143,8 @@ def next_measurement(diagnosis: Diagnosis, titles: Mapping[str, str]) -> str | N
             sentences.append(f"to tell {'; '.join(parts)}: {design.words} (about {minutes:.0f} min)")
     told = {frozenset(pair) for d in diagnosis.designs for pair in d.decided()}
     rest = [p for p in diagnosis.proposals if frozenset((p.first, p.second)) not in told]
-    sentences += [p.sentence(titles) for p in rest if p.declared][: max(3 - len(sentences), 1)]
+    rest.sort(key=lambda pair: not pair.declared)
+    sentences += [pair.sentence(titles) for pair in rest[: max(3 - len(sentences), 1)]]
     return "; ".join(sentences) or None
 
 

@@ -10,6 +10,7 @@ from mckibben.application.envelope import MeasuredRange
 from mckibben.application.experiment import SaidMeasurement, SaidModel
 from mckibben.application.measurement_files import OPTION
 from mckibben.application.model_question import ModelQuestion, question_of
+from mckibben.application.stated_noise import with_noise
 from mckibben.documents.located import at_file
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.studio import Studio
@@ -39,7 +40,7 @@ def stated_question(
     *,
     saved: SavedStart | None = None,
     free: Sequence[str] = (),
-    noise: float | None = None,
+    noise: float | str | None = None,
     strict: bool = False,
     refit: bool = True,
     use: Sequence[str] = (),
@@ -54,7 +55,7 @@ def stated_question(
         studio: presets and effects.
         saved: the saved model that the start model comes from.
         free: geometry, and constants as "effect.parameter", that fits may change as well.
-        noise: standard deviation of the predicted channel [SI], if known.
+        noise: standard deviation of the predicted channel, if known: a number in SI or a text with a unit.
         strict: refuse instead of assuming.
         refit: whether the numbers of a saved model are fitted again; what was freed for it is freed again.
         use, keep: decisions about entries that may be wrong, see `deciding`.
@@ -72,9 +73,7 @@ def stated_question(
             if name not in constants and name.partition(".")[0] in saved.effects
         )
     try:
-        question = question_of(
-            model, measurements, studio, free=geometry, freed=constants, noise=noise, strict=strict
-        )
+        question = question_of(model, measurements, studio, free=geometry, freed=constants, strict=strict)
     except InputError as error:
         # Those of the caller are known.
         if saved is not None and (error.field or "").startswith("freed."):
@@ -88,11 +87,12 @@ def stated_question(
     if saved is not None:
         question = _of_saved(question, saved)
     try:
-        return deciding(question, use=use, keep=keep)
+        decided = deciding(question, use=use, keep=keep)
     except InputError as error:
         if error.field in ("use", "keep"):
             raise InputError(f"{prefix}{error.field}: {error.message}", hint=error.hint) from error
         raise
+    return with_noise(decided, noise, name=f"{prefix}noise")
 
 
 def _freed(

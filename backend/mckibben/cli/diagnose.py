@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from pathlib import Path
 
 from mckibben.application.diagnose import prepare
@@ -29,7 +28,6 @@ from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.read import Correction
 from mckibben.physics.errors import InputError
-from mckibben.physics.units import si
 from mckibben.report.summary.diagnosis import summary_of
 
 
@@ -57,10 +55,7 @@ def run(
 
     def asked(names: Sequence[str]) -> ModelQuestion:
         measurements = measurements_of(names, studio, correction, said, given=standard_input(names))
-        question = model_question(studio, measurements, model, free=free, strict=correction.strict)
-        if noise is None:
-            return question
-        return replace(question, noise=_level(noise, question.predictor.unit))
+        return model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)
 
     if any(Path(name).is_dir() for name in files):
         writes = {"--report": report, "--save": save, "--save-preset": save_preset, "--schedule": schedule}
@@ -112,27 +107,3 @@ def _keep(saved: SavedModel, studio: Studio, preset_id: str) -> None:
             f"--save-preset {preset_id}: {error.message}", hint=error.hint, code=error.code
         ) from error
     remark(f"kept as {preset.id}: use it with --muscle {preset.id}, in sizing tasks and in the page")
-
-
-def _level(text: str, unit: str) -> float:
-    """The noise of an option in SI: a number, or a text with a unit of the predicted channel.
-
-    Raises:
-        InputError: it is neither, or not a finite number above zero.
-    """
-    try:
-        level = float(text)
-    except ValueError:
-        try:
-            level = si(text, unit)
-        except InputError as error:
-            raise InputError(
-                f"--noise {text}: is neither a number in {unit} nor one with a unit: {error.message}",
-                hint=error.hint,
-            ) from error
-    if not 0.0 < level < float("inf"):
-        raise InputError(
-            f"--noise {text}: the noise is a standard deviation above 0",
-            hint="leave it out to have it estimated",
-        )
-    return level

@@ -29,7 +29,7 @@ def model_question(
     options: ModelOptions,
     *,
     free: Sequence[str],
-    noise: float | None = None,
+    noise: float | str | None = None,
     strict: bool = False,
     refit: bool = True,
 ) -> ModelQuestion:

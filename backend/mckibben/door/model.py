@@ -331,7 +331,7 @@ class Model(Savable, Exportable):
         data: Data,
         *,
         free: str | Sequence[str] = (),
-        noise: float | None = None,
+        noise: float | str | None = None,
         use: str | Sequence[str] = (),
         keep: str | Sequence[str] = (),
         drive: DocumentedDrive | None = None,
@@ -342,7 +342,7 @@ class Model(Savable, Exportable):
 
         Args:
             data, free, use, keep, drive, strict: as in `compare`.
-            noise: standard deviation of the predicted channel, SI, where it is known.
+            noise: standard deviation of the predicted channel where it is known, "2 N"; a number is SI.
             progress: called with the share that is done, 0 to 1, a few times a second.
 
         Raises:

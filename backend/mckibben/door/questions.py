@@ -22,7 +22,7 @@ from mckibben.documents.saved_model import SavedModel, read_saved_model, with_re
 from mckibben.documents.start_model import PresetFacts, StartModel
 from mckibben.documents.studio import Studio
 from mckibben.door.measurement import Measurement, read
-from mckibben.door.values import names_of, number_of
+from mckibben.door.values import names_of
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.physics.custom import TERM
 from mckibben.physics.errors import InputError
@@ -220,7 +220,7 @@ def question_of(
     use: str | Sequence[str] = (),
     keep: str | Sequence[str] = (),
     drive: DriveDocument | None = None,
-    noise: float | None = None,
+    noise: float | str | None = None,
     strict: bool = False,
     refit: bool = True,
 ) -> tuple[ModelQuestion, str]:
@@ -229,8 +229,6 @@ def question_of(
     Raises:
         InputError: as there.
     """
-    if noise is not None and not number_of(noise, "1", "noise") > 0.0:
-        raise InputError("noise: is a standard deviation above 0", hint="leave it out to have it estimated")
     measurements = _measurements_in(data)
     saved = None
     if model.saved is not None:

@@ -216,7 +216,7 @@ def test_every_effect_is_a_candidate_or_told_with_the_reason():
 
 
 def test_an_offset_of_the_sensor_and_a_prestress_are_one_group():
-    """Both are one constant force: no muscle test can tell them apart."""
+    """Both are one constant force under tension; only a slack muscle, like no muscle, tells them apart."""
     found = diagnosis(cycles(noise=1.0, each=30, prestress=40.0))
     assert found.status == "ambiguous"
     assert len(found.added) == 1
@@ -229,7 +229,8 @@ def test_an_offset_of_the_sensor_and_a_prestress_are_one_group():
     assert "force_offset" in twins["prestress"]
     assert len(found.proposals) == 1
     assert "with the muscle removed" in found.proposals[0].declared
-    assert found.proposals[0].separation < 1.0  # nor can any force measurement
+    assert found.proposals[0].protocol == "a loop of contraction without pressure"
+    assert 10.0 < found.proposals[0].separation < 40.0  # 40 N, beside a noise of 1 N
 
 
 def test_slack_rows_with_noise_do_not_bend_the_fit():

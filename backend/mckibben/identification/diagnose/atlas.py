@@ -195,7 +195,9 @@ def _loaded(model: FitModel, pressure: float) -> ComparableRows:
 
 
 def _task(runs: list[RigRun], model: FitModel) -> ComparableRows:
-    return _warm(experiment_of("", runs, model).predictor.task)  # type: ignore
+    task: ComparableRows = experiment_of("", runs, model).predictor.task  # type: ignore
+    # A picture shows the set points as well, where an experiment compares nothing.
+    return _warm(replace(task, turning=np.zeros(len(task.turning), bool)))
 
 
 def _blocked_force(model: FitModel, pressure: float) -> float:

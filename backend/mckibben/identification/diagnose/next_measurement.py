@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from mckibben.identification.diagnose.design import DECISIVE, DesignedExperiment, Designer
+from mckibben.identification.diagnose.design import APART, DECISIVE, DesignedExperiment, Designer
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.physics.effect import Effect, Twin
@@ -51,7 +51,7 @@ class SeparatingExperiment:
         """The proposal in words."""
         pair = f"to tell {titles.get(self.first, self.first)} from {titles.get(self.second, self.second)}"
         parts = [self.declared] if self.declared else []
-        if self.protocol and self.separation >= 1.0:
+        if self.protocol and self.separation >= APART:
             parts.append(f"simulated best: {self.protocol} ({self.separation:.1f} sigma apart)")
         elif self.protocol and not self.declared:
             parts.append("no experiment with this rig does, and no other one is known")
@@ -77,7 +77,7 @@ def next_measurements(
 ) -> tuple[list[SeparatingExperiment], list[DesignedExperiment]]:
     """Experiments for each pair of indistinguishable effects, and the one that splits each group best.
 
-    The experiment that separates most of its group, by the likelihood of the effects, comes first.
+    The group of which its first experiment separates most comes first; a second one follows its first.
 
     Args:
         designer: what the rig can run.
@@ -87,8 +87,7 @@ def next_measurements(
     """
     pairs = []
     for other in others:
-        apart = [(designer.separation(best, other.fitted_model, p), p) for p in designer.protocols]
-        sigma, protocol = max(apart, key=lambda pair: pair[0], default=(0.0, None))
+        sigma, protocol = designer.farthest(best, other.fitted_model)
         differs = [(designer.difference(best, other.fitted_model, p), p) for p in designer.protocols]
         difference, place = max(differs, key=lambda pair: pair[0], default=(0.0, None))
         twin = declared(catalogue[other.of], catalogue[other.effect])
@@ -105,15 +104,14 @@ def next_measurements(
                 twin is None or twin.by_muscle_test,
             )
         )
-    designs = []
+    designed = []
     for name in dict.fromkeys(other.of for other in others):
         members = {other.effect: other.fitted_model for other in others if other.of == name}
         group = [name, *members]
         weights = {effect: catalogue[effect].prior.share for effect in group}
-        designed = designer.design(group, {name: best, **members}, weights)
-        if designed is not None:
-            designs.append(designed)
-    return pairs, sorted(designs, key=lambda one: -_decided(one))
+        designed.append(designer.designs(group, {name: best, **members}, weights))
+    designed.sort(key=lambda of_group: -_decided(of_group[0]) if of_group else 0.0)
+    return pairs, [design for of_group in designed for design in of_group]
 
 
 def _decided(design: DesignedExperiment) -> float:

@@ -8,15 +8,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.identification.diagnose.probability import log_preference
-from mckibben.identification.diagnose.score import effective_rows
+from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import exchanged
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.physics.effect import Effect
 
 #: Fitted predictions that differ by less than this share of the noise count as the same. An inexact
 #: functional form of a correct effect causes differences of this size.
 SAME = 0.5
+#: The same for an effect that can act as another one: it imitates it closely, with further constants.
+_IMITATED = 0.5 * SAME
 _COSINE = 0.99  # between sensitivities, above which they count as parallel
 _AS_GOOD = 1.05  # largest rmse of an exchange with parallel sensitivity, over that of the best model
 _TRIED = 8  # exchanges always fitted per effect
@@ -32,7 +36,8 @@ class Alternative:
     Attributes:
         of: the effect of the model.
         effect: the possible replacement.
-        difference: rms difference of the fitted predictions over the noise.
+        difference: rms difference of the fitted predictions over the noise; of several measurements, in the
+            one where it is largest.
         fitted_model: the model with the exchange.
     """
 
@@ -46,7 +51,8 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
     """The effects that fit as well when they replace an added effect and everything is refitted.
 
     Such an effect predicts the same within the noise, or has a parallel sensitivity, or its likelihood does
-    not decide against it.
+    not decide against it. One that only imitates the other is none: the data refute it as it is declared, and
+    it fits where further constants make it act as the simpler one does, no better than that.
     """
     equivalent = []
     rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
@@ -58,13 +64,46 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
         sensitivity = fitter.changes(less, replaced)
         for effect in _worth_fitting(fitter, less, others):
             fitted_model = exchanged(fitter, less, effect)
-            difference = float(np.sqrt(np.mean((fitted_model.residual - best.residual) ** 2))) / noise
+            difference = _difference(fitted_model, best, fitter.predictor) / noise
             cosine = _cosine(sensitivity, fitter.changes(less, effect))
             parallel = abs(cosine) > _COSINE and fitted_model.rmse <= _AS_GOOD * best.rmse
             excess = (fitted_model.mean_square - best.mean_square) / noise**2
-            if difference < SAME or parallel or rows * excess < UNDECIDED:
-                equivalent.append(Alternative(effect_id, effect.id, difference, fitted_model))
+            if not (difference < SAME or parallel or rows * excess < UNDECIDED):
+                continue
+            if difference < _IMITATED and _imitates(fitter, best, fitted_model, fitter.adding(less, effect)):
+                continue
+            equivalent.append(Alternative(effect_id, effect.id, difference, fitted_model))
     return equivalent
+
+
+def _imitates(fitter: Fitter, best: FittedModel, other: FittedModel, declared: FittedModel) -> bool:
+    """Whether a model that predicts the same only imitates the best one.
+
+    Args:
+        fitter: of both.
+        best: the best model.
+        other: with another effect, some further constants of which are free.
+        declared: the same with those constants as the effect declares them.
+    """
+    if declared is other or len(other.free) <= len(best.free) or not fitter.noise:
+        return False
+    rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
+    excess = (declared.mean_square - best.mean_square) / fitter.noise**2
+    refuted = (
+        rows * excess >= UNDECIDED and _difference(declared, best, fitter.predictor) >= SAME * fitter.noise
+    )
+    return refuted and score(other, rows=rows, noise=fitter.noise) >= score(
+        best, rows=rows, noise=fitter.noise
+    )
+
+
+def _difference(one: FittedModel, two: FittedModel, predictor: Predictor) -> float:
+    """Rms difference of two predictions in the measurement where it is largest, of the scaled residual."""
+    squares = (one.residual - two.residual) ** 2
+    if not isinstance(predictor, SpecimensPredictor):
+        return float(np.sqrt(np.mean(squares)))
+    parts = [squares[predictor.specimen == number] for number in range(len(predictor.specimens))]
+    return float(np.sqrt(max(np.mean(part) for part in parts if len(part))))
 
 
 def likeliest(

@@ -126,6 +126,12 @@ class Predictor(ABC):
             for name in names
         )
 
+    def reading(self, values: np.ndarray) -> Predictor:
+        """This predictor of other readings, shape (values,), at the same inputs."""
+        other = copy(self)
+        other.measured = values
+        return other
+
     @abstractmethod
     def why_hidden(self, effect: Effect) -> str:
         """Why these data cannot reveal an effect; empty if they can."""

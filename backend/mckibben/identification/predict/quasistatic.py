@@ -136,6 +136,17 @@ class QuasistaticPredictor(Predictor):
         pinned._evaluation = self._evaluation.after(history[0])
         return pinned
 
+    def reading(self, values: np.ndarray) -> QuasistaticPredictor:
+        """This predictor of other readings; where they are those of a slack muscle, models may be slack."""
+        measured = self.task.measured.copy()
+        measured[self._counted] = values
+        other = copy(self)
+        other.measured, other.task = values, replace(self.task, measured=measured)
+        other._idle = np.zeros(len(measured), bool)
+        if self.task.channel == "force":
+            other._idle[self._counted] = _like_slack(values)
+        return other
+
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """Force, length or diameter of each row; the length is limited by the lock of the braid."""
         along = self._along(fit_model)

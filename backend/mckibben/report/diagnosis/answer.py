@@ -6,6 +6,7 @@ from itertools import pairwise
 
 from mckibben.application.compare import ComparisonResult
 from mckibben.application.diagnosis_result import DiagnosisResult, PathPoint, Verdict
+from mckibben.identification.diagnose.design import APART
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.bars import Bar, bars
 from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
@@ -20,7 +21,6 @@ _TONES: dict[Status, Tone] = {
     "ambiguous": "warn",
     "unknown_effect": "bad",
 }
-_TELLS = 1.0  # standard deviations of a reading from which an experiment tells two effects apart
 _SAME = 0.98  # ratio to the first error: below, the refitted error gets a tile of its own
 
 
@@ -69,13 +69,13 @@ def _missing(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
 def _experiment(verdict: Verdict, name: str) -> str:
     """The experiment that would tell this effect from the others of its group."""
     for split in verdict.next_experiments:
-        if any(name in pair.pair and pair.separation >= _TELLS for pair in split.separations):
+        if any(name in one.pair and one.separation >= APART for one in split.separations):
             return f"{split.protocol} ({max(split.minutes, 1.0):.0f} min)"
     found = next((item for item in verdict.experiments if name in item.pair), None)
     if found is None:
         return "not known"
-    simulated = found.protocol if found.separation >= _TELLS else ""
-    return simulated or found.declared or "not known"
+    simulated = found.protocol if found.separation >= APART else ""
+    return simulated or found.declared or "no experiment of this rig"
 
 
 def _sentence(clause: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from mckibben.application.doubts import deciding
 from mckibben.application.experiment import SaidMeasurement, SaidModel
 from mckibben.application.model_question import ModelQuestion, question_of
+from mckibben.application.stated_noise import with_noise
 from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
@@ -40,10 +41,9 @@ def model_question(body: ModelRequest, studio: Studio, store: MeasurementStore) 
         studio,
         free=body.free,
         freed=body.freed,
-        noise=body.noise,
         strict=body.strict,
     )
-    return deciding(question, use=body.use, keep=body.keep)
+    return with_noise(deciding(question, use=body.use, keep=body.keep), body.noise)
 
 
 def said_measurements(body: ModelRequest, studio: Studio, store: MeasurementStore) -> list[SaidMeasurement]:

@@ -39,6 +39,9 @@ class UsedMeasurement(Strict):
     )
 
 
+StatedNoise = float | Annotated[str, Field(min_length=1, max_length=100)]
+
+
 class ModelRequest(Strict):
     """A model and the measurements it is compared with."""
 
@@ -63,11 +66,11 @@ class ModelRequest(Strict):
     freed: list[ParameterPath] = Field(
         default=[], max_length=64, description="Additional parameters to fit, as effect.parameter."
     )
-    noise: float | None = Field(
+    noise: StatedNoise | None = Field(
         None,
-        gt=0.0,
-        allow_inf_nan=False,
-        description="Standard deviation of the predicted channel in SI, when it is known.",
+        description="Standard deviation of the predicted channel, when it is known: a number above 0 in SI, "
+        "or a text with a unit.",
+        examples=["2 N", 2.0],
     )
     experiment: ExperimentInput | None = Field(
         None, description="For every measurement that does not say it in its own 'experiment'."

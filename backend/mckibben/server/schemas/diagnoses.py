@@ -211,7 +211,8 @@ class Verdict(Strict):
         description="For each pair of effects that the data cannot distinguish."
     )
     next_experiments: list[NextExperiment] = Field(
-        description="For each group of effects the experiment that splits it best, the best first."
+        description="For each group of effects that an experiment of this rig splits the best one, and a "
+        "second one for the pairs that it leaves together; the group that is split best comes first."
     )
     sentence: str = Field(description="The verdict in one to four sentences.")
 

@@ -1,0 +1,65 @@
+"""What counts as another explanation: no effect that only imitates, and none that differs in one file."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import cast
+
+import numpy as np
+import pytest
+
+from mckibben.identification.diagnose.twins import _difference, _imitates
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.specimens import SpecimenData, SpecimensPredictor
+from tests.identification.synthetic import MUSCLE, Plain, linear_node
+
+X = np.linspace(-1.0, 1.0, 240)
+NOISE = np.random.default_rng(3).normal(size=240)
+FOLDS = [np.arange(240) // 40]
+
+
+def fitted(measured: np.ndarray, *columns: np.ndarray) -> FittedModel:
+    return linear_node(measured, np.column_stack(columns), FOLDS)
+
+
+def fitter(measured: np.ndarray) -> Fitter:
+    subject = Plain(measured, np.empty((240, 0)), FOLDS)
+    return cast(Fitter, SimpleNamespace(predictor=subject, noise=1.0))
+
+
+def test_a_general_law_that_fits_only_as_the_simple_one_imitates_it() -> None:
+    """Readings 8 x: c x explains them, a x^3 does not, a x^3 + b x + d x^2 does with two constants more."""
+    measured = 8.0 * X + NOISE
+    simple, declared = fitted(measured, X), fitted(measured, X**3)
+    general = fitted(measured, X**3, X, X**2)
+    assert _imitates(fitter(measured), simple, general, declared)
+    # As long as the data do not refute it as it is declared, it is another explanation.
+    assert not _imitates(fitter(measured), simple, general, fitted(measured, np.sin(X)))
+    # So is one without constants of its own, and one with as few of them.
+    assert not _imitates(fitter(measured), simple, declared, declared)
+    assert not _imitates(fitter(measured), general, simple, declared)
+
+
+def test_a_law_whose_further_constants_are_needed_does_not_imitate() -> None:
+    """Readings 8 x + 1.5 x^2: the general law is the better one, by its score."""
+    measured = 8.0 * X + 1.5 * X**2 + NOISE
+    simple, general = fitted(measured, X), fitted(measured, X**3, X, X**2)
+    assert not _imitates(fitter(measured), simple, general, fitted(measured, X**3))
+
+
+def test_two_models_are_the_same_only_where_they_are_in_each_measurement() -> None:
+    """400 readings alike and 100 that differ by 1: rms 0.45 of all, and 1 of the second measurement."""
+    parts = [Plain(np.ones(count), np.empty((count, 0)), [np.arange(count) // 20]) for count in (400, 100)]
+    both = SpecimensPredictor(
+        [SpecimenData(f"file {n}", part, MUSCLE) for n, part in enumerate(parts)], reference=MUSCLE
+    )
+    empty = np.empty((500, 0))
+    one, two = (
+        FittedModel(FitModel(MUSCLE), (), frozenset(), size * both.specimen, empty, both.folds)
+        for size in (0.0, 1.0)
+    )
+    assert _difference(one, two, both) == pytest.approx(1.0)
+    alone = Plain(np.ones(500), np.empty((500, 0)), [np.arange(500) // 20])
+    assert _difference(one, two, alone) == pytest.approx(np.sqrt(0.2))
