@@ -291,12 +291,26 @@ class Fitter:
         return of_model[key]
 
     def _new_columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
-        columns = [np.empty((len(fitted_model.residual), 0))]
-        for single in with_each(fitted_model.fit_model, effect, off, self._placed(fitted_model, effect)):
-            columns.append((fitted_model.residual - self._trial_residual(single))[:, None])
-        changes = np.hstack(columns)
+        models = with_each(fitted_model.fit_model, effect, off, self._placed(fitted_model, effect))
+        histories = self.predictor.histories((effect,))
+        if len(histories) > 1:
+            basis, unexplained = self._unexplained(fitted_model)
+            choices = [self._changed(fitted_model, models, self.predictor.after(h)) for h in histories]
+            changes = max(choices, key=lambda columns: gain(columns, basis, unexplained))
+        else:
+            changes = self._changed(fitted_model, models, self.predictor)
         # What changes nothing differs in the last digits, which would explain as much as any other column.
         return np.where(self._sizes(changes) > self._rounding, changes, 0.0)
+
+    def _changed(
+        self, fitted_model: FittedModel, models: Sequence[FitModel], predictor: Predictor
+    ) -> np.ndarray:
+        """Change of the prediction by each of the models, shape (values, models)."""
+        columns = [np.empty((len(fitted_model.residual), 0))]
+        for model in models:
+            residual = predictor.weighted(predictor.measured - predictor.trial(model))
+            columns.append((fitted_model.residual - residual)[:, None])
+        return np.hstack(columns)
 
     def _try_ahead(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> None:
         """Simulate side by side what `gains` asks for one after the other."""

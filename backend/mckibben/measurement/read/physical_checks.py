@@ -81,8 +81,8 @@ def _zero_of_stroke(evidence: Evidence, column: HeaderColumn, rest: float, most:
     return Question(
         "zero of displacement",
         f"{evidence.noun} '{column.header}' grows as the muscle lengthens, up to {reach:.4g} {unit}: a "
-        f"muscle of {whole:.4g} {unit} is not at its rest length where it shows 0; which length has it there and at "
-        "the end",
+        f"muscle of {whole:.4g} {unit} is not at its rest length where it shows 0; which length has it "
+        "there and at the end",
         column_option("length", bare_name(column), length),
         column.header,
     )
