@@ -142,6 +142,7 @@ def test_two_zeros_of_a_position_are_none() -> None:
         "Länge bei Traversenweg 0\t228,0 mm",
         "muscle length at crosshead zero: 22.8 cm",
         "length at position = 0: 228 mm",
+        "Grip separation at zero traverse: 228 mm",
         "zero of the crosshead at a length of 228 mm",
     ],
 )
@@ -181,6 +182,12 @@ def test_two_scales_in_one_sentence() -> None:
     assert measured.columns["pressure"] == pytest.approx(1e5 * PRESSURE)
     assert measured.columns["displacement"] == pytest.approx(1e-3 * STROKE)
     assert measured.conditions["load_mass"] == 12.0
+
+
+def test_a_scale_whose_sentence_says_the_sign_in_another_word() -> None:
+    told = "# rest length 300 mm\n# LVDT: 10 mm/V, 0 V at rest length, positive = contraction\n"
+    measured = read(f"{told}p(bar),F(N),X(V)\n{table(PRESSURE, FORCE, STROKE / 10.0)}")
+    assert_is_the_test(measured)
 
 
 def test_the_angle_of_a_pulley() -> None:

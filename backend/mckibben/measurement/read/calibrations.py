@@ -44,6 +44,7 @@ _RANGES, _ZEROS = word_set(words.RANGE), word_set(words.ZERO)
 _BALANCED = word_set(words.BALANCED)
 _ANY_SIGNAL = word_set(words.SIGNAL)
 _SAME = 1e-6
+_ALONG = {"length", "displacement", "contraction", "extension"}
 _SCALED = ("pressure", "force", "length", "displacement", "extension")
 
 
@@ -181,6 +182,8 @@ def _by_scale(name: str, unit: str, heads: Sequence[tuple[str, str | None]], tex
         if not _fits(channel, _bare(scale.unit)):
             continue
         named = {_proper(c) for word in words_of(text) if (c := channel_of_word(word)) in _SCALED}
+        if named & _ALONG and channel in _ALONG:
+            named |= {channel}  # "10 mm/V, positive = contraction" is of any reading of the stroke
         if named - {channel, None} and channel not in named:
             continue
         per = 1.0 if unit in (COUNT, "%", FULL_SCALE, BRIDGE) else float(convert([1.0], unit, scale.raw)[0])

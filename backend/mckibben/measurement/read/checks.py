@@ -190,6 +190,8 @@ def _unread(evidence: Evidence) -> list[Question]:
             continue
         head = taken_apart(header, evidence.apart[index] if index < len(evidence.apart) else None)
         channel = "force" if header == UNNAMED else _CARRIES.get(dimension_of(head.unit))
+        if dimension_of(head.unit) == "a mass" and "force" not in filled:
+            channel = "force"  # a scale pulled by the muscle; beside a force it may be anything
         reason = meaning.reasons.get(index, "")
         if channel is None or any(known in reason for known in KNOWN_REASONS):
             continue

@@ -30,7 +30,7 @@ _POSITIONS, _GROWS, _FALLS = (
     word_set(words.FALLS),
 )
 _PULLEYS, _RADII, _DIAMETERS = word_set(words.PULLEY), word_set(words.RADIUS), word_set(words.DIAMETER)
-_ZEROS = word_set(words.ZERO)
+_ZEROS, _SEPARATIONS = word_set(words.ZERO), word_set(words.SEPARATION)
 _ZERO = re.compile(r"(?<![\w.,])0(?:[.,]0+)?\s*(?:mm\b|cm\b|m\b|in\b)?(?!\s*[^\W\d_]|[.,]\d)")
 _NEAR = 3  # words between the name of a reading and its zero
 _AT_REST = REMARK_WORDS["at rest"]
@@ -94,7 +94,7 @@ def _lengths_at_zero(text: str, own: set[str], unit: str) -> Iterator[float]:
         named = {at for at, word in enumerate(said) if word in own or word in _POSITIONS - _ZEROS}
         zeros = {at for at, word in enumerate(said) if word in _ZEROS}
         near = any(abs(one - other) <= _NEAR for one in named for other in zeros)
-        if near and any(channel_of_word(word) == "length" for word in said):
+        if near and any(channel_of_word(word) == "length" or word in _SEPARATIONS for word in said):
             yield size
 
 
