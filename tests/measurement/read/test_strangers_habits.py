@@ -279,7 +279,7 @@ def test_a_scale_that_the_muscle_pulls_is_asked_about() -> None:
 def test_a_commanded_pressure_is_no_second_reading() -> None:
     text = "# rest length 300 mm\n%time,field.pressure_kPa,field.cmd_kPa,field.position_mm\n"
     text += "\n".join(
-        f"{1571923456_000000000 + k * 10**8},{100 + 5 * k},{100 + 50 * (k // 10)},{2 * k}" for k in range(30)
+        f"{1571923456_000000000 + k * 10**8},{150 + 5 * k},{150 + 50 * (k // 10)},{2 * k}" for k in range(30)
     )
     found = read_measurement(text.encode(), "log.csv")
-    assert found.columns["pressure"] == pytest.approx(1e3 * (100.0 + 5.0 * np.arange(30)))
+    assert found.columns["pressure"] == pytest.approx(1e3 * (150.0 + 5.0 * np.arange(30)))
