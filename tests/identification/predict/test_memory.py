@@ -113,6 +113,16 @@ def test_a_hold_that_begins_with_its_pressure_creeps_on():
     )
 
 
+def test_a_sweep_from_no_pressure_has_had_nothing_put_on():
+    lines = [
+        f"{0.5 * row},{4e5 * abs(1 - abs(row / 40 - 1))},{length},100"
+        for length in (0.30, 0.28)
+        for row in range(81)
+    ]
+    task = comparable_rows(csv(lines, "time_s,pressure_Pa,length_m,force_N", "kind: isometric"), MUSCLE)
+    assert QuasistaticPredictor(task).histories((CATALOGUE["pressure_creep"],)) == (("rest",),)
+
+
 def test_maxwell_cells_are_sliders_behind_springs():
     """Each cell follows the length until its limit; at the end of a long way all slide."""
     task = comparable_rows(cycles(each=400, levels=(4e5, 5e5)), MUSCLE)

@@ -96,7 +96,8 @@ class Evaluation:
         names = ["rest"]
         if task.channel == "force" and any(map(remembers_before, effects)):
             names += [name for name, before in HISTORIES.items() if before.slid]
-        if task.kind in _HELD and task.channel != "diameter" and any(map(creeps, effects)):
+        held = task.kind in _HELD and task.channel != "diameter" and self._memory.begins_held
+        if held and any(map(creeps, effects)):
             names += ["applied", *(["applied anew"] if self._memory.has_levels else [])]
         return tuple(names)
 

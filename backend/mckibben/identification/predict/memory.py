@@ -43,7 +43,9 @@ HISTORIES = {
     "applied": Before(applied=True),
     "applied anew": Before(applied=True, anew=True),
 }
-_NEW_LEVEL = 0.05  # jump of the length or load that is held, share of its range
+_NEW_LEVEL = 0.05  # jump of a quantity that is held, share of its range
+_HOLD, _STEADY = 5, 0.02  # rows; share of the largest pressure within which it is held
+_APPLIED = 0.1  # of the largest pressure; less at the start of a record is nothing that was put on
 
 
 def remembers(effect: Effect) -> bool:
@@ -96,17 +98,31 @@ class Memory:
         self._levels = [part for rows in self._records for part in np.split(rows, self._new_levels(rows))]
 
     @property
+    def begins_held(self) -> bool:
+        """Whether a record begins with a hold under pressure, as a log of creep does and no sweep."""
+        pressure = self._task.state["pressure"]
+        most = float(np.max(pressure))
+        least = max(_NEW_LEVEL * float(np.ptp(pressure)), _STEADY * most)
+        starts = [pressure[rows[:_HOLD]] for rows in self._records]
+        return any(start[0] > _APPLIED * most and np.ptp(start) <= least for start in starts)
+
+    @property
     def has_levels(self) -> bool:
-        """Whether what is held constant jumps within records."""
+        """Whether holds follow each other within records."""
         return len(self._levels) > len(self._records)
 
     def _new_levels(self, rows: np.ndarray) -> np.ndarray:
-        """Places within a record at which the length or the load that is held begins anew."""
-        held = self._task.state.get({"isometric": "length", "isotonic": "load"}.get(self._task.kind, ""))
-        if held is None or not np.ptp(held) > 0.0:
-            return np.empty(0, dtype=np.intp)
-        jumps = np.abs(np.diff(held[rows])) > _NEW_LEVEL * float(np.ptp(held))
-        return 1 + np.flatnonzero(jumps & (np.diff(self._task.groups[rows]) != 0))
+        """Places within a record at which a hold begins: its pressure, length or load is another one."""
+        held = {"isometric": ("length", "pressure"), "isotonic": ("load", "pressure")}.get(
+            self._task.kind, ()
+        )
+        begins = np.zeros(len(rows) - 1, bool)
+        for name in held:
+            values = self._task.state[name]
+            begins |= np.abs(np.diff(values[rows])) > _NEW_LEVEL * max(float(np.ptp(values)), 1e-12)
+        places = 1 + np.flatnonzero(begins)
+        shortest = np.min(np.diff([0, *places, len(rows)]))
+        return places if shortest >= _HOLD else np.empty(0, dtype=np.intp)  # else a sweep
 
     def states(self, fit_model: FitModel, before: Before = HISTORIES["rest"]) -> dict[str, np.ndarray]:
         """Value of each state ("effect.state") at each row, after one of `HISTORIES`."""
