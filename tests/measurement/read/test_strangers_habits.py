@@ -283,3 +283,19 @@ def test_a_commanded_pressure_is_no_second_reading() -> None:
     )
     found = read_measurement(text.encode(), "log.csv")
     assert found.columns["pressure"] == pytest.approx(1e3 * (150.0 + 5.0 * np.arange(30)))
+
+
+def test_numbered_pages_with_the_same_head_are_one_table() -> None:
+    """The number of the first page stood above the columns as if it were the unit of the second one."""
+    rows = [
+        f"{0.5 * k:.1f}  {1 + k // 40:.2f}  {k % 40:.2f}  {300.0 - 2.0 * (k % 40):.2f}" for k in range(120)
+    ]
+    pages = [
+        f"Page {number + 1}\nSpecimen: muscle 7, free length 250 mm\nt/s  p/bar  s/mm  F/N\n"
+        + "\n".join(rows[30 * number : 30 * number + 30])
+        for number in range(4)
+    ]
+    found = read_measurement("\n\n".join(pages).encode(), "pages.txt")
+    assert found.rows == 120
+    assert found.columns["pressure"] == pytest.approx(np.repeat([1e5, 2e5, 3e5], 40))
+    assert found.conditions["nominal_length"] == 0.25

@@ -251,7 +251,9 @@ def _decoded(data: bytes, name: str, messages: list[str]) -> str:
         messages.append(f"the file is not UTF-8: read as {encoding}")
     if not text.strip():
         raise InputError(
-            f"{name}, row 1: the file is empty", field="row 1", hint="it needs a header and one line per reading"
+            f"{name}, row 1: the file is empty",
+            field="row 1",
+            hint="it needs a header and one line per reading",
         )
     if "D+" in text or "D-" in text:
         text = _FORTRAN.sub(r"\1E\2", text)

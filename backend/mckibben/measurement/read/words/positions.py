@@ -34,7 +34,7 @@ FALLS = (
 #: The length between the ends that hold a muscle.
 SEPARATION = "separation einspannlange klemmenabstand mordazas"
 #: The reading is nothing.
-ZERO = "zero null nul nullpunkt cero nulo nulla nullo noll nolla nula ноль нуле нулевой sifir 零"
+ZERO = "zero null nul nulle nullpunkt cero nulo nulla nullo noll nolla nula ноль нуле нулевой sifir 零"
 #: The muscle becomes shorter.
 SHORTENS = (
     "shortens shorten shortening contracts contract contracting contraction verkurzt zusammenzieht kurzer "
