@@ -226,6 +226,8 @@ class SpecimensPredictor(Predictor):
 
     def after(self, history: tuple[str, ...]) -> SpecimensPredictor:
         """This predictor with histories that do not depend on the model."""
+        if not history:
+            return self
         pinned = copy(self)
         pinned._specimens = tuple(
             replace(each, predictor=each.predictor.after((name,)))
