@@ -88,6 +88,24 @@ KIND_CASES = {
         {},
         "transient",
     ),
+    "log of a weight, one row in ten seconds": (
+        {
+            "time": 10.0 * np.arange(60),
+            "pressure": np.repeat([1e5, 2e5, 3e5], 20),
+            "displacement": np.repeat([0.02, 0.04, 0.06], 20) + 1e-5 * np.arange(60),
+        },
+        {"load_mass": 6.0},
+        "isotonic",
+    ),
+    "weight on steps of the pressure": (
+        {
+            "time": 0.05 * np.arange(60),
+            "pressure": np.repeat([1e5, 2e5, 3e5], 20),
+            "displacement": np.repeat([0.02, 0.04, 0.06], 20) + 1e-5 * np.arange(60),
+        },
+        {"load_mass": 6.0},
+        "transient",
+    ),
     "command": ({"time": RAMP, "command": RAMP, "displacement": 0.04 * RAMP}, {}, "transient"),
     "command and force": (
         {"time": RAMP, "command": RAMP, "pressure": RAMP, "length": 1 + RAMP, "force": RAMP},

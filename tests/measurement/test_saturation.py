@@ -207,3 +207,22 @@ def test_rows_in_which_the_muscle_pushes_are_left_out():
     assert slack.exclusions == {}
     wrong = build({**columns, "force": read - 150.0}, name="wrong zero", id="2")
     assert wrong.exclusions == {}
+
+
+@pytest.mark.parametrize("noise", [0.0, 0.4])
+def test_a_clipped_ramp_of_few_rows_is_found_whatever_its_noise(noise):
+    """180 rows a loop, 5 N from row to row: too steep to show noise, and clipped to the last digit."""
+    way = np.concatenate([np.linspace(0.0, 1.0, 90), np.linspace(1.0, 0.0, 90)])
+    random = np.random.default_rng(6)
+    true = np.concatenate([top * way for top in (250.0, 360.0, 620.0)]) + 40.0
+    force = np.minimum(true + noise * random.standard_normal(len(true)), 445.0)
+    columns = {
+        "time": 0.3 * np.arange(len(true)),
+        "pressure": np.repeat([1.4e5, 2.1e5, 4.1e5], 180) + 400.0 * random.standard_normal(len(true)),
+        "length": 0.22 + 0.04 * np.tile(way, 3),
+        "force": force,
+    }
+    found = build(columns, name="ramp", id="0", kind="isobaric").excluded_rows
+    assert list(found) == ["force saturated"]
+    assert np.array_equal(found["force saturated"], force == 445.0)
+    assert np.count_nonzero(force == 445.0) > 50

@@ -25,6 +25,16 @@ def test_one_row_or_two_are_found(height: float, rows: int) -> None:
     assert set(np.flatnonzero(found)) == {start + k for start in (30, 222) for k in range(rows)}
 
 
+@pytest.mark.parametrize(("height", "count"), [(150.0, 0), (300.0, 7)])
+def test_frequent_spikes_have_to_be_high(height: float, count: int) -> None:
+    """Seven in 400 rows: pulses of a signal, unless nothing in the signal is as high by far."""
+    force = 400.0 * TRIANGLE + 1.5 * NOISE
+    rows = [20, 71, 130, 188, 222, 301, 370]
+    force[rows] += height * np.array([1, -1, 1, 1, -1, 1, -1])
+    found = spiked_rows({"force": force})
+    assert [np.flatnonzero(mask).tolist() for mask in found.values()] == ([rows] if count else [])
+
+
 @pytest.mark.parametrize("at_once", [1, 7, 31, 400])
 def test_spikes_are_found_wherever_a_long_record_is_cut(
     at_once: int, monkeypatch: pytest.MonkeyPatch

@@ -13,7 +13,7 @@ from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
-from mckibben.identification.predict import driven_by_pressure
+from mckibben.identification.predict import driven_by_pressure, lowest_stop
 from mckibben.measurement.corrected import FROM_DRIVE
 from mckibben.measurement.experiment import FIELDS, LOAD_FORCE, ExperimentValue
 from mckibben.measurement.measurement import Measurement
@@ -83,6 +83,8 @@ def drive_values(
     said = drive is not None and "stops" in drive.model_fields_set
     limit = start.limits.max_contraction
     place = "" if limit is None else "limit of the maker"
+    if not said and (seen := lowest_stop(measurement, start.muscle.nominal_length)) < 0.0:
+        low, place = seen, "; ".join(filter(None, ("lowest position of the record", place)))
     add(
         "stops",
         f"{100.0 * low:.3g} % to {100.0 * (high or limit or _MAX_CONTRACTION):.3g} %",
@@ -161,6 +163,8 @@ def own_drive(
         raise error.at(
             f"{where}.{error.field}" if error.field and where == "drive" else error.field
         ) from error
+    if "stops" not in document.model_fields_set:
+        drive = replace(drive, min_contraction=lowest_stop(measurement, start.muscle.nominal_length))
     return replace(drive, model=studio.static_model(start))
 
 

@@ -65,7 +65,8 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
        ``transient``.
     5. time with pressure or stroke: ``transient``.
 
-    "Slowly" is by at most 20 % of the range within any second: inertia and damping do not show.
+    "Slowly" is by at most 20 % of the range within any second, on average between rows that are further
+    apart: inertia and damping do not show.
 
     Raises:
         InputError: no rule applies.
@@ -148,8 +149,10 @@ def _moves_slowly(time: Array, stroke: Array) -> bool:
     if ahead >= len(stroke):
         return False
     calm, _ = smoothed(stroke, noise=noise_of(stroke), swing=_SLOW * span)
-    near = np.abs(time[ahead:] - time[:-ahead]) <= 2.0 * max(_SECOND, float(np.median(steps)))
-    moved = np.abs(calm[ahead:] - calm[:-ahead])[near]
+    apart = np.abs(time[ahead:] - time[:-ahead])
+    near = apart <= 2.0 * max(_SECOND, float(np.median(steps)))
+    # Between rows that are further apart only the mean speed is known: no dynamics show in a log.
+    moved = (np.abs(calm[ahead:] - calm[:-ahead]) / np.maximum(apart / _SECOND, 1.0))[near]
     return bool(len(moved) and np.max(moved) <= _SLOW * span)
 
 

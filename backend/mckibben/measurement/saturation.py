@@ -33,6 +33,8 @@ _SET_POINTS = 50  # levels; a signal constant at more levels is controlled
 _MANY_RUNS = 2000  # more runs cannot be chance
 _PUSH = 0.01  # of the largest force: more than the zero error of a good load cell
 _MOSTLY = 0.2  # share of rows below zero, above which the zero of the load cell is wrong
+_GOES_ON = 0.05  # share of the range of another channel, in a run at the largest force
+_COARSE = 0.01  # rounding step over the range, from which it may hide a change of the force
 _EXAMINED = 200  # runs examined per level; the others get the same verdict
 
 #: Channels that may be constant because the muscle rests or the test holds them.
@@ -88,6 +90,11 @@ def unusable_rows(
         if not len(runs.begin):
             continue
         bad = _judged(values, runs, others, may_rest=may_rest)
+        if name == "force" and kind in FORCE_KINDS and not len(bad.begin):
+            bad = _at_ceiling(values, runs, others)
+            if len(bad.begin):  # a single row there is one as well
+                faults["force saturated"] = values == np.max(values)
+                continue
         at_end = _at_end(values, bad)
         for reason, chosen in (("saturated", at_end), ("stuck", ~at_end)):
             if chosen.any():
@@ -139,6 +146,22 @@ def _noisy_ceiling(force: Array, others: list[Array]) -> NDArray[np.bool_]:
     if not any(kept):
         return np.zeros(len(force), bool)
     return force >= top - 3.0 * noise  # short saturated intervals too
+
+
+def _at_ceiling(force: Array, runs: _Runs, others: list[Array]) -> _Runs:
+    """The runs at the largest force, to the last digit, while another channel goes on.
+
+    Where a muscle pulls most its force changes most with length and pressure, so it cannot stay equal there,
+    however smooth or noisy the signal is; only a coarse rounding hides a change.
+    """
+    runs = runs.only(force[runs.begin] == np.max(force))
+    if rounding_step(force) > _COARSE * float(np.ptp(force)):
+        return runs.only(np.zeros(len(runs.begin), bool))
+    moves = [
+        any(_change(other, begin, end) > _GOES_ON for other in others)
+        for begin, end in zip(*runs, strict=True)
+    ]
+    return runs.only(np.array(moves, bool))
 
 
 def _level(values: Array, noise: float) -> bool:

@@ -20,7 +20,9 @@ _NOISE = 12.0  # least height over the noise
 _STEPS = 6.0  # least height over the usual step from row to row
 _USUAL = 0.95  # quantile of the steps that counts as the usual step
 _BACK = 0.3  # largest difference of both neighbours over the height
-_MOST = 0.01  # largest share of rows with spikes; more frequent jumps belong to the signal
+#: Height over the least one, and the largest share of rows with such spikes; more frequent jumps belong to
+#: the signal, unless they are so high that nothing in a signal is.
+_RATES = ((1.0, 0.01), (3.0, 0.03))
 _FEWEST = 20  # rows of a signal that is checked
 _AT_ONCE = 1_000_000  # rows processed together, which bounds the memory
 
@@ -34,22 +36,35 @@ def spiked_rows(columns: Mapping[str, NDArray]) -> dict[str, NDArray[np.bool_]]:
     spikes = {}
     for name in _SENSORS:
         if name in columns and len(columns[name]) >= _FEWEST:
-            spiked = _spikes(np.asarray(columns[name], dtype=float))
-            if 0 < np.count_nonzero(spiked) <= max(3, _MOST * len(spiked)):
-                spikes[f"spikes of the {name}"] = spiked
+            values = np.asarray(columns[name], dtype=float)
+            for clear, most in _RATES:
+                spiked = _spikes(values, clear)
+                if 0 < np.count_nonzero(spiked) <= max(3, most * len(spiked)):
+                    spikes[f"spikes of the {name}"] = spiked
+                    break
     return spikes
 
 
-def _spikes(values: NDArray[np.float64]) -> NDArray[np.bool_]:
-    spiked = np.zeros(len(values), bool)
+def _spikes(values: NDArray[np.float64], clear: float) -> NDArray[np.bool_]:
+    """Mask of the rows with spikes that are higher than the least height by a factor."""
+    # The steps of spikes themselves are not usual ones.
+    noise = _NOISE * noise_of(values)
     steps = np.abs(np.diff(values))
-    least = max(_NOISE * noise_of(values), _STEPS * float(np.quantile(steps, _USUAL)))
+    leaping = _leaping(values, noise)
+    usual = steps[~(leaping[1:] | leaping[:-1])]
+    least = clear * max(noise, _STEPS * float(np.quantile(usual if len(usual) else steps, _USUAL)))
+    return _leaping(values, least)
+
+
+def _leaping(values: NDArray[np.float64], least: float) -> NDArray[np.bool_]:
+    """Mask of one row or two that leap away and come back."""
+    leaping = np.zeros(len(values), bool)
     for rows in range(1, _LONGEST + 1):
         for begin in range(0, len(values), _AT_ONCE):
             at = begin + _leaps(values[begin : begin + _AT_ONCE + rows + 1], rows, least)
             for k in range(1, rows + 1):
-                spiked[at + k] = True
-    return spiked
+                leaping[at + k] = True
+    return leaping
 
 
 def _leaps(values: NDArray[np.float64], rows: int, least: float) -> NDArray[np.intp]:

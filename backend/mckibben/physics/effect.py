@@ -48,6 +48,8 @@ class StateVariable:
             solved together, so their rates must be linear in them.
         sliding: value that it reaches in a long slow lengthening, its negative in a long shortening; 0 for a
             state without such a value. See `mckibben.physics.sliding`.
+        applied: what it equals where a muscle at rest was filled or loaded at once: "pressure", its gauge
+            pressure [Pa], "stroke", its length less the rest length [m], or "" for neither.
     """
 
     name: str
@@ -58,6 +60,7 @@ class StateVariable:
     initial: float = 0.0
     settled: bool = False
     sliding: float = 0.0
+    applied: Literal["", "pressure", "stroke"] = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -133,3 +133,34 @@ def test_a_wall_that_no_rubber_fits_is_asked_about() -> None:
 
 def replace_diameter(muscle: Muscle, factor: float) -> Muscle:
     return muscle._replace(braid_diameter=factor * muscle.braid_diameter)
+
+
+@pytest.mark.examination("test_a_wrong_rest_length_beside_an_elastic_wall_is_asked_about_first")
+def test_an_angle_is_asked_about_where_as_many_effects_take_its_place() -> None:
+    """28° stated as 25°, a threshold of 35 kPa, a spring of 150 N/m: two effects with six numbers fit too.
+
+    Chou & Hannaford 1996, equation 5, for a muscle of 180 mm and 16 mm.
+    """
+    random = np.random.default_rng(11)
+    angle, rest, diameter = np.radians(28.0), 0.18, 0.016
+    a, b = 3.0 / np.tan(angle) ** 2, 1.0 / np.sin(angle) ** 2
+    rows = ["# kind: static", "pressure_kPa,displacement_mm,force_N"]
+    for pressure in (100.0, 150.0, 200.0, 250.0, 300.0, 350.0):
+        for stroke in np.arange(0.0, 42.0, 3.0):
+            share = (1.0 - 1e-3 * stroke / rest) ** 2
+            pull = np.pi * diameter**2 / 4.0 * 1e3 * (pressure - 35.0) * (a * share - b) - 0.15 * stroke
+            rows.append(f"{pressure},{stroke},{pull + NOISE * random.standard_normal():.4f}")
+    measurement = read_measurement("\n".join(rows).encode(), "map.csv")
+    muscle = MUSCLE._replace(
+        nominal_length=rest, braid_diameter=diameter, inside_diameter=0.0145, braid_angle=np.radians(25.0)
+    )
+    start = FitModel(muscle)
+
+    def predictor(readings: Sequence[OtherReading]) -> Predictor:
+        return predictor_of(read_otherwise(measurement, readings), muscle)
+
+    stated = statements(measurement, start, predictor, elastic=CATALOGUE.values())
+    leading = diagnose(predictor(()), start, catalogue=CATALOGUE, statements=stated).context[0]
+    assert (leading.entry.hypothesis, leading.stands) == ("braid_angle", True)
+    assert leading.value == pytest.approx(angle, abs=1e-3)
+    assert set(leading.effects) == {"threshold_pressure", "linear_elasticity"}

@@ -78,6 +78,8 @@ SENTENCES = {
     "(2.00 N).": result("missing_effects", 40.0, 2.1, "creep"),
     "With the entries as stated, Creep would be missing, and the error would only fall from 40.0 to 9.00 N; "
     "the noise is 2.00 N.": result("ambiguous", 40.0, 9.0, "creep", doubted=True),
+    "With the entries as stated, Creep would be missing, and the error would fall from 40.0 to 2.10 N, the "
+    "noise of the data (2.00 N).": result("ambiguous", 40.0, 2.1, "creep", doubted=True),
     "Missing: Creep (probability 97 %). With it the error falls from 40.0 to 9.00 N; the noise is 2.00 N. No "
     "catalogued effect explains the rest: the proposed term takes 80 % of it.": result(
         "unknown_effect", 40.0, 9.0, "creep", term=SimpleNamespace(share=0.8)

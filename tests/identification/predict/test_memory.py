@@ -7,8 +7,10 @@ import itertools
 import numpy as np
 import pytest
 
+from mckibben.identification.fit.effort import final_effort
+from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict.comparable_rows import ComparableRows, comparable_rows
-from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.memory import Memory, remembers
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.measurement.read import read_measurement
@@ -79,6 +81,46 @@ def test_what_went_before_a_record_is_found(effect, preamble, expected):
     assert predictor.history(model) == (expected,)
     assert np.max(np.abs(predictor.residual(model))) < 0.02 * np.ptp(force)
     assert len(predictor.assumed_history(model)) == (expected != "rest")
+
+
+def test_a_hold_that_begins_with_its_pressure_creeps_on():
+    """Three clamped lengths, each filled at once after a rest without air; the record begins behind the step.
+
+    The force that an arm of each time lacks decays from the whole pressure: p A c/3 sum exp(-t/tau_j).
+    """
+    share, times = -0.06, (1.0, 10.0, 100.0)
+    model = fit_model(pressure_creep={"share": share, "time": 10.0, "spread": 10.0})
+    t = np.geomspace(0.01, 600.0, 40)
+    lines, expected, begin = [], [], 0.0
+    for pressure, length in ((2e5, 0.30), (3e5, 0.285), (4e5, 0.27)):
+        late = sum(np.exp(-(t - t[0]) / each) for each in times) / 3.0
+        whole = truth(pressure, length)
+        force = whole * (1.0 - share * late)
+        lines += [f"{begin + at},{pressure},{length},{f}" for at, f in zip(t, force, strict=True)]
+        expected.append(force)
+        begin += 605.0
+    measurement = csv(lines, "time_s,pressure_Pa,length_m,force_N", "kind: isometric")
+    predictor = QuasistaticPredictor(comparable_rows(measurement, MUSCLE))
+    assert predictor.histories(model.effects) == (("rest",), ("applied",), ("applied anew",))
+    assert predictor.history(model) == ("applied anew",)
+    assert np.max(np.abs(predictor.residual(model))) < 2e-3 * np.max(expected)
+    (said,) = predictor.assumed_history(model)
+    assert "put on anew before each level" in said
+    started = model.with_numbers(["pressure_creep.share"], [0.0])
+    free = free_numbers(started, (), ["pressure_creep.share"])
+    assert Misfit(predictor, started, free).fit(final_effort(simulated=False)).numbers == pytest.approx(
+        [share], rel=0.02
+    )
+
+
+def test_a_sweep_from_no_pressure_has_had_nothing_put_on():
+    lines = [
+        f"{0.5 * row},{4e5 * abs(1 - abs(row / 40 - 1))},{length},100"
+        for length in (0.30, 0.28)
+        for row in range(81)
+    ]
+    task = comparable_rows(csv(lines, "time_s,pressure_Pa,length_m,force_N", "kind: isometric"), MUSCLE)
+    assert QuasistaticPredictor(task).histories((CATALOGUE["pressure_creep"],)) == (("rest",),)
 
 
 def test_maxwell_cells_are_sliders_behind_springs():

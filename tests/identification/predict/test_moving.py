@@ -14,7 +14,13 @@ from mckibben.identification.diagnose.diagnosis import diagnose
 from mckibben.identification.diagnose.entries import statements
 from mckibben.identification.fit.effort import FitEffort
 from mckibben.identification.fit.misfit import Misfit
-from mckibben.identification.predict import TransientPredictor, moving, predictor_of
+from mckibben.identification.predict import (
+    TransientPredictor,
+    driven_by_pressure,
+    lowest_stop,
+    moving,
+    predictor_of,
+)
 from mckibben.identification.predict.fit_model import SUPPLY, FitModel, free_numbers
 from mckibben.measurement.measurement import Measurement, build
 from mckibben.physics.errors import InputError
@@ -475,3 +481,16 @@ def test_motion_from_a_measured_pressure_is_that_of_the_kernel():
     columns = measurement.columns
     expected = driven_motion(own, time=GRID, pressure=columns["pressure"], stroke=columns["displacement"][0])
     assert predictor.predict(fit_model(HIDDEN)) == pytest.approx(expected["stroke_reading"], abs=1e-12)
+
+
+@pytest.mark.parametrize(("stretched", "expected"), [(0.0, 0.0), (1e-4, 0.0), (3e-3, -0.01)])
+def test_a_load_rests_where_it_was_seen_to_rest(stretched: float, expected: float) -> None:
+    """A mass on a muscle without air stretches it: its stop is there, not at the rest length."""
+    rows = 300
+    time, noise = 0.01 * np.arange(rows), 5e-5 * np.random.default_rng(2).standard_normal(rows)
+    lifted = 0.03 * np.clip(time - 1.0, 0.0, 1.0)
+    columns = {"time": time, "pressure": 3e5 * np.clip(time - 0.9, 0.0, 1.0)}
+    columns["displacement"] = lifted - stretched + noise
+    found = build(columns, name="a.csv", id="0", conditions={"load_mass": 12.0}, kind="transient")
+    assert lowest_stop(found, 0.3) == pytest.approx(expected, rel=0.06)
+    assert driven_by_pressure(found, MUSCLE).min_contraction == lowest_stop(found, MUSCLE.nominal_length)

@@ -8,9 +8,11 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mckibben.measurement.read import read_measurement
 from mckibben.measurement.read.calibrations import calibration_of
+from mckibben.measurement.read.correction import spoken_correction
 from mckibben.measurement.read.formulas import formulas_in
-from mckibben.measurement.read.positions import position_scale
+from mckibben.measurement.read.positions import length_scale, position_scale
 from mckibben.measurement.read.scales import scale_in
 from mckibben.physics.errors import InputError
 from tests.measurement.read.bench import FORCE, PRESSURE, STROKE, TIME, assert_is_the_test, read, table
@@ -132,6 +134,60 @@ def test_two_zeros_of_a_position_are_none() -> None:
         ("at the rest length the laser shows 160 mm", "line 2"),
     ]
     assert position_scale("laser", "mm", texts) is None
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Länge bei Traversenweg 0\t228,0 mm",
+        "muscle length at crosshead zero: 22.8 cm",
+        "length at position = 0: 228 mm",
+        "Grip separation at zero traverse: 228 mm",
+        "zero of the crosshead at a length of 228 mm",
+    ],
+)
+def test_a_length_where_a_position_is_zero(text: str) -> None:
+    scale = length_scale("Traversenweg", "mm", [(text, "line 1")])
+    assert scale is not None
+    assert scale[:2] == pytest.approx((1.0, 228.0))
+
+
+@pytest.mark.parametrize(
+    "text", ["Ruhelänge 300 mm", "stroke zero at the rest length of 300 mm", "at 0 bar the length is 300 mm"]
+)
+def test_what_is_no_length_where_a_position_is_zero(text: str) -> None:
+    assert length_scale("Traversenweg", "mm", [(text, "line 1")]) is None
+
+
+def test_a_crosshead_that_counts_from_the_shortest_length() -> None:
+    """Its zero stands in a text, or is asked about: reversed, it would stretch the muscle by 20 %."""
+    head = "Ruhelänge 300 mm\n{}Druck [bar],Kraft [N],Traversenweg [mm]\n"
+    rows = table(PRESSURE, FORCE, 60.0 - STROKE)
+    told = read(head.format("Länge bei Traversenweg 0: 240 mm\n") + rows)
+    assert told.columns["length"] == pytest.approx(0.3 - 1e-3 * STROKE)
+    with pytest.raises(InputError, match=r'length=Traversenweg \[0 to 60 mm = 240 to 300 mm\]"'):
+        read(head.format("") + rows)
+    answer = spoken_correction(columns=["length=Traversenweg [0 to 60 mm = 240 to 300 mm]"])
+    answered = read_measurement((head.format("") + rows).encode(), "a.csv", answer)
+    assert answered.columns["length"] == pytest.approx(0.3 - 1e-3 * STROKE)
+    reversed_sign = spoken_correction(columns=["displacement=-Traversenweg"])
+    with pytest.raises(InputError, match="stretch the muscle by up to 60 mm"):
+        read_measurement((head.format("") + rows).encode(), "a.csv", reversed_sign)
+
+
+def test_two_scales_in_one_sentence() -> None:
+    """Each is of the signal that measures it; the mass that is lifted is the load."""
+    above = "# rest length 300 mm\n# p: 1 bar/V, x: 20 mm/V (up positive); lifts 12 kg\n"
+    measured = read(f"{above}t [s],Druck [V],Weg [V]\n{table(TIME, PRESSURE, STROKE / 20.0)}")
+    assert measured.columns["pressure"] == pytest.approx(1e5 * PRESSURE)
+    assert measured.columns["displacement"] == pytest.approx(1e-3 * STROKE)
+    assert measured.conditions["load_mass"] == 12.0
+
+
+def test_a_scale_whose_sentence_says_the_sign_in_another_word() -> None:
+    told = "# rest length 300 mm\n# LVDT: 10 mm/V, 0 V at rest length, positive = contraction\n"
+    measured = read(f"{told}p(bar),F(N),X(V)\n{table(PRESSURE, FORCE, STROKE / 10.0)}")
+    assert_is_the_test(measured)
 
 
 def test_the_angle_of_a_pulley() -> None:

@@ -8,6 +8,7 @@ from __future__ import annotations
 import io
 import json
 from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import h5py
@@ -16,6 +17,7 @@ import pytest
 
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read import preview, read_measurement
+from mckibben.measurement.read.correction import spoken_correction
 from mckibben.measurement.read.stated import statements
 from mckibben.physics.errors import InputError
 
@@ -242,3 +244,58 @@ def test_the_length_of_a_muscle_beside_a_stroke_is_no_channel() -> None:
         result = read_measurement(document({"tests": tests}), "a.json")
         assert "length" not in result.columns
         np.testing.assert_allclose(result.columns["displacement"], np.tile(stroke, len(tests)) / 1e3)
+
+
+def test_units_behind_names_without_brackets() -> None:
+    """Blocks under a caption, their heads parted by blanks: each name is followed by its unit."""
+    blocks = [
+        f"P = {pressure:.1f} bar (gauge)\nstroke mm   force N\n"
+        + "\n".join(f"{stroke:8.2f}   {300.0 - 2.0 * stroke:8.2f}" for stroke in range(10))
+        for pressure in (1.0, 2.0)
+    ]
+    found = read_measurement(("rest length 250 mm\n\n" + "\n\n".join(blocks)).encode(), "blocks.txt")
+    assert found.columns["pressure"] == pytest.approx(np.repeat([1e5, 2e5], 10))
+    assert found.columns["displacement"] == pytest.approx(np.tile(1e-3 * np.arange(10.0), 2))
+    assert found.columns["force"] == pytest.approx(np.tile(300.0 - 2.0 * np.arange(10.0), 2))
+
+
+def test_a_scale_that_the_muscle_pulls_is_asked_about() -> None:
+    """Its name is not that of a force; what it reads with nothing on it is its tare, and no load."""
+    text = (
+        "L0 = 300 mm\nscale reads 0.850 kg with nothing attached\nt [s]\tp [bar]\tstroke [mm]\tscale [kg]\n"
+    )
+    text += "\n".join(f"{k}\t{1 + k % 3}\t{2 * k}\t{0.85 + 9.0 - 0.2 * k:.3f}" for k in range(30))
+    with pytest.raises(InputError, match=r"'scale \[kg\]' is in kg and is not read .*force=scale"):
+        read_measurement(text.encode(), "scale.txt")
+    force = {"columns": ["force=scale"]}
+    with pytest.raises(InputError, match=r"force_zero=8\.336 N"):
+        read_measurement(text.encode(), "scale.txt", spoken_correction(**force))
+    zeroed = replace(spoken_correction(**force), conditions={"force_zero": 0.85 * 9.80665})
+    found = read_measurement(text.encode(), "scale.txt", zeroed)
+    assert "load_mass" not in found.conditions
+    assert found.columns["force"][0] == pytest.approx(9.85 * 9.80665)
+
+
+def test_a_commanded_pressure_is_no_second_reading() -> None:
+    text = "# rest length 300 mm\n%time,field.pressure_kPa,field.cmd_kPa,field.position_mm\n"
+    text += "\n".join(
+        f"{1571923456_000000000 + k * 10**8},{150 + 5 * k},{150 + 50 * (k // 10)},{2 * k}" for k in range(30)
+    )
+    found = read_measurement(text.encode(), "log.csv")
+    assert found.columns["pressure"] == pytest.approx(1e3 * (150.0 + 5.0 * np.arange(30)))
+
+
+def test_numbered_pages_with_the_same_head_are_one_table() -> None:
+    """The number of the first page stood above the columns as if it were the unit of the second one."""
+    rows = [
+        f"{0.5 * k:.1f}  {1 + k // 40:.2f}  {k % 40:.2f}  {300.0 - 2.0 * (k % 40):.2f}" for k in range(120)
+    ]
+    pages = [
+        f"Page {number + 1}\nSpecimen: muscle 7, free length 250 mm\nt/s  p/bar  s/mm  F/N\n"
+        + "\n".join(rows[30 * number : 30 * number + 30])
+        for number in range(4)
+    ]
+    found = read_measurement("\n\n".join(pages).encode(), "pages.txt")
+    assert found.rows == 120
+    assert found.columns["pressure"] == pytest.approx(np.repeat([1e5, 2e5, 3e5], 40))
+    assert found.conditions["nominal_length"] == 0.25

@@ -141,7 +141,10 @@ def contest(
         # Where the effects reach the noise, an entry as good with fewer of them may be the better one.
         least = 0.0 if at_floor and len(added) > 1 else _SURE
         close = [trial for trial in trials if trial.score(rows, noise) < here - least and not trial.done]
-        for trial in close[:_SEARCHED]:
+        searched = close[:_SEARCHED]
+        if at_floor and len(added) > 1:
+            searched += [trial for trial in _ahead_of_singles(trials, fitter, first) if trial not in searched]
+        for trial in searched:
             trials[trials.index(trial)] = _searched(trial)
     else:
         for trial in [trial for trial in trials if trial.score(rows, noise) < here - _SURE][:_SEARCHED]:
@@ -160,6 +163,24 @@ def contest(
         for each in found
     ]
     return tuple(sorted(found, key=lambda each: (not each.stands, not each.kept)))
+
+
+def _ahead_of_singles(trials: Sequence[_Trial], fitter: Fitter, first: FitModel) -> list[_Trial]:
+    """The quantity that by itself explains most, if it explains more than any effect with one number does.
+
+    The effects of the best model do not fit beside it: they have taken its place, with more numbers.
+    """
+    quantities = [trial for trial in trials if trial.entry.free is not None and not trial.done]
+    leading = min(quantities, key=lambda trial: trial.root.rmse, default=None)
+    if leading is None:
+        return []
+    effects, numbers = len(first.ids) + 1, len(leading.root.free)
+    singles = [
+        model.rmse
+        for (ids, _), model in fitter.known.items()
+        if len(ids) == effects and len(model.free) <= numbers
+    ]
+    return [leading] if leading.root.rmse < min(singles, default=0.0) else []
 
 
 def _lowest_noise(noise: float | None, trials: Sequence[_Trial], best: FittedModel) -> float | None:
@@ -316,13 +337,16 @@ def _evidence(
     odds = entry.prior * float(np.exp(np.clip(0.5 * drop, -50.0, 50.0)))
     confidence = min(odds / (1.0 + odds), _CERTAIN)
     simpler = len(effects) < added
+    # With as many effects it may need fewer numbers: an angle and two constants for six of two effects.
+    leaner = simpler or (len(effects) == added and len(model.free) < len(best.free))
     as_good = trial.rmse <= _AS_GOOD * best.rmse
     reaches = trial.rmse <= AT_FLOOR * floor or (as_good and best.rmse <= _NEAR * floor)
     closer = gain > _LEAST_GAIN and left <= _MUCH * excess
     # A way of reading has no number to fit: it need not be better by as much.
     sure = _SURE if entry.free is not None or not simpler else 0.0
-    stands = drop > sure and (closer or (reaches and simpler))
-    if not (stands or (as_good and simpler and drop > -LEAST_SCORE)):
+    instead = simpler or (leaner and drop > 2.0 * _SURE)
+    stands = drop > sure and (closer or (reaches and instead))
+    if not (stands or (as_good and leaner and drop > -LEAST_SCORE)):
         return None
     whole = max(root.mean_square - floor**2, 1e-300)
     alone = max(trial.root.mean_square / trial.scale**2 - floor**2, 0.0)

@@ -88,8 +88,9 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     )
     these = "it" if len(result.added) == 1 else "them"
     if doubted:
+        would = "would fall" if at_floor else "would only fall"
         return (
-            f"With the entries as stated, {names} would be missing, and the error would only fall from "
+            f"With the entries as stated, {names} would be missing, and the error {would} from "
             f"{brief(before)} to {brief(after)} {unit}{floor}."
         )
     falls = f"the error falls from {brief(before)} to {brief(after)} {unit}{floor}."

@@ -12,7 +12,7 @@ import numpy as np
 from mckibben.identification.fit.effort import SearchEffort
 from mckibben.identification.fit.first_order import between, gain
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
-from mckibben.identification.fit.trials import at_places, off_of, place_of, with_each
+from mckibben.identification.fit.trials import at_places, off_of, pace_of, place_of, with_each
 from mckibben.identification.predict.fit_model import FitModel, free_numbers, held_beside
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
@@ -291,12 +291,24 @@ class Fitter:
         return of_model[key]
 
     def _new_columns(self, fitted_model: FittedModel, effect: Effect, off: dict[str, float]) -> np.ndarray:
-        columns = [np.empty((len(fitted_model.residual), 0))]
-        for single in with_each(fitted_model.fit_model, effect, off, self._placed(fitted_model, effect)):
-            columns.append((fitted_model.residual - self._trial_residual(single))[:, None])
-        changes = np.hstack(columns)
+        models = with_each(fitted_model.fit_model, effect, off, self._placed(fitted_model, effect))
+        changes, *others = [
+            self._changed(fitted_model, models, self.predictor.after(history))
+            for history in self.predictor.histories((effect,))
+        ]
+        if others:
+            basis, unexplained = self._unexplained(fitted_model)
+            changes = max((changes, *others), key=lambda columns: gain(columns, basis, unexplained))
         # What changes nothing differs in the last digits, which would explain as much as any other column.
         return np.where(self._sizes(changes) > self._rounding, changes, 0.0)
+
+    def _changed(
+        self, fitted_model: FittedModel, models: Sequence[FitModel], predictor: Predictor
+    ) -> np.ndarray:
+        """Change of the prediction by each of the models, shape (values, models)."""
+        measured, residual = predictor.measured, fitted_model.residual
+        columns = [residual - predictor.weighted(measured - predictor.trial(model)) for model in models]
+        return np.reshape(columns, (len(columns), len(residual))).T
 
     def _try_ahead(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> None:
         """Simulate side by side what `gains` asks for one after the other."""
@@ -322,15 +334,17 @@ class Fitter:
     def _placed(self, fitted_model: FittedModel, effect: Effect) -> dict[str, float]:
         """Where an effect begins that acts beyond some state only: the place that explains most.
 
-        At its usual place it may lie beyond the data, where it changes nothing and would never be tried. Such
-        a place is a fitted parameter without an off value.
+        At its usual place it may lie beyond the data and would never be tried. Such a place is a fitted
+        parameter without an off value; in logs of holds also the time by which an effect creeps.
         """
         place, known = place_of(effect), self.known_places.setdefault(fitted_model, {})
+        place = place or (pace_of(effect) if len(self.predictor.histories((effect,))) > 1 else None)
         if place is None:
             return {}
         if effect.id not in known:
             explained = self._explained(fitted_model, at_places(fitted_model.fit_model, effect, place))
-            known[effect.id] = {place.name: max(explained, key=lambda value: explained[value])}
+            size = float if place.fitted else abs  # a creep may go either way
+            known[effect.id] = {place.name: max(explained, key=lambda value: size(explained[value]))}
         return known[effect.id]
 
     def _explained(self, fitted_model: FittedModel, changed: Mapping[float, FitModel]) -> dict[float, float]:

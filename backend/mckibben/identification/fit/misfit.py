@@ -79,15 +79,31 @@ class Misfit:
         """Least squares over the free parameters, see `least_squares_fit`.
 
         What went before the records is that which suits the start; where another one suits the end better,
-        the fit goes on with that. The evaluations after it are with the last one.
+        the fit goes on with that. Of histories that lead to other sizes of an effect, each is fitted and the
+        closest kept. The evaluations after it are with the last one.
         """
         any_history, free = self._predictor, self._free
+        histories = any_history.histories(self._fit_model.effects)
+        if len(histories) > 1:
+            return self._with_closest(any_history, histories, effort)
         history = any_history.history(self.fit_model(np.array([p.start for p in free])))
         result = self._after(any_history.after(history), free, effort)
         better = any_history.history(self.fit_model(np.array(result.numbers)))
         if better != history:
             ended = [replace(p, start=float(x)) for p, x in zip(free, result.numbers, strict=True)]
             result = self._after(any_history.after(better), ended, effort)
+        return result
+
+    def _with_closest(
+        self, predictor: Predictor, histories: Sequence[tuple[str, ...]], effort: FitEffort
+    ) -> FitResult:
+        """The fit with that one of the histories with which it ends closest to the readings."""
+        fits = []
+        for history in histories:
+            result = self._after(predictor.after(history), self._free, effort)
+            fits.append((float(np.sum(self.value(np.array(result.numbers)) ** 2)), history, result))
+        _, history, result = min(fits, key=lambda fit: fit[0])
+        self._predictor, self._at = predictor.after(history), None
         return result
 
     def _after(self, predictor: Predictor, free: Sequence[Free], effort: FitEffort) -> FitResult:

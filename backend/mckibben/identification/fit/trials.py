@@ -11,6 +11,7 @@ from mckibben.identification.predict.fit_model import FitModel
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter
 
+_SLOWER = (1.0, 10.0, 100.0)
 _PLACES = 12  # places tried of an effect that acts beyond some state only
 
 
@@ -25,10 +26,22 @@ def place_of(effect: Effect) -> Parameter | None:
     return places[0] if len(places) == 1 else None
 
 
+def pace_of(effect: Effect) -> Parameter | None:
+    """The time by which an effect creeps, where a fit leaves it at its usual value at first."""
+    times = [p for p in effect.parameters if p.off is None and not p.fitted and p.unit == "s"]
+    return times[0] if len(times) == 1 and any(state.applied for state in effect.states) else None
+
+
 def at_places(fit_model: FitModel, effect: Effect, place: Parameter) -> dict[float, FitModel]:
-    """Places over its range, the usual one first -> the model with the effect acting from there."""
+    """Places over its range, the usual one first -> the model with the effect acting from there.
+
+    Of a time by which an effect creeps: ten and a hundred times as long as usual.
+    """
     acting = effect.off | between(effect, off_of(effect))
-    places = [place.default, *np.linspace(place.lower, place.upper, _PLACES + 2)[1:-1].tolist()]
+    if place.fitted:
+        places = [place.default, *np.linspace(place.lower, place.upper, _PLACES + 2)[1:-1].tolist()]
+    else:  # a time: holds last from seconds to hours
+        places = [place.default * times for times in _SLOWER if place.default * times <= place.upper]
     return {value: fit_model.adding(effect, acting | {place.name: value}) for value in places}
 
 

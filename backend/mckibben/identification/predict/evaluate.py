@@ -15,7 +15,14 @@ import numpy as np
 
 from mckibben.identification.predict.comparable_rows import ComparableRows
 from mckibben.identification.predict.fit_model import LOAD, FitModel
-from mckibben.identification.predict.memory import HISTORIES, Memory, remembers, remembers_before
+from mckibben.identification.predict.memory import (
+    HISTORIES,
+    Before,
+    Memory,
+    creeps,
+    remembers,
+    remembers_before,
+)
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
@@ -27,6 +34,7 @@ State = Mapping[str, np.ndarray]
 # Up to this many rows a model is compiled once with derivatives by all its parameters. Compiling each choice
 # of parameters (10 ms) would take longer than to evaluate the unneeded derivatives.
 _FEW_ROWS = 600
+_HELD = ("isometric", "isotonic")  # kinds that hold the length or the load
 _KEPT = 512  # models whose history is known
 
 
@@ -50,6 +58,11 @@ class Evaluation:
         pinned._known_history = history
         return pinned
 
+    @property
+    def pinned(self) -> bool:
+        """Whether the history is that of `after` for every model."""
+        return self._known_history is not None
+
     def without_derivatives(self) -> Evaluation:
         """The same for structures that are evaluated only: of all candidates, they would be a hundred."""
         quick = copy(self)
@@ -63,8 +76,7 @@ class Evaluation:
         """
         if self._known_history is not None:
             return self._known_history
-        task = self.task
-        if task.channel != "force" or not any(map(remembers_before, fit_model.effects)):
+        if len(self.histories(fit_model.effects)) < 2:
             return "rest"
         named = tuple((name, *values.values()) for name, values in fit_model.values.items())
         key = (fit_model.muscle, fit_model.ids, named)
@@ -74,23 +86,47 @@ class Evaluation:
             self._histories[key] = self._best_history(fit_model)
         return self._histories[key]
 
+    def histories(self, effects: Sequence[Effect]) -> tuple[str, ...]:
+        """Those of `HISTORIES` that change what these effects show in these rows, rest first.
+
+        A motion before the record only where the force is read; a pressure or a load that was put on just
+        before it in tests that hold the length or the load.
+        """
+        task = self.task
+        names = ["rest"]
+        if task.channel == "force" and any(map(remembers_before, effects)):
+            names += [name for name, before in HISTORIES.items() if before.slid]
+        held = task.kind in _HELD and task.channel != "diameter" and self._memory.begins_held
+        if held and any(map(creeps, effects)):
+            names += ["applied", *(["applied anew"] if self._memory.has_levels else [])]
+        return tuple(names)
+
     def _best_history(self, fit_model: FitModel) -> str:
         task = self.task
+        names = self.histories(fit_model.effects)
         scored = ~task.turning if np.any(~task.turning) else slice(None)
         misfit = {}
-        self._memory.together([(fit_model, before) for before in HISTORIES.values()])
+        self._memory.together([(fit_model, HISTORIES[name]) for name in names])
         with np.errstate(all="ignore"):
-            for name, before in HISTORIES.items():
-                force = self._at(fit_model, (), self._state(fit_model, before), before)[0]["force"]
-                misfit[name] = float(np.sum((force - task.measured)[scored] ** 2))
+            for name in names:
+                before = HISTORIES[name]
+                out = self._at(fit_model, (), self._state(fit_model, before), before)[0]
+                if task.channel == "force":
+                    error = out["force"] - task.measured
+                else:  # how far the length is from carrying the load, to the first order
+                    error = (out["force"] - self._load(fit_model)) / out["force_by_length"]
+                misfit[name] = float(np.sum(error[scored] ** 2))
         finite = {name: value for name, value in misfit.items() if np.isfinite(value)}
         return min(finite, key=lambda name: finite[name], default="rest")
+
+    def _load(self, fit_model: FitModel) -> np.ndarray:
+        return self.task.state["load"] + fit_model.load
 
     def state(self, fit_model: FitModel) -> dict[str, np.ndarray]:
         """Inputs of the model: the measured ones, and the states of effects with memory."""
         return self._state(fit_model, HISTORIES[self.history(fit_model)])
 
-    def _state(self, fit_model: FitModel, before: float) -> dict[str, np.ndarray]:
+    def _state(self, fit_model: FitModel, before: Before) -> dict[str, np.ndarray]:
         state = {name: self.task.state[name] for name in INPUTS if name in self.task.state}
         moved = self.moved(fit_model)
         if "length" in state and np.any(moved):
@@ -141,7 +177,7 @@ class Evaluation:
         return compiled_state(effects, gradient_by, memory=memory, quick=True), gradient_by
 
     def _at(
-        self, fit_model: FitModel, names: Sequence[str], state: State | None, before: float
+        self, fit_model: FitModel, names: Sequence[str], state: State | None, before: Before
     ) -> tuple[dict[str, np.ndarray], np.ndarray]:
         moved = self._memory.by_parameters(fit_model, names, before)
         inner = [name for name in names if name != LOAD]

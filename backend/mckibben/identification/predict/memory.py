@@ -20,9 +20,32 @@ _MOVED = 0.02  # share of the range of a record after which its first motion has
 _STEP = 2e-3  # relative difference step of a parameter, for the derivative of a state
 
 
-#: What may have gone before a record: rest, a motion the other way that its first one turns back, or its
-#: first motion itself. The number is the share of the states of a long slow motion, along the first one.
-HISTORIES = {"rest": 0.0, "the other way": -1.0, "the same way": 1.0}
+class Before(NamedTuple):
+    """What may have gone before a record.
+
+    Attributes:
+        slid: share of the states that a long slow motion leaves, along the first motion of the record.
+        applied: the pressure and the load of its first row were put on at once, just before it.
+        anew: so they were before each new level of what is held constant.
+    """
+
+    slid: float = 0.0
+    applied: bool = False
+    anew: bool = False
+
+
+#: What may have gone before a record: rest under what its first row shows, a motion the other way that its
+#: first one turns back, its first motion itself, or rest without air and load until just before it.
+HISTORIES = {
+    "rest": Before(),
+    "the other way": Before(slid=-1.0),
+    "the same way": Before(slid=1.0),
+    "applied": Before(applied=True),
+    "applied anew": Before(applied=True, anew=True),
+}
+_NEW_LEVEL = 0.05  # jump of a quantity that is held, share of its range
+_HOLD, _STEADY = 5, 0.02  # rows; share of the largest pressure within which it is held
+_APPLIED = 0.1  # of the largest pressure; less at the start of a record is nothing that was put on
 
 
 def remembers(effect: Effect) -> bool:
@@ -35,13 +58,25 @@ def remembers_before(effect: Effect) -> bool:
     return remembers(effect) and any(state.sliding for state in effect.states)
 
 
+def creeps(effect: Effect) -> bool:
+    """Whether an effect goes on after a pressure or a load that was put on before the record."""
+    return remembers(effect) and any(state.applied for state in effect.states)
+
+
+def concerning(effect: Effect, before: Before) -> Before:
+    """What an effect knows of a history."""
+    known = creeps(effect)
+    slid = before.slid if remembers_before(effect) else 0.0
+    return Before(slid, before.applied and known, before.anew and known)
+
+
 class _Wanted(NamedTuple):
     """A trajectory of an effect's states: what it depends on, as a key and as values."""
 
     key: tuple
     fit_model: FitModel
     effects: tuple[Effect, ...]
-    before: float
+    before: Before
 
 
 class Memory:
@@ -60,27 +95,55 @@ class Memory:
         path = np.ones(len(task.records), bool) if task.corners is None else ~task.corners
         records = [np.flatnonzero(path & (task.records == label)) for label in np.unique(task.records)]
         self._records = [rows for rows in records if len(rows) >= 2]
+        self._levels = [part for rows in self._records for part in np.split(rows, self._new_levels(rows))]
 
-    def states(self, fit_model: FitModel, before: float = 0.0) -> dict[str, np.ndarray]:
+    @property
+    def begins_held(self) -> bool:
+        """Whether a record begins with a hold under pressure, as a log of creep does and no sweep."""
+        pressure = self._task.state["pressure"]
+        most = float(np.max(pressure))
+        least = max(_NEW_LEVEL * float(np.ptp(pressure)), _STEADY * most)
+        starts = [pressure[rows[:_HOLD]] for rows in self._records]
+        return any(start[0] > _APPLIED * most and np.ptp(start) <= least for start in starts)
+
+    @property
+    def has_levels(self) -> bool:
+        """Whether holds follow each other within records."""
+        return len(self._levels) > len(self._records)
+
+    def _new_levels(self, rows: np.ndarray) -> np.ndarray:
+        """Places within a record at which a hold begins: its pressure, length or load is another one."""
+        held = {"isometric": ("length", "pressure"), "isotonic": ("load", "pressure")}.get(
+            self._task.kind, ()
+        )
+        begins = np.zeros(len(rows) - 1, bool)
+        for name in held:
+            values = self._task.state[name]
+            begins |= np.abs(np.diff(values[rows])) > _NEW_LEVEL * max(float(np.ptp(values)), 1e-12)
+        places = 1 + np.flatnonzero(begins)
+        shortest = np.min(np.diff([0, *places, len(rows)]))
+        return places if shortest >= _HOLD else np.empty(0, dtype=np.intp)  # else a sweep
+
+    def states(self, fit_model: FitModel, before: Before = HISTORIES["rest"]) -> dict[str, np.ndarray]:
         """Value of each state ("effect.state") at each row, after one of `HISTORIES`."""
         return self.together([(fit_model, before)])[0]
 
-    def together(self, wanted: Sequence[tuple[FitModel, float]]) -> list[dict[str, np.ndarray]]:
+    def together(self, wanted: Sequence[tuple[FitModel, Before]]) -> list[dict[str, np.ndarray]]:
         """The states of models with the same effects after their histories; unknown ones side by side."""
         found: list[dict[str, np.ndarray]] = [{} for _ in wanted]
         effects = wanted[0][0].effects
         sensors = [e for e in effects if any(slot in e.slots for slot in _SENSORS)]
         for effect in filter(remembers, effects):
             chosen = (effect, *(sensor for sensor in sensors if sensor is not effect))
-            past = remembers_before(effect)
             runs = [
                 _Wanted(
-                    (model.muscle, before * past, *(self._key(e, model.values[e.id]) for e in chosen)),
+                    (model.muscle, past, *(self._key(e, model.values[e.id]) for e in chosen)),
                     model,
                     chosen,
-                    before * past,
+                    past,
                 )
                 for model, before in wanted
+                for past in [concerning(effect, before)]
             ]
             missing = list({run.key: run for run in runs if run.key not in self._kept}.values())
             if missing:
@@ -93,7 +156,7 @@ class Memory:
         return found
 
     def by_parameters(
-        self, fit_model: FitModel, names: Sequence[str], before: float = 0.0
+        self, fit_model: FitModel, names: Sequence[str], before: Before = HISTORIES["rest"]
     ) -> dict[str, dict[str, np.ndarray]]:
         """Derivatives of the states by the named parameters that affect them: name -> state -> rows."""
         changed: dict[str, tuple[FitModel, float]] = {}  # name -> the model with it changed, and by how much
@@ -126,6 +189,19 @@ class Memory:
         return (effect.id, *(values[name] for name in values if name in wanted))
 
     def _run(self, runs: Sequence[_Wanted], effect: Effect) -> list[dict[str, np.ndarray]]:
+        """The trajectories of runs, side by side where they begin at the same rows."""
+        found: list[dict[str, np.ndarray]] = [{} for _ in runs]
+        for anew, parts in ((False, self._records), (True, self._levels)):
+            places = [place for place, run in enumerate(runs) if run.before.anew is anew]
+            if places:
+                trajectories = self._run_along(parts, [runs[place] for place in places], effect)
+                for place, states in zip(places, trajectories, strict=True):
+                    found[place] = states
+        return found
+
+    def _run_along(
+        self, parts: Sequence[np.ndarray], runs: Sequence[_Wanted], effect: Effect
+    ) -> list[dict[str, np.ndarray]]:
         task = self._task
         names = [f"{effect.id}.{state.name}" for state in effect.states]
         rest = {f"{effect.id}.{state.name}": state.initial for state in effect.states}
@@ -135,8 +211,8 @@ class Memory:
             StaticModel.of(model.muscle, effects, {e.id: model.values[e.id] for e in effects})
             for _, model, effects, _ in runs
         ]
-        for rows in self._records:
-            motion = self._first_motion(rows) if any(run.before for run in runs) else 0.0
+        for rows in parts:
+            motion = self._first_motion(rows) if any(run.before.slid for run in runs) else 0.0
             states = driven_states_of_many(
                 models,
                 names,
@@ -144,14 +220,7 @@ class Memory:
                 pressure=task.state["pressure"][rows],
                 length=task.state["length"][rows],
                 temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
-                begins=[
-                    {
-                        f"{effect.id}.{state.name}": run.before * motion * state.sliding
-                        for state in effect.states
-                        if state.sliding and run.before * motion
-                    }
-                    for run in runs
-                ],
+                begins=[self._begin(run, effect, rows[0], motion) for run in runs],
             )
             for trajectories, of_run in zip(found, states, strict=True):
                 for name in names:
@@ -160,6 +229,20 @@ class Memory:
                         between = np.flatnonzero(task.corners & (task.records == task.records[rows[0]]))
                         trajectories[name][between] = np.interp(clock[between], clock[rows], of_run[name])
         return found
+
+    def _begin(self, run: _Wanted, effect: Effect, row: int, motion: float) -> dict[str, float]:
+        """The states that are not at rest at the first row of a record."""
+        applied = {
+            "pressure": float(self._task.state["pressure"][row]),
+            "stroke": float(self._task.state["length"][row] - run.fit_model.muscle.nominal_length),
+        }
+        states: dict[str, float] = {}
+        for state in effect.states:
+            if state.sliding and run.before.slid * motion:
+                states[f"{effect.id}.{state.name}"] = run.before.slid * motion * state.sliding
+            elif state.applied and run.before.applied:
+                states[f"{effect.id}.{state.name}"] = applied[state.applied]
+        return states
 
     def _first_motion(self, rows: np.ndarray) -> float:
         """1 if a record begins with a lengthening, -1 with a shortening, 0 without a motion.

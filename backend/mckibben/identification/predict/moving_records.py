@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mckibben.measurement.derivative import noise_of
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import TableSignal
@@ -19,6 +20,8 @@ MOST_ROWS = 1000
 _PIECES = 8  # kept; only dead times change them
 _FEW_LEVELS = 0.2  # share of rows at which the command changes, up to which it is held between changes
 _FIRST_ROWS = 50  # most rows for the start pressure
+_RESTING = 0.02  # share of the rows of a run for which a load rests at its lowest, at least
+_STRETCHED = 2e-3  # share of the rest length; less is a zero error of the sensor
 _NOT_VENTED = 30e3  # Pa from the documented start pressure; less may be a zero error of the gauge
 
 
@@ -68,6 +71,27 @@ def stroke_of(measurement: Measurement, drive: Drive) -> np.ndarray | None:
     if "displacement" in measurement.columns:
         return measurement.columns["displacement"]
     return drive.muscle.nominal_length - lengths(measurement, drive.muscle.nominal_length)
+
+
+def lowest_stop(measurement: Measurement, rest_length: float) -> float:
+    """Contraction at which a load without stated stops rests at its lowest: 0, or where it was seen below.
+
+    A load that hangs on a muscle without air stretches it, or was set to zero with another one.
+
+    Args:
+        measurement: of a transient.
+        rest_length: of the muscle [m].
+    """
+    if not any(name in measurement.columns for name in STROKES):
+        return 0.0
+    length = lengths(measurement, rest_length)[measurement.usable]
+    if not len(length):
+        return 0.0
+    longest = float(np.quantile(length, 1.0 - _RESTING))
+    beyond = longest - rest_length
+    if beyond < max(_STRETCHED * rest_length, 5.0 * noise_of(length)):
+        return 0.0
+    return -beyond / rest_length
 
 
 def recorded_channels(

@@ -16,6 +16,19 @@ from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.reading_errors import ReadingError, ReadingWeights, reading_weights
 from mckibben.physics.effect import Effect
 
+#: What went before a record, of `mckibben.identification.predict.memory.HISTORIES`, in words.
+_FRICTION = "friction depends on the motion before the record, which no file states: "
+_CREEP = "creep depends on what went before the record, which no file states: "
+_BEST = "because the readings fit best with it"
+_ASSUMED = {
+    "the same way": f"{_FRICTION}a motion that went on where it begins was assumed, {_BEST}",
+    "the other way": f"{_FRICTION}a motion the other way that turned where it begins was assumed, {_BEST}",
+    "applied": f"{_CREEP}that its first pressure and load were put on just before it, after a rest "
+    f"without them, was assumed, {_BEST}",
+    "applied anew": f"{_CREEP}that pressure and load were put on anew before each level, after a rest "
+    f"without them, was assumed, {_BEST}",
+}
+
 
 @dataclass(frozen=True)
 class PredictedChannel:
@@ -112,6 +125,14 @@ class Predictor(ABC):
         """
         return ()
 
+    def histories(self, effects: Sequence[Effect]) -> tuple[tuple[str, ...], ...]:
+        """Histories from each of which a fit with these effects begins, as one does not lead to another.
+
+        The first is the usual one.
+        """
+        del effects
+        return ((),)
+
     def after(self, history: tuple[str, ...]) -> Predictor:
         """This predictor with a history that does not depend on the model."""
         return self
@@ -119,12 +140,7 @@ class Predictor(ABC):
     def assumed_history(self, fit_model: FitModel) -> tuple[str, ...]:
         """A sentence where another history than rest was assumed."""
         names = [name for name in dict.fromkeys(self.history(fit_model)) if name != "rest"]
-        return tuple(
-            "friction depends on the motion before the record, which no file states: "
-            + ("a motion that went on" if name == "the same way" else "a motion the other way that turned")
-            + " where it begins was assumed, because the forces fit best with it"
-            for name in names
-        )
+        return tuple(_ASSUMED[name] for name in names)
 
     def reading(self, values: np.ndarray) -> Predictor:
         """This predictor of other readings, shape (values,), at the same inputs."""

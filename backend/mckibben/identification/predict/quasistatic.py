@@ -15,7 +15,7 @@ from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.identification.predict.folds import folds_of, ranges_of, sweeps_of
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.lengths import predicted_lengths
-from mckibben.identification.predict.memory import remembers
+from mckibben.identification.predict.memory import HISTORIES, remembers
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.predict.sensor_dynamics import as_read, late
 from mckibben.physics.effect import Effect
@@ -122,9 +122,18 @@ class QuasistaticPredictor(Predictor):
             return self.predict(fit_model, clipped=False)
         values = {effect.id: fit_model.values.get(effect.id, effect.off) for effect in self._wide}
         wide = replace(fit_model, effects=self._wide, values=values)
-        quick = self.after(("rest",))
-        quick._evaluation = quick._evaluation.without_derivatives()
+        quick = copy(self)
+        quick._evaluation = self._evaluation.without_derivatives()
+        if not quick._evaluation.pinned:
+            # What creep goes on from changes all rows, a motion before the record the first ones only.
+            creeping = len(self.histories(fit_model.effects)) > 1
+            quick = quick.after(quick.history(wide) if creeping else ("rest",))
         return quick.predict(wide, clipped=False)
+
+    def histories(self, effects: Sequence[Effect]) -> tuple[tuple[str, ...], ...]:
+        """See `Evaluation.histories`; a fit finds a motion before the record by itself."""
+        names = self._evaluation.histories([effect for effect in effects if not late(effect)])
+        return tuple((name,) for name in names if not HISTORIES[name].slid)
 
     def history(self, fit_model: FitModel) -> tuple[str, ...]:
         """See `Evaluation.history`."""

@@ -218,8 +218,16 @@ class SpecimensPredictor(Predictor):
         own = (each.predictor.history(self._own(fit_model, each)) for each in self._specimens)
         return tuple(name for names in own for name in (names or ("rest",)))
 
+    def histories(self, effects: Sequence[Effect]) -> tuple[tuple[str, ...], ...]:
+        """The same one before each specimen."""
+        own = [each.predictor.histories(effects) for each in self._specimens]
+        shared = [names[0] for names in own[0] if names and all(names in other for other in own)]
+        return tuple((name,) * len(own) for name in shared) or ((),)
+
     def after(self, history: tuple[str, ...]) -> SpecimensPredictor:
         """This predictor with histories that do not depend on the model."""
+        if not history:
+            return self
         pinned = copy(self)
         pinned._specimens = tuple(
             replace(each, predictor=each.predictor.after((name,)))

@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 
 from mckibben.measurement.read.formulas import formulas_in
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.positions import is_position, position_scale, pulley_scale
+from mckibben.measurement.read.positions import is_position, length_scale, position_scale, pulley_scale
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.scales import Scale, scale_in
 from mckibben.measurement.read.unit_words import (
@@ -44,6 +44,7 @@ _RANGES, _ZEROS = word_set(words.RANGE), word_set(words.ZERO)
 _BALANCED = word_set(words.BALANCED)
 _ANY_SIGNAL = word_set(words.SIGNAL)
 _SAME = 1e-6
+_ALONG = {"length", "displacement", "contraction", "extension"}
 _SCALED = ("pressure", "force", "length", "displacement", "extension")
 
 
@@ -103,6 +104,10 @@ def _of_position(name: str, unit: str, texts: Texts) -> Scale | None:
     ]
     if not found:
         known = recognise(name, unit)
+        if known.channel in (None, "displacement", "extension"):
+            at_zero = length_scale(name, unit, texts)
+            if at_zero is not None:
+                return at_zero
         open_one = known.channel is None and not known.why.startswith("it is")
         return position_scale(name, unit, texts) if open_one or is_position(name) else None
     return found[0] if all(_equal(found[0], other) for other in found) else None
@@ -170,17 +175,27 @@ def _by_scale(name: str, unit: str, heads: Sequence[tuple[str, str | None]], tex
     ]
     if len(rivals) > 1:
         return
-    for text, where in texts:
+    for text, where in _with_clauses(texts):
         scale = scale_in(text, where)
         if scale is None or not scale.zeroed or dimension_of(scale.raw) != _raw_dimension(unit):
             continue
         if not _fits(channel, _bare(scale.unit)):
             continue
         named = {_proper(c) for word in words_of(text) if (c := channel_of_word(word)) in _SCALED}
+        if named & _ALONG and channel in _ALONG:
+            named |= {channel}  # "10 mm/V, positive = contraction" is of any reading of the stroke
         if named - {channel, None} and channel not in named:
             continue
         per = 1.0 if unit in (COUNT, "%", FULL_SCALE, BRIDGE) else float(convert([1.0], unit, scale.raw)[0])
         yield scale._replace(factor=scale.factor * per, name=name)
+
+
+def _with_clauses(texts: Texts) -> Iterator[tuple[str, str]]:
+    """Each text, and its clauses where it states several scales: ``p: 1 bar/V, x: 20 mm/V``."""
+    for text, where in texts:
+        clauses = re.split(r"[;|]|,(?=\s)", text)
+        stated = [clause for clause in clauses if scale_in(clause, where) is not None]
+        yield from ((clause, where) for clause in stated) if len(stated) > 1 else ((text, where),)
 
 
 def _raw_dimension(unit: str) -> str:

@@ -29,6 +29,7 @@ Floats = NDArray[np.float64]
 
 _CARRIES = {"a force": "force", "a pressure": "pressure", "a length": "length"}
 _SAME = 0.01  # of the range; columns that differ by less are the same reading
+_OPPOSED = -0.5  # correlation of the pressures of a pair, of which one is filled as the other is vented
 _CLIPPED = 100  # the penalty of a clipped column
 _RAW_PENALTY = 1  # between a column and its raw, filtered or clipped form
 
@@ -189,6 +190,8 @@ def _unread(evidence: Evidence) -> list[Question]:
             continue
         head = taken_apart(header, evidence.apart[index] if index < len(evidence.apart) else None)
         channel = "force" if header == UNNAMED else _CARRIES.get(dimension_of(head.unit))
+        if dimension_of(head.unit) == "a mass" and "force" not in filled:
+            channel = "force"  # a scale pulled by the muscle; beside a force it may be anything
         reason = meaning.reasons.get(index, "")
         if channel is None or any(known in reason for known in KNOWN_REASONS):
             continue
@@ -259,11 +262,19 @@ def _rivals(evidence: Evidence) -> list[Question]:
         if float(np.max(np.abs(second - values))) <= _SAME * max(float(np.ptp(values)), 1e-12):
             continue
         first, later = bare_name(winner), bare_name(other)
+        opposed = winner.use == "pressure" and float(np.corrcoef(values, second)[0, 1]) < _OPPOSED
+        which = f"'{winner.header}' and '{other.header}' are both {winner.use} and differ"
+        if opposed:
+            which = (
+                f"'{winner.header}' and '{other.header}' are pressures that run against each other, as in a "
+                "joint or pair of two muscles; measurements of pairs are not compared, and this one shows "
+                "neither muscle's own load"
+            )
         asked.append(
             Question(
                 f"second {winner.use}",
-                f"{evidence.noun}s '{winner.header}' and '{other.header}' are both {winner.use} and differ; "
-                "which one acts on the muscle",
+                f"{evidence.noun}s {which}; which one acts on the muscle"
+                f"{' where one was tested by itself' if opposed else ''}",
                 f"{column_option(winner.use, first)} or {column_option(winner.use, later)}",
                 other.header,
                 winner.header,

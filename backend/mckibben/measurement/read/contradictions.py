@@ -24,6 +24,8 @@ _ASKED = {
 # L/L0 is cos(angle)/cos(angle at rest): with up to 37 degrees at rest at most 1.25, and at 54.7 degrees,
 # where the braid locks, not below 0.58; the lower bound leaves room for lengths with fittings.
 _LONGEST, _SHORTEST = 1.25, 0.4
+# A braid of up to 30 degrees at rest locks when it is stretched by 15 %; _FEW: share of rows, for spikes.
+_STRETCHED, _FEW = 0.15, 0.05
 _NUMBERS = " ".join(NUMBER_WORDS.values()).split()
 _IN_WORDS = re.compile(
     rf"(?i)(?<![^\W_])(?:{'|'.join(sorted(_NUMBERS, key=len, reverse=True))})\s+"
@@ -139,12 +141,15 @@ def _impossible(
     note = next((n for n in notes if key_of(n.key)[0] == "nominal_length"), None)
     said = f"{rest * 1e3:.6g} mm" if note is None else str(_with_unit(note))
     place = "" if note is None else f" ({_place(note.where)})"
+    stretched = "stretch" in shown
     return [
         Question(
             "rest length",
             f"the rest length is read as {said}{place}, {shown}, which is impossible for it; "
-            "which rest length is right",
-            '--rest-length "300 mm"',
+            + ("where is the stroke 0, or " if stretched else "")
+            + "which rest length is right",
+            '--rest-length "300 mm"'
+            + (' or --column "length=NAME [0 to 72 mm = 228 to 300 mm]"' if stretched else ""),
         )
     ]
 
@@ -156,7 +161,13 @@ def _beyond(channels: Mapping[str, Array], rest: float) -> str:
         low, high = float(np.min(length)), float(np.max(length))
         if low > _LONGEST * rest or high < _SHORTEST * rest:
             return f"the lengths measured are {low * 1e3:.4g} to {high * 1e3:.4g} mm"
-    elif stroke is not None and len(stroke) and float(np.median(np.abs(stroke))) > (1.0 - _SHORTEST) * rest:
+    elif stroke is not None and len(stroke):
         low, high = float(np.min(stroke)), float(np.max(stroke))
-        return f"the strokes measured are {low * 1e3:.4g} to {high * 1e3:.4g} mm"
+        if float(np.median(np.abs(stroke))) > (1.0 - _SHORTEST) * rest:
+            return f"the strokes measured are {low * 1e3:.4g} to {high * 1e3:.4g} mm"
+        if float(np.quantile(stroke, _FEW)) < -_STRETCHED * rest:
+            return (
+                f"the strokes measured would stretch the muscle by up to {-low * 1e3:.4g} mm beyond its rest "
+                f"length ({-100.0 * low / rest:.0f} %)"
+            )
     return ""

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from types import MappingProxyType
@@ -67,12 +67,17 @@ class _Derived:
         return values if self.factor == 1.0 and not self.offset else values * self.factor + self.offset
 
 
-def with_derived(source: RawTable, scales: Mapping[str, str] = MappingProxyType({})) -> RawTable:
+def with_derived(
+    source: RawTable,
+    scales: Mapping[str, str] = MappingProxyType({}),
+    named: Collection[str] = (),
+) -> RawTable:
     """The table with computed columns in the place of those that they are computed from.
 
     Args:
         source: the table.
         scales: name of a column -> its scale, as the user says it.
+        named: columns whose channel the user says; what a text says of a position does not change them.
     """
     columns = [_Derived(index) for index in range(len(source.headers))]
     headers, units = (
@@ -103,6 +108,9 @@ def with_derived(source: RawTable, scales: Mapping[str, str] = MappingProxyType(
             if column.fraction is not None
             else _scale(source, columns[index].place, headers[index], units[index])
         )
+        names = {headers[index], _bare(headers[index]), f"column {index + 1}"}
+        if scale is not None and dimension_of(scale.raw) == "a length" and names & set(named):
+            continue
         if scale is not None:
             bare = scale.raw == BRIDGE and not scale.offset and not says_zero_of_bridge(source.rest)
             unzeroed |= {index} if bare or not scale.zeroed else set()

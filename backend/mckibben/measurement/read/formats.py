@@ -43,7 +43,8 @@ def open_source(data: bytes, name: str, correction: Correction | None = None) ->
     chosen = {} if correction is None else correction.columns
     scales = {name: choice.scale for name, choice in chosen.items() if choice is not None and choice.scale}
     source = _with_first_remarks(_opened(data, name, correction))
-    return with_derived(_with_told_units(source), scales)
+    named = {name for name, choice in chosen.items() if choice is not None}
+    return with_derived(_with_told_units(source), scales, named)
 
 
 def _with_first_remarks(source: RawTable) -> RawTable:

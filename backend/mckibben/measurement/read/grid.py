@@ -10,6 +10,7 @@ from typing import Protocol
 
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.quantity import quantity_of
+from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import CLOCK, GAP, NUMBER, kind_of
 
 #: Between the cells of a line: a sign, or any number of blanks.
@@ -18,6 +19,7 @@ SEPARATORS = ("\t", ";", ",", "|", BLANKS)
 _RULE = re.compile(r"[|:\-=+\s]*[-=]{2,}[|:\-=+\s]*")
 #: A word, with what stands in brackets behind it or alone: "(DEG F)", "Pressure(bar abs)".
 _BRACKETED = re.compile(r"(?:[^\s\[\](){}]*(?:\([^()]*\)|\[[^\[\]]*\]))+[^\s\[\]()]*|\S+")
+_TWO_PAIRS = 4  # words
 _SAMPLE = 600  # lines from which the separator is told
 
 
@@ -130,7 +132,7 @@ def split_line(line: str, separator: str) -> list[str]:
         line = re.sub(r"(?<![\])\s])\s+(?=[\[(])|(?<=[\])])[ ](?=[\[(])", "", line)
         if line.count('"') > 1:
             return [cell.strip('"').strip() for cell in re.findall(r'"[^"]*"\S*|\S+', line)]
-        return _BRACKETED.findall(line) if "(" in line or "[" in line else line.split()
+        return _BRACKETED.findall(line) if "(" in line or "[" in line else _with_units(line.split())
     if separator == "|":  # tables of notebooks have one at either end, and a line of dashes below the head
         line = line.strip()
         if _RULE.fullmatch(line):
@@ -145,6 +147,19 @@ def split_line(line: str, separator: str) -> list[str]:
         except csv.Error:
             pass
     return [cell.strip() for cell in line.split(separator)]
+
+
+def _with_units(words: list[str]) -> list[str]:
+    """Words of a head in which each name is followed by its unit, as ``mass [kg]``; others as they are."""
+    names, units = words[::2], words[1::2]
+    if len(words) < _TWO_PAIRS or len(names) != len(units) or any(word[:1].isdigit() for word in words):
+        return words
+    known = [unit_of(word) for word in units]
+    if not all(unit is not None and dimension_of(unit.unit) for unit in known):
+        return words
+    if all(unit_of(word) is not None for word in names):
+        return words  # a line of units
+    return [f"{name} [{unit}]" for name, unit in zip(names, units, strict=True)]
 
 
 def separator_of(lines: Sequence[str]) -> str:

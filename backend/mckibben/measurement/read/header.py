@@ -276,7 +276,8 @@ def _chosen(index: int, header: str, choice: Choice | None, apart: str | None) -
             guess = None
         guess = guess or _in_other_words(index, header, apart, {}, [], "column")
         if guess is None and (known := recognise(header, apart)).unit is not None:
-            guess = HeaderColumn(index, header, choice.channel, known.unit, known.absolute)
+            own = WEIGHTS.get(known.unit, known.unit) if choice.channel == "force" else known.unit
+            guess = HeaderColumn(index, header, choice.channel, own, known.absolute)
         if (
             guess is not None
             and guess.unit is not None

@@ -292,8 +292,10 @@ def _row_of_units(texts: dict[int, list[str]], rows: Sequence[int], names: Seque
     for index in rows:
         filled = [(column, cell) for column, cell in enumerate(texts[index]) if cell and column < len(names)]
         units = sum(unit_of(cell) is not None for _, cell in filled)
-        physical = sum(
-            bool(dimension_of(unit.unit)) for _, cell in filled if (unit := unit_of(cell)) is not None
+        physical = sum(  # the 1 of "Page 1" is no unit by itself
+            bool(dimension_of(unit.unit)) and not cell.isdecimal()
+            for _, cell in filled
+            if (unit := unit_of(cell)) is not None
         )
         quantity = any(
             "=" in cell or re.search(r"[0-9]{2}", cell) for _, cell in filled if unit_of(cell) is None

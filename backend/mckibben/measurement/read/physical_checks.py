@@ -8,10 +8,13 @@ from numpy.typing import NDArray
 from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.evidence import Array, Evidence, bare_name
+from mckibben.measurement.read.header import HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH
 from mckibben.measurement.read.questions import column_option
 from mckibben.measurement.read.signs import SHORTENING_POSITIVE, STROKE_SIGN
+from mckibben.physics.units import convert
 
+_STRETCHED = 0.08  # of the rest length; braids of up to 22 degrees lock there, others hardly go further
 _REVERSE, _KEEP = "reverse the sign", "keep the sign"
 
 
@@ -52,6 +55,9 @@ def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Arra
     if against is False or not (falls or against or (column.extends and not stated)):
         return []
     turned = column_option(channel, bare_name(column), sign=-1)
+    rest, most = evidence.conditions.get("nominal_length"), float(np.max(stroke))
+    if channel == "displacement" and isinstance(rest, float) and not falls and most > _STRETCHED * rest:
+        return [_zero_of_stroke(evidence, column, rest, most)]
     could_be_length = channel == "displacement" and float(np.min(stroke)) > 0.0
     as_length = f" or {column_option('length', bare_name(column))}" if could_be_length else ""
     return [
@@ -65,6 +71,21 @@ def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Arra
             (_REVERSE, _KEEP),
         )
     ]
+
+
+def _zero_of_stroke(evidence: Evidence, column: HeaderColumn, rest: float, most: float) -> Question:
+    """A reading that grows as the muscle lengthens, from a zero at which it cannot be at its rest length."""
+    unit = column.unit or "m"
+    reach, whole = (float(convert([value], "m", unit)[0]) for value in (most, rest))
+    length = f"0 to {reach:.4g} {unit} = {whole - reach:.4g} to {whole:.4g} {unit}"
+    return Question(
+        "zero of displacement",
+        f"{evidence.noun} '{column.header}' grows as the muscle lengthens, up to {reach:.4g} {unit}: a "
+        f"muscle of {whole:.4g} {unit} is not at its rest length where it shows 0; which length has it "
+        "there and at the end",
+        column_option("length", bare_name(column), length),
+        column.header,
+    )
 
 
 def mostly_negative(values: Array) -> bool:

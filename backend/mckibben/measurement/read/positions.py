@@ -10,6 +10,7 @@ from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.vocabulary import (
     REMARK_WORDS,
     SIGN_WORDS,
+    channel_of_word,
     folded,
     has_word,
     word_set,
@@ -29,6 +30,9 @@ _POSITIONS, _GROWS, _FALLS = (
     word_set(words.FALLS),
 )
 _PULLEYS, _RADII, _DIAMETERS = word_set(words.PULLEY), word_set(words.RADIUS), word_set(words.DIAMETER)
+_ZEROS, _SEPARATIONS = word_set(words.ZERO), word_set(words.SEPARATION)
+_ZERO = re.compile(r"(?<![\w.,])0(?:[.,]0+)?\s*(?:mm\b|cm\b|m\b|in\b)?(?!\s*[^\W\d_]|[.,]\d)")
+_NEAR = 3  # words between the name of a reading and its zero
 _AT_REST = REMARK_WORDS["at rest"]
 _SHORTER = SIGN_WORDS["shortening"] | SIGN_WORDS["shorter"] | word_set(words.SHORTENS)
 _LONGER = SIGN_WORDS["extension"] | SIGN_WORDS["longer"]
@@ -50,6 +54,48 @@ def position_scale(name: str, unit: str, texts: Texts) -> Scale | None:
         return None
     sign = -1.0 if falls == {True} else 1.0
     return Scale(sign, -sign * value, unit, unit, "displacement", f"'{text[:100]}'", where)
+
+
+def length_scale(name: str, unit: str, texts: Texts) -> Scale | None:
+    """Length of the muscle = its length where the reading is 0, plus or minus the reading.
+
+    From texts like ``length at crosshead zero: 228 mm``. The reading adds to it unless a text says that it
+    grows as the muscle shortens; None where no text states that length, or texts state several.
+    """
+    own = {word for word in words_of(name) if len(word) > 1 or name == word}
+    lengths = {(value, where, text) for text, where in texts for value in _lengths_at_zero(text, own, unit)}
+    if len({value for value, _, _ in lengths}) != 1:
+        return None
+    value, where, text = next(iter(lengths))
+    falls = {found for said, _ in texts if (found := _direction(said, own)) is not None}
+    if len(falls) > 1:
+        return None
+    shortens = bool(own & _SHORTER) if not falls else falls == {False}
+    sign = -1.0 if shortens else 1.0
+    return Scale(sign, value, unit, unit, "muscle length", f"'{text[:100]}'", where)
+
+
+def _lengths_at_zero(text: str, own: set[str], unit: str) -> Iterator[float]:
+    """The lengths of the muscle at the reading 0 that a text states, in the unit of the column."""
+    for clause in re.split(r"[;|]|[.](?=\s|$)", text):
+        sizes = [
+            (float(match[1].replace(",", ".")) * scale.multiplier / scale.divisor, match)
+            for match in _QUANTITY.finditer(clause)
+            if (known := unit_of(match[2])) is not None and dimension_of(known.unit) == "a length"
+            for scale in (factor(known.unit, unit),)
+        ]
+        sizes = [(size, match) for size, match in sizes if size > 0.0]
+        if len(sizes) != 1:
+            continue
+        size, match = sizes[0]
+        said = words_of(_ZERO.sub(" zero ", f"{clause[: match.start()]} {clause[match.end() :]}"))
+        if has_word(said, _AT_REST):
+            continue  # a zero at the rest length: `position_scale`
+        named = {at for at, word in enumerate(said) if word in own or word in _POSITIONS - _ZEROS}
+        zeros = {at for at, word in enumerate(said) if word in _ZEROS}
+        near = any(abs(one - other) <= _NEAR for one in named for other in zeros)
+        if near and any(channel_of_word(word) == "length" or word in _SEPARATIONS for word in said):
+            yield size
 
 
 def _zeros(text: str, own: set[str], unit: str) -> Iterator[float]:

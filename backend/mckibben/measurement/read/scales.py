@@ -25,6 +25,7 @@ _TO = r"\s*(?:=|≙|≈|:|->|→|for|per|to|is|corresponds to|entspricht|entspre
 _SPAN = rf"({_NUMBER})\s*(?:-|–|\.\.+|to|bis|\.{{2,3}}|…)\s*({_NUMBER})\s*"
 _RANGES = re.compile(rf"{_SPAN}{_RAW}{_TO}{_SPAN}{_UNIT}")
 _EQUAL = re.compile(rf"(?<![\d.,-])({_NUMBER})\s*{_RAW}{_TO}({_NUMBER})\s*{_UNIT}")
+_MOVED = re.compile(rf"{_SPAN}(?P<raw>[^\W\d_]+){_TO}{_SPAN}(?P<unit>[^\W\d_]+)")
 #: The value before the signal: "200 N = 1 V", "0-10 bar -> 4-20 mA", "range 0-10 bar (0-5 V)".
 _VALUE_RANGE = re.compile(rf"{_SPAN}{_UNIT}(?:{_TO}|\s*[,/(]\s*){_SPAN}{_RAW}(?![\w/])")
 _VALUE_EQUAL = re.compile(
@@ -116,7 +117,17 @@ def scale_in(text: str, where: str) -> Scale | None:
 
 
 def said_scale(text: str) -> Scale | None:
-    """The scale that a user says: ``0-10 V = 0-10 bar``, ``4100 to 9300 counts = 0 to 80 mm``."""
+    """The scale that a user says: ``0-10 V = 0-10 bar``, ``4100 to 9300 counts = 0 to 80 mm``.
+
+    Also where a position counts from: ``0 to 72 mm = 228 to 300 mm``.
+    """
+    moved = _MOVED.fullmatch(text.strip())
+    if moved is not None:
+        low, high, least, most = (_float(moved[n]) for n in (1, 2, 4, 5))
+        raw, unit = unit_of(moved["raw"]), unit_of(moved["unit"])
+        if raw and unit and dimension_of(raw.unit) == dimension_of(unit.unit) == "a length" and high != low:
+            slope = (most - least) / (high - low)
+            return Scale(slope, least - slope * low, raw.unit, unit.unit, "", f"'{text.strip()}'", "you")
     return scale_in(re.sub(r"(?<=[0-9])\s*(?:deg(?:rees?)?\b|°)", " counts", text), "you")
 
 

@@ -14,6 +14,7 @@ from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITION
 from mckibben.measurement.read.head_text import channel_number, taken_apart
 from mckibben.measurement.read.limits import MAX_REMARKS
 from mckibben.measurement.read.signs import signs_of
+from mckibben.measurement.read.tares import reads_empty
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.vocabulary import (
     LOADLESS,
@@ -145,6 +146,8 @@ def _of_text(text: str) -> Iterator[tuple[str, str]]:
         yield KIND_SAID, kinds.pop()
     for quantity in (*_quantities(text), *_glued(text)):
         key = _key_of(quantity)
+        if key in ("load_mass", "load_force") and reads_empty(text):
+            continue  # "reads 0.85 kg with nothing attached"
         if key is not None:
             unit = quantity.unit or (unit_of_air(quantity.value) if key == AIR else None)
             yield key, f"{quantity.value} {unit}" if unit else quantity.value

@@ -31,6 +31,7 @@ _LARGE = 0.5  # of the largest reading; a tare is no measurement
 
 
 _TARE, _NOT, _DONE = map(word_set, (words_of_tares.TARE, words_of_tares.NOT, words_of_tares.DONE))
+_READS = word_set(words_of_tares.READS)
 _TO_DO, _INCLUDED = word_set(words_of_tares.TO_DO), word_set(words_of_tares.INCLUDED)
 
 
@@ -79,18 +80,29 @@ def notes_of_tares(notes: Iterable[Note]) -> list[tuple[str, str]]:
 def _of_sentence(sentence: str, where: str) -> Tare | None:
     sentence = _UNIT_FIRST.sub(r": \2 \1", sentence)
     words = words_of(sentence)
-    if not _has(words, _TARE):
+    empty = reads_empty(sentence)
+    if not _has(words, _TARE) and not empty:
         return None
     values = {
         value
         for match in _QUANTITY.finditer(sentence)
-        if _is_beside(sentence, match) and (value := _force(match)) is not None
+        if (empty or _is_beside(sentence, match)) and (value := _force(match)) is not None
     }
     if not values and (bare := _BARE.search(sentence)) and not {*map(channel_of_word, words)} & _OTHERS:
         return Tare(float(bare[1].replace(",", ".")), None, sentence, where, bare=True)
     if len(values) != 1:
         return None
     return Tare(values.pop(), is_contained(words, folded(sentence)), sentence, where)
+
+
+def reads_empty(sentence: str) -> bool:
+    """Whether a sentence says what something reads with nothing on it.
+
+    >>> reads_empty("scale reads 0.850 kg with nothing attached")
+    True
+    """
+    plain = folded(sentence)
+    return any(phrase in plain for phrase in words_of_tares.EMPTY) and _has(words_of(sentence), _READS)
 
 
 def _is_beside(sentence: str, found: re.Match[str]) -> bool:

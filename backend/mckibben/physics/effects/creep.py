@@ -72,7 +72,8 @@ _POWER = Source("relaxation of filled rubber with a power of time, exponents of 
 _DEFINITION = Source("definition, by hand", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 
-_NUMBERED = tuple(enumerate(_ARMS, start=1))
+_STATES = {arm: (f"d_{j}", f"Extension of the {arm} arm.") for j, arm in enumerate(_ARMS, start=1)}
+_STATES["travel"] = ("x", "Change of the length since the beginning.")
 _EXTENDED = dict(zip(_ARMS, (0.0, 0.005, 0.01, 0.015, 0.02), strict=True))
 
 EFFECT = Effect(
@@ -107,7 +108,7 @@ EFFECT = Effect(
             *("time", r"\tau", "s"),
             default=3.0,
             lower=0.3,
-            upper=100.0,
+            upper=1000.0,
             source=_TIMES,
             description="Time constant of the middle arm.",
             fitted=False,
@@ -133,9 +134,8 @@ EFFECT = Effect(
         ),
     ),
     slots={"friction": friction, "rates": rates},
-    states=(
-        *(StateVariable(arm, f"d_{j}", "m", 0.01, f"Extension of the {arm} arm.") for j, arm in _NUMBERED),
-        StateVariable("travel", "x", "m", 0.01, "Change of the length since the beginning."),
+    states=tuple(
+        StateVariable(n, sign, "m", 0.01, what, applied="stroke") for n, (sign, what) in _STATES.items()
     ),
     kinds=frozenset({"isobaric", "isotonic", "transient"}),
     signature=Signature(

@@ -68,7 +68,7 @@ EFFECT = Effect(
             "s",
             default=3.0,
             lower=0.3,
-            upper=100.0,
+            upper=1000.0,
             source=_TIMES,
             description="Time constant of the middle arm.",
             fitted=False,
@@ -88,7 +88,10 @@ EFFECT = Effect(
     ),
     slots={"friction": friction, "rates": rates},
     states=tuple(
-        StateVariable(name, f"d_{index}", "Pa", 1e5, f"Pressure that the {name} arm has not yet followed.")
+        StateVariable(
+            *(name, f"d_{index}", "Pa", 1e5, f"Pressure that the {name} arm has not yet followed."),
+            applied="pressure",
+        )
         for index, name in enumerate(_ARMS, start=1)
     ),
     kinds=frozenset({"isometric", "isotonic", "transient"}),

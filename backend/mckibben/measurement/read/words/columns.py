@@ -5,7 +5,7 @@ from __future__ import annotations
 #: What makes a column something else -> language -> words.
 OTHERS = {
     "a set value": {
-        "en": "set setpoint target desired demand demanded reference ref sp",
+        "en": "set setpoint target desired demand demanded commanded cmd reference ref sp",
         "de": "soll sollwert fuehrung führung", "fr": "consigne désirée cible",
         "it": "riferimento impostata impostato", "es": "consigna objetivo deseado",
         "pt": "alvo referência desejado", "pl": "zadane zadana", "cs": "žádaný žádaná",

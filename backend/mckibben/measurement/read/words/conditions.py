@@ -37,9 +37,10 @@ REMARKS = {
         "et": "algpikkus",
     },
     "load": {
-        "en": "load mass weight hanging hung hangs deadweight dead suspended attached",
-        "de": "last masse gewicht gehängt angehängt hängt hängend gewichtsstück",
-        "fr": "charge poids masse suspendu suspendue accroché",
+        "en": "load mass weight hanging hung hangs deadweight dead suspended attached "
+        "lifts lifting lifted carries carrying",
+        "de": "last masse gewicht gehängt angehängt hängt hängend gewichtsstück hebt gehoben trägt",
+        "fr": "charge poids masse suspendu suspendue accroché soulève porte",
         "it": "carico massa peso appesa appeso sospeso", "es": "carga masa peso colgado suspendido",
         "pt": "carga peso massa suspenso pendurado",
         "pl": "masa obciążenie ciężar obciążnik zawieszony podwieszony",

@@ -31,6 +31,10 @@ FALLS = (
     "diminue diminuant decroit diminuisce cala decrescente disminuye decrece diminui decresce maleje klesa "
     "убывает уменьшается azalir daalt minskar sjunker falder laskee vahenee negative negativ"
 )
+#: The length between the ends that hold a muscle.
+SEPARATION = "separation einspannlange klemmenabstand mordazas"
+#: The reading is nothing.
+ZERO = "zero null nul nulle nullpunkt cero nulo nulla nullo noll nolla nula ноль нуле нулевой sifir 零"
 #: The muscle becomes shorter.
 SHORTENS = (
     "shortens shorten shortening contracts contract contracting contraction verkurzt zusammenzieht kurzer "

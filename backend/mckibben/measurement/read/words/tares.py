@@ -4,6 +4,12 @@ from __future__ import annotations
 
 #: The reading of a load cell without pull.
 TARE = "tare tara tarra tarage taragewicht tarawert"
+#: A reading with nothing on the load cell: what reads, and phrases for nothing.
+READS = "reads read reading shows showed indicates zeigt anzeige affiche indique segna marca leitura lectura"
+EMPTY = (
+    "nothing attached", "nothing hung", "nothing on it", "without load", "with no load", "no load attached",
+    "ohne last", "ohne kraft", "sans charge", "senza carico", "sin carga", "sem carga",
+)  # fmt: skip
 #: Negations.
 NOT = "not non nicht ohne without uncorrected unsubtracted no nao pas nie niet inte ikke ej ne"
 #: Phrases that something has not been done.
