@@ -229,8 +229,8 @@ def test_an_offset_of_the_sensor_and_a_prestress_are_one_group():
     assert "force_offset" in twins["prestress"]
     assert len(found.proposals) == 1
     assert "with the muscle removed" in found.proposals[0].declared
-    assert found.proposals[0].protocol == "a loop of contraction without pressure"
-    assert 10.0 < found.proposals[0].separation < 40.0  # 40 N, beside a noise of 1 N
+    assert found.proposals[0].protocol.startswith("pressure ramps up and down from vented")
+    assert 3.0 < found.proposals[0].separation < 40.0  # 40 N, beside a noise of 1 N, in a part of the rows
 
 
 def test_slack_rows_with_noise_do_not_bend_the_fit():

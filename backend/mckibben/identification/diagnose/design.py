@@ -39,6 +39,7 @@ DECISIVE = 3.0  # separation [sigma] from which an experiment decides
 #: same, because the noise and the form of the laws take their part of it.
 APART = 2.0 * SAME
 _FEWEST = 8  # values that a run needs
+_TENSE = 0.1  # share of the rows under tension without which a reader cannot know the others as slack
 _MOST_MODELS = 5  # of a group that are simulated, the likeliest
 _VERIFIED = 3  # experiments whose separations are verified, the most promising
 
@@ -259,6 +260,8 @@ class Designer:
                 tight = np.isclose(values, free)
                 slopes = np.where(tight[:, None], slopes, 0.0) / scale[:, None]
                 finite = np.isfinite(values) & np.all(np.isfinite(slopes), axis=1)
+                if np.mean(tight) < _TENSE:
+                    finite &= tight
                 self._seen[key] = _Predicted(values / scale, slopes, finite)
         return self._seen[key]
 
