@@ -2,27 +2,40 @@
 
 The seed is fixed: the same requests every run. What the document forbids must be refused; the reverse, that
 what it allows is accepted, does not hold for texts with units, whose grammar no JSON schema can say.
-
-schemathesis is imported where it is used: half a second that each process of the suite would spend.
 """
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable
-from typing import TYPE_CHECKING, Any, Literal
+from typing import Any
 
 import pytest
+import schemathesis
 from fastapi import FastAPI
 from hypothesis import HealthCheck, Phase, given, seed, settings
+from schemathesis import GenerationMode
+from schemathesis.checks import not_a_server_error
+from schemathesis.specs.openapi.checks import (
+    content_type_conformance,
+    negative_data_rejection,
+    response_headers_conformance,
+    response_schema_conformance,
+    status_code_conformance,
+)
 
 from mckibben.server.app import create_app
 from mckibben.server.settings import Settings
 from tests.server.test_openapi import PATHS
 
-if TYPE_CHECKING:
-    import schemathesis
-
+CHECKS = [
+    not_a_server_error,
+    status_code_conformance,
+    content_type_conformance,
+    response_schema_conformance,
+    response_headers_conformance,
+    negative_data_rejection,
+]
 OPERATIONS = [(method, path) for path, methods in PATHS.items() for method in sorted(methods)]
 # Without parameters and body nothing can be sent wrong, and any bytes may be a file.
 INFALLIBLE = [
@@ -44,29 +57,14 @@ def described(tmp_path_factory: pytest.TempPathFactory) -> schemathesis.BaseSche
     """The schema of an application with folders of its own."""
     folder = tmp_path_factory.mktemp("schemathesis")
     app: FastAPI = create_app(Settings(data=folder / "data", user_presets=folder / "presets"))
-    import schemathesis
-
     return schemathesis.openapi.from_asgi("/openapi.json", app, headers=HOST)
 
 
-def examine(
-    operation: schemathesis.APIOperation,
-    mode: Literal["POSITIVE", "NEGATIVE"],
-    change: Callable[[schemathesis.Case], None] | None = None,
-) -> None:
-    """Send generated requests, changed first if asked, and check every answer."""
-    from schemathesis import GenerationMode
-    from schemathesis.checks import not_a_server_error
-    from schemathesis.specs.openapi import checks
+Change = Callable[[schemathesis.Case], None]
 
-    checked = [
-        not_a_server_error,
-        checks.status_code_conformance,
-        checks.content_type_conformance,
-        checks.response_schema_conformance,
-        checks.response_headers_conformance,
-        checks.negative_data_rejection,
-    ]
+
+def examine(operation: schemathesis.APIOperation, mode: GenerationMode, change: Change | None = None) -> None:
+    """Send generated requests, changed first if asked, and check every answer."""
 
     @seed(20261121)
     @settings(
@@ -76,11 +74,11 @@ def examine(
         phases=[Phase.explicit, Phase.generate],
         suppress_health_check=[HealthCheck.too_slow, HealthCheck.filter_too_much, HealthCheck.data_too_large],
     )
-    @given(case=operation.as_strategy(generation_mode=GenerationMode[mode]))
+    @given(case=operation.as_strategy(generation_mode=mode))
     def check(case: schemathesis.Case) -> None:
         if change is not None:
             change(case)
-        case.validate_response(case.call(headers=HOST, timeout=PATIENCE), checks=checked)
+        case.validate_response(case.call(headers=HOST, timeout=PATIENCE), checks=CHECKS)
 
     check()
 
@@ -89,14 +87,14 @@ def examine(
 def test_what_the_document_allows_gets_a_declared_answer(
     described: schemathesis.BaseSchema, method: str, path: str
 ) -> None:
-    examine(described[path][method], "POSITIVE")
+    examine(described[path][method], GenerationMode.POSITIVE)
 
 
 @pytest.mark.parametrize(("method", "path"), FALLIBLE)
 def test_what_the_document_forbids_is_refused(
     described: schemathesis.BaseSchema, method: str, path: str
 ) -> None:
-    examine(described[path][method], "NEGATIVE")
+    examine(described[path][method], GenerationMode.NEGATIVE)
 
 
 @pytest.mark.parametrize("path", MODELS)
@@ -120,4 +118,4 @@ def test_any_conditions_of_a_real_muscle_get_a_declared_answer(
             body["measurement"] = "martens-dmsp-20-300"
         case.body = body
 
-    examine(described[path]["post"], "POSITIVE", use_a_real_muscle)
+    examine(described[path]["post"], GenerationMode.POSITIVE, use_a_real_muscle)
