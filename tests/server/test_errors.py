@@ -24,6 +24,7 @@ REFUSED = [
         "muscle.length",
         "one of nominal_length, thread_length",
     ),
+    ("/api/comparisons", {"muscle": DMSP, "measurement": "a" * 64, "noise": [2.0]}, "noise", "not a list"),
     (
         "/api/curves",
         {"muscle": DMSP, "effects": {"custom": {"term": "(" * 3000 + "P" + ")" * 3000}}},

@@ -102,8 +102,10 @@ def _path(location: Sequence[int | str], value: object) -> str | None:
             if step not in value and step in value.values():
                 continue
             value = value.get(step)
-        elif isinstance(value, list) and isinstance(step, int) and step < len(value):
-            value = value[step]
+        elif isinstance(value, list):
+            if not isinstance(step, int):
+                break  # the same where a list is none of the union's
+            value = value[step] if step < len(value) else value
         steps.append(str(step)[:80])
     return ".".join(steps) or None
 
