@@ -83,7 +83,8 @@ from mckibben.documents.studio import Studio
 from mckibben.documents.study_files import read_study
 from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
-asked = study_question(read_study(json.loads(sys.argv[1])), shipped_studio())
+studio = Studio(presets=presets_folder())
+asked = study_question(read_study(json.loads(sys.argv[1])), studio)
 tables = [prepare(asked, chunk=chunk)(Watch(time_limit=1e9)).table for chunk in (32, 5)]
 print(json.dumps([table["largest.force"] for table in tables]))
 """

@@ -86,6 +86,8 @@ def test_a_mystery_is_solved_by_the_recommendations_alone(page: Page) -> None:
     diagnosed(page)
     card = page.get_by_role("region", name="Mystery")
     expect(card).to_contain_text("Add the effects you think are missing")
+    sketch = page.locator(".found-missing svg.sketch[role=img]").first
+    expect(sketch).to_have_attribute("aria-label", re.compile(r"^Over \w+: the force that .* would explain"))
     errors = to_the_end(page)
     assert falling(errors)
     assert state(page) == "adequate"

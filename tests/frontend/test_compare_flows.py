@@ -83,6 +83,8 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     best = page.locator(".found-missing > li").first
     (hidden,) = made.hidden
     assert best.get_attribute("data-candidate") in hidden
+    sketch = best.locator("svg.sketch[role=img]")
+    expect(sketch).to_have_attribute("aria-label", re.compile(r"^Over time: the (pressure|stroke) that "))
     # Errors of the stroke are lengths, and shares of the stroke.
     errors = page.get_by_role("list", name="Error of each channel")
     expect(errors).to_contain_text(re.compile(r"stroke [\d.]+.mm, [\d.]+ % of the stroke"))

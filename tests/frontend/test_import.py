@@ -124,7 +124,7 @@ def test_letters_without_units_in_four_actions(case: Page) -> None:
     dialog.locator("#experiment-rest_length").press("Tab")
     asked = dialog.locator(".ask.assumed")
     expect(asked).to_have_count(3)
-    expect(asked.first).to_contain_text("'p' (pressure) has no unit and holds 199.7 to 400.2")
+    expect(asked.first).to_contain_text("'p' (pressure) has no unit; its readings are 199.7 to 400.2")
     with read_anew(case):
         asked.first.get_by_role("button", name="mbar").click()
     expect(dialog.locator("th[data-column='p']")).to_contain_text("unit from you")

@@ -412,7 +412,7 @@ def test_the_maps_of_martens_and_boblan_from_the_ideal_muscle(sample, preset, no
     geometry = free_geometry(muscle, free, facts.tolerance)
     found = diagnose(predictor, FitModel(muscle), catalogue=CATALOGUE, geometry=geometry)
     full_scale = float(np.max(predictor.measured))
-    assert len(found.best.free) <= 5
+    assert len(found.best.free) <= 7  # as many as Hildebrandt's formula
     assert found.best.rmse <= 0.010 * full_scale
     assert found.best.holdout_rmse <= 0.013 * full_scale
     # Hyperelastic walls and a constant force fit these maps best of all published structures.

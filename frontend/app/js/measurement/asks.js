@@ -22,7 +22,7 @@ export function questionsOf(m) {
  * @param {string} text */
 const asSentence = (text) =>
   `${capitalized(text).replace(/[.?]$/, "")}${
-    /(?:^|; |: )(?:what|which|is|are|does|do|was)\b[^;]*$/i.test(text) ? "?" : "."
+    /(?:^|; |: |\. )(?:what|which|is|are|does|do|was)\b[^;]*$/i.test(text) ? "?" : "."
   }`;
 
 /** The questions of the file that is shown, each with its answers; first those whose proposal is assumed.

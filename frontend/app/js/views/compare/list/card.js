@@ -11,7 +11,7 @@ import { adequate, openChoices } from "./adequate.js";
 import { contextBlock, contextLine } from "./context.js";
 import { entryRow, refitRow, skeletonRow, soFarRow } from "./entry.js";
 import { addAll, entries, refits, soFar } from "./plan.js";
-import { hasSketches } from "./sketch.js";
+import { overWhat } from "./sketch.js";
 import { insideOf } from "./selection.js";
 import { share, state } from "./state.js";
 import { triedFold, triedText } from "./tried.js";
@@ -102,7 +102,7 @@ const key = () =>
     h("i", { class: "line" }),
     "what it would explain",
     h("i", { class: "dot" }),
-    "seen, over ε",
+    () => `seen, over ${overWhat.value}`,
   );
 
 /** @param {string} words */
@@ -142,7 +142,7 @@ function body() {
         contextLine(),
         h("p", { class: "unseen", id: "verdict-status" }, result.verdict.title),
         question(),
-        hasSketches.value ? key() : null,
+        key(),
         refits.value ? refitRow(refits.value, result.baseline.rmse, noise()) : null,
         h("ol", { class: "plain found-missing" }, ...rows()),
         allRow(),

@@ -11,7 +11,7 @@ import { errorText, titleOf } from "../words.js";
 import { equationBox } from "./equation.js";
 import { add, addCandidate, choose, modelOf, refits } from "./plan.js";
 import { insideOf } from "./selection.js";
-import { drawSketch, hasSketches, sketches } from "./sketch.js";
+import { drawSketch, sketches } from "./sketch.js";
 import { valueList } from "./values.js";
 
 /** @typedef {import("./plan.js").Entry} Entry */
@@ -192,8 +192,8 @@ export function entryRow(entry, index, noise) {
     ),
     h(
       "div",
-      { class: `missing-row${hasSketches.value ? "" : " plain"}` },
-      hasSketches.value ? drawSketch(sketches.value[effect], title) : null,
+      { class: "missing-row" },
+      drawSketch(sketches.value[effect], title),
       h(
         "div",
         { class: "missing-numbers" },

@@ -12,10 +12,10 @@ import { without } from "./sketch.js";
 const CAUSE = 0.1;
 
 /** What an effect explains in the chosen range: the whole proposal less that without it; null: no range is chosen,
- * or it is not known. @param {string} effect @returns {Inside | null} */
+ * it is not known, or several channels are predicted. @param {string} effect @returns {Inside | null} */
 export function insideOf(effect) {
   const whole = without.value[""], less = without.value[effect], now = shown.value, range = brush.value;
-  if (!whole || !less || !now || !range) return null;
+  if (!whole || !less || !now || !range || Object.keys(less.channels).length > 1) return null;
   let n = 0, sum = 0, squares = 0, seen = 0, all = 0;
   less.series.forEach((s, k) => {
     s.predicted.forEach((mine, i) => {

@@ -2,6 +2,7 @@
 // The signature of each proposed effect: what it would explain (line) beside what is seen of it (dots). Seen is the
 // residual of the whole proposal without this effect, its other values unchanged.
 import { svg } from "../../../dom.js";
+import { readable } from "../../../format.js";
 import { computed } from "../../../reactive.js";
 import { view } from "../../../state.js";
 import { Question } from "../../../server/question.js";
@@ -13,33 +14,64 @@ import { entries } from "./plan.js";
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** A curve over bins 0…1; `shortening`: of that direction only.
  * @typedef {{x: number, seen: number, expected: number}[]} Curve */
-/** @typedef {{over: string, lengthening: Curve, shortening: Curve | null, most: number}} Sketch */
+/** `channel`: of several, the one in which the effect shows most.
+ * @typedef {{over: string, channel: string, lengthening: Curve, shortening: Curve | null, most: number}} Sketch */
 
-const BINS = 9, APART = 0.12;
+const BINS = 9, INSTANTS = 24, APART = 0.12;
 
-/** @param {Comparison} whole @param {Comparison} less @returns {Sketch | null} */
-function sketchOf(whole, less) {
-  const over = ["contraction", "pressure", "time"].find((name) => varies(less.series, name));
+/** Of several channels the one that an effect changes most, in units of its noise.
+ * @param {Comparison} whole @param {Comparison} less */
+function channelOf(whole, less) {
+  const names = Object.keys(less.channels);
+  /** @param {string} name */
+  const size = (name) => {
+    let n = 0, sum = 0;
+    less.series.forEach((s, k) => {
+      if (s.channel !== name) return;
+      s.predicted.forEach((mine, i) => {
+        const both = whole.series[k]?.predicted[i];
+        if (mine === null || both == null) return;
+        n++;
+        sum += (both - mine) ** 2;
+      });
+    });
+    return n ? Math.sqrt(sum / n) / less.channels[name].noise_floor : 0;
+  };
+  const sizes = names.map(size);
+  return names[sizes.indexOf(Math.max(...sizes))] ?? less.series[0]?.channel ?? "";
+}
+
+/** @param {Comparison} whole @param {Comparison} less @param {boolean} isRun @returns {Sketch | null} */
+function sketchOf(whole, less, isRun) {
+  const channel = channelOf(whole, less), own = less.series.filter((s) => s.channel === channel);
+  const over = (isRun ? ["time"] : ["contraction", "pressure", "time"]).find((name) => varies(own, name));
   if (!over) return null;
-  const all = less.series.flatMap((s) => column(s, over)).filter((v) => v !== null);
-  const low = Math.min(...all), span = Math.max(...all) - low;
+  const count = over === "time" ? INSTANTS : BINS;
+  let low = Infinity, high = -Infinity;
+  for (const v of own.flatMap((s) => column(s, over))) {
+    if (v === null) continue;
+    low = Math.min(low, v);
+    high = Math.max(high, v);
+  }
+  const span = high - low;
   /** @param {(direction: number) => boolean} belongs @returns {Curve} */
   const curve = (belongs) => {
-    const bins = Array.from({ length: BINS }, () => ({ n: 0, seen: 0, expected: 0 }));
+    const bins = Array.from({ length: count }, () => ({ n: 0, seen: 0, expected: 0 }));
     less.series.forEach((s, k) => {
+      if (s.channel !== channel) return;
       const x = column(s, over);
       s.residual.forEach((r, i) => {
         const at = x[i], whole_ = whole.series[k]?.predicted[i], mine = s.predicted[i];
         if (r === null || at === null || whole_ == null || mine === null) return;
         if (!belongs(Math.sign(s.direction[i] ?? 0))) return;
-        const bin = bins[Math.min(BINS - 1, Math.floor(((at - low) / span) * BINS))];
+        const bin = bins[Math.min(count - 1, Math.floor(((at - low) / span) * count))];
         bin.n++;
         bin.seen += r;
         bin.expected += whole_ - mine;
       });
     });
     return bins.flatMap(({ n, seen, expected }, i) =>
-      n ? [{ x: (i + 0.5) / BINS, seen: seen / n, expected: expected / n }] : []
+      n ? [{ x: (i + 0.5) / count, seen: seen / n, expected: expected / n }] : []
     );
   };
   const both = curve(() => true), up = curve((d) => d >= 0), down = curve((d) => d < 0);
@@ -51,17 +83,19 @@ function sketchOf(whole, less) {
     0,
     ...up.map((p) => Math.abs(p.expected - (down.find((q) => q.x === p.x) ?? p).expected)),
   );
-  return gap > APART * most && down.length
-    ? { over, lengthening: up, shortening: down, most }
-    : { over, lengthening: both, shortening: null, most };
+  return !isRun && gap > APART * most && down.length
+    ? { over, channel, lengthening: up, shortening: down, most }
+    : { over, channel, lengthening: both, shortening: null, most };
 }
 
-/** A simulated drive has no sketches: each would be a run. */
-export const hasSketches = computed(() => diagnosis.value?.kind !== "transient");
+const isRun = computed(() => diagnosis.value?.kind === "transient");
+
+/** The variable of the sketches, as their key names it. */
+export const overWhat = computed(() => (isRun.value ? "time" : "ε"));
 
 /** The effects of the proposal. */
 const ids = computed(() =>
-  stage.value === "done" && diagnosis.value && hasSketches.value ? entries.value.map((e) => e.effect) : []
+  stage.value === "done" && diagnosis.value ? entries.value.map((e) => e.effect) : []
 );
 
 /** The comparisons to ask for: with the whole proposal, then without each of its effects. */
@@ -97,7 +131,7 @@ export const sketches = computed(() => {
   const { "": whole, ...less } = without.value;
   return Object.fromEntries(
     Object.entries(less).flatMap(([id, one]) => {
-      const sketch = whole ? sketchOf(whole, one) : null;
+      const sketch = whole ? sketchOf(whole, one, isRun.value) : null;
       return sketch ? [[id, sketch]] : [];
     }),
   );
@@ -109,7 +143,7 @@ const WIDTH = 124, HEIGHT = 54, EDGE = 5;
 export function drawSketch(sketch, title) {
   const frame = { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "sketch" };
   if (!sketch) return svg("svg", { ...frame, "aria-hidden": "true" });
-  const { lengthening, shortening, most } = sketch;
+  const { lengthening, shortening, most, over } = sketch, r = over === "time" ? 1.6 : 2.3;
   const lines = [lengthening, ...(shortening ? [shortening] : [])];
   const values = lines.flat().flatMap((p) => [p.seen, p.expected]);
   const low = Math.min(0, ...values), high = Math.max(0, ...values), span = high - low || most;
@@ -120,8 +154,9 @@ export function drawSketch(sketch, title) {
     {
       ...frame,
       role: "img",
-      "aria-label":
-        `Over ${sketch.over}: the force that ${title} would explain (line) and the residual seen (dots)`,
+      "aria-label": `Over ${over}: the ${
+        readable(sketch.channel)
+      } that ${title} would explain (line) and the residual seen (dots)`,
     },
     svg("line", { class: "zero", x1: EDGE, x2: WIDTH - EDGE, y1: y(0), y2: y(0) }),
     ...lines.map((line, i) =>
@@ -130,6 +165,6 @@ export function drawSketch(sketch, title) {
         d: line.map((p, k) => `${k ? "L" : "M"}${x(p.x).toFixed(1)} ${y(p.expected).toFixed(1)}`).join(""),
       })
     ),
-    ...lines.flat().map((p) => svg("circle", { class: "seen", cx: x(p.x), cy: y(p.seen), r: 2.3 })),
+    ...lines.flat().map((p) => svg("circle", { class: "seen", cx: x(p.x), cy: y(p.seen), r })),
   );
 }
