@@ -99,3 +99,12 @@ def test_old_code_goes(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(kept_code, "_MOST", 231)  # two files of 116 bytes are more
     kept_code._folder.cache_clear()
     assert (kept(b"old"), kept(b"new")) == (None, b"y" * 100)
+
+
+@pytest.mark.skipif(sys.platform == "win32", reason="a link to nothing stands for a file that vanishes")
+def test_a_file_that_vanishes_while_the_folder_is_tidied_costs_nothing(place: Path) -> None:
+    keep(b"one", b"code")
+    (file,) = files(place)
+    (file.parent / "vanished").symlink_to(place / "nothing")
+    kept_code._folder.cache_clear()
+    assert kept(b"one") == b"code"

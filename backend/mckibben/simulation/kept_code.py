@@ -89,9 +89,10 @@ def _folder() -> Path | None:
     try:
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         os.utime(folder)
-        _tidy(folder)
     except OSError:
         return None
+    with suppress(OSError):  # another process may tidy, or write, at the same time
+        _tidy(folder)
     return folder
 
 
@@ -112,7 +113,12 @@ def _tidy(folder: Path) -> None:
             for file in other.iterdir():
                 file.unlink(missing_ok=True)
             other.rmdir()
-    found = sorted((entry.stat().st_mtime, entry.stat().st_size, entry.path) for entry in os.scandir(folder))
+    found = []
+    with os.scandir(folder) as entries:
+        for entry in entries:
+            with suppress(FileNotFoundError):  # a partial file that has got its name meanwhile
+                found.append((entry.stat().st_mtime, entry.stat().st_size, entry.path))
+    found.sort()
     size = sum(bytes_ for _, bytes_, _ in found)
     if size <= _MOST:
         return
