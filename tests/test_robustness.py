@@ -19,7 +19,7 @@ from mckibben.physics.errors import InputError
 from mckibben.simulation.integrate.engine import kernel
 from tests.shipped import shipped_studio
 
-DRIVES = int(os.environ.get("MCKIBBEN_DRIVES", "40"))
+DRIVES = int(os.environ.get("MCKIBBEN_DRIVES", "30"))
 POINTS = 401
 # A generous bound for a loaded machine: the limit of a run is 10 s.
 SLOWEST = 15.0  # s

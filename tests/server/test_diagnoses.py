@@ -646,6 +646,7 @@ def test_a_kept_entry_is_told_and_not_asked(client: TestClient, rubbing: str) ->
     assert any("is kept as stated, although" in message for message in kept["messages"])
 
 
+@pytest.mark.examination("tests/identification/diagnose/test_contest.py::test_a_force_in_kgf_is_read_in_kgf")
 def test_a_force_in_kgf_is_compared_in_newton_once_accepted(client: TestClient) -> None:
     rows = cycle_rows(noise=1.0, each=20, second=3.0)
     small = []

@@ -47,7 +47,7 @@ INFALLIBLE = [
 ]
 FALLIBLE = [operation for operation in OPERATIONS if operation not in INFALLIBLE]
 MODELS = ["/api/curves", "/api/inverse", "/api/comparisons"]
-EXAMPLES = int(os.environ.get("MCKIBBEN_REQUESTS", "4"))  # of each operation; tests.benchmarks.requests: 500
+EXAMPLES = int(os.environ.get("MCKIBBEN_REQUESTS", "3"))  # of each operation; tests.benchmarks.requests: 500
 HOST = {"host": "127.0.0.1"}
 PATIENCE = 120.0  # s; schemathesis would wait 10 s, and a generated diagnosis takes that on a busy machine
 
