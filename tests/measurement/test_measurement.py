@@ -15,6 +15,11 @@ from mckibben.physics.errors import InputError
 
 RAMP = np.linspace(0.0, 1.0, 50)
 LOOP = np.concatenate([RAMP, RAMP[::-1]])
+#: A weight under three pressures, which creeps.
+UNDER_STEPS = {
+    "pressure": np.repeat([1e5, 2e5, 3e5], 20),
+    "displacement": np.repeat([0.02, 0.04, 0.06], 20) + 1e-5 * np.arange(60),
+}
 RNG = np.random.default_rng(7)
 
 
@@ -89,20 +94,12 @@ KIND_CASES = {
         "transient",
     ),
     "log of a weight, one row in ten seconds": (
-        {
-            "time": 10.0 * np.arange(60),
-            "pressure": np.repeat([1e5, 2e5, 3e5], 20),
-            "displacement": np.repeat([0.02, 0.04, 0.06], 20) + 1e-5 * np.arange(60),
-        },
+        {"time": 10.0 * np.arange(60), **UNDER_STEPS},
         {"load_mass": 6.0},
         "isotonic",
     ),
     "weight on steps of the pressure": (
-        {
-            "time": 0.05 * np.arange(60),
-            "pressure": np.repeat([1e5, 2e5, 3e5], 20),
-            "displacement": np.repeat([0.02, 0.04, 0.06], 20) + 1e-5 * np.arange(60),
-        },
+        {"time": 0.05 * np.arange(60), **UNDER_STEPS},
         {"load_mass": 6.0},
         "transient",
     ),

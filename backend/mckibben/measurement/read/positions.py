@@ -45,15 +45,23 @@ def position_scale(name: str, unit: str, texts: Texts) -> Scale | None:
     taken to grow as the muscle shortens, which the questions about signs check.
     """
     own = {word for word in words_of(name) if len(word) > 1}
-    zeros = {(value, where, text) for text, where in texts for value in _zeros(text, own, unit)}
-    if len({value for value, _, _ in zeros}) != 1:
+    stated = _stated([(value, where, text) for text, where in texts for value in _zeros(text, own, unit)])
+    falls = _directions(texts, own)
+    if stated is None or len(falls) > 1:
         return None
-    value, where, text = next(iter(zeros))
-    falls = {found for said, _ in texts if (found := _direction(said, own)) is not None}
-    if len(falls) > 1:
-        return None
+    value, where, text = stated
     sign = -1.0 if falls == {True} else 1.0
     return Scale(sign, -sign * value, unit, unit, "displacement", f"'{text[:100]}'", where)
+
+
+def _stated(found: Sequence[tuple[float, str, str]]) -> tuple[float, str, str] | None:
+    """The value that texts state, where, and the first of these texts; None for none or several values."""
+    return found[0] if len({value for value, _, _ in found}) == 1 else None
+
+
+def _directions(texts: Texts, own: set[str]) -> set[bool]:
+    """What texts say of the direction of a reading, see `_direction`."""
+    return {found for said, _ in texts if (found := _direction(said, own)) is not None}
 
 
 def length_scale(name: str, unit: str, texts: Texts) -> Scale | None:
@@ -63,13 +71,13 @@ def length_scale(name: str, unit: str, texts: Texts) -> Scale | None:
     grows as the muscle shortens; None where no text states that length, or texts state several.
     """
     own = {word for word in words_of(name) if len(word) > 1 or name == word}
-    lengths = {(value, where, text) for text, where in texts for value in _lengths_at_zero(text, own, unit)}
-    if len({value for value, _, _ in lengths}) != 1:
+    stated = _stated([
+        (value, where, text) for text, where in texts for value in _lengths_at_zero(text, own, unit)
+    ])  # fmt: skip
+    falls = _directions(texts, own)
+    if stated is None or len(falls) > 1:
         return None
-    value, where, text = next(iter(lengths))
-    falls = {found for said, _ in texts if (found := _direction(said, own)) is not None}
-    if len(falls) > 1:
-        return None
+    value, where, text = stated
     shortens = bool(own & _SHORTER) if not falls else falls == {False}
     sign = -1.0 if shortens else 1.0
     return Scale(sign, value, unit, unit, "muscle length", f"'{text[:100]}'", where)

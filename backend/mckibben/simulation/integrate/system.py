@@ -37,6 +37,7 @@ class Codes:
         timed: rates that depend on time.
         plan: elimination for ``entries``.
         clock: number of the state that is time.
+        effects: those acting, for messages about a typed term among them.
     """
 
     constants: Function
@@ -47,9 +48,9 @@ class Codes:
     timed: np.ndarray
     plan: Plan
     clock: int
+    effects: tuple[Effect, ...] = field(repr=False)
     _wanted: Mapping[str, tuple[Sequence[Any], Sequence[Any]]] = field(repr=False)
     _level: int
-    _effects: tuple[Effect, ...] = field(repr=False)
 
     @cached_property
     def jacobian(self) -> Function:
@@ -60,7 +61,7 @@ class Codes:
         Raises:
             InputError: a typed term among the effects cannot be compiled.
         """
-        with COMPILING, blamed_on_the_term(self._effects):
+        with COMPILING, blamed_on_the_term(self.effects):
             return machine_code(self._wanted, level=self._level)["jacobian"]
 
 
@@ -73,7 +74,6 @@ class CompiledDrive:
         codes: the functions for the integrators.
         scales: magnitude of each state, for error control.
         functions: those of ``codes`` as symbols and expressions.
-        effects: those acting, for messages about a typed term among them.
         quick: whether its code for lanes is compiled quickly, for few runs.
     """
 
@@ -81,13 +81,12 @@ class CompiledDrive:
     codes: Codes
     scales: np.ndarray
     functions: Functions
-    effects: tuple[Effect, ...] = ()
     quick: bool = False
 
     @cached_property
     def lanes(self) -> LaneCodes:
         """The functions on rows of lanes; compiled when first used."""
-        return LaneCodes(self.functions, self.codes.plan, self.effects, quick=self.quick)
+        return LaneCodes(self.functions, self.codes.plan, self.codes.effects, quick=self.quick)
 
     @cached_property
     def columns(self) -> dict[tuple[str, ...] | None, Any]:
@@ -263,11 +262,10 @@ def compile_system(
             np.array(timed, np.int64),
             plan_of(len(states), entries, without=clock),
             clock,
+            effects,
             wanted,
             level,
-            effects,
         ),
         np.array([state.scale for state in model.states]),
         functions,
-        effects,
     )
