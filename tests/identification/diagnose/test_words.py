@@ -50,6 +50,7 @@ def result(
                 effect=name,
                 group=(name, *(other.effect for other in alternatives if other.of == name)),
                 probability=0.97,
+                read=False,
             )
             for name in added
         ),

@@ -281,7 +281,8 @@ def _diagnose(
     for name in added:
         group = (name, *(other.effect for other in exchangeable if other.of == name))
         lost = loss(lean, fitter.dropping(lean, name), root, noise=level)
-        support.append(Evidence(name, group, weights.share(group), lost))
+        read = name in start_names
+        support.append(Evidence(name, group, 1.0 if read else weights.share(group), lost, read=read))
     changing = [
         (effect.id, fitted_model)
         for effect, fitted_model in fitted_singles

@@ -100,6 +100,8 @@ _CONSTANT, _BY_SIZE, _BY_PART = 1.97, 1.17, 1.14
 #: Factor where an unknown effect remains, which the named ones may imitate: of 9 named beside one in the
 #: cases of another examiner, 4 were there.
 _BESIDE_UNKNOWN = 0.6
+#: Probability of an effect that is read from the data, without a fit that could mistake it for another one.
+_READ = 0.99
 
 
 @dataclass(frozen=True)
@@ -113,6 +115,7 @@ class Evidence:
         loss: what the best model loses without it.
         beside_unknown: whether an unknown effect remains.
         entries_right: probability that no entry is wrong whose correction does without the group.
+        read: whether it is read from the data before the search, so that no model does without it.
     """
 
     effect: str
@@ -121,10 +124,13 @@ class Evidence:
     loss: Loss
     beside_unknown: bool = False
     entries_right: float = 1.0
+    read: bool = False
 
     @property
     def probability(self) -> float:
         """Probability that one of the group is really missing."""
+        if self.read:
+            return _READ
         known = _BESIDE_UNKNOWN if self.beside_unknown else 1.0
         return self.share * self.loss.probability * known * self.entries_right
 

@@ -55,9 +55,11 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     before, after = scale * result.start.rmse, scale * reached[-1].rmse
     refitted = scale * next((s.fitted_model for s in result.path if s.refitted), result.root).rmse
     doubted = any(entry.stands for entry in result.context)
+    read = {item.effect for item in result.evidence if item.read}
+    first = next((name for name in result.added if name not in read), "")
     names = _joined([
-        titles.get(name, name) if doubted else _likely(result, name, titles, first=not number)
-        for number, name in enumerate(result.added)
+        titles.get(name, name) if doubted else _likely(result, name, titles, first=name == first)
+        for name in result.added
     ])  # fmt: skip
     noise = None if result.noise is None else scale * result.noise
     highest = noise if result.noise_interval is None else scale * result.noise_interval.high
@@ -214,11 +216,14 @@ def left_out_sentence(result: Diagnosis) -> str:
 
 
 def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str], *, first: bool) -> str:
-    """Title of an effect with its probability, or that of its group; ``first``: say what the figure is."""
-    probability = next((item.probability for item in result.evidence if item.effect == effect), 1.0)
+    """Title of an effect and its probability, or that of its group; ``first``: say what the figure is."""
+    title = titles.get(effect, effect)
+    evidence = next((item for item in result.evidence if item.effect == effect), None)
+    if evidence is not None and evidence.read:
+        return f"{title} (read from the data)"
+    probability = 1.0 if evidence is None else evidence.probability
     perhaps = "perhaps " if probability < _EVEN else ""
     figure = f"{'probability ' if first else ''}{_share(probability)}"
-    title = titles.get(effect, effect)
     return f"{perhaps}{title[:-1]}, {figure})" if title.endswith(")") else f"{perhaps}{title} ({figure})"
 
 
