@@ -51,6 +51,8 @@ class Evaluation:
         self._known_history: str | None = None
         self._histories: dict[Hashable, str] = {}
         self._without_derivatives = False
+        # Of each direction of motion the lengths at which the last model carried the load, to begin at.
+        self.balanced: dict[float, np.ndarray] = {}
 
     def after(self, history: str) -> Evaluation:
         """The same with one of `HISTORIES` for every model."""

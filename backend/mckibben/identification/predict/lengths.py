@@ -21,7 +21,7 @@ from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
 
 _NEWTON_STEPS = 40
-_TOLERANCE = 1e-9  # m
+_TOLERANCE = 1e-8  # m; last step of Newton's method, whose error is its square
 _LARGEST_STEP = 0.02  # per Newton step, share of the nominal length
 _SHORTEST = 0.35  # shortest length of the search, share of the nominal length
 _CREEP = 1e-9  # m/s; speed that carries the direction where the measured speed is 0
@@ -42,7 +42,7 @@ def predicted_lengths(
     for sign in (-1.0, 1.0):
         speed = np.abs(state["velocity"]) * sign
         moving = {**state, "velocity": speed, "direction": np.full(len(speed), sign)}
-        branches.append(_balance(evaluation, fit_model, names, moving))
+        branches.append(_balance(evaluation, fit_model, names, moving, branch=sign))
     return _stuck(evaluation, *branches)
 
 
@@ -78,28 +78,36 @@ def _stuck(
 
 
 def _balance(
-    evaluation: Evaluation, fit_model: FitModel, names: Sequence[str], state: State
+    evaluation: Evaluation, fit_model: FitModel, names: Sequence[str], state: State, branch: float = 0.0
 ) -> LengthAndGradient:
-    """Newton's method from the measured length, in bounded steps, up to the lock of the braid."""
+    """Newton's method in bounded steps, up to the lock of the braid.
+
+    It begins where the model before was in balance, which a fit has changed little, else at the measured
+    lengths.
+    """
     task = evaluation.task
     rest = fit_model.muscle.nominal_length
     low, high = _SHORTEST * rest, 0.9999 * float(fit_model.muscle.braid.thread_length)
     first = task.measured if task.channel == "length" else np.full(len(task.measured), rest)
-    length = np.clip(first, low, high)
-    load = _load(task.state["load"], fit_model, state, length)
+    load = _load(task.state["load"], fit_model, state, np.clip(first, low, high))
+    length = np.clip(evaluation.balanced.get(branch, first), low, high)
     force_at, limit = evaluation.by_length(fit_model, state), _LARGEST_STEP * rest
     load = np.broadcast_to(load, length.shape)
     left = np.arange(len(length))  # rows that still move
+    inside = np.zeros(len(length), bool)
     for _ in range(_NEWTON_STEPS):
         here = length[left]
         force, slope = force_at(here, left)
         excess = force - load[left]
         with np.errstate(divide="ignore", invalid="ignore"):
             step = np.where(slope > 0.0, excess / slope, np.sign(excess))
+        inside[left] = slope > 0.0
         length[left] = np.clip(here - np.clip(step, -limit, limit), low, high)
         left = left[~(np.abs(length[left] - here) < _TOLERANCE)]
         if not len(left):
             break
+    inside &= (length > low) & (length < high)
+    evaluation.balanced[branch] = np.where(inside, length, first)
     if not names:
         return length, np.empty((len(length), 0))
     out, gradient = evaluation.at(fit_model, names, {**state, "length": length})
@@ -107,7 +115,7 @@ def _balance(
     for column, name in enumerate(names):
         gradient[:, column] += _load_slope(name, fit_model, task.state["load"], state, length)
     slope = out["force_by_length"]
-    inside = (length > low) & (length < high) & (slope > 0.0)
+    inside &= slope > 0.0
     return length, np.where(inside[:, None], gradient / np.where(inside, slope, 1.0)[:, None], 0.0)
 
 
