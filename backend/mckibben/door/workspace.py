@@ -4,6 +4,7 @@
 
 from __future__ import annotations
 
+import logging
 import sys
 import warnings
 from collections.abc import Sequence
@@ -16,6 +17,7 @@ from mckibben.documents.unused_files import unused_files
 from mckibben.door.problem import reported
 from mckibben.physics.errors import InputError
 from mckibben.resources import presets_folder, user_folder
+from mckibben.simulation.integrate.background import tell_who_waits
 
 
 class _Session:
@@ -28,6 +30,16 @@ class _Session:
 
 
 _session = _Session()
+
+
+def _say_that_it_compiles() -> None:
+    logging.getLogger("mckibben").warning(
+        "The integrators are being compiled, once on this machine; that takes about 20 s of a core."
+    )
+
+
+# A script or a notebook shows no progress and would seem to hang.
+tell_who_waits(_say_that_it_compiles)
 
 
 def studio() -> Studio:

@@ -30,6 +30,24 @@ def test_what_takes_longer_than_loading_is_being_compiled(monkeypatch: pytest.Mo
     assert not is_compiling()
 
 
+def test_who_waits_for_a_compilation_is_told_once(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(background, "_LONG", 0.0)
+    told, go_on = [], threading.Event()
+
+    def tell() -> None:
+        told.append("compiling")
+        go_on.set()
+
+    def load() -> str:
+        assert go_on.wait(10.0)  # ends only after somebody was told
+        return "kernels"
+
+    monkeypatch.setattr(background, "_tell", [tell])
+    kernels = Background(load, "kernels of a test")
+    assert [kernels.awaited(), kernels.awaited()] == ["kernels", "kernels"]
+    assert told == ["compiling"]
+
+
 def test_what_cannot_be_loaded_is_said_and_not_compiled_any_more(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(background, "_LONG", 0.0)
     monkeypatch.setattr(threading, "excepthook", lambda _: None)

@@ -10,6 +10,12 @@ from typing import Generic, TypeVar
 Loaded = TypeVar("Loaded")
 _LONG = 2.0  # s; what is only loaded is ready before
 _under_way: dict[str, float] = {}  # name -> when it was begun, see `time.monotonic`
+_tell: list[Callable[[], None]] = []
+
+
+def tell_who_waits(tell: Callable[[], None]) -> None:
+    """Call a function whenever somebody waits for longer than loading alone takes."""
+    _tell.append(tell)
 
 
 def is_compiling() -> bool:
@@ -54,7 +60,12 @@ class Background(Generic[Loaded]):
         Raises:
             RuntimeError: it cannot be loaded; the thread has printed why.
         """
-        self.warm().join()
+        thread = self.warm()
+        thread.join(_LONG)
+        if thread.is_alive():
+            for tell in _tell:
+                tell()
+            thread.join()
         if self._loaded is None:
             raise RuntimeError(f"{self._name} cannot be loaded")
         return self._loaded
