@@ -130,6 +130,20 @@ def test_the_report_is_one_file_that_says_it_all(page: Page, sweeps: FilePayload
     for name in page.locator(".in-model .effect-head b").all_inner_texts():
         assert name in text
     assert "sweeps.csv" in text
+    # The map of the page, by the page's own code, and that of the report: the same levels and values.
+    drawn = re.search(
+        r"<title>Mean residual over contraction at each pressure level</title>(.*?)</svg>", text
+    )
+    assert drawn
+    words = [one.replace("−", "-") for one in re.findall(r"<text[^>]*>([^<]*)</text>", drawn[1])]
+    halves = page.locator(".heat .half").all_inner_texts()
+    cells = [one.replace("−", "-") for one in halves if one]
+    assert len(cells) > 20
+    assert words[: len(cells)].count("·") == cells.count("·")
+    values = [sorted(float(one) for one in texts if one != "·") for texts in (words[: len(cells)], cells)]
+    assert values[0] == pytest.approx(values[1], abs=0.051)  # one decimal each
+    rows = [text.split()[0] for text in page.locator(".heat tbody th[scope='row']").all_inner_texts()]
+    assert rows == words[-2 - len(rows) : -2][::-1]
     # Nothing is fetched: no script, no picture or style from elsewhere.
     assert re.findall(r"<script|(?:src|href)=[\"'](?!#|data:)", text) == []
 

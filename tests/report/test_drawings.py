@@ -10,7 +10,7 @@ import pytest
 
 from mckibben.report.bars import Bar, bars
 from mckibben.report.chart import chart, family, ticks
-from mckibben.report.heat import heat
+from mckibben.report.heat import Shade, heat
 from mckibben.report.marks import Axis, Band, Dots, Line, Rule
 from mckibben.report.stack import Panel, stack
 
@@ -163,3 +163,12 @@ def test_heat_colours_by_sign_and_leaves_gaps_empty() -> None:
     fills = [e.attrib["fill"] for e in ElementTree.fromstring(drawing).iter(f"{SVG}rect")]
     assert fills == ["rgb(33,102,172)", "rgb(212,136,145)", "#fff", "rgb(247,247,247)"]
     assert {"\u22124.0", "2.0", "0"} <= set(texts(drawing))
+    # With a noise: logarithmic outside, a dot for what is none.
+    shade = Shade(10000.0, 1.0)
+    assert shade.share(100.0) == pytest.approx(math.asinh(50.0) / math.asinh(5000.0))
+    named = heat(X, Y, [0, 1, 2], ["low", "high"], [[-10000.0, 0.7], [math.nan, 0.8]], title="t", shade=shade)
+    fills = [e.attrib["fill"] for e in ElementTree.fromstring(named).iter(f"{SVG}rect")]
+    assert fills[:3] == ["rgb(33,102,172)", "rgb(247,247,247)", "#fff"]
+    words = texts(named)
+    assert words.count("·") == 1
+    assert {"low", "high"} <= set(words)

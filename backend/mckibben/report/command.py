@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from mckibben.report.attachment import attachment
-from mckibben.report.document import bullets, code, paragraph
+from mckibben.report.document import code, paragraph
 from mckibben.report.html import Child, Html, html
 
 
@@ -31,9 +31,7 @@ def command_section(command: Command) -> Html:
         ("Complete answers with every number, attached to this report", command.results),
     ):
         if files:
-            parts += [
-                paragraph(f"{what} (a click in the HTML file saves them):"),
-                bullets(attachment(name, text) for name, text in files.items()),
-            ]
+            listed = [(", " if at else "", attachment(*one)) for at, one in enumerate(files.items())]
+            parts.append(paragraph(f"{what} (a click in the HTML file saves them): ", *listed, "."))
     parts += [paragraph(note, note=True) for note in command.notes]
     return html(parts)

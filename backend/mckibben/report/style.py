@@ -42,12 +42,13 @@ th, td { padding: 4px 8px; border-bottom: 1px solid var(--line); vertical-align:
 th { font-weight: 600; border-bottom-color: #8b98a6; vertical-align: bottom; }
 th.number, td.number { text-align: right; }
 td.number { white-space: nowrap; }
-td.wide { min-width: 15em; }
+td.wide { min-width: 15em; width: 62%; }
 td.bar { width: 25%; min-width: 100px; vertical-align: middle; }
 .mark { color: var(--warn); font-weight: 600; }
 figure { margin: 10px 0 14px; }
 figcaption { color: var(--soft); font-size: 12.5px; }
 svg { display: block; width: 100%; height: auto; font: 11.5px Inter, "Segoe UI", Roboto, Arial, sans-serif; }
+.beside { display: grid; grid-template-columns: 450fr 270fr; align-items: end; }
 .equation { margin: 6px 0; padding: 6px 12px; background: var(--tint); overflow-x: auto;
   text-align: center; }
 .equation math { display: inline math; margin: 2px 10px; }
@@ -62,6 +63,8 @@ pre { background: var(--tint); padding: 8px 12px; white-space: pre-wrap;
   body { padding: 18px 14px 40px; }
   figure { overflow-x: auto; }
   figure svg { min-width: 560px; }
+  .beside { grid-template-columns: 1fr; }
+  .beside svg { min-width: 420px; }
   dl { grid-template-columns: 1fr; }
   dd { margin-bottom: 4px; }
 }
@@ -74,7 +77,7 @@ pre { background: var(--tint); padding: 8px 12px; white-space: pre-wrap;
   .tile strong { font-size: 16px; }
   section { margin-top: 20px; }
   h2, h3, caption { break-after: avoid; }
-  figure, .callout, .tiles, tr, .equation, dl, li { break-inside: avoid; }
+  figure, .callout, .tiles, tr, .equation, dd, li { break-inside: avoid; }
   /* A tall stack would leave a third of a page white: it may break, with two panels on either side. */
   figure.panels { break-inside: auto; }
   figure.panels svg { break-inside: avoid; }
@@ -82,8 +85,9 @@ pre { background: var(--tint); padding: 8px 12px; white-space: pre-wrap;
   figure.panels svg:last-of-type, figcaption { break-before: avoid; }
   table.short { break-inside: avoid; }
   .law .note { break-before: avoid; } /* the equations of a law may part */
-  /* A row with a long remark is tall: it may break within it, with two of its lines on either side. */
-  tr:has(td .long) { break-inside: auto; }
+  /* A row with reasons or a long remark is tall: it may break, with two of its lines on either side. */
+  tr:has(td .long), tr:has(td.wide) { break-inside: auto; }
+  td.wide { orphans: 2; widows: 2; }
   td .note { orphans: 2; widows: 2; padding-top: 4px;
     box-decoration-break: clone; -webkit-box-decoration-break: clone; }
   /* A head never stands alone at the foot of a page. */

@@ -9,8 +9,8 @@ from mckibben.application.diagnosis_result import DiagnosisResult, PathPoint, Ve
 from mckibben.identification.diagnose.design import APART
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.bars import Bar, bars
-from mckibben.report.diagnosis.errors import TIMES_NOISE, error_scale
 from mckibben.report.diagnosis.material import DiagnosisMaterial
+from mckibben.report.diagnosis.units import TIMES_NOISE, error_scale
 from mckibben.report.document import Head, Tone, callout, paragraph, table, tiles
 from mckibben.report.figures import figure, percent, probability
 from mckibben.report.html import Child, Html, html
@@ -86,7 +86,11 @@ def _verdict(material: DiagnosisMaterial) -> Html:
     """The verdict in one sentence, key figures, and what to measure next."""
     answer, diagnosis = material.comparison, material.diagnosis
     scale = error_scale(answer)
-    figures: list[tuple[Child, Child]] = [("RMS error of the model", figure(answer.rmse, scale, 3))]
+    counted = answer.rmse if diagnosis is None else diagnosis.path[0].rmse
+    name = (
+        "RMS error of the model" if counted > _SAME * answer.rmse else "RMS error beyond the accuracy stated"
+    )
+    figures: list[tuple[Child, Child]] = [(name, figure(counted, scale, 3))]
     if answer.nrmse_percent is not None and scale != TIMES_NOISE:
         figures.append(("… of the largest value", percent(answer.nrmse_percent / 100.0, 3)))
     if diagnosis is None:
@@ -114,7 +118,7 @@ def _steps(material: DiagnosisMaterial) -> Html:
     drawn: list[Bar] = []
 
     def add(name: str, step: PathPoint | ComparisonResult, how: str, *, pale: bool = False) -> None:
-        rmse, holdout = step.rmse, step.holdout_rmse if step.fitted else None
+        rmse, holdout = step.rmse, step.holdout_rmse
         rows.append([name, how, figure(rmse, scale, 3), figure(holdout, scale, 3)])
         value, tick = (None if number is None else scale.of(number) for number in (rmse, holdout))
         drawn.append(Bar(f"RMS error of {name}", value or 0.0, tick, pale))
@@ -140,8 +144,10 @@ def _steps(material: DiagnosisMaterial) -> Html:
         Head("Model"), Head(""), Head("RMS error", number=True), Head("Held-out", number=True),
         Head("", bar=True),
     ]  # fmt: skip
-    caption = "Bars: RMS error; black tick: held-out error, on groups left out of a fit of all values" + (
-        "." if level is None else "; dashed line: noise."
+    caption = (
+        "Bars: RMS error; black tick: held-out error, on groups left out of the fit (a model without fitted "
+        "values predicts all groups, so it is the error)"
+        + ("." if level is None else "; dashed line: noise.")
     )
     cells = [[*row, bar] for row, bar in zip(rows, bars(drawn, level=level), strict=True)]
     return table(columns, cells, caption=caption)

@@ -7,24 +7,14 @@ from collections.abc import Sequence
 import numpy as np
 
 from mckibben.application.compare import ComparisonResult
-from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.report.document import Head, bullets, figure_of, paragraph, table
+from mckibben.report.diagnosis.map import residual_map
+from mckibben.report.diagnosis.units import error_scale
+from mckibben.report.document import Head, bullets, paragraph, table
 from mckibben.report.figures import Scale, figure, percent, variable
-from mckibben.report.heat import heat
 from mckibben.report.html import Child, Html, html
-from mckibben.report.marks import Axis
 
 _MOST_SENTENCES, _LEAST_SHARE = 3, 0.05  # variables named in sentences: how many, from which share on
 _ROUNDING = 1e-7  # share of the error below which a mean is rounding
-#: Unit of an error that combines several channels.
-TIMES_NOISE = Scale("× noise")
-
-
-def error_scale(answer: ComparisonResult | DiagnosisResult) -> Scale:
-    """Unit in which the errors of a comparison or diagnosis are shown."""
-    if answer.unit == "1" and "," in answer.predicted:
-        return TIMES_NOISE
-    return variable(answer.predicted)[1] if answer.unit != "1" else Scale("")
 
 
 def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
@@ -36,7 +26,7 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
         ["… of the largest measured value", *(_percent(answer.nrmse_percent) for _, answer in columns)],
         [
             "RMS error with whole groups left out of the fit",
-            *(figure(answer.holdout_rmse if answer.fitted else None, scale, 3) for _, answer in columns),
+            *(figure(answer.holdout_rmse, scale, 3) for _, answer in columns),
         ],
         ["Mean of the residual", *(figure(_mean(answer), scale, 3) for _, answer in columns)],
         [
@@ -105,8 +95,13 @@ def _percent(value: float | None) -> Html:
     return percent(None if value is None else value / 100.0, 3)
 
 
-def where_it_fails(answer: ComparisonResult) -> Html:
-    """The residual over each variable: sentences, a table, and a map over two variables."""
+def where_it_fails(answer: ComparisonResult, first: ComparisonResult) -> Html:
+    """The residual over each variable: sentences, a table, and a map over two variables.
+
+    Args:
+        answer: the comparison.
+        first: the first model of the case, which fixes the colours of the map.
+    """
     scale = error_scale(answer)
     rows = [
         [
@@ -130,21 +125,9 @@ def where_it_fails(answer: ComparisonResult) -> Html:
         if profile.share_explained > _LEAST_SHARE
     ]  # fmt: skip
     parts: list[Child] = [bullets([*words, f"{answer.sentences[-1]}."])]
-    heat_map = answer.heat_map
-    if heat_map is not None:
-        (across, x_scale), (up, y_scale) = variable(heat_map.x), variable(heat_map.y)
-        mean = [scale.all(row) for row in heat_map.mean]
-        drawing = heat(
-            Axis(across.capitalize(), x_scale.unit), Axis(up.capitalize(), y_scale.unit),
-            x_scale.all(heat_map.x_edges), y_scale.all(heat_map.y_edges), mean,
-            title=f"Mean residual over {across} and {up}",
-        )  # fmt: skip
-        unit = f" in {scale.unit}" if scale.unit else ""
-        if scale == TIMES_NOISE:
-            unit = " as a multiple of the noise"
-        parts.append(
-            figure_of(drawing, f"Mean residual{unit} over {across} and {up}; red: measured above modelled.")
-        )
+    drawn = residual_map(answer, first)
+    if drawn is not None:
+        parts.append(drawn)
     if rows:  # below the map: a table may continue on the next page, a map may not
         parts.append(table(columns, rows))
     areas = [loop.area for loop in answer.loops]

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from mckibben.application.experiment_result import SpecimenResult
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.measurement.experiment import place_of, shown_value, title_of
-from mckibben.report.diagnosis.errors import error_scale
 from mckibben.report.diagnosis.material import DiagnosisMaterial
+from mckibben.report.diagnosis.units import error_scale
 from mckibben.report.document import Head, bullets, heading, paragraph, table
 from mckibben.report.figures import figure, scale_of, with_error
 from mckibben.report.html import Child, Html, html

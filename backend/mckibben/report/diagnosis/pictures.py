@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Callable, Iterable, Sequence
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -12,12 +13,13 @@ from mckibben.application.compared_series import ComparedSeries
 from mckibben.report.chart import chart, family
 from mckibben.report.document import figure_of
 from mckibben.report.figures import variable
-from mckibben.report.html import Html, html
+from mckibben.report.html import Html, html, tag
 from mckibben.report.marks import ACCENT, EDGE, SECOND, Axis, Band, Dots, Line, Mark
 
 _MOST_POINTS = 250  # of a series in a drawing
 _FEW_POINTS = 300  # of all series: below, dots are drawn larger
-_LEFT = 84.0  # where the axes of both drawings begin
+_LEFT = 84.0  # where the axes of both drawings begin, below each other
+_WIDE, _NARROW, _HIGH, _ROOM = 450.0, 270.0, 200.0, 88.0  # beside each other; room of the legend
 
 
 def pictures(answer: ComparisonResult, name: str) -> Html:
@@ -61,23 +63,31 @@ def _channel(all_series: Sequence[ComparedSeries], answer: ComparisonResult, cha
     if noise is not None:
         wide = 2.0 * scale.of(noise)
         errors.insert(0, Band(-wide, wide, "± 2 × noise"))
-        caption += " The grey band is twice the noise of the data."
+        caption += " Grey band: twice the noise of the data."
     x, about = Axis(over.capitalize(), x_scale.unit), f"{words} over {over}"
+    beside = key != "time"  # a trace needs the whole width
+    left_one, right_one = (
+        (partial(chart, width=_WIDE, height=_HIGH, room=_ROOM), partial(chart, width=_NARROW, height=_HIGH))
+        if beside
+        else (partial(chart, height=190.0, left=_LEFT), partial(chart, height=140.0, left=_LEFT))
+    )
     if scattered:
         overlay, legend = (
-            _parity(all_series, channel, size),
+            _parity(all_series, channel, size, left_one),
             f"{words.capitalize()} by the {name} over measured.",
         )
     else:
-        overlay = chart(
+        overlay = left_one(
             x, Axis(words.capitalize(), scale.unit), [*dots, *lines],
-            title=f"Measured and modelled {about}", height=216.0, left=_LEFT, legend=True,
+            title=f"Measured and modelled {about}", legend=True,
         )  # fmt: skip
         legend = f"{words.capitalize()}: dots are measured, lines are the {name}."
-    below = chart(
+    below = right_one(
         x, Axis(f"Residual of {words}", scale.unit, zero=True), errors,
-        title=f"Residual of {about}", height=170.0, left=_LEFT, legend=True,
+        title=f"Residual of {about}", legend=not beside,
     )  # fmt: skip
+    if beside:
+        return figure_of(tag("div", overlay, below, class_="beside"), f"{legend} {caption}")
     return html(
         figure_of(overlay, legend),
         figure_of(below, caption),
@@ -93,7 +103,9 @@ def _scattered(all_series: Sequence[ComparedSeries], kind: str) -> bool:
     return 2 * sum(varies) > len(all_series)
 
 
-def _parity(all_series: Sequence[ComparedSeries], channel: str, size: float) -> Html:
+def _parity(
+    all_series: Sequence[ComparedSeries], channel: str, size: float, draw: Callable[..., Html]
+) -> Html:
     """Modelled over measured values, with the line of equality."""
     words, scale = variable(channel)
     measured, modelled = (
@@ -101,10 +113,10 @@ def _parity(all_series: Sequence[ComparedSeries], channel: str, size: float) -> 
         for part in ("measured", "predicted")
     )
     ends = [min(measured), max(measured)]
-    return chart(
+    return draw(
         Axis(f"Measured {words}", scale.unit), Axis(f"Modelled {words}", scale.unit),
         [Line(ends, ends, "equal", EDGE), Dots(measured, modelled, "rows", ACCENT, size)],
-        title=f"Modelled over measured {words}", left=_LEFT, legend=True,
+        title=f"Modelled over measured {words}", legend=True,
     )  # fmt: skip
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from mckibben.application.diagnosis_result import DiagnosisResult, Verdict
 from mckibben.report.chart import chart
-from mckibben.report.diagnosis.errors import error_scale
 from mckibben.report.diagnosis.material import DiagnosisMaterial
+from mckibben.report.diagnosis.units import error_scale
 from mckibben.report.document import (
     Head,
     bullets,
@@ -32,25 +32,30 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
     verdict = diagnosis.verdict
     useful = [c for c in diagnosis.candidates if c.gain_percent >= _HELPS]
     useful.sort(key=lambda candidate: -candidate.gain_percent)
-    rows = [
+    shown = useful[:_SHOWN]
+    some_twins = any(c.twins for c in shown)  # an empty column would narrow the one with the reasons
+    rows: list[list[Child]] = [
         [
             c.title,
             figure(c.rmse, scale, 3),
             percent(c.gain_percent / 100.0),
             probability(c.probability),
-            _twins([material.title_of(name) for name in c.twins]),
+            *([_twins([material.title_of(name) for name in c.twins])] if some_twins else []),
             c.why,
         ]
-        for c in useful[:_SHOWN]
+        for c in shown
     ]
     columns = [
         Head("Effect"), Head("Error", number=True), Head("Gain", number=True),
-        Head("Probability", number=True), Head("Indistinguishable from"), Head("Why", wide=True),
+        Head("Probability", number=True), *([Head("Indistinguishable from")] if some_twins else []),
+        Head("Why", wide=True),
     ]  # fmt: skip
     rest = len(diagnosis.candidates) - len(useful)
     parts: list[Child] = [heading("One effect alone, everything refitted")]
     parts.append(
-        table(columns, rows) if rows else paragraph("No single effect of the catalogue reduces the error.")
+        table(columns, rows, whole=False)
+        if rows
+        else paragraph("No single effect of the catalogue reduces the error.")
     )
     if useful[_SHOWN:]:
         others = ", ".join(f"{c.title} ({plain(c.gain_percent, 2)} %)" for c in useful[_SHOWN:])
@@ -84,7 +89,10 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
             for item in verdict.experiments
         ]
         parts.append(
-            table(columns, experiments, caption="σ: standard deviation of one reading.", whole=False)
+            html(
+                table(columns, experiments, whole=False),
+                paragraph("σ: standard deviation of one reading.", note=True),
+            )
         )
     if verdict.status == "unknown_effect":
         parts.append(_unknown(verdict))

@@ -6,12 +6,13 @@ from collections.abc import Iterator
 
 from mckibben.report.command import command_section
 from mckibben.report.diagnosis.answer import answer_section
-from mckibben.report.diagnosis.errors import error_scale, error_table, where_it_fails
+from mckibben.report.diagnosis.errors import error_table, where_it_fails
 from mckibben.report.diagnosis.experiment import experiment_section
 from mckibben.report.diagnosis.inputs import assumptions_section, data_section, muscle_section
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.diagnosis.model import correlations, model_cards
 from mckibben.report.diagnosis.pictures import pictures
+from mckibben.report.diagnosis.units import error_scale
 from mckibben.report.diagnosis.verdict import candidates_section
 from mckibben.report.document import Head, Section, bullets, document, table
 from mckibben.report.figures import figure
@@ -31,12 +32,13 @@ def diagnosis_report(material: DiagnosisMaterial) -> str:
 
 def _sections(material: DiagnosisMaterial) -> Iterator[Section]:
     answer, diagnosis, proposed = material.comparison, material.diagnosis, material.proposed
+    first = material.history[0].comparison if material.history else answer
     yield Section("Verdict" if diagnosis else "Result", answer_section(material))
     fitted = any(item.fitted for values in answer.parameters.values() for item in values.values())
     name = "fitted model" if fitted else "model as given"
     columns = [(f"the {name}", answer), *([("the proposed model", proposed)] if proposed else [])]
     yield Section("Error", html(error_table(columns), pictures(answer, name)))
-    yield Section("Where it fails", where_it_fails(answer))
+    yield Section("Where it fails", where_it_fails(answer, first))
     if diagnosis is not None:
         yield Section("Effects that were tried", candidates_section(material, diagnosis))
         yield Section("Proposed model" if proposed else "Refitted model", _proposed(material))
@@ -57,13 +59,11 @@ def _proposed(material: DiagnosisMaterial) -> Html:
     cards = model_cards(
         diagnosis.parameters, material, added=diagnosis.verdict.effects, terms=diagnosis.model.effects
     )
-    parts: list[Child] = []
+    parts: list[Child] = [cards, correlations(diagnosis, material)]
     if material.proposed is not None:
-        parts += [
-            pictures(material.proposed, "proposed model"),
-            bullets(f"{sentence}." for sentence in material.proposed.sentences),
-        ]
-    parts += [cards, correlations(diagnosis, material)]
+        sentences = [f"{sentence}." for sentence in material.proposed.sentences]
+        # Last: on paper tables fill the page before a picture.
+        parts = [bullets(sentences), *parts, pictures(material.proposed, "proposed model")]
     return html(parts)
 
 

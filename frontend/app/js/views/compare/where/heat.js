@@ -3,7 +3,7 @@
 import { h, icon } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
-import { brief, number, readable, scaleOf, toShown } from "../../../format.js";
+import { number, readable, scaleOf, toShown } from "../../../format.js";
 import { palette } from "../../../plots/theme.js";
 import { brush, fault, lookCompare, shown, stale } from "../answers.js";
 import { channelScale, errorText, errorUnit, rangeText, VARIABLES } from "../words.js";
@@ -86,7 +86,7 @@ function valueText(mean, a) {
   if (mean === null || !s) return "";
   if (isQuiet(mean, s)) return "·";
   const { factor } = channelScale(a.unit, a.predicted, units.value), size = Math.abs(mean) / factor;
-  const text = size >= 9.95 ? String(Math.round(size)) : brief(size).replace(/(\.\d)\d+$/, "$1");
+  const text = size >= 9.95 ? String(Math.round(size)) : size.toFixed(size >= 0.095 ? 1 : 2);
   return `${mean < 0 ? "−" : "+"}${text}`;
 }
 
