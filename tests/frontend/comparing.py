@@ -167,7 +167,7 @@ window.shifts = [];
 new PerformanceObserver((list) => {
   for (const entry of list.getEntries()) {
     const what = entry.sources.map(({ node }) => node?.outerHTML?.slice(0, 80) ?? node?.textContent);
-    window.shifts.push({ value: entry.value, what });
+    window.shifts.push({ value: entry.value, what, recent: entry.hadRecentInput });
   }
 }).observe({ type: "layout-shift" });
 """
@@ -176,6 +176,11 @@ new PerformanceObserver((list) => {
 def watch_shifts(page: Page) -> None:
     """Remember from now on what moves on the page."""
     run(page, WATCH)
+
+
+def unasked(page: Page) -> list[dict[str, object]]:
+    """What moved later than half a second after a click or key: what a layout shift is by its definition."""
+    return [shift for shift in shifts(page) if not shift["recent"]]
 
 
 def shifts(page: Page) -> list[dict[str, object]]:

@@ -29,6 +29,7 @@ from tests.frontend.comparing import (
     setup,
     shifts,
     state,
+    unasked,
     use,
     watch_shifts,
 )
@@ -68,6 +69,9 @@ def test_from_the_empty_page_to_the_noise_in_five_clicks(page: Page, sweeps: Fil
         path.append(changed(page, next_.click))
         clicks += 1
         expect(next_).to_be_focused()
+    assert (
+        unasked(page) == []
+    )  # an entry goes with the click that adds it; the verdicts after that move nothing
     assert clicks <= 5
     assert len(path) == 4
     assert path == sorted(path, reverse=True)

@@ -8,6 +8,7 @@ import { answer, compare, fault, files, showToAtlas, stage, startComparing } fro
 import { boardCard } from "./board/card.js";
 import { ladderCard } from "./ladder.js";
 import { listCard } from "./list/card.js";
+import { followVerdicts } from "./list/kept.js";
 import { followSketches } from "./list/sketch.js";
 import { complaintNotices, measurementsCard } from "./measurement/card.js";
 import { dropping } from "./measurement/drop.js";
@@ -65,6 +66,7 @@ export function comparePage() {
   followFiles();
   startComparing();
   followSketches();
+  followVerdicts();
   followPins();
   fetchMysteries();
   showToAtlas();

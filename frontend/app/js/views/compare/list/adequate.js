@@ -75,6 +75,32 @@ function covered({ envelope }) {
   );
 }
 
+/** The place of the conclusion that is expected, while the diagnosis looks whether it holds. @param {Diagnosis} was */
+export function settling(was) {
+  const text = (/** @type {number | null | undefined} */ si) =>
+    errorText(si, was.unit, was.predicted, units.value);
+  return [
+    h(
+      "div",
+      { class: "conclusion settling" },
+      icon("flask"),
+      h(
+        "div",
+        null,
+        h("b", null, "Is anything still missing?"),
+        // As long as what will stand here.
+        h("p", { "aria-hidden": "true" }, sentenceOf(text(answer.value?.rmse), text(heldOut()))),
+      ),
+    ),
+    openChoices(),
+    covered(was),
+  ];
+}
+
+/** @param {string} error @param {string} held */
+const sentenceOf = (error, held) =>
+  `${error} is the noise of the data, held-out ${held}. No effect left lowers it by more than chance.`;
+
 /** @param {Diagnosis} result */
 export function adequate(result) {
   const a = answer.value, wide = wideNoise.value;
@@ -96,9 +122,10 @@ export function adequate(result) {
           wide
             ? `${asText(a?.rmse)} is of the size of the noise: ${
               asText(wide.low)
-            } between neighbouring readings, ${asText(wide.high)} in all. Held-out ${held}. `
-            : `${asText(a?.rmse)} is the noise of the data, held-out ${held}. `,
-          "No effect left lowers it by more than chance.",
+            } between neighbouring readings, ${
+              asText(wide.high)
+            } in all. Held-out ${held}. No effect left lowers it by more than chance.`
+            : sentenceOf(asText(a?.rmse), held),
         ),
       ),
     ),

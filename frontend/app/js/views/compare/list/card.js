@@ -3,13 +3,15 @@
 // the joint proposal, then everything else that was tried.
 import { waitingWords } from "../../../server/waiting.js";
 import { h } from "../../../dom.js";
+import { effect } from "../../../reactive.js";
 import { units } from "../../../state.js";
-import { answer, brush, diagnosis, diagnosisError, lookCompare, progress, stale } from "../answers.js";
+import { answer, brush, diagnosis, diagnosisError, lookCompare, progress, stage, stale } from "../answers.js";
 import { fitting } from "../model/history.js";
 import { errorText, rangeText } from "../words.js";
-import { adequate, openChoices } from "./adequate.js";
+import { adequate, openChoices, settling } from "./adequate.js";
 import { contextBlock, contextLine } from "./context.js";
 import { entryRow, refitRow, skeletonRow, soFarRow } from "./entry.js";
+import { kept, remaining } from "./kept.js";
 import { addAll, entries, refits, soFar } from "./plan.js";
 import { overWhat } from "./sketch.js";
 import { insideOf } from "./selection.js";
@@ -18,6 +20,8 @@ import { triedFold, triedText } from "./tried.js";
 import { unknown } from "./unknown.js";
 
 const SKELETONS = 3;
+/** Height of what stands under the list, as the last verdict drew it [px]. */
+let heightOfFold = 0;
 
 /** @param {number | null} si */
 const asText = (si) => {
@@ -28,14 +32,17 @@ const asText = (si) => {
 /** The noise in the unit of the error. */
 const noise = () => {
   const a = answer.value;
-  return a && Object.keys(a.channels).length > 1 ? 1 : diagnosis.value?.noise_floor.rmse ?? null;
+  return a && Object.keys(a.channels).length > 1
+    ? 1
+    : (diagnosis.value ?? kept.value?.result)?.noise_floor.rmse ?? null;
 };
 
 const AT_FLOOR = 1.15;
 
-/** "All 3: 1.91 N, the noise is 1.85 N", with the button. */
-function allRow() {
-  const all = entries.value, last = all.at(-1), floor = noise();
+/** "All 3: 1.91 N, the noise is 1.85 N", with the button. @param {import("./plan.js").Entry[]} [all]
+ * @param {boolean} [isWaiting] the next verdict is on its way */
+function allRow(all = entries.value, isWaiting = false) {
+  const last = all.at(-1), floor = noise();
   if (!last) return null;
   const isNoise = floor !== null && last.to <= AT_FLOOR * floor;
   return h(
@@ -52,7 +59,7 @@ function allRow() {
       ? h("button", {
         type: "button",
         id: "add-all",
-        disabled: () => stale.value || fitting.value,
+        disabled: () => isWaiting || stale.value || fitting.value,
         onclick: () => addAll(),
       }, `Add all ${all.length}`)
       : null,
@@ -105,6 +112,23 @@ const key = () =>
     () => `seen, over ${overWhat.value}`,
   );
 
+/** What the last verdict said, while the model of now is diagnosed; null: nothing is known yet. */
+function expected() {
+  const was = kept.value, left = remaining.value, floor = noise();
+  if (!was?.entries.length) return null;
+  if (left.length) {
+    return [
+      contextLine(),
+      key(),
+      h("ol", { class: "plain" }, ...left.map((e, i) => entryRow(e, i, floor, was.sketches))),
+      allRow(left, true),
+      openChoices(),
+    ];
+  }
+  const end = was.entries.at(-1)?.to ?? Infinity;
+  return floor !== null && end <= AT_FLOOR * floor ? [contextLine(), ...settling(was.result)] : null;
+}
+
 /** @param {string} words */
 const quiet = (words) => h("p", { class: "list-part muted" }, words);
 
@@ -120,7 +144,8 @@ function body() {
       return quiet(diagnosisError.value?.words ?? "The diagnosis failed.");
     case "comparing":
     case "running": {
-      const best = soFar.value;
+      const now = expected(), best = soFar.value;
+      if (now) return now;
       const waiting = [...Array(SKELETONS).keys()].slice(best ? 1 : 0);
       return [
         contextLine(),
@@ -184,6 +209,22 @@ const aside = () => {
 };
 
 export function listCard() {
+  const fold = h(
+    "div",
+    { class: "list-fold" },
+    () => state.value === "context" ? null : triedFold(),
+    notes,
+  );
+  effect(() => {
+    // What was tried is known at the end again; its place stays.
+    if (!kept.value) fold.style.minHeight = "";
+    else if (!fold.style.minHeight) fold.style.minHeight = `${heightOfFold}px`;
+  });
+  effect(() => {
+    if (stage.value !== "done") return;
+    diagnosis.value;
+    requestAnimationFrame(() => (heightOfFold = fold.offsetHeight));
+  });
   return h(
     "section",
     {
@@ -209,6 +250,6 @@ export function listCard() {
       h("i", { style: () => `width:${Math.max(3, 100 * share.value)}%` }),
     ),
     body,
-    h("div", { class: "list-fold" }, () => state.value === "context" ? null : triedFold(), notes),
+    fold,
   );
 }

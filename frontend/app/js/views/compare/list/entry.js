@@ -170,14 +170,16 @@ const track = (from, to, noise) =>
     noise === null || noise > from ? null : h("u", { style: `left:${(100 * noise) / from}%` }),
   );
 
-/** @param {Entry} entry @param {number} index @param {number | null} noise */
-export function entryRow(entry, index, noise) {
+/** @param {Entry} entry @param {number} index @param {number | null} noise
+ * @param {Record<string, import("./sketch.js").Sketch> | null} [was] the sketches of the last verdict, whose entry
+ *   stays while the next one is on its way: nothing recommends it meanwhile */
+export function entryRow(entry, index, noise, was = null) {
   const { chosen, effect, group, from, to, holdout, probability } = entry, title = titleOf(chosen);
   const known = effectsById.value.get(chosen);
-  const inside = insideOf(effect);
+  const inside = was ? null : insideOf(effect), isFirst = !index && !refits.value;
   return h(
     "li",
-    { class: `missing${index || refits.value ? "" : " first"}`, "data-candidate": chosen },
+    { class: `missing${was ? " kept" : isFirst ? " first" : ""}`, "data-candidate": chosen },
     h(
       "div",
       { class: "missing-head" },
@@ -187,13 +189,13 @@ export function entryRow(entry, index, noise) {
       probability === null ? null : h(
         "span",
         { class: "likely" },
-        `${entry.correction ? "correction, " : ""}${likelyText(probability)}`,
+        `${was ? "was " : ""}${entry.correction ? "correction, " : ""}${likelyText(probability)}`,
       ),
     ),
     h(
       "div",
       { class: "missing-row" },
-      drawSketch(sketches.value[effect], title),
+      drawSketch((was ?? sketches.value)[effect], title),
       h(
         "div",
         { class: "missing-numbers" },
@@ -203,7 +205,7 @@ export function entryRow(entry, index, noise) {
       ),
       h("button", {
         type: "button",
-        class: index || refits.value ? "" : "primary",
+        class: isFirst && !was ? "primary" : "",
         "aria-label": `Add ${title}`,
         disabled: () => stale.value || fitting.value,
         onclick: () => add(entry),

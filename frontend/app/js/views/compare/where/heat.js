@@ -276,7 +276,12 @@ export function whereCard() {
   return h(
     "section",
     { class: () => `card where${stale.value ? " stale" : ""}`, "aria-label": "Where it fails" },
-    h("div", { class: "card-head" }, h("h2", null, "Where it fails"), h("small", null, aside)),
+    h(
+      "div",
+      { class: "card-head" },
+      h("h2", null, "Where it fails"),
+      h("small", null, () => h("span", null, aside())),
+    ),
     h("div", { class: "where-body" }, () => {
       const a = shown.value, map = grid.value;
       if (!a) {
