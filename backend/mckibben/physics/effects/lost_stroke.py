@@ -39,8 +39,8 @@ _BOLEN = Source(
 _FITTED = Source("fitted to the change with length in both: 10 mm in DMSP-10, 13 mm in DMSP-20", "C")
 _REFERENCE = Source("length of the sample to which the rest of the model was fitted", "D")
 # a = 13.796730, c_b = 5.598910, o = 10 mm (1 - 100/250) = 6 mm
-_BY_HAND = Source("0.6 MPa 78.539816 mm2 [a (0.84^2 - 0.9^2)]", "D")
-_AT_REST = Source("0.6 MPa 78.539816 mm2 [a (0.94^2 - 1)]", "D")
+_BY_HAND = Source("6 bar 78.539816 mm² [a (0.84^2 - 0.9^2)]", "D")
+_AT_REST = Source("6 bar 78.539816 mm² [a (0.94^2 - 1)]", "D")
 _DEFINITION = Source("the reference length changes nothing", "D")
 _SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
 _VALUES = {"stroke": 0.01, "reference_length": 0.25}

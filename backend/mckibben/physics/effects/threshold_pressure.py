@@ -24,7 +24,7 @@ def pressure(*, pressure: Value, threshold: Value, softness: Value) -> Value:
     return pressure - ops.minimum(threshold * (1.0 - ops.exp(-above / span)), above)
 
 
-_TUBE = Source("E H (r_b - r_i)/r_i^2 of latex, 1 MPa, 1 mm, 5 to 6 mm", "D")
+_TUBE = Source("E H (r_b - r_i)/r_i^2 of latex, 1 N/mm², 1 mm, 5 to 6 mm", "D")
 _CLOSED_FORM = Source("(P - P_th) A0 (2/sin^2 theta0 - 3), A0 (...) = 643.85527 mm^2", "D")
 _SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
 
