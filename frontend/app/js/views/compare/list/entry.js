@@ -8,7 +8,7 @@ import { aboutButton } from "../../../muscle/effects.js";
 import { answer, preview, stale } from "../answers.js";
 import { fitting, refit } from "../model/history.js";
 import { errorText, titleOf } from "../words.js";
-import { equationBox } from "./equation.js";
+import { equationBox } from "../../../ui/equation.js";
 import { add, addCandidate, choose, modelOf, refits } from "./plan.js";
 import { insideOf } from "./selection.js";
 import { drawSketch, sketches } from "./sketch.js";

@@ -7,7 +7,7 @@ import { capitalized } from "../../../format.js";
 import { answer, candidates, diagnosis, stage, stale } from "../answers.js";
 import { fitting, geometryOf } from "../model/history.js";
 import { errorText, errorUnit, titleOf } from "../words.js";
-import { equationBox } from "./equation.js";
+import { equationBox } from "../../../ui/equation.js";
 import { glance } from "./entry.js";
 import { addCandidate, entries } from "./plan.js";
 import { valueList } from "./values.js";

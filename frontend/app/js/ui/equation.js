@@ -1,6 +1,6 @@
 // @ts-check
 // An equation in a narrow card: MathML does not wrap, so each formula has its own line.
-import { h, mathml } from "../../../dom.js";
+import { h, mathml } from "../dom.js";
 
 const WIDE_GAP = '<mspace width="1em" />';
 const MATH = "http://www.w3.org/1998/Math/MathML";
