@@ -142,7 +142,11 @@ def test_keys_views_search_and_typing(page: Page) -> None:
     page.locator("body").click(position={"x": 4, "y": 400})
     page.keyboard.press("4")
     expect(page.get_by_role("region", name="Table of parts")).to_be_visible()
-    page.keyboard.press("1")
+    page.keyboard.press("g")
+    page.keyboard.press("d")
+    expect(page.locator("#force")).to_be_visible()
+    page.keyboard.press("/")
+    page.keyboard.type("gp")  # in a field these are letters
     expect(page.locator("#force")).to_be_visible()
 
 

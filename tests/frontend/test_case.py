@@ -163,9 +163,10 @@ def test_three_files_of_one_muscle_are_one_case(page: Page) -> None:
 
 
 WEIGHTS = """
-const { weightsOf } = await import("/js/views/compare/board/weights.js");
+const { aicOf, weightsOf } = await import("/js/views/compare/board/weights.js");
 const one = { rows: 100, autocorrelation: [0.25, 0.01, 0.3] };
-return weightsOf([{ ...one, error: 2.1, fitted: 1 }, null, { ...one, error: 2, fitted: 2 }], 1);
+const models = [{ ...one, error: 2.1, fitted: 1 }, null, { ...one, error: 2, fitted: 2 }];
+return [weightsOf(models, 1), aicOf(models, 1)];
 """
 
 
@@ -193,7 +194,12 @@ def test_the_board_compares_pinned_models(page: Page, sweeps: FilePayload, tmp_p
     n = 100 / (1 + 2 * 0.25)
     scores = [n * math.log(error**2) + k * math.log(n) for error, k in ((2.1, 1), (2.0, 2))]
     share = 1 / (1 + math.exp((scores[0] - scores[1]) / 2))
-    assert run(page, WEIGHTS) == [pytest.approx(share), None, pytest.approx(1 - share)]
+    weighed, above = run(page, WEIGHTS)
+    assert weighed == [pytest.approx(share), None, pytest.approx(1 - share)]
+    # Akaike's criterion has 2 k instead of k ln n.
+    akaike = [n * math.log(error**2) + 2 * k for error, k in ((2.1, 1), (2.0, 2))]
+    assert above == [pytest.approx(akaike[0] - min(akaike)), None, pytest.approx(akaike[1] - min(akaike))]
+    expect(board.locator("tbody tr", has_text="AIC").locator("td b")).to_have_count(3)
     rows = board.locator("tbody tr").count()
     board.get_by_label("Differences only").check()
     expect(board).to_contain_text(re.compile(r"\d+ equal rows hidden"))
@@ -205,8 +211,17 @@ def test_the_board_compares_pinned_models(page: Page, sweeps: FilePayload, tmp_p
     line = page.locator("#overlay-force .scatterlayer .tracepin0")
     board.get_by_role("button", name="Draw Ideal muscle in the overlay").click()
     expect(line).to_have_count(1)
-    page.locator(".legend-toggle", has_text="Ideal muscle").click()
+    # Its points in the residual, its loops, and its fit beside its name.
+    points = page.locator("#residual .scatterlayer .tracepin0 .point")
+    expect(points.first).to_be_attached()
+    page.get_by_role("button", name="Area of each loop of the residual").click()
+    expect(page.locator(".brush-line")).to_contain_text(re.compile(r"Ideal muscle: 6 loops, mean \+\d"))
+    drawn = page.locator(".legend-toggle", has_text="Ideal muscle")
+    fit = board.locator("tbody tr", has_text="100 is perfect").locator("td b").last.inner_text()
+    expect(drawn).to_contain_text(re.compile(rf"\s{float(fit):.1f}\s%"))
+    drawn.click()
     expect(line).to_have_count(0)
+    expect(points).to_have_count(0)
     with page.expect_download() as saved:
         board.get_by_role("button", name="Table .csv").click()
     saved.value.save_as(tmp_path / "models.csv")

@@ -85,6 +85,13 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     assert best.get_attribute("data-candidate") in hidden
     sketch = best.locator("svg.sketch[role=img]")
     expect(sketch).to_have_attribute("aria-label", re.compile(r"^Over time: the (pressure|stroke) that "))
+    # A part of the time asks what would cause it: each channel is answered in its unit.
+    page.locator(".heat [data-at='1,0']").click()
+    told = page.locator(".found-missing .inside").first
+    amount = r"[−+][\d.]+\s%s of the [−+][\d.]+\s%s"
+    expect(told).to_contain_text(re.compile("pressure " + amount % ("m?bar", "m?bar")))
+    expect(told).to_contain_text(re.compile("stroke " + amount % ("mm", "mm")))
+    page.get_by_role("button", name="Show all", exact=True).click()
     # Errors of the stroke are lengths, and shares of the stroke.
     errors = page.get_by_role("list", name="Error of each channel")
     expect(errors).to_contain_text(re.compile(r"stroke [\d.]+.mm, [\d.]+ % of the stroke"))
@@ -302,3 +309,16 @@ def test_no_equation_is_cut_without_a_way_to_see_it(page: Page) -> None:
         """,
     )
     assert shares > 0.6
+    # On a phone a long one is set smaller, and none is scrolled.
+    page.set_viewport_size({"width": 390, "height": 844})
+    page.wait_for_timeout(300)
+    found = run(
+        page,
+        """
+        const all = [...document.querySelectorAll(".missing-card .equation")].filter((e) => e.clientWidth);
+        const size = (box) => parseFloat(getComputedStyle(box).fontSize);
+        return all.map((box) => [box.scrollWidth - box.clientWidth, size(box)]);
+        """,
+    )
+    assert max(over for over, _ in found) <= 1
+    assert 9 <= min(size for _, size in found) < max(size for _, size in found) == 15

@@ -127,6 +127,15 @@ const KEYS = [
   },
 ];
 
+/** Where a letter after G goes. @type {import("./ui/shortcuts.js").Places} */
+const PLACES = {
+  d: () => goTo("design"),
+  t: () => goTo("transient"),
+  c: () => goTo("compare"),
+  p: () => goTo("catalogue"),
+  s: () => goTo("studies"),
+};
+
 /** An error of the program itself must not leave a blank page. */
 function showError() {
   const text = "The page could not be built. The console of the browser has the details. ";
@@ -141,7 +150,7 @@ function start() {
   append(app, banner);
   app.append(main, line);
   effect(show);
-  listenToKeys(KEYS);
+  listenToKeys(KEYS, PLACES);
   listenToDrops();
   const last = lastWork();
   writeAddress();

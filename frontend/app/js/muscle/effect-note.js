@@ -1,6 +1,7 @@
 // @ts-check
 // What is known about an effect: cause, equation, parameters with sources, similar effects, references.
 import { h, mathml } from "../dom.js";
+import { equationBox } from "../ui/equation.js";
 import { units } from "../state.js";
 import { effectsById } from "../store.js";
 import { capitalized, number, plainScale, quantityOf, scaleOf, toShown } from "../format.js";
@@ -35,11 +36,7 @@ export function effectNote(e, pictured = false) {
     null,
     h("h3", null, e.title),
     h("p", null, e.cause),
-    h(
-      "div",
-      { class: "equation", tabindex: 0, role: "region", "aria-label": "Equation" },
-      mathml(e.equation_mathml),
-    ),
+    equationBox(e.title, e.equation_mathml, e.equation),
     e.parameters.length
       ? h(
         "table",

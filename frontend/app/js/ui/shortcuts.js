@@ -6,20 +6,33 @@ import { openDialog } from "./dialog.js";
 /** @typedef {{keys: string, what: string, match: (e: KeyboardEvent) => boolean, run: () => void,
  *   typing?: boolean}} Shortcut  `typing`: also while a text field has the focus */
 
-/** Keys of the element that has the focus, for the list only. @type {[string, string][]} */
+/** Keys in a row, and those of the element that has the focus, for the list only. @type {[string, string][]} */
 const ELSEWHERE = [
+  ["G D", "Go to Design; likewise G T Transient, G C Compare & diagnose, G P Catalogue, G S Studies"],
   ["← → ↑ ↓", "Move a slider, a value or the load line; Shift or Page keys: ten steps"],
   ["Enter", "Apply the typed value; units are allowed: 30 cm, 6 bar"],
   ["Esc", "Close a dialog, leave a field unchanged"],
   ["Drag, double click", "Zoom into a plot, reset the zoom"],
 ];
 
-/** @param {Shortcut[]} table */
-export function listenToKeys(table) {
+/** Keys after G that go to a place. @typedef {Record<string, () => void>} Places */
+
+/** How long a key after G is waited for [ms]. */
+const CHORD_MS = 1500;
+
+/** @param {Shortcut[]} table @param {Places} places */
+export function listenToKeys(table, places) {
+  let since = -Infinity;
   addEventListener("keydown", (event) => {
     const target = /** @type {HTMLElement} */ (event.target);
     const typing = target.matches?.("input:not([type=range], [type=checkbox]), textarea, select");
     if (document.querySelector("dialog[open]")) return;
+    const isChord = event.timeStamp - since < CHORD_MS, go = places[event.key.toLowerCase()];
+    since = !typing && plain("g")(event) ? event.timeStamp : -Infinity;
+    if (isChord && go && !typing && plain(event.key)(event)) {
+      event.preventDefault();
+      return go();
+    }
     const hit = table.find((s) => s.match(event) && (!typing || s.typing));
     if (!hit) return;
     event.preventDefault();

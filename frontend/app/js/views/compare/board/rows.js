@@ -16,7 +16,7 @@ import {
   parameterScale,
   titleOf,
 } from "../words.js";
-import { weightsOf } from "./weights.js";
+import { aicOf, weightsOf } from "./weights.js";
 
 /** @typedef {import("./columns.js").Column} Column */
 /** `texts`: value and what stands beside it; `numbers`: to sort by; `share`: of the baseline, for a difference.
@@ -43,9 +43,13 @@ const countOf = (c) => Object.values(c.fit).reduce((n, values) => n + Object.key
 /** "97.2", "< 0.1", "> 99.9" @param {number} share */
 const shareText = (share) => share < 1e-3 ? "< 0.1" : share > 0.999 ? "> 99.9" : brief(100 * share);
 
-/** The weight of each model among those of the board; twice the same model counts once. Null: there is no second one.
- * @param {Column[]} all @param {number | null} floor @returns {Row | null} */
-function weightRow(all, floor) {
+const AIC =
+  "Akaike's criterion n ln(error²) + 2k above that of the lowest model, with k fitted values and n independent rows: " +
+  "models less than 2 apart do about equally well, one that is 10 above has no support.";
+
+/** Weight and AIC of each model among those of the board; twice the same model counts once. None: there is no second one.
+ * @param {Column[]} all @param {number | null} floor @returns {Row[]} */
+function weightRows(all, floor) {
   const keys = all.map((c) => JSON.stringify([c.effects, c.comparison?.rmse]));
   const weighed = all.map((c, i) => {
     const found = c.comparison;
@@ -53,10 +57,14 @@ function weightRow(all, floor) {
     const autocorrelation = found.whiteness.autocorrelation.map((rho) => rho ?? 0);
     return { error: found.rmse, fitted: countOf(c), rows: found.rows_used, autocorrelation };
   });
-  const own = weightsOf(weighed, floor),
-    shares = all.map((c, i) => c.fitted ? own[keys.indexOf(keys[i])] : null);
-  if (own.every((w) => w === null)) return null;
-  return { ...errorRow("Weight", "% among these", shares, shareText, false), title: WEIGHT };
+  const own = weightsOf(weighed, floor), above = aicOf(weighed, floor);
+  const ofEach = (/** @type {(number | null)[]} */ one) =>
+    all.map((c, i) => c.fitted ? one[keys.indexOf(keys[i])] : null);
+  if (own.every((w) => w === null)) return [];
+  return [
+    { ...errorRow("Weight", "% among these", ofEach(own), shareText, false), title: WEIGHT },
+    { ...errorRow("AIC", "above the lowest", ofEach(above), brief, false), title: AIC },
+  ];
 }
 
 /** @param {Column[]} all @returns {Row[]} */
@@ -70,7 +78,6 @@ function errorRows(all) {
   const fits = all.map((c) =>
     c.comparison ? fitPercent(allSeries(c.comparison).filter((s) => s.use !== "validation")) : null
   );
-  const weight = weightRow(all, floor);
   return [
     errorRow("Error", `${unit} RMS`, errors, asText),
     errorRow("Held-out error", unit, all.map((c) => c.holdout), asText),
@@ -81,7 +88,7 @@ function errorRows(all) {
       ]
       : []),
     errorRow("Fitted values", "", all.map(countOf), String, false),
-    ...(weight ? [weight] : []),
+    ...weightRows(all, floor),
   ];
 }
 

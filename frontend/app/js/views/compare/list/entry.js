@@ -24,8 +24,17 @@ const asText = (si, unit = true) => {
   return errorText(si, a?.unit ?? "N", a?.predicted ?? "force", units.value, unit);
 };
 
-/** "−220 N" @param {number} si */
-const signedText = (si) => `${si < 0 ? "−" : "+"}${asText(Math.abs(si))}`;
+/** "Would explain −220 N of the −250 N there." For several channels each is named. @param {import("./selection.js").Inside} inside */
+function insideText({ shares }) {
+  const unitOf = (/** @type {string} */ channel) =>
+    answer.value?.series.find((s) => s.channel === channel)?.unit ?? answer.value?.unit ?? "N";
+  const text = (/** @type {string} */ channel, /** @type {number} */ si) =>
+    `${si < 0 ? "−" : "+"}${errorText(Math.abs(si), unitOf(channel), channel, units.value)}`;
+  const parts = shares.map(({ channel, mean, seen }) =>
+    `${shares.length > 1 ? `${readable(channel)} ` : ""}${text(channel, mean)} of the ${text(channel, seen)}`
+  );
+  return `Would explain ${parts.join(", ")} there.`;
+}
 
 /** "31.8 → 15.0 N" @param {number} from @param {number} to */
 export const fallText = (from, to) => `${asText(from, false)} → ${asText(to)}`;
@@ -216,7 +225,7 @@ export function entryRow(entry, index, noise, was = null) {
     inside === null ? null : h(
       "p",
       { class: "inside" },
-      `Would explain ${signedText(inside.mean)} of the ${signedText(inside.seen)} there.`,
+      insideText(inside),
     ),
     entry.reason ? h("p", { class: "why" }, sentence(entry.reason)) : null,
     entry.correction ? h("p", { class: "why" }, CORRECTION) : null,

@@ -88,7 +88,26 @@ function notTried() {
   );
 }
 
-/** "40 more tried: the best leaves 86.8 N" */
+/** Why effects that leave less alone than an entry are none: the entries were chosen together.
+ * @param {number} best error that the best of the others leaves alone */
+function whyNone(best) {
+  const a = answer.value, alone = entries.value.flatMap((e) => e.candidate ? [e.candidate] : []);
+  const worst = alone.reduce((max, c) => c.rmse > (max?.rmse ?? 0) ? c : max, alone[0]);
+  if (!entries.value.length || !alone.length) return null;
+  const text = (/** @type {number} */ si) =>
+    errorText(si, a?.unit ?? "N", a?.predicted ?? "force", units.value);
+  const less = best < worst.rmse ? `, less than ${worst.title} alone (${text(worst.rmse)})` : "";
+  return h(
+    "p",
+    { class: "why" },
+    `Alone the best of them leaves ${
+      text(best)
+    }${less}. The effects above were chosen together: beside them none of `,
+    "these lowers the error by more than chance.",
+  );
+}
+
+/** "40 more tried: not needed beside those above", "40 more tried: the best alone leaves 86.8 N" */
 export function triedFold() {
   const all = others();
   if (!all.length || stage.value !== "done") return notTried();
@@ -103,10 +122,13 @@ export function triedFold() {
         "summary",
         null,
         `${all.length} more tried: `,
-        useful
+        entries.value.length
+          ? `not needed beside ${entries.value.length > 1 ? "those" : "the one"} above`
+          : useful
           ? `the best alone leaves ${errorText(best, a?.unit ?? "N", a?.predicted ?? "force", units.value)}`
           : "none lowers the error by 1 %",
       ),
+      whyNone(best),
       h(
         "div",
         { class: "scroll", tabindex: 0, role: "region", "aria-label": "Other effects that were tried" },

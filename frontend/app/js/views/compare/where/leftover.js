@@ -173,7 +173,7 @@ export function loops(a, system) {
   return {
     spec: (p) => loopsSpec(all, system, p),
     words: [
-      h("b", { id: "loop-mean" }, `${count}, mean ${area < 0 ? "−" : "+"}${meanText}. `),
+      h("b", { class: "loop-mean" }, `${count}, mean ${area < 0 ? "−" : "+"}${meanText}. `),
       Math.abs(area) <= BAND * sigma
         ? "This is within the noise."
         : area >= 0

@@ -22,9 +22,10 @@ import {
   stale,
   steps,
 } from "../answers.js";
-import { across, channels, over, viewOf } from "./pictures.js";
+import { pinnedAnswers } from "../pinned.js";
+import { across, allSeries, channels, over, viewOf } from "./pictures.js";
 import { overlaySpec } from "./specs.js";
-import { rangeText, VARIABLES } from "../words.js";
+import { fitPercent, rangeText, VARIABLES } from "../words.js";
 
 /** The plots on the page, for the export. @type {{title: string, chart: Chart}[]} */
 export const overlays = [];
@@ -72,6 +73,15 @@ const toggle = (name, isOn, flip, sign) =>
     ),
   );
 
+/** How much of the measured variation a model explains, beside its name. @param {import("../types.js").Comparison} a */
+function fitOf(a) {
+  const share = fitPercent(allSeries(a).filter((s) => s.use !== "validation"));
+  return share === null
+    ? null
+    : h("small", { class: "fit", title: FIT }, `\u00a0${share.toFixed(1).replace("-", "−")}\u00a0%`);
+}
+const FIT = "Fit: share of the measured variation that the model explains, 100 % is perfect";
+
 /** What the signs mean; lines that can be drawn or not are buttons. */
 function legend() {
   const a = shown.value;
@@ -83,7 +93,7 @@ function legend() {
     { class: "legend" },
     h("li", null, h("i", { class: "dot" }), turns ? "lengthening" : "measured"),
     turns ? h("li", null, h("i", { class: "square" }), "shortening") : null,
-    h("li", null, h("i"), "model"),
+    h("li", null, h("i"), "model", fitOf(a)),
     previous.value
       ? toggle(
         [h("span", { class: "wider" }, "one step\u00a0"), "before"],
@@ -95,7 +105,7 @@ function legend() {
     ...traces.flatMap((i) =>
       pins[i]
         ? [toggle(
-          [pins[i].name],
+          [pins[i].name, pinnedAnswers.value[i] && fitOf(pinnedAnswers.value[i])],
           () => true,
           () => lookCompare({ traces: compare.peek().traces.filter((k) => k !== i) }),
           h("i", { class: "pin" }),

@@ -13,6 +13,28 @@ const BAND = 2;
 /** Where the points of a direction stand along the axis of directions. */
 const JITTER = 0.18;
 
+/** @param {View} v @param {View["series"]} series @returns {(number | null)[]} */
+const acrossOf = (v, series) =>
+  v.over === "direction"
+    ? series.flatMap((one) =>
+      one.direction.map((d, i) => d === null ? null : Math.sign(d) + JITTER * Math.sin(12.9898 * i))
+    )
+    : shown(series.flatMap((one) => column(one, v.over)), VARIABLES[v.over].quantity, v.system);
+
+/** Signs of the residuals of pinned models. */
+const PIN_SIGNS = ["x", "cross-thin", "triangle-down", "diamond", "star", "hexagon"];
+
+/** The residuals of the models of the board that are drawn. @param {View} v @param {Palette} p
+ * @param {(r: number | null) => number | null} at @returns {import("../../../plots/chart.js").Trace[]} */
+const pinnedTraces = (v, p, at) =>
+  v.pinned.map(({ name, series }, i) => ({
+    id: `pin${i}`,
+    x: acrossOf(v, series),
+    y: series.flatMap((one) => one.residual.map(at)),
+    marker: { size: 4, symbol: PIN_SIGNS[i % PIN_SIGNS.length], color: p.second },
+    column: `residual of ${name}`,
+  }));
+
 /** The residual on the scale of the case: linear inside the noise, logarithmic outside.
  * @param {View} v @param {Palette} p @param {import("./scale.js").Scale} fixed @returns {Spec} */
 export function residualSpec(v, p, fixed) {
@@ -22,13 +44,10 @@ export function residualSpec(v, p, fixed) {
   const y = v.series.flatMap((one) => one.residual.map(at));
   const band = v.noise === null ? null : placeOf(BAND * v.noise, fixed);
   const ways = v.over === "direction";
-  const x = ways
-    ? v.series.flatMap((one) =>
-      one.direction.map((d, i) => d === null ? null : Math.sign(d) + JITTER * Math.sin(12.9898 * i))
-    )
-    : shown(v.series.flatMap((one) => column(one, v.over)), quantity, system);
+  const x = acrossOf(v, v.series);
   const [xLow, xHigh] = ways ? [-1.5, 1.5] : extent([x]);
-  const size = Math.max(1, ...y.map((r) => Math.abs(r ?? 0)));
+  const others = v.pinned.flatMap((pin) => pin.series.flatMap((one) => one.residual.map(at)));
+  const size = Math.max(1, ...[...y, ...others].map((r) => Math.abs(r ?? 0)));
   return {
     x: ways
       ? {
@@ -45,7 +64,7 @@ export function residualSpec(v, p, fixed) {
       range: [-1.04 * size, 1.04 * size],
       marks: marksOf(fixed, s.factor),
     },
-    traces: [{
+    traces: [...pinnedTraces(v, p, at), {
       id: "residual",
       x,
       y,

@@ -12,6 +12,7 @@ import { menuButton } from "../../../ui/menu.js";
 import { plotlyReady } from "../../../plots/library.js";
 import { brushLayer } from "./brush-layer.js";
 import { brush, lookCompare, shown, stale } from "../answers.js";
+import { pinned } from "../pinned.js";
 import { channel, channels, residualOver, residuals, variables, viewOf } from "./pictures.js";
 import { autocorrelation, histogram, loops } from "./leftover.js";
 import { partsBar } from "./parts.js";
@@ -75,11 +76,19 @@ const picture = () => {
 };
 const whole = computed(picture);
 
+/** The loops of the models of the board that are drawn: " Ideal muscle: 6 loops, mean +788 mJ." */
+const ofPins = () =>
+  residualOver.value === "loops"
+    ? pinned.value.map(({ name, comparison }) =>
+      h("span", null, ` ${name}: `, loops(comparison, units.value).words[0])
+    )
+    : null;
+
 /** "contraction 5 to 10 %: RMS 63 N, 120 rows" */
 function inside() {
   const b = brush.value, a = shown.value, system = units.value;
   if (!a) return null;
-  if (whole.value) return h("span", null, ...whole.value.words);
+  if (whole.value) return h("span", null, ...whole.value.words, ofPins());
   if (!b) return h("span", { class: "muted" }, "Drag over the plot to see the error in a range.");
   const { rms, rows } = rmsInside(residuals.value, b);
   const unit = residuals.value[0]?.unit ?? a.unit;
