@@ -18,7 +18,8 @@ const CAUSE = 0.1;
 export function insideOf(effect) {
   const whole = without.value[""], less = without.value[effect], now = shown.value, range = brush.value;
   if (!whole || !less || !now || !range) return null;
-  const found = Object.entries(less.channels).flatMap(([channel, { noise_floor: noise }]) => {
+  const found = [...new Set(less.series.map((s) => s.channel))].flatMap((channel) => {
+    const noise = less.channels[channel]?.noise_floor ?? less.noise_floor;
     let n = 0, sum = 0, squares = 0, seen = 0, all = 0;
     less.series.forEach((s, k) => {
       if (s.channel !== channel) return;
