@@ -10,6 +10,7 @@ import { errorText, errorUnit, titleOf } from "../words.js";
 import { equationBox } from "../../../ui/equation.js";
 import { glance } from "./entry.js";
 import { addCandidate, entries } from "./plan.js";
+import { state } from "./state.js";
 import { valueList } from "./values.js";
 
 /** @typedef {import("../types.js").Candidate} Candidate */
@@ -124,6 +125,8 @@ export function triedFold() {
         `${all.length} more tried: `,
         entries.value.length
           ? `not needed beside ${entries.value.length > 1 ? "those" : "the one"} above`
+          : state.value === "adequate"
+          ? "none lowers the error by more than chance"
           : useful
           ? `the best alone leaves ${errorText(best, a?.unit ?? "N", a?.predicted ?? "force", units.value)}`
           : "none lowers the error by 1 %",
