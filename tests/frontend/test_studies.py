@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import re
 
 import pytest
 from playwright.sync_api import Locator, Page, expect
@@ -66,7 +67,29 @@ def test_from_a_drive_to_the_spread_of_its_figures(page: Page) -> None:
     ends = page.locator(".parallel text:not(.name):not(.unit)").all_text_contents()
     for most, least in zip(ends[::2], ends[1::2], strict=True):
         assert len(most.partition(".")[2]) == len(least.partition(".")[2]), (most, least)
+    # A range drawn on an axis keeps the runs in it, in the lines and in the table; a click takes it away.
+    axis = page.locator(".parallel .grip").last
+    axis.scroll_into_view_if_needed()
+    box = axis.bounding_box()
+    assert box
+    middle = box["x"] + 0.5 * box["width"]
+    page.mouse.move(middle, box["y"] + 0.5 * box["height"])
+    page.mouse.down()
+    page.mouse.move(middle, box["y"] + box["height"], steps=3)
+    page.mouse.up()
+    told = page.get_by_role("button", name=re.compile(" to .*: show all runs$"))
+    expect(told).to_have_count(1)
+    values = [
+        float(text) for text in page.locator(".runs-table tbody td:nth-last-child(2)").all_inner_texts()
+    ]
+    least, most = (float(text) for text in re.findall(r"[\d.]+", told.inner_text())[-2:])
+    left = page.locator(".runs-table .filter")
+    expect(left).to_contain_text(re.compile(r"\D\d{1,3} of 200 runs"))
+    assert values
+    assert all(least * 0.99 <= value <= most * 1.01 for value in values)
     assert violations(page) == []
+    told.click()
+    expect(left).not_to_contain_text("of 200 runs")
 
     for width, height in SIZES:
         page.set_viewport_size({"width": width, "height": height})

@@ -1,14 +1,16 @@
 // @ts-check
 // Parallel coordinates: one axis for each column, one line for each run. Drawn as SVG, because Plotly's own compile
 // code while they run, which the security policy of the page forbids.
-import { h, svg } from "../../dom.js";
+import { h, icon, svg } from "../../dom.js";
 import { effect } from "../../reactive.js";
 import { units, view } from "../../state.js";
 import { shown } from "./model.js";
-import { front, numbersOf, pins, places } from "./rows.js";
+import { front, keepRange, numbersOf, pins, places, ranges } from "./rows.js";
 import { columnText, scaleFor, titleOf, valueText } from "./words.js";
 
 const HEIGHT = 250, TOP = 46, BOTTOM = 24, STEP = 124, SIDE = 62;
+/** Half the width in which an axis takes the pointer, and the least length of a range [px]. */
+const REACH = 16, LEAST = 4;
 /** More lines would not be seen apart. */
 const MOST_LINES = 1500;
 
@@ -28,17 +30,77 @@ function ends(values, scale) {
   return valueText(low, scale) === valueText(high, scale) ? [low - 1, high + 1] : [low, high];
 }
 
+/** The part of an axis that is kept, and where it is drawn: a drag gives its ends, a click takes it away.
+ * @param {number} x @param {number[] | undefined} ends @param {(from: number, to: number) => void} take */
+function rangeOn(x, ends, take) {
+  const mark = svg("rect", { class: "kept", x: x - 5, width: 10, y: 0, height: 0 });
+  /** @param {number} a @param {number} b */
+  const show = (a, b) => {
+    mark.setAttribute("y", String(Math.min(a, b)));
+    mark.setAttribute("height", String(Math.abs(a - b)));
+  };
+  if (ends) show(ends[0], ends[1]);
+  let from = /** @type {number | null} */ (null);
+  /** @param {PointerEvent} e */
+  const at = (e) => {
+    const box = area.getBoundingClientRect(), to = TOP + (e.clientY - box.top);
+    return Math.min(HEIGHT - BOTTOM, Math.max(TOP, to));
+  };
+  const area = svg("rect", {
+    class: "grip",
+    x: x - REACH,
+    width: 2 * REACH,
+    y: TOP,
+    height: HEIGHT - TOP - BOTTOM,
+  });
+  area.addEventListener("pointerdown", (e) => {
+    area.setPointerCapture(e.pointerId);
+    show(from = at(e), from);
+  });
+  area.addEventListener("pointermove", (e) => {
+    if (from !== null) show(from, at(e));
+  });
+  area.addEventListener("pointerup", (e) => {
+    if (from !== null) take(from, at(e));
+    from = null;
+  });
+  return [mark, area];
+}
+
+/** The ranges in words, each with the way back. */
+function rangeLine() {
+  const columns = shown.value?.columns ?? [];
+  const all = columns.filter((c) => c.name in ranges.value);
+  if (!all.length) return "Drag along an axis to keep the runs in a range.";
+  return all.map((c) => {
+    const scale = scaleFor(c.name, c.unit, units.value), range = ranges.value[c.name];
+    const [low, high] = range.map((v) => valueText(v, scale));
+    const words = `${titleOf(c.name)} ${low} to ${high} ${scale.unit}`.trim();
+    return h(
+      "button",
+      {
+        type: "button",
+        class: "chip",
+        "aria-label": `${words}: show all runs`,
+        onclick: () => keepRange(c.name, null),
+      },
+      words,
+      icon("close"),
+    );
+  });
+}
+
 function drawing() {
   const now = shown.value;
   if (!now) return null;
   const columns = now.columns.filter((c) => c.unit !== null && numbersOf(c.name).some((v) => v !== null));
   const scales = columns.map((c) => scaleFor(c.name, c.unit, units.value));
   const lists = columns.map((c) => numbersOf(c.name)),
-    ranges = lists.map((values, k) => ends(values, scales[k]));
+    spans = lists.map((values, k) => ends(values, scales[k]));
   const width = 2 * SIDE + STEP * (columns.length - 1);
   const x = (/** @type {number} */ k) => SIDE + k * STEP;
   const y = (/** @type {number} */ k, /** @type {number} */ v) =>
-    HEIGHT - BOTTOM - ((v - ranges[k][0]) / (ranges[k][1] - ranges[k][0])) * (HEIGHT - TOP - BOTTOM);
+    HEIGHT - BOTTOM - ((v - spans[k][0]) / (spans[k][1] - spans[k][0])) * (HEIGHT - TOP - BOTTOM);
   /** @param {number} place */
   const line = (place) => {
     let path = "", isDown = false;
@@ -49,7 +111,13 @@ function drawing() {
     });
     return path;
   };
-  const kept = places.value.slice(0, MOST_LINES);
+  /** The value at a height of the drawing. @param {number} k @param {number} at */
+  const valueOf = (k, at) => {
+    const share = (HEIGHT - BOTTOM - at) / (HEIGHT - TOP - BOTTOM);
+    return spans[k][0] + Math.min(1, Math.max(0, share)) * (spans[k][1] - spans[k][0]);
+  };
+  const kept = places.value.slice(0, MOST_LINES), inside = new Set(places.value);
+  const out = now.table.run.map((_, i) => i).filter((i) => !inside.has(i)).slice(0, MOST_LINES);
   const of = (/** @type {(run: number) => boolean} */ test) =>
     kept.filter((i) => test(Number(now.table.run[i]))).map(line).join("");
   const isPinned = (/** @type {number} */ run) => pins.value.includes(run);
@@ -57,6 +125,7 @@ function drawing() {
   return svg(
     "svg",
     { width, height: HEIGHT, viewBox: `0 0 ${width} ${HEIGHT}`, "aria-hidden": "true", class: "parallel" },
+    svg("path", { class: "line out", d: out.map(line).join("") }),
     svg("path", {
       class: "line",
       d: of((run) => !front.value.has(run) && !isPinned(run)),
@@ -76,6 +145,13 @@ function drawing() {
         label(26, [more.join(", "), scale.unit].filter(Boolean).join(", "), "unit"),
         label(TOP - 6, text(most)),
         label(HEIGHT - BOTTOM + 14, text(least)),
+        ...rangeOn(x(k), ranges.value[c.name]?.map((v) => y(k, v)), (from, to) =>
+          keepRange(
+            c.name,
+            Math.abs(from - to) < LEAST
+              ? null
+              : [valueOf(k, Math.max(from, to)), valueOf(k, Math.min(from, to))],
+          )),
       ];
     }),
   );
@@ -109,6 +185,7 @@ export function parallelCard() {
             : "the runs of the table",
       ),
     ),
+    h("p", { class: "range-line muted" }, rangeLine),
     place,
   );
 }

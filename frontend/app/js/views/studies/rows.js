@@ -12,6 +12,13 @@ export const filter = signal({
   least: /** @type {number | null} */ (null),
   most: /** @type {number | null} */ (null),
 });
+/** Ranges drawn on the axes of the parallel coordinates: column -> both ends in SI; a run must lie in all of them. */
+export const ranges = signal(/** @type {Record<string, [number, number]>} */ ({}));
+/** @param {string} name @param {[number, number] | null} range null: all runs again */
+export function keepRange(name, range) {
+  const { [name]: _old, ...others } = ranges.peek();
+  ranges.value = range ? { ...others, [name]: range } : others;
+}
 /** Numbers of runs that are compared, the first of them with the others. */
 export const pins = signal(/** @type {number[]} */ ([]));
 export const MOST_PINS = 5;
@@ -28,9 +35,14 @@ export const places = computed(() => {
   const now = shown.value;
   if (!now) return [];
   const { name, least, most } = filter.value, { name: by, descending } = sorting.value;
-  const tested = now.table[name];
+  const tested = now.table[name], drawn = Object.entries(ranges.value);
   const passes = (/** @type {number} */ i) => {
     const v = tested?.[i];
+    const isOut = drawn.some(([column, [from, to]]) => {
+      const value = now.table[column]?.[i];
+      return typeof value !== "number" || value < from || value > to;
+    });
+    if (isOut) return false;
     if (!tested || (least === null && most === null)) return true;
     return typeof v === "number" && (least === null || v >= least) && (most === null || v <= most);
   };
@@ -67,5 +79,6 @@ export const startRows = () =>
     if (stage.value !== "running") return;
     pins.value = [];
     filter.value = { name: "", least: null, most: null };
+    ranges.value = {};
     sorting.value = { name: "run", descending: false };
   });
