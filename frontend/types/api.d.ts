@@ -301,6 +301,8 @@ export interface components {
       parts: components["schemas"]["ResidualPart"][];
       /** Autocorrelation and runs of the residual: does it look like noise? */
       whiteness: components["schemas"]["WhitenessAnswer"];
+      /** Correlation of the residual with the input that drove the test, of rows with times. */
+      cross: components["schemas"]["CrossCorrelationAnswer"][];
       /** Loops of the force residual, with the energy that the model misses. */
       loops: components["schemas"]["Loop"][];
       /** Where the model fails, as sentences. */
@@ -690,6 +692,21 @@ export interface components {
       names: string[];
       /** Products of their SI units, one row per name. */
       matrix: number[][];
+    };
+    /** Correlation of the residual of a channel with the input of the test. */
+    CrossCorrelationAnswer: {
+      /** The predicted channel. */
+      channel: string;
+      /** Name of the input. */
+      input: string;
+      /** Rows by which the residual comes after the input; negative: before. */
+      lags: number[];
+      /** At each lag, -1 to 1. */
+      correlation: (number | null)[];
+      /** Half-width of the 95 % band of a residual independent of the input. */
+      band: number;
+      /** Share of the lags outside the band. */
+      outside: number;
     };
     /** Force over pressure and contraction. */
     CurveColumns: {

@@ -85,6 +85,10 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     assert best.get_attribute("data-candidate") in hidden
     sketch = best.locator("svg.sketch[role=img]")
     expect(sketch).to_have_attribute("aria-label", re.compile(r"^Over time: the (pressure|stroke) that "))
+    page.keyboard.press("Escape")
+    page.get_by_role("button", name="Input: correlation of the residual with the input").click()
+    expect(page.locator(".brush-line")).to_contain_text(re.compile(r"\d+ of 51 lags outside the 95 % band"))
+    expect(page.locator("#residual .trace .point").first).to_be_attached()
     # A part of the time asks what would cause it: each channel is answered in its unit.
     page.locator(".heat [data-at='1,0']").click()
     told = page.locator(".found-missing .inside").first
@@ -233,6 +237,9 @@ def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePaylo
     expect(page.locator("#white")).to_contain_text("not only noise")
     expect(page.locator("#residual .trace .point").first).to_be_attached()
     expect(page.locator(".brush-handle").first).to_be_hidden()
+    page.get_by_role("button", name="Input: correlation of the residual with the input").click()
+    expect(page.locator(".brush-line")).to_contain_text("sweeps of at least 100 rows")  # these have 60
+    expect(page.locator("#residual")).to_be_hidden()
     page.get_by_role("button", name="Area of each loop of the residual").click()
     # Friction alone takes 2 F per way out of a cycle, whatever else the model lacks.
     told = page.locator(".brush-line")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -35,6 +36,7 @@ from mckibben.identification.fit.comparison import (
 )
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.predict.specimens import own_muscle
+from mckibben.identification.residual.cross import CrossCorrelation, cross_correlation
 from mckibben.identification.residual.digits import brief
 from mckibben.identification.residual.parts import ResidualPart, residual_parts
 from mckibben.identification.residual.profiles import (
@@ -91,7 +93,7 @@ class ComparisonResult:
         channels: each channel where there are several.
         parameters, correlations: of the model; of its fit.
         geometry: of the muscle, fitted where it was freed.
-        where, heat_map, whiteness, loops, sentences: where the model fails, in figures and words.
+        where, heat_map, whiteness, cross, loops, sentences: where the model fails, in figures and words.
         parts: what the squared residual is made of; the shares add up to 1.
         series: the points, at most 400 per curve.
         validation: the error for other data.
@@ -127,6 +129,7 @@ class ComparisonResult:
     heat_map: ResidualMap | None
     parts: list[ResidualPart]
     whiteness: Whiteness
+    cross: list[CrossCorrelation]
     loops: list[ResidualLoop]
     sentences: list[str]
     series: list[ComparedSeries]
@@ -227,6 +230,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         heat_map=heat_map(residual, variables),
         parts=residual_parts(residual, variables),
         whiteness=white,
+        cross=_cross(comparison, residual, variables),
         loops=_loops(comparison, residual),
         sentences=_sentences(where, white, predictor.unit),
         series=series,
@@ -242,6 +246,22 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         absorbed=list(comparison.absorbed),
     )
     return Compared(result, comparison, data)
+
+
+def _cross(
+    comparison: Comparison, residual: Array, variables: Mapping[str, np.ndarray]
+) -> list[CrossCorrelation]:
+    """Correlation of each channel's residual with its input, for rows in the order of time."""
+    predictor = comparison.predictor
+    if "time" not in predictor.inputs:
+        return []
+    found = []
+    for channel in predictor.channels:
+        inside = np.zeros(len(residual), dtype=bool)
+        inside[channel.rows] = True
+        sweeps = [rows for rows in predictor.sweeps if inside[rows[0]]]
+        found.append(cross_correlation(channel.name, residual, variables, sweeps))
+    return [one for one in found if one is not None]
 
 
 def _loops(comparison: Comparison, residual: Array) -> list[ResidualLoop]:

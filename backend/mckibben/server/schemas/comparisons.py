@@ -203,6 +203,17 @@ class WhitenessAnswer(Strict):
     white: bool = Field(description="Few lags are outside the band, and the number of runs is that of noise.")
 
 
+class CrossCorrelationAnswer(Strict):
+    """Correlation of the residual of a channel with the input of the test."""
+
+    channel: str = Field(description="The predicted channel.")
+    input: str = Field(description="Name of the input.")
+    lags: list[int] = Field(description="Rows by which the residual comes after the input; negative: before.")
+    correlation: Series = Field(description="At each lag, -1 to 1.")
+    band: float = Field(description="Half-width of the 95 % band of a residual independent of the input.")
+    outside: float = Field(description="Share of the lags outside the band.")
+
+
 class Loop(Strict):
     """Area of the force residual over a closed path: energy dissipation that the model misses."""
 
@@ -249,6 +260,9 @@ class ComparisonAnswer(Strict):
     parts: list[ResidualPart] = Field(description="What the squared residual is made of.")
     whiteness: WhitenessAnswer = Field(
         description="Autocorrelation and runs of the residual: does it look like noise?"
+    )
+    cross: list[CrossCorrelationAnswer] = Field(
+        description="Correlation of the residual with the input that drove the test, of rows with times."
     )
     loops: list[Loop] = Field(
         description="Loops of the force residual, with the energy that the model misses."

@@ -18,6 +18,7 @@ const TABS = [
   "time",
   "histogram",
   "autocorrelation",
+  "cross",
   "loops",
 ];
 export const MOST_FILES = 16, MOST_PINS = 6;

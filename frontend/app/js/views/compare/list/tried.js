@@ -126,7 +126,7 @@ export function triedFold() {
         entries.value.length
           ? `not needed beside ${entries.value.length > 1 ? "those" : "the one"} above`
           : state.value === "adequate"
-          ? "none lowers the error by more than chance"
+          ? "none helps beyond chance"
           : useful
           ? `the best alone leaves ${errorText(best, a?.unit ?? "N", a?.predicted ?? "force", units.value)}`
           : "none lowers the error by 1 %",

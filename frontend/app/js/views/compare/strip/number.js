@@ -145,7 +145,7 @@ export function errorNumber() {
         id: "error-now",
         hidden: () => at.value === null,
       },
-      () => at.value === null ? "–" : asText(at.value, false),
+      h("span", { class: "num" }, () => at.value === null ? "–" : asText(at.value, false)),
       h("u", null, () => `\u00a0${unit()}`),
     ),
     h("p", { class: "big none", hidden: () => at.value !== null }, "–"),

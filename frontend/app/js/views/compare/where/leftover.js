@@ -15,7 +15,7 @@ import { channelScale, errorText, rmsInside } from "../words.js";
 
 const BINS = 31;
 /** Room on the right for the name of a band. */
-const FOR_LABEL = 1.14;
+export const FOR_LABEL = 1.14;
 /** Standard deviations of the band of the noise. */
 const BAND = 2;
 
@@ -76,7 +76,7 @@ function histogramSpec(v, p) {
 }
 
 /** Sticks from zero, one line in pieces. @param {[number, number][]} ends */
-const sticks = (ends) => ({
+export const sticks = (ends) => ({
   x: ends.flatMap(([x]) => [x, x, null]),
   y: ends.flatMap(([, y]) => [0, y, null]),
 });

@@ -55,7 +55,7 @@ export const over = computed(() => {
 });
 
 /** Tabs of the residual that are not over a variable. */
-const WHOLE = new Set(["histogram", "autocorrelation", "loops"]);
+const WHOLE = new Set(["histogram", "autocorrelation", "cross", "loops"]);
 
 /** The tab of the residual plot; variables that do not change in the data have none. */
 export const residualOver = computed(() => {

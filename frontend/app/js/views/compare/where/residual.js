@@ -14,6 +14,7 @@ import { brushLayer } from "./brush-layer.js";
 import { brush, lookCompare, shown, stale } from "../answers.js";
 import { pinned } from "../pinned.js";
 import { channel, channels, residualOver, residuals, variables, viewOf } from "./pictures.js";
+import { crossCorrelation } from "./cross.js";
 import { autocorrelation, histogram, loops } from "./leftover.js";
 import { partsBar } from "./parts.js";
 import { scale } from "./scale.js";
@@ -32,6 +33,7 @@ const TABS = [
   ["time", "Time", "Residual over time"],
   ["histogram", "Histogram", "Histogram: how often each size of residual occurs"],
   ["autocorrelation", "Autocorrelation", "Autocorrelation of the residual"],
+  ["cross", "Input", "Input: correlation of the residual with the input of the test"],
   ["loops", "Loops", "Loops: area of each loop of the residual"],
 ];
 
@@ -70,6 +72,7 @@ const picture = () => {
   const a = shown.value, x = residualOver.value;
   if (!a || x in VARIABLES) return null;
   if (x === "autocorrelation") return autocorrelation(a);
+  if (x === "cross") return crossCorrelation(a, channel.value);
   if (x === "loops") return loops(a, units.value);
   const v = viewOf(channel.value, "contraction");
   return v && histogram(v);

@@ -1,0 +1,84 @@
+// @ts-check
+// The correlation of the residual with the input of the test: after the input it shows what the model misses of how
+// the input acts, before it that the input follows the muscle.
+import { h } from "../../../dom.js";
+import { readable } from "../../../format.js";
+import { FOR_LABEL, sticks } from "./leftover.js";
+
+/** @typedef {import("../../../plots/chart.js").Spec} Spec */
+/** @typedef {import("../../../plots/chart.js").Trace} Trace */
+/** @typedef {import("../../../plots/theme.js").Palette} Palette */
+/** @typedef {import("../types.js").Comparison} Comparison */
+/** @typedef {Comparison["cross"][number]} Cross */
+
+/** Share of the lags that are outside the band by chance, and from which on there are more. */
+const CHANCE = 0.05, MORE = 0.15;
+
+/** @param {Comparison} a @param {string} channel @returns {import("./leftover.js").Picture} */
+export function crossCorrelation(a, channel) {
+  const found = a.cross.find((one) => one.channel === channel);
+  if (!found) {
+    return {
+      spec: null,
+      words: [
+        "No correlation with an input: it takes times, sweeps of at least 100 rows, and a pressure, command, load or " +
+        "contraction that varies within them.",
+      ],
+    };
+  }
+  const total = found.lags.length, out = Math.round(found.outside * total);
+  const before =
+    found.correlation.filter((r, i) => found.lags[i] < 0 && Math.abs(r ?? 0) > found.band).length;
+  const where = out > before
+    ? `${out - before} after the input, ${before} before it`
+    : `all before the input`;
+  return {
+    spec: (p) => spec(found, p),
+    words: [
+      h(
+        "b",
+        { id: "cross-words" },
+        found.outside <= MORE
+          ? "The residual does not follow the input: "
+          : `The residual follows the input, ${readable(found.input)}: `,
+      ),
+      `${out} of ${total} lags outside the 95 % band${out ? `, ${where}` : ""} (${
+        Math.round(CHANCE * total)
+      } by chance).`,
+    ],
+  };
+}
+
+/** @param {Cross} found @param {Palette} p @returns {Spec} */
+function spec({ lags, correlation, band, input }, p) {
+  const ends = lags.map((lag, i) => /** @type {[number, number]} */ ([lag, correlation[i] ?? 0]));
+  const size = Math.min(1.05, 1.15 * Math.max(band, ...ends.map(([, r]) => Math.abs(r))));
+  /** @param {string} id @param {boolean} beyond @param {string} color @returns {Trace[]} */
+  const set = (id, beyond, color) => {
+    const some = ends.filter(([, r]) => Math.abs(r) > band === beyond);
+    if (!some.length) return [];
+    return [
+      { id: `${id}-stick`, ...sticks(some), line: { color, width: 3 }, column: `${id} the band` },
+      {
+        id,
+        x: some.map(([lag]) => lag),
+        y: some.map(([, r]) => r),
+        marker: { size: 7, symbol: beyond ? "diamond" : "circle", color },
+      },
+    ];
+  };
+  return {
+    x: {
+      title: `Residual after the ${readable(input)} (rows)`,
+      range: [lags[0] - 1, FOR_LABEL * (lags.at(-1) ?? 1)],
+    },
+    y: { title: "Correlation", range: [-size, size] },
+    traces: [...set("inside", false, p.soft), ...set("outside", true, p.load)],
+    zones: [{ x: null, y: [-band, band], text: "95 % of independent" }],
+    revision: `cross${input}${lags.length}`,
+    table: {
+      columns: [{ title: "lag", unit: "rows" }, { title: "correlation" }, { title: "band" }],
+      rows: ends.map(([lag, r]) => [lag, r, band]),
+    },
+  };
+}
