@@ -78,9 +78,10 @@ function fitOf(a) {
   const share = fitPercent(allSeries(a).filter((s) => s.use !== "validation"));
   return share === null
     ? null
-    : h("small", { class: "fit", title: FIT }, `\u00a0${share.toFixed(1).replace("-", "−")}\u00a0%`);
+    : h("small", { class: "fit", title: FIT }, `\u00a0${share < 0 ? "< 0" : share.toFixed(1)}\u00a0%`);
 }
-const FIT = "Fit: share of the measured variation that the model explains, 100 % is perfect";
+const FIT =
+  "Fit: 100 % is perfect, 0 % as good as the mean of the measured values, below 0 % worse than that mean";
 
 /** What the signs mean; lines that can be drawn or not are buttons. */
 function legend() {
