@@ -161,7 +161,7 @@ def test_the_map_is_dark_when_bad_and_plain_when_solved_and_the_parts_add_up(
     expect(page.locator(".heat .half[data-way='□']").first).to_be_visible()  # the directions disagree
     parts = page.get_by_role("list", name="What the squared residual is made of")
     shares = [int(one) for one in re.findall(r"(\d+)\s%", parts.inner_text())]
-    assert sum(shares) == pytest.approx(100, abs=2)
+    assert sum(shares) == 100
     changed(page, page.locator("#add-all").click)
     expect(page.locator(".heat .half[data-way]")).to_have_count(0)
     solved = depths(page)

@@ -40,7 +40,7 @@ function likeness(e) {
 function smallPicture(e) {
   const found = near.value.has(e.id) ? usual(e.id)?.pictures : null;
   const one = found?.find((p) => p.kind === seen.value?.kind) ?? found?.[0];
-  return one ? picture(one, e.title) : h("div", { class: "signature-place" });
+  return one ? picture(one, e.title) : h("i", { class: "bone signature-place", "aria-hidden": "true" });
 }
 
 /** @param {Effect} e @param {IntersectionObserver} watch */

@@ -26,10 +26,21 @@ function nameOf(of, share, a) {
   return `follows ${VARIABLES[of]?.title.toLowerCase() ?? readable(of)}`;
 }
 
+/** Whole percents that add up to 100: the largest remainders are rounded up. @param {number[]} shares */
+export function percents(shares) {
+  const sum = shares.reduce((all, one) => all + one, 0);
+  const exact = shares.map((one) => (100 * one) / sum), whole = exact.map(Math.floor);
+  const left = 100 - whole.reduce((all, one) => all + one, 0);
+  const order = [...exact.keys()].sort((i, k) => (exact[k] - whole[k]) - (exact[i] - whole[i]));
+  for (const i of order.slice(0, left)) whole[i]++;
+  return whole;
+}
+
 /** @param {Comparison} a */
 function bar(a) {
   const parts = (a.parts ?? []).filter((part) => part.share >= LEAST);
   if (!parts.length) return null;
+  const texts = percents(parts.map((part) => part.share));
   return [
     h(
       "div",
@@ -40,12 +51,12 @@ function bar(a) {
       "ul",
       { class: "parts-key", "aria-label": "What the squared residual is made of" },
       h("li", null, "The squared residual is"),
-      ...parts.map((part) =>
+      ...parts.map((part, i) =>
         h(
           "li",
           null,
           h("i", { "data-part": part.of }),
-          h("b", null, `${Math.round(100 * part.share)} %`),
+          h("b", null, `${texts[i]} %`),
           ` ${nameOf(part.of, part.share, a)}`,
         )
       ),
