@@ -195,6 +195,13 @@ def test_a_term_by_hand_is_checked_fitted_changed_and_removed(
     expect(page.get_by_role("button", name="Add a term of your own…")).to_be_visible()
 
 
+PLANNED = """
+const { plan } = await import("/js/views/compare/list/unknown.js");
+const { diagnosis } = await import("/js/views/compare/answers.js");
+return plan({ ...diagnosis.peek(), not_tried: argument }).map(({ what }) => what);
+"""
+
+
 @pytest.mark.examination(
     "tests/identification/diagnose/test_diagnosis.py::test_a_ripple_is_an_unknown_effect_told_with_its_place_but_without_a_formula"
 )
@@ -209,6 +216,13 @@ def test_what_no_effect_explains_is_told_with_its_place_and_a_term_by_hand_expla
     expect(page.locator(".strip")).to_have_attribute("data-state", "unknown")
     expect(page.locator("#next-what")).to_contain_text("ε")
     expect(page.locator("#next-action")).to_have_text("Copy plan")
+    # Where rows without times keep effects from being tried, times are asked for.
+    reason = "it depends on what happened before, and the rows have no time"
+    assert run(page, PLANNED, [{"effect": "coulomb_friction", "why": reason}]) == [
+        "Repeat contraction 8.8 to 10.8 % in finer steps",
+        "Record the time of each row",
+        "Repeat the whole run with the clamps turned or the sensor exchanged",
+    ]
     assert violations(page) == []
     start = error(page)
     left = page.get_by_role("region", name="What is left")

@@ -13,8 +13,30 @@ import { termPlot } from "./term-plot.js";
 
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
 
-/** What to measure next, each with what it shows. @param {Diagnosis} result */
-export function plan({ verdict }) {
+/** How the server says why an effect was not tried to rows without times. */
+const NO_TIME = /the rows have no time$/;
+/** Names of effects that a line has room for. */
+const MOST_NAMES = 3;
+
+/** Without times no direction of motion is known, and what depends on it or on the past cannot be tried.
+ * @param {Diagnosis} result */
+function timesFirst({ not_tried: left }) {
+  const names = left.filter(({ why }) => NO_TIME.test(why)).map(({ effect }) => titleOf(effect));
+  const more = names.length - MOST_NAMES;
+  return names.length
+    ? [{
+      what: "Record the time of each row",
+      why: `Without it no direction of motion is known, and what depends on the past was not tried: ${
+        names.slice(0, MOST_NAMES).join(", ")
+      }${more > 0 ? ` and ${more} more` : ""}.`,
+    }]
+    : [];
+}
+
+/** What to measure next, each with what it shows; `brief`: in few words, for the strip.
+ * @param {Diagnosis} result @returns {{what: string, why: string, brief?: string}[]} */
+export function plan(result) {
+  const { verdict } = result;
   const steps = verdict.experiments.map((e) => ({
     what: e.pair.map(titleOf).join(" or "),
     why: tellingText({ ...e, minutes: null }),
@@ -24,8 +46,10 @@ export function plan({ verdict }) {
     ...(look
       ? [{ what: `Repeat ${where(look)} in finer steps`, why: "Shows the shape of what is left." }]
       : []),
+    ...timesFirst(result),
     {
       what: "Repeat the whole run with the clamps turned or the sensor exchanged",
+      brief: "Repeat the run with the clamps turned",
       why: "What moves with them belongs to the rig, what stays to the muscle.",
     },
     ...steps,
@@ -38,12 +62,12 @@ const where = (text) =>
 
 /** In few words, for the strip. @param {Diagnosis} result */
 export const nextMeasurement = (result) => {
-  const look = result.verdict.where_to_look;
+  const look = result.verdict.where_to_look, [first] = plan(result);
   return look
     ? `Measure ${
       where(look).split(" and ")[0].replace(/^contraction /, "ε ").replace(/ (?=\S+$)/, "\u00a0")
     } again`
-    : capitalized(plan(result)[0].what);
+    : capitalized(first.brief ?? first.what);
 };
 
 /** @param {Diagnosis} result */

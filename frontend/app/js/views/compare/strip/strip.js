@@ -110,7 +110,11 @@ function nextCell() {
       h(
         "div",
         null,
-        h("p", { class: "do", id: "next-what", title: () => next.value.what }, () => next.value.what),
+        h(
+          "p",
+          { class: "do", id: "next-what", title: () => next.value.what },
+          h("span", null, () => next.value.what),
+        ),
         h(
           "p",
           { class: "eff", title: () => next.value.effect },
