@@ -113,7 +113,7 @@ function nextCell() {
         h(
           "p",
           { class: "do", id: "next-what", title: () => next.value.what },
-          h("span", null, () => next.value.what),
+          () => h("span", null, next.value.what),
         ),
         h(
           "p",
