@@ -56,5 +56,10 @@ def test_an_input_that_is_held_and_short_sweeps_have_none() -> None:
     found = cross_correlation("force", residual, moving, SWEEPS)
     assert found is not None
     assert found.input == "contraction"
+    # What is not known in every row, and the predicted quantity itself, are no input.
+    gaps = moving | {"load": np.where(np.arange(ROWS) == 7, np.nan, moving["contraction"])}
+    found = cross_correlation("pressure", residual, gaps | {"pressure": residual}, SWEEPS)
+    assert found is not None
+    assert found.input == "contraction"
     short = np.split(np.arange(ROWS), 40)
     assert cross_correlation("force", residual, moving, short) is None

@@ -51,8 +51,9 @@ def cross_correlation(
         sweeps: indices of the rows of each sweep in the order of time.
     """
     long = [rows for rows in sweeps if len(rows) >= _LEAST * _LAGS]
-    name = next((one for one in INPUTS if one in inputs and _varies(inputs[one], long)), None)
-    if name is None or channel == name:
+    others = [one for one in INPUTS if one in inputs and one != channel]
+    name = next((one for one in others if _varies(inputs[one], long)), None)
+    if name is None:
         return None
     ends = [_centred(residual[rows]) for rows in long]
     begins = [_centred(inputs[name][rows]) for rows in long]
@@ -65,6 +66,9 @@ def cross_correlation(
 
 
 def _varies(values: np.ndarray, sweeps: Sequence[np.ndarray]) -> bool:
+    """Whether an input is known in all rows and not held within the sweeps."""
+    if not all(np.all(np.isfinite(values[rows])) for rows in sweeps):
+        return False
     largest = max((float(np.max(np.abs(values[rows]))) for rows in sweeps), default=0.0)
     return any(float(np.ptp(values[rows])) > _VARIES * largest for rows in sweeps)
 

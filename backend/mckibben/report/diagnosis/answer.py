@@ -87,12 +87,12 @@ def _verdict(material: DiagnosisMaterial) -> Html:
     answer, diagnosis = material.comparison, material.diagnosis
     scale = error_scale(answer)
     counted = answer.rmse if diagnosis is None else diagnosis.path[0].rmse
-    name = (
-        "RMS error of the model" if counted > _SAME * answer.rmse else "RMS error beyond the accuracy stated"
-    )
+    of_readings = "" if counted > _SAME * answer.rmse else " beyond the accuracy of the readings"
+    name = f"RMS error of the model{of_readings}"
     figures: list[tuple[Child, Child]] = [(name, figure(counted, scale, 3))]
     if answer.nrmse_percent is not None and scale != TIMES_NOISE:
-        figures.append(("… of the largest value", percent(answer.nrmse_percent / 100.0, 3)))
+        share = answer.nrmse_percent / 100.0 * (counted / answer.rmse if answer.rmse > 0.0 else 1.0)
+        figures.append(("… of the largest value", percent(share, 3)))
     if diagnosis is None:
         parts = [callout("Comparison", f"{sentence}.") for sentence in answer.sentences[-1:]]
         figures.append(("Noise of the data", figure(answer.noise_floor, scale, 3)))

@@ -93,7 +93,7 @@ export function settling(was) {
       ),
     ),
     openChoices(),
-    covered(was),
+    h("div", { class: "settling", "aria-hidden": "true" }, covered(was)),
   ];
 }
 

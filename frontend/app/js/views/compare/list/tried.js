@@ -101,10 +101,10 @@ function whyNone(best) {
   return h(
     "p",
     { class: "why" },
-    `Alone the best of them leaves ${
-      text(best)
-    }${less}. The effects above were chosen together: beside them none of `,
-    "these lowers the error by more than chance.",
+    `Alone the best of them leaves ${text(best)}${less}. `,
+    entries.value.length > 1
+      ? "The effects above were chosen together: beside them none of these lowers the error by more than chance."
+      : "Beside the effect above none of these lowers the error by more than chance.",
   );
 }
 
