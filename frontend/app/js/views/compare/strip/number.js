@@ -145,8 +145,8 @@ export function errorNumber() {
         id: "error-now",
         hidden: () => at.value === null,
       },
-      h("span", { class: "num" }, () => at.value === null ? "–" : asText(at.value, false)),
-      h("u", null, () => `\u00a0${unit()}`),
+      // Written anew with each number: a unit that is pushed aside by it would be a shift of the layout.
+      () => [at.value === null ? "–" : asText(at.value, false), h("u", null, `\u00a0${unit()}`)],
     ),
     h("p", { class: "big none", hidden: () => at.value !== null }, "–"),
     h(

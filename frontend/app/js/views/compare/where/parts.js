@@ -51,14 +51,16 @@ function bar(a) {
       "ul",
       { class: "parts-key", "aria-label": "What the squared residual is made of" },
       h("li", null, "The squared residual is"),
-      ...parts.map((part, i) =>
-        h(
-          "li",
-          null,
-          h("i", { "data-part": part.of }),
-          h("b", null, `${texts[i]} %`),
-          ` ${nameOf(part.of, part.share, a)}`,
-        )
+      ...parts.flatMap((part, i) =>
+        texts[i]
+          ? [h(
+            "li",
+            null,
+            h("i", { "data-part": part.of }),
+            h("b", null, `${texts[i]} %`),
+            ` ${nameOf(part.of, part.share, a)}`,
+          )]
+          : []
       ),
     ),
   ];
