@@ -30,8 +30,9 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.hangers import add_hanger
 from mckibben.measurement.read.head_text import channel_number, without_paths
-from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
+from mckibben.measurement.read.header import Meaning, map_headers
 from mckibben.measurement.read.held_by_text import hold_pressure, hold_stroke
+from mckibben.measurement.read.plain_head import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.recognise import recognise

@@ -10,10 +10,10 @@ from itertools import islice
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import Grid
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import plainly_known
 from mckibben.measurement.read.held import HeldQuantity, held_quantities
 from mckibben.measurement.read.locate import Run, TableHead, texts_of
 from mckibben.measurement.read.map_axes import axes_of_map, value_of_map
+from mckibben.measurement.read.plain_head import plainly_known
 from mckibben.measurement.read.qualified import qualified_groups, without_way
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.values import GAP, NUMBER, TEXT, kind_of

@@ -15,8 +15,8 @@ from mckibben.measurement.read.constants import constant_questions
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, bare_name
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import HeaderColumn
 from mckibben.measurement.read.physical_checks import context_questions, physical_questions
+from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.read.propose import KNOWN_REASONS, PROPOSED
 from mckibben.measurement.read.questions import column_option, ignore_option

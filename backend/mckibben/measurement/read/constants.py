@@ -13,7 +13,8 @@ from mckibben.measurement.read.conditions import CONDITION_UNITS, Constant, Note
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import WEIGHTS, HeaderColumn, Meaning
+from mckibben.measurement.read.header import Meaning
+from mckibben.measurement.read.plain_head import WEIGHTS, HeaderColumn
 from mckibben.measurement.read.recognise import BY_WORDS
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import NAME, in_known_words, notes_of_code

@@ -8,7 +8,7 @@ from numpy.typing import NDArray
 from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.evidence import Array, Evidence, bare_name
-from mckibben.measurement.read.header import HeaderColumn
+from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH
 from mckibben.measurement.read.questions import column_option
 from mckibben.measurement.read.signs import SHORTENING_POSITIVE, STROKE_SIGN

@@ -11,8 +11,9 @@ from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.read.conditions import read_conditions
 from mckibben.measurement.read.evidence import is_numeric
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import HeaderColumn, Meaning
+from mckibben.measurement.read.header import Meaning
 from mckibben.measurement.read.physical_checks import mostly_negative, runs_against
+from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible
 from mckibben.measurement.read.recognise import BY_UNIT
 from mckibben.measurement.read.source import RawTable
