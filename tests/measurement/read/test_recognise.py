@@ -69,7 +69,8 @@ NONE_OF_OURS = {
 def test_why_a_head_is_no_channel(head: str) -> None:
     found = recognise(head)
     assert found.channel is None
-    assert NONE_OF_OURS[head] in found.why
+    assert found.left_out is not None
+    assert NONE_OF_OURS[head] in found.left_out.text
 
 
 def test_units_that_stand_apart() -> None:

@@ -32,6 +32,7 @@ from mckibben.measurement.read.hangers import add_hanger
 from mckibben.measurement.read.head_text import channel_number, without_paths
 from mckibben.measurement.read.header import Meaning, map_headers
 from mckibben.measurement.read.held_by_text import hold_pressure, hold_stroke
+from mckibben.measurement.read.left_out import UNKNOWN, Reason
 from mckibben.measurement.read.plain_head import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
@@ -307,19 +308,20 @@ def _undecided(source: RawTable, meaning: Meaning) -> tuple[str, ...]:
         header or f"column {index + 1}"
         for index, header in enumerate(source.headers)
         if index not in used
-        and (known := recognise(names[index], units[index])).undecided
-        and meaning.reasons.get(index, known.why) == known.why
+        and (known := recognise(names[index], units[index]).left_out) is not None
+        and known.reason in (Reason.UNKNOWN, Reason.RAW)
+        and meaning.reasons.get(index, known) == known
     )
 
 
 def _why_unread(meaning: Meaning, index: int) -> str:
     if index in meaning.reasons:
-        return meaning.reasons[index]
+        return meaning.reasons[index].text
     if index in meaning.problems:
         return meaning.problems[index].message
     if any(column.place == index for column in meaning.columns):
         return "its cells do not fit its name"
-    return "its name is not known"
+    return UNKNOWN.text
 
 
 def stated_values(

@@ -15,10 +15,11 @@ from mckibben.measurement.read.constants import constant_questions
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, bare_name
 from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.left_out import FINAL, Reason
 from mckibben.measurement.read.physical_checks import context_questions, physical_questions
 from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible, median_step, proposal
-from mckibben.measurement.read.propose import KNOWN_REASONS, PROPOSED
+from mckibben.measurement.read.propose import PROPOSED
 from mckibben.measurement.read.questions import column_option, ignore_option
 from mckibben.measurement.read.raw_signals import raw_questions
 from mckibben.measurement.read.recognise import BY_WORDS
@@ -192,11 +193,12 @@ def _unread(evidence: Evidence) -> list[Question]:
         channel = "force" if header == UNNAMED else _CARRIES.get(dimension_of(head.unit))
         if dimension_of(head.unit) == "a mass" and "force" not in filled:
             channel = "force"  # a scale pulled by the muscle; beside a force it may be anything
-        reason = meaning.reasons.get(index, "")
-        if channel is None or any(known in reason for known in KNOWN_REASONS):
+        left_out = meaning.reasons.get(index)
+        reason = Reason.UNKNOWN if left_out is None else left_out.reason
+        if channel is None or reason in FINAL:
             continue
         is_filled = channel in filled or (channel == "length" and bool(filled & set(STROKES)))
-        if "a set value" in reason and is_filled:
+        if reason is Reason.SET_VALUE and is_filled:
             continue
         name = head.name or header or f"column {index + 1}"
         target = "displacement" if channel == "length" else channel
@@ -211,7 +213,7 @@ def _unread(evidence: Evidence) -> list[Question]:
             Question(
                 f"column '{name}'",
                 f"{evidence.noun} '{header or name}' is in {head.unit or 'no unit'} and is not read"
-                f"{' (' + reason + ')' if reason else ''}{doubt}",
+                f"{'' if left_out is None else f' ({left_out.text})'}{doubt}",
                 f"{ignore_option(name)} or {column_option(target, name)}",
                 header or name,
                 choices=("ignore", *others),

@@ -12,6 +12,7 @@ from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.conditions import Constant
 from mckibben.measurement.read.correction import Choice
 from mckibben.measurement.read.head_text import taken_apart, without_paths
+from mckibben.measurement.read.left_out import DISMISSED, UNKNOWN, LeftOut, Reason
 from mckibben.measurement.read.plain_head import (
     MAX_HEADER,
     SYNONYMS,
@@ -42,7 +43,7 @@ class Meaning(NamedTuple):
     ignored: list[str]
     messages: list[str]
     problems: dict[int, InputError]
-    reasons: Mapping[int, str] = MappingProxyType({})
+    reasons: Mapping[int, LeftOut] = MappingProxyType({})
     rivals: tuple[tuple[HeaderColumn, HeaderColumn], ...] = ()
     dismissed: frozenset[int] = frozenset()
     constants: tuple[Constant, ...] = ()
@@ -74,7 +75,7 @@ def map_headers(
     """
     names = [header.strip() for header in headers]
     apart = [*units, *[None] * (len(names) - len(units))]
-    reasons: dict[int, str] = {}
+    reasons: dict[int, LeftOut] = {}
     where = place if row is None else f"{place}, row {row}"
     field = f"{noun}s" if row is None else f"row {row}"
     if not any(names):
@@ -91,7 +92,7 @@ def map_headers(
             if index in choices:
                 column = _chosen(index, header, choices[index], apart[index])
                 if column is None:
-                    reasons[index] = "you do not want it"
+                    reasons[index] = DISMISSED
             elif header and header.casefold() in seen and recognise(name, apart[index]).channel != "time":
                 raise InputError(
                     f"{where}, {noun} '{header[:MAX_HEADER]}': the name occurs twice",
@@ -108,7 +109,7 @@ def map_headers(
                     column = _in_other_words(index, name, apart[index], reasons, other, f"{where}, {noun}")
                     said = said if column is None else other
                 if column is None and said:
-                    reasons[index] = said[-1].partition(" is not used: ")[2] or reasons.get(index, "")
+                    reasons[index] = LeftOut(Reason.UNFIT, said[-1].partition(" is not used: ")[2])
                 messages += [text.replace(f"'{name}'", f"'{header}'") for text in said]
                 column = column if column is None else column._replace(header=header)
         except InputError as error:
@@ -134,7 +135,7 @@ def map_headers(
         winner = used.setdefault(column.use, column)
         if winner is not column:
             better = f"{column.use} is read from '{winner.header}'"
-            reasons[column.place] = better
+            reasons[column.place] = LeftOut(Reason.RIVAL, better)
             rivals.append((winner, column))
             messages.append(f"{noun} '{column.header}' is not used: {better}")
     if not collect and not any(use in CHANNEL_UNITS and use not in ("direction", "group") for use in used):
@@ -161,14 +162,14 @@ def _with(header: str, unit: str | None) -> str:
 
 
 def _in_other_words(
-    index: int, header: str, unit: str | None, reasons: dict[int, str], messages: list[str], where: str
+    index: int, header: str, unit: str | None, reasons: dict[int, LeftOut], messages: list[str], where: str
 ) -> HeaderColumn | None:
     """The column of a header that is not written the plain way; ``where`` it stands, for a refusal."""
     if not (header or unit) or len(header) > MAX_HEADER:
         return None
     known = recognise(header, unit)
     if known.channel is None:
-        reasons[index] = known.why
+        reasons[index] = known.left_out or UNKNOWN
         return None
     column = HeaderColumn(index, header, known.channel, known.unit, known.absolute, known.penalty)
     column = column._replace(extends=known.extends)

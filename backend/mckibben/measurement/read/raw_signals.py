@@ -9,6 +9,7 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.calibrations import is_raw_share
 from mckibben.measurement.read.evidence import Evidence
 from mckibben.measurement.read.head_text import is_voltage, taken_apart
+from mckibben.measurement.read.left_out import UNKNOWN, Reason
 from mckibben.measurement.read.questions import column_option
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.unit_words import BRIDGE, COUNT, FULL_SCALE, RAW_DIMENSIONS, dimension_of
@@ -30,7 +31,6 @@ _RAW_SPANS = {
     BRIDGE: "0 to 2 mV/V", FULL_SCALE: "0 to 100 %FS", "%": "0 to 100 %",
 }  # fmt: skip
 _CALIBRATED = tuple(dimension for dimension in RAW_DIMENSIONS if dimension != "a count")
-_UNKNOWN = "its name is not known"
 
 
 def raw_questions(evidence: Evidence) -> list[Question]:
@@ -139,8 +139,8 @@ def _strokes(evidence: Evidence) -> list[Question]:
             ]
     for index in _free(evidence):
         name, unit = _head(evidence, index)
-        reason = evidence.meaning.reasons.get(index, _UNKNOWN)
-        if unit is None and reason == _UNKNOWN and _span(evidence, index) is not None:
+        reason = evidence.meaning.reasons.get(index, UNKNOWN).reason
+        if unit is None and reason is Reason.UNKNOWN and _span(evidence, index) is not None:
             return [
                 Question(
                     "stroke",

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from mckibben.measurement.read.air import AIR, unit_of_air
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
 from mckibben.measurement.read.head_text import channel_number, taken_apart
+from mckibben.measurement.read.left_out import Reason
 from mckibben.measurement.read.limits import MAX_REMARKS
 from mckibben.measurement.read.signs import signs_of
 from mckibben.measurement.read.tares import reads_empty
@@ -63,7 +64,7 @@ _OWN_BEHIND = re.compile(
 _CLAUSE = re.compile(r"[;|]|[.,:](?!\d)\s")
 _BEFORE = frozenset(("mm", "cm", "kg", "bar", "mbar", "kPa", "MPa", "hPa", "psi", "kN", "lbf", "inch"))
 _VALUED = re.compile(rf"(?P<name>[^\W\d_]+)\s*(?:[=:]|is|was|ist|war)?\s*{_NUMBER}\s*(?:{_UNIT})")
-_OF_OTHER_AIR = ("the supply", "the surrounding air")
+_OF_OTHER_AIR = (Reason.SUPPLY, Reason.AIR)
 _POSITIONS = word_set(POSITION)
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
@@ -269,7 +270,7 @@ def _is_at_rest(words: Sequence[str]) -> bool:
 
 def _is_length_at_rest(behind: Sequence[str], *, lengthy: bool) -> bool:
     """Whether the words behind a length say so: "250 mm rest length", "is 250 mm long when unpressurised"."""
-    if any(other_quantity(word, "length") not in (None, "a length at rest") for word in behind):
+    if any(other_quantity(word, "length") not in (None, Reason.AT_REST) for word in behind):
         return False
     named = any(word in _LONG or channel_of_word(word) == "length" for word in behind)
     return bool((_is_at_rest(behind) and (lengthy or named)) or _REST_LENGTHS.search("".join(behind)))
