@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from mckibben.application.assumptions import Assumption, assumptions_of, refuse_assumptions
-from mckibben.application.experiment_drive import drive_values, own_document, own_drive
+from mckibben.application.experiment_drive import drive_values, own_document, own_drive, passed_stop
 from mckibben.application.specimens import Specimen, Specimens, specimens_of
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.start_model import StartModel
@@ -161,6 +161,8 @@ def resolved(
         _add_accuracy(one)
         for name, value in drive_values(one.measurement, one.values, model.drive, start).items():
             one.values.setdefault(name, value)
+        if (passed := passed_stop(one.measurement, one.values, start.muscle.nominal_length)) is not None:
+            one.remarks.append(passed)
     assumptions = assumptions_of([(one.measurement, one.values) for one in ones])
     if strict:
         for one in ones:

@@ -13,7 +13,7 @@ from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
-from mckibben.identification.predict import driven_by_pressure, lowest_stop
+from mckibben.identification.predict import driven_by_pressure, highest_stop, lowest_stop
 from mckibben.measurement.corrected import FROM_DRIVE
 from mckibben.measurement.experiment import FIELDS, LOAD_FORCE, ExperimentValue
 from mckibben.measurement.measurement import Measurement
@@ -77,21 +77,49 @@ def drive_values(
     if not (load is not None and load.arrangement == "antagonist"):
         angle = _angle(load) if load is not None else pi / 2.0
         add("inclination", angle, inclined)
+    values["stops"] = _stops(measurement, drive, start)
+    return values
+
+
+def _stops(measurement: Measurement, drive: DriveDocument | None, start: StartModel) -> ExperimentValue:
+    """The end stops that a document states, else those assumed: none where the record is beyond them."""
     stops = None if drive is None else drive.stops
+    said = drive is not None and "stops" in drive.model_fields_set
     low = 0.0 if stops is None else stops.min_contraction
     high = None if stops is None else stops.max_contraction
-    said = drive is not None and "stops" in drive.model_fields_set
-    limit = start.limits.max_contraction
-    place = "" if limit is None else "limit of the maker"
-    if not said and (seen := lowest_stop(measurement, start.muscle.nominal_length)) < 0.0:
-        low, place = seen, "; ".join(filter(None, ("lowest position of the record", place)))
-    add(
-        "stops",
-        f"{100.0 * low:.3g} % to {100.0 * (high or limit or _MAX_CONTRACTION):.3g} %",
-        said,
-        place=place,
+    places = []
+    if not said:
+        if (seen := lowest_stop(measurement, start.muscle.nominal_length)) < 0.0:
+            low = seen
+            places.append("lowest position of the record")
+        limit = start.limits.max_contraction or _MAX_CONTRACTION
+        bare = drive is None and "command" not in measurement.columns
+        high = highest_stop(measurement, start.muscle.nominal_length, None if bare else limit)
+        if high > limit:
+            places.append("no upper stop" if bare else f"the record passes {100.0 * limit:.3g} %")
+        elif start.limits.max_contraction is not None:
+            places.append("limit of the maker")
+    high = high or start.limits.max_contraction or _MAX_CONTRACTION
+    return ExperimentValue(
+        f"{100.0 * low:.3g} % to {100.0 * high:.3g} %", FIELDS["stops"].unit, "you" if said else "assumed",
+        FROM_DRIVE if said else "; ".join(places),
+    )  # fmt: skip
+
+
+def passed_stop(
+    measurement: Measurement, values: Mapping[str, ExperimentValue], rest_length: float
+) -> str | None:
+    """What is to be said of a stated upper stop that the record passes; None = it does not."""
+    stops = values.get("stops")
+    if measurement.kind != "transient" or stops is None or stops.origin == "assumed":
+        return None
+    high = stops_of(str(stops.value))[1]
+    if highest_stop(measurement, rest_length, high) <= high:
+        return None
+    return (
+        f"{measurement.name}: the record passes the stated end stop at {100.0 * high:.3g} % contraction, so "
+        "no upper stop is simulated; check the stop, the rest length and the zero of the stroke"
     )
-    return values
 
 
 def _angle(load: Any) -> float:
@@ -165,7 +193,8 @@ def own_drive(
         ) from error
     if "stops" not in document.model_fields_set:
         drive = replace(drive, min_contraction=lowest_stop(measurement, start.muscle.nominal_length))
-    return replace(drive, model=studio.static_model(start))
+    top = highest_stop(measurement, start.muscle.nominal_length, drive.max_contraction)
+    return replace(drive, model=studio.static_model(start), max_contraction=top)
 
 
 def _said(values: Mapping[str, ExperimentValue]) -> dict[str, ExperimentValue]:
@@ -240,5 +269,6 @@ def _bare(
         drive = replace(drive, load=replace(drive.load, inclination=float(said["inclination"].value)))
     if "stops" in said:
         low, high = stops_of(str(said["stops"].value))
-        drive = replace(drive, min_contraction=low, max_contraction=high)
+        top = highest_stop(measurement, start.muscle.nominal_length, high)
+        drive = replace(drive, min_contraction=low, max_contraction=top)
     return drive

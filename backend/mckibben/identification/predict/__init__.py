@@ -17,7 +17,7 @@ import numpy as np
 
 from mckibben.identification.predict.comparable_rows import comparable_rows
 from mckibben.identification.predict.moving import TransientPredictor
-from mckibben.identification.predict.moving_records import lowest_stop
+from mckibben.identification.predict.moving_records import highest_stop, lowest_stop
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.identification.predict.reading_errors import ReadingError
@@ -31,7 +31,7 @@ from mckibben.simulation.statics.model import StaticModel
 
 __all__ = [
     "PredictedChannel", "Predictor", "QuasistaticPredictor", "TransientPredictor", "driven_by_pressure",
-    "lowest_stop", "predictor_of",
+    "highest_stop", "lowest_stop", "predictor_of",
 ]  # fmt: skip
 
 _PRESSURE = 6e5  # Pa; required by the drive, but unused because the pressure is measured
@@ -113,5 +113,5 @@ def driven_by_pressure(measurement: Measurement, muscle: Muscle) -> Drive:
         duration=1.0,
         supply_pressure=_PRESSURE,
         min_contraction=lowest_stop(measurement, muscle.nominal_length),
-        max_contraction=0.4,
+        max_contraction=highest_stop(measurement, muscle.nominal_length, None),
     )

@@ -22,6 +22,9 @@ _FEW_LEVELS = 0.2  # share of rows at which the command changes, up to which it 
 _FIRST_ROWS = 50  # most rows for the start pressure
 _RESTING = 0.02  # share of the rows of a run for which a load rests at its lowest, at least
 _STRETCHED = 2e-3  # share of the rest length; less is a zero error of the sensor
+_PASSED = 5e-3  # of contraction; a record that goes further beyond a stop shows that none is there
+_OUT_OF_WAY = 0.4  # contraction of a stop that is not reached
+_ROOM = 1.1  # the same, over what was seen
 _NOT_VENTED = 30e3  # Pa from the documented start pressure; less may be a zero error of the gauge
 
 
@@ -92,6 +95,28 @@ def lowest_stop(measurement: Measurement, rest_length: float) -> float:
     if beyond < max(_STRETCHED * rest_length, 5.0 * noise_of(length)):
         return 0.0
     return -beyond / rest_length
+
+
+def highest_stop(measurement: Measurement, rest_length: float, stop: float | None) -> float:
+    """Contraction of the upper stop: ``stop``, or one that is not reached where the record passes it.
+
+    A stop is no obstacle where the muscle was seen beyond it, whoever stated it: simulated, it would hold
+    back what was measured, and effects would be invented for it.
+
+    Args:
+        measurement: of a transient.
+        rest_length: of the muscle [m].
+        stop: stated, or the limit of the maker; None = none.
+    """
+    free = _OUT_OF_WAY
+    if any(name in measurement.columns for name in STROKES):
+        length = lengths(measurement, rest_length)[measurement.usable]
+        if len(length):
+            seen = 1.0 - float(np.quantile(length, _RESTING)) / rest_length
+            free = max(free, _ROOM * seen)
+            if stop is not None and seen - stop > max(_PASSED, 5.0 * noise_of(length) / rest_length):
+                return free
+    return free if stop is None else stop
 
 
 def recorded_channels(
