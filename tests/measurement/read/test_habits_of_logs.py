@@ -230,5 +230,8 @@ def test_names_above_and_ways_with_units_below() -> None:
         f"# rest length 300 mm, pressure 4 bar\nKontraktion;Kraft;\n[%];Belasten [N];Entlasten [N]\n{rows}"
     )
     assert found.rows == 40
-    np.testing.assert_allclose(found.columns["contraction"], np.tile(np.arange(20) / 100.0, 2))
-    np.testing.assert_allclose(found.columns["force"][[0, 20]], [500.0, 470.0])
+    # A load that grows stretches a muscle: loading began at the shortest length, unloading ends there.
+    there = np.arange(20)[::-1] / 100.0
+    np.testing.assert_allclose(found.columns["contraction"], np.concatenate([there, there[::-1]]))
+    np.testing.assert_allclose(found.columns["force"][[0, 19, 20, 39]], [120.0, 500.0, 470.0, 90.0])
+    assert found.columns["direction"].tolist() == 20 * [1.0] + 20 * [-1.0]

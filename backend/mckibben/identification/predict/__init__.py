@@ -37,6 +37,8 @@ __all__ = [
 _PRESSURE = 6e5  # Pa; required by the drive, but unused because the pressure is measured
 _ANY_VALVE = Valve(1e-8, 1e-8)  # the pressure is measured, so no air flows through it
 
+_SAME_CLAMP = 0.1  # of the accuracy of a length, within which two groups have the same
+
 
 def predictor_of(
     measurement: Measurement,
@@ -71,13 +73,28 @@ def _set_accuracy(predictor: QuasistaticPredictor, accuracy: dict[str, float]) -
     length = accuracy.pop("length", 0.0) if predictor.kind == "isometric" else 0.0
     if length > 0.0:
         at = predictor.inputs["length"]
-        clamped = [predictor.groups == label for label in np.unique(predictor.groups)]
+        clamped = _clamped(predictor.groups, at, length)
         predictor.reading_errors = tuple(
             ReadingError("length", f"clamped at {1e3 * float(np.mean(at[rows])):.4g} mm", length, "m", rows)
             for rows in clamped
         )
     seen = {channel.name for channel in predictor.channels} | set(predictor.inputs)
     predictor.accuracy = {name: sigma for name, sigma in accuracy.items() if name in seen and sigma > 0.0}
+
+
+def _clamped(groups: np.ndarray, length: np.ndarray, accuracy: float) -> list[np.ndarray]:
+    """Masks of the rows that were measured in one clamping: groups one after the other at the same length.
+
+    A way there and its way back are two groups, but nobody clamped the muscle anew between them.
+    """
+    masks: list[np.ndarray] = []
+    for label in dict.fromkeys(groups.tolist()):
+        rows = groups == label
+        if masks and abs(np.mean(length[rows]) - np.mean(length[masks[-1]])) < _SAME_CLAMP * accuracy:
+            masks[-1] = masks[-1] | rows
+        else:
+            masks.append(rows)
+    return masks
 
 
 def driven_by_pressure(measurement: Measurement, muscle: Muscle) -> Drive:

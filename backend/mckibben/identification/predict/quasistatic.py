@@ -59,7 +59,7 @@ class QuasistaticPredictor(Predictor):
             self.records,
             counted.state.get("length"),
             counted.state["pressure"],
-            timed=task.time is not None,
+            ordered=task.ordered,
         )
         time = {} if counted.time is None else {"time": counted.time}
         self.inputs = {
@@ -96,11 +96,13 @@ class QuasistaticPredictor(Predictor):
 
         Static rows with time also reveal effects of isobaric and isometric measurements.
         """
-        free = self.kind == "static" and self.task.time is not None
+        free = self.kind == "static" and self.task.ordered
         if not effect.kinds & ({"static", "isobaric", "isometric"} if free else {self.kind}):
             return f"it does not show in {self.kind} data, only in {effect.shown_in}"
         delays = late(effect)
-        if (remembers(effect) or delays) and self.task.time is None:
+        # What a hysteretic effect remembers depends on the way alone, which the order of rows shows as well.
+        known = self.task.ordered and effect.type == "hysteretic"
+        if (remembers(effect) or delays) and self.task.time is None and not known:
             return "it depends on what happened before, and the rows have no time"
         if delays and self.task.channel != "force":
             return "it delays the force reading, and no force was predicted"

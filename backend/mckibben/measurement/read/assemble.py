@@ -18,6 +18,7 @@ from mckibben.measurement.measurement import (
     StatedValue,
     build,
 )
+from mckibben.measurement.order import FROM_ROWS, order_of_rows
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.air import air_questions, column_of_air
 from mckibben.measurement.read.cells import CellTable, Skip
@@ -209,6 +210,13 @@ def assemble(
     if kind is None and kind_said and _suits(kind_said, columns):
         kind = kind_said
         messages.append(f"kind {kind_said}: a text of the file says so")
+    rows_order = None if "time" in columns else order_of_rows(columns)
+    if rows_order is not None and "direction" not in columns:
+        columns["direction"] = rows_order.direction
+        messages.append(
+            "no time, but the rows go there and back step by step: their order is taken as that of the test, "
+            "and the direction of each row from it"
+        )
     order = {header: index for index, header in reversed(list(enumerate(source.headers)))}
     for key in [key for key in conditions if key.startswith((FORCE_SIGN, STROKE_SIGN, REFERENCE_OF))]:
         del conditions[key]
@@ -217,16 +225,20 @@ def assemble(
         name=name,
         id=id,
         kind=None if kind is None else str(kind).lower(),
-        origins={c: (by_use[c].header, by_use[c].unit or CHANNEL_UNITS[c]) for c in columns},
+        origins={
+            c: (by_use[c].header, by_use[c].unit or CHANNEL_UNITS[c]) if c in by_use else (FROM_ROWS, "1")
+            for c in columns
+        },
         ignored=sorted(reading.ignored, key=lambda header: order.get(header, len(order))),
         conditions=conditions,
         marked_slack=slack,
         messages=messages,
         skipped={reason: left_out.rows for reason, left_out in skipped.items()},
-        starts=_starts(columns),
+        starts=_starts(columns) if rows_order is None else rows_order.starts,
     )
     measurement = replace(
         measurement,
+        by_rows=rows_order is not None,
         unread=unread_columns(source, meaning, reading.ignored),
         undecided=_undecided(source, meaning),
         stated=stated_values(source, meaning, conditions, correction),

@@ -148,6 +148,7 @@ def _open_force(evidence: Evidence, choices: tuple[str, ...]) -> bool:
 _LONG_TEST = 900.0  # s; a test of readings by hand is shorter
 _SWING = 0.1  # of the largest value; less is noise about a held value
 _TURNS = 1
+_JUMP, _JUMPS = 0.6, 2  # of the range of the pressure, between two rows
 _HARDLY = 2e3  # Pa; below it a pressure moves no muscle
 _LARGEST_AREA = 0.5  # m2, force over pressure; the largest catalogue muscle has 0.04
 
@@ -166,9 +167,13 @@ def _back(values: Floats, unit: str, si: str) -> Floats:
 
 
 def _moves(evidence: Evidence) -> bool:
-    """Whether a test of many minutes goes up and down all the way, as no slow drift and no creep does."""
+    """Whether a test of many minutes goes up and down all the way, as no slow drift and no creep does.
+
+    A log of holds does too, but there a pressure is another one from row to row, which in milliseconds no
+    muscle follows.
+    """
     time = evidence.channels["time"]
-    if float(np.ptp(time)) < _LONG_TEST:
+    if float(np.ptp(time)) < _LONG_TEST or _jumps(evidence.channels.get("pressure")):
         return False
     for channel in ("pressure", *STROKES, "force"):
         values = evidence.channels.get(channel)
@@ -177,6 +182,14 @@ def _moves(evidence: Evidence) -> bool:
             if np.count_nonzero(turns) >= _TURNS:
                 return True
     return False
+
+
+def _jumps(pressure: Floats | None) -> bool:
+    """Whether a pressure goes most of its way between two rows, more than once."""
+    if pressure is None or len(pressure) < ENOUGH:
+        return False
+    jumps = np.abs(np.diff(pressure)) > _JUMP * float(np.ptp(pressure))
+    return bool(np.count_nonzero(jumps) >= _JUMPS)
 
 
 def _unread(evidence: Evidence) -> list[Question]:
