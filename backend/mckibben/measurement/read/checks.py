@@ -31,6 +31,8 @@ Floats = NDArray[np.float64]
 _CARRIES = {"a force": "force", "a pressure": "pressure", "a length": "length"}
 _SAME = 0.01  # of the range; columns that differ by less are the same reading
 _OPPOSED = -0.5  # correlation of the pressures of a pair, of which one is filled as the other is vented
+_PROPORTIONAL = 0.98  # correlation of two strokes of one motion
+_OF_A_PART = 0.8  # range of one of them over that of the other, below which it is of a part
 _CLIPPED = 100  # the penalty of a clipped column
 _RAW_PENALTY = 1  # between a column and its raw, filtered or clipped form
 
@@ -285,10 +287,11 @@ def _rivals(evidence: Evidence) -> list[Question]:
                 "joint or pair of two muscles; measurements of pairs are not compared, and this one shows "
                 "neither muscle's own load"
             )
+        marked = _between_marks(winner, other, values, second)
         asked.append(
             Question(
                 f"second {winner.use}",
-                f"{evidence.noun}s {which}; which one acts on the muscle"
+                f"{evidence.noun}s {which}{marked}; which one acts on the muscle"
                 f"{' where one was tested by itself' if opposed else ''}",
                 f"{column_option(winner.use, first)} or {column_option(winner.use, later)}",
                 other.header,
@@ -297,6 +300,22 @@ def _rivals(evidence: Evidence) -> list[Question]:
             )
         )
     return asked
+
+
+def _between_marks(winner: HeaderColumn, other: HeaderColumn, values: Floats, second: Floats) -> str:
+    """What is to be said of two strokes in proportion: one may be that of a part of the muscle."""
+    if winner.use not in STROKES or not (np.ptp(values) > 0.0 and np.ptp(second) > 0.0):
+        return ""
+    alike = abs(float(np.corrcoef(values, second)[0, 1]))
+    spans = sorted((float(np.ptp(values)), float(np.ptp(second))))
+    if alike < _PROPORTIONAL or spans[0] > _OF_A_PART * spans[1]:
+        return ""
+    smaller = bare_name(winner if np.ptp(values) < np.ptp(second) else other)
+    option = column_option("displacement", smaller, "0 to 100 mm = 0 to 300 mm")
+    return (
+        f"; '{smaller}' is {spans[0] / spans[1]:.2g} of the other: a stroke between marks belongs to their "
+        f"distance, and of the whole muscle it is e.g. {option} for marks 100 mm apart on 300 mm"
+    )
 
 
 def _other_time(evidence: Evidence, winner: HeaderColumn, other: HeaderColumn) -> list[Question]:

@@ -26,6 +26,8 @@ _VALUE = re.compile(r"[^\W\d_]{1,12}0?\s*[=≈]\s*[0-9]+(?:[.,][0-9]+)?\s*[^\W\d
 _CHANGES = frozenset(("change", "delta", "anderung", "variation", "difference"))
 _ALSO_VOLTAGE = frozenset(("tension", "tensione", "tensao"))  # a voltage in other languages
 _STROKES_FROM_REST = frozenset(("displacement", "contraction", "extension"))  # "shortening from rest length"
+#: "dL", "ΔL", "delta x": how much longer or further; a d before another letter is no diameter.
+_CHANGE_OF = re.compile(r"(?:d|Δ|δ|delta|Delta)[ _]?([Llxs])(?![^\W\d_])")
 _RAW = 3  # of LESS_WANTED: a raw column
 
 
@@ -96,6 +98,13 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         return _none(head.unit, Reason.SEVERAL, f"its name says {' and '.join(sorted(distinct))}")
     penalty = BY_WORDS + sum(LESS_WANTED.get(word, 0) for word in words)
     channel = _of_names(named, dimension) or channel_of_letter(words, dimension)
+    if (change := _CHANGE_OF.match(base)) is not None and channel in (
+        "diameter",
+        "length",
+        "displacement",
+        None,
+    ):
+        channel = "extension" if change[1] in "Ll" else "displacement"
     if channel == "length" and set(words) & _CHANGES:
         channel = "extension"
     if channel is not None and (not dimension or dimension in DIMENSIONS[channel]):
