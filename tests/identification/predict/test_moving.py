@@ -510,3 +510,17 @@ def test_a_stop_that_the_record_passes_is_none(reached: float, stop: float | Non
     found = build(columns, name="a.csv", id="0", conditions={"load_mass": 12.0}, kind="transient")
     assert highest_stop(found, 0.3, stop) == pytest.approx(expected, rel=0.01)
     assert driven_by_pressure(found, MUSCLE).max_contraction == pytest.approx(max(expected, 0.4), rel=0.01)
+
+
+def test_each_run_lifts_the_weight_that_its_title_states() -> None:
+    """The force of a title is no reading of a cell: it is the load of its run, and moves with it."""
+    masses = (6.0, 12.0)
+    made = measured(*(drive(load=Load(mass=mass)) for mass in masses), command=False)
+    columns = {**made.columns, "force": G * np.repeat(masses, len(GRID))}
+    found = build(columns, name="titles", id="1" * 64, kind="transient", excluded_rows={})
+    predictor = predictor_of(found, MUSCLE)
+    assert isinstance(predictor, TransientPredictor)
+    assert [channel.name for channel in predictor.channels] == ["displacement"]
+    assert [each.load.mass for each in predictor.drives] == pytest.approx(masses)
+    # Rows as close as those of the drive that was measured; a load of the other run is 20 mm away.
+    assert predictor.predict(fit_model(HIDDEN)) == pytest.approx(made.columns["displacement"], abs=1e-3)

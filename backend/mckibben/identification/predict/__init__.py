@@ -17,7 +17,7 @@ import numpy as np
 
 from mckibben.identification.predict.comparable_rows import comparable_rows
 from mckibben.identification.predict.moving import TransientPredictor
-from mckibben.identification.predict.moving_records import highest_stop, lowest_stop
+from mckibben.identification.predict.moving_records import highest_stop, hung_weights, lowest_stop
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.identification.predict.reading_errors import ReadingError
@@ -111,7 +111,7 @@ def driven_by_pressure(measurement: Measurement, muscle: Muscle) -> Drive:
             '--experiment "valve=MPYE-5-1/8-HF"',
         )
     conditions = measurement.conditions
-    if not {"load_mass", "load_force"} & set(conditions):
+    if not {"load_mass", "load_force"} & set(conditions) and hung_weights(measurement) is None:
         unused = ", ".join(f"'{header}'" for header in measurement.undecided)
         also = f"; is the force in one of the unused columns {unused}?" if unused else ""
         also = "" if "force" in measurement.columns else also

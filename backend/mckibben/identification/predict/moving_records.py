@@ -7,7 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
+from mckibben.measurement.corrected import GRAVITY
 from mckibben.measurement.derivative import noise_of
+from mckibben.measurement.kind import weights_of_runs
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import TableSignal
@@ -119,6 +121,13 @@ def highest_stop(measurement: Measurement, rest_length: float, stop: float | Non
     return free if stop is None else stop
 
 
+def hung_weights(measurement: Measurement) -> np.ndarray | None:
+    """Weight of the load of each row [N], where the file states one for each run; None = it does not."""
+    if {"load_mass", "load_force"} & set(measurement.conditions):
+        return None
+    return weights_of_runs(measurement.columns)
+
+
 def recorded_channels(
     measurement: Measurement, drive: Drive, *, commanded: bool
 ) -> list[tuple[str, str, np.ndarray]]:
@@ -130,7 +139,8 @@ def recorded_channels(
     stroke = stroke_of(measurement, drive)
     if stroke is not None:
         channels.append(("displacement", "m", stroke))
-    if "force" in columns and (commanded or stroke is not None):
+    weighed = hung_weights(measurement) is not None  # stated, no reading
+    if "force" in columns and not weighed and (commanded or stroke is not None):
         channels.append(("force", "N", columns["force"]))
     return channels
 
@@ -152,6 +162,8 @@ def record_of(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Recor
         load = replace(load, mass=float(conditions["load_mass"]))
     if "load_force" in conditions:
         load = replace(load, force=float(conditions["load_force"]))
+    if (weights := hung_weights(measurement)) is not None:
+        load = replace(load, mass=float(weights[rows[0]]) / GRAVITY)
     changed: dict = {"duration": float(time[-1]), "load": load, "controller": None, "reference": None}
     if "supply_pressure" in conditions:
         changed["supply_pressure"] = float(conditions["supply_pressure"])

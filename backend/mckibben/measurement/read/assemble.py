@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.kind import FORCE_KINDS
+from mckibben.measurement.kind import FORCE_KINDS, lifts_fast, weights_of_runs
 from mckibben.measurement.measurement import (
     CHANNEL_UNITS,
     STROKES,
@@ -45,6 +45,7 @@ from mckibben.measurement.read.tares import notes_of_tares, subtract_tare, zero_
 from mckibben.physics.errors import InputError
 
 _FEWEST_TO_TURN = 3  # rows
+_LOADS = {"load_mass", "load_force"}
 _DISORDERED = 1.0 / 3.0  # share of steps back in time from which rows are in no order; a half by chance
 _RUN_CHANGES = (
     0.1  # share of rows that begin another run, above which the runs do not follow each other in time
@@ -193,7 +194,12 @@ def assemble(
         rows = "1 row" if left_out.rows == 1 else f"{left_out.rows} rows"
         messages.append(f"{rows} left out: {reason} (first: {left_out.first})")
     questions = questions_of(_evidence(source, meaning, reading, by_use, columns, correction))
-    tare += zero_questions(columns, by_use, source.unzeroed, conditions) if not tare else []
+    weights = weights_of_runs(columns)
+    if weights is not None and np.ptp(weights) > 0.0 and not _LOADS & set(correction.conditions):
+        for key in _LOADS & set(conditions):  # of the first run, in its title
+            del conditions[key]
+    if not tare and weights is None:  # a weight that is stated has no zero
+        tare += zero_questions(columns, by_use, source.unzeroed, conditions)
     tare += air_questions(conditions, by_use, source.notes)
     weighed = {*correction.conditions, *(column.key for column in meaning.constants)}
     questions += tare
@@ -207,7 +213,8 @@ def assemble(
     kind = conditions.pop("kind", None) if correction.kind is None else correction.kind
     conditions.pop("kind", None)
     kind_said = str(conditions.pop(KIND_SAID, ""))
-    if kind is None and kind_said and _suits(kind_said, columns):
+    fast = kind_said == "isotonic" and lifts_fast(columns)  # of loads in titles: the readings say how fast
+    if kind is None and kind_said and not fast and _suits(kind_said, columns):
         kind = kind_said
         messages.append(f"kind {kind_said}: a text of the file says so")
     rows_order = None if "time" in columns else order_of_rows(columns)
