@@ -15,6 +15,7 @@ from mckibben.measurement.read.constants import constant_questions
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, bare_name
 from mckibben.measurement.read.head_text import taken_apart
+from mckibben.measurement.read.joints import beside_chosen, of_a_joint
 from mckibben.measurement.read.left_out import FINAL, Reason
 from mckibben.measurement.read.physical_checks import context_questions, physical_questions
 from mckibben.measurement.read.plain_head import HeaderColumn
@@ -264,6 +265,8 @@ def _rivals(evidence: Evidence) -> list[Question]:
     asked = []
     for winner, other in evidence.meaning.rivals:
         if "you" in (winner.origin, other.origin) or winner.use not in evidence.channels:
+            if winner.use == "pressure" and winner.origin == "you" and _are_opposed(evidence, winner, other):
+                asked.append(beside_chosen(winner, other))
             continue
         if winner.use == "time":
             asked += _other_time(evidence, winner, other)
@@ -279,20 +282,16 @@ def _rivals(evidence: Evidence) -> list[Question]:
         if float(np.max(np.abs(second - values))) <= _SAME * max(float(np.ptp(values)), 1e-12):
             continue
         first, later = bare_name(winner), bare_name(other)
-        opposed = winner.use == "pressure" and float(np.corrcoef(values, second)[0, 1]) < _OPPOSED
+        opposed = winner.use == "pressure" and _are_opposed(evidence, winner, other)
         which = f"'{winner.header}' and '{other.header}' are both {winner.use} and differ"
         if opposed:
-            which = (
-                f"'{winner.header}' and '{other.header}' are pressures that run against each other, as in a "
-                "joint or pair of two muscles; measurements of pairs are not compared, and this one shows "
-                "neither muscle's own load"
-            )
+            which = of_a_joint(evidence, winner, other)
         marked = _between_marks(winner, other, values, second)
         asked.append(
             Question(
                 f"second {winner.use}",
                 f"{evidence.noun}s {which}{marked}; which one acts on the muscle"
-                f"{' where one was tested by itself' if opposed else ''}",
+                f"{' that was tested by itself, if one was' if opposed else ''}",
                 f"{column_option(winner.use, first)} or {column_option(winner.use, later)}",
                 other.header,
                 winner.header,
@@ -300,6 +299,14 @@ def _rivals(evidence: Evidence) -> list[Question]:
             )
         )
     return asked
+
+
+def _are_opposed(evidence: Evidence, first: HeaderColumn, second: HeaderColumn) -> bool:
+    """Whether two pressures run against each other, as in a joint."""
+    both = evidence.pair(first.place, second.place) if evidence.numeric(second.place) else None
+    if both is None or not all(np.ptp(values) > 0.0 for values in both):
+        return False
+    return float(np.corrcoef(both[0], both[1])[0, 1]) < _OPPOSED
 
 
 def _between_marks(winner: HeaderColumn, other: HeaderColumn, values: Floats, second: Floats) -> str:
