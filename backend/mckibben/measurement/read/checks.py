@@ -13,6 +13,7 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.blocks import UNNAMED
 from mckibben.measurement.read.constants import constant_questions
 from mckibben.measurement.read.correction import SAMPLE
+from mckibben.measurement.read.counted_rows import counted_rows
 from mckibben.measurement.read.evidence import Evidence, bare_name
 from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.joints import beside_chosen, of_a_joint
@@ -55,6 +56,7 @@ def _questions(evidence: Evidence) -> list[Question]:
             *raw_questions(evidence),
             *_rivals(evidence),
             *_specimens(evidence),
+            *counted_rows(evidence),
         ]
         unit_doubts = {question.about for question in asked}
         if not any(about.startswith("unit of") for about in unit_doubts):
