@@ -124,12 +124,22 @@ def weights_of_runs(columns: Mapping[str, NDArray]) -> Array | None:
     force, time = columns.get("force"), columns.get("time")
     if force is None or time is None or len(force) < _FEWEST_STEPS or not np.min(force) > 0.0:
         return None
-    steps = np.diff(time)
-    usual = float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 0.0
-    apart = (steps < 0.0) | (steps > _PAUSE * usual)
+    apart = _run_ends(time)
     if np.any((np.diff(force) != 0.0) & ~apart):
         return None
     return force
+
+
+def starts_of_lifts(columns: Mapping[str, NDArray]) -> tuple[int, ...]:
+    """First row of each run of stated weights (`weights_of_runs`): each has its load and its beginning."""
+    return (0, *(np.flatnonzero(_run_ends(columns["time"])) + 1).tolist())
+
+
+def _run_ends(time: Array) -> NDArray[np.bool_]:
+    """Whether a run ends with each row but the last: time steps back or pauses."""
+    steps = np.diff(time)
+    usual = float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 0.0
+    return (steps < 0.0) | (steps > _PAUSE * usual)
 
 
 def lifts_fast(columns: Mapping[str, NDArray]) -> bool:
@@ -141,7 +151,7 @@ def lifts_fast(columns: Mapping[str, NDArray]) -> bool:
     steps = np.diff(columns["time"])
     if not np.any(steps > 0.0) or float(np.median(steps[steps > 0.0])) > _CLOSE:
         return False
-    runs = np.split(np.arange(len(stroke)), np.flatnonzero(steps < 0.0) + 1)
+    runs = np.split(np.arange(len(stroke)), starts_of_lifts(columns)[1:])
     span = float(np.ptp(stroke))
     return any(_fastest(columns["time"][rows], stroke[rows], span) > _SLOW * span for rows in runs)
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.kind import FORCE_KINDS, lifts_fast, weights_of_runs
+from mckibben.measurement.kind import FORCE_KINDS, lifts_fast, starts_of_lifts, weights_of_runs
 from mckibben.measurement.measurement import (
     CHANNEL_UNITS,
     STROKES,
@@ -241,7 +241,7 @@ def assemble(
         marked_slack=slack,
         messages=messages,
         skipped={reason: left_out.rows for reason, left_out in skipped.items()},
-        starts=_starts(columns) if rows_order is None else rows_order.starts,
+        starts=rows_order.starts if rows_order is not None else _starts(columns, weights),
     )
     measurement = replace(
         measurement,
@@ -296,8 +296,13 @@ def _suits(kind: str, columns: Mapping[str, NDArray]) -> bool:
     return needed <= set(columns) and bool(set(columns) & set(STROKES))
 
 
-def _starts(columns: Mapping[str, NDArray]) -> tuple[int, ...]:
-    """Rows at which a new part of the file begins: the group changes, and the time goes back."""
+def _starts(columns: Mapping[str, NDArray], weights: NDArray | None) -> tuple[int, ...]:
+    """Rows at which a new part of the file begins: the group changes, and the time goes back.
+
+    Of fast lifts of stated weights each run is one: its load is another, and nothing was read between them.
+    """
+    if weights is not None and lifts_fast(columns):
+        return starts_of_lifts(columns)
     if "group" not in columns or "time" not in columns:
         return (0,)
     apart = (np.diff(columns["group"]) != 0) & (np.diff(columns["time"]) < 0.0)
