@@ -88,7 +88,7 @@ def _clamped(groups: np.ndarray, length: np.ndarray, accuracy: float) -> list[np
     A way there and its way back are two groups, but nobody clamped the muscle anew between them.
     """
     masks: list[np.ndarray] = []
-    for label in dict.fromkeys(groups.tolist()):
+    for label in np.unique(groups).tolist():
         rows = groups == label
         if masks and abs(np.mean(length[rows]) - np.mean(length[masks[-1]])) < _SAME_CLAMP * accuracy:
             masks[-1] = masks[-1] | rows
