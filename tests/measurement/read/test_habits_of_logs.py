@@ -235,3 +235,14 @@ def test_names_above_and_ways_with_units_below() -> None:
     np.testing.assert_allclose(found.columns["contraction"], np.concatenate([there, there[::-1]]))
     np.testing.assert_allclose(found.columns["force"][[0, 19, 20, 39]], [120.0, 500.0, 470.0, 90.0])
     assert found.columns["direction"].tolist() == 20 * [1.0] + 20 * [-1.0]
+
+
+def test_strokes_of_loading_and_unloading_beside_one_weight() -> None:
+    """The weights grow down the table: loading went down it, although the stroke falls, and unloading up."""
+    rows = "\n".join(f"{20 + 5 * n};{60 - 2 * n};{57 - 2 * n}" for n in range(12))
+    found = read(
+        f"# rest length 300 mm, pressure 3 bar\nKraft [N];Hub Belasten [mm];Hub Entlasten [mm]\n{rows}"
+    )
+    weights = 20.0 + 5.0 * np.arange(12)
+    np.testing.assert_allclose(found.columns["force"], np.concatenate([weights, weights[::-1]]))
+    assert found.columns["direction"].tolist() == 12 * [1.0] + 12 * [-1.0]

@@ -13,6 +13,7 @@ from mckibben.measurement.read.directions import PAIRS, way_of_word
 from mckibben.measurement.read.grid import BLANKS, TextGrid
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.raw import RawRows, shown_rows
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.stated import KIND_SAID
 from mckibben.measurement.read.table import FAST_FROM, read_table
@@ -122,13 +123,16 @@ def _ways_back(table: Table, style: NumberStyle) -> frozenset[str] | None:
     if pair is None or any(len(part.columns) == len(part.own) for part in table.parts):
         return None  # each way has rows of its own
     there = next(part for part in table.parts if known[part.way] == pair[0])
-    falls = set(words_of(there.way)) & _LOADING and _falls(there, style)
+    falls = set(words_of(there.way)) & _LOADING and _force_falls(table, there, style)
     return frozenset(way for way, meant in known.items() if meant == pair[0 if falls else 1])
 
 
-def _falls(part: Part, style: NumberStyle) -> bool:
-    """Whether the values of a part's own column fall from its first row to its last."""
-    place = part.columns.index(part.own[-1])
+def _force_falls(table: Table, part: Part, style: NumberStyle) -> bool:
+    """Whether the force falls from the first row of a part to its last; it may be in any of its columns."""
+    names = zip(table.names, table.units, strict=True)
+    place = next((i for i, head in enumerate(names) if recognise(*head).channel == "force"), None)
+    if place is None:
+        return False
     values = [v for _, row in part.rows() if isinstance(v := number_of(row[place], style), float)]
     return len(values) > 1 and values[-1] < values[0]
 
