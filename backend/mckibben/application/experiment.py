@@ -161,13 +161,14 @@ def resolved(
         _add_accuracy(one)
         for name, value in drive_values(one.measurement, one.values, model.drive, start).items():
             one.values.setdefault(name, value)
-        if (passed := passed_stop(one.measurement, one.values, start.muscle.nominal_length)) is not None:
-            one.remarks.append(passed)
     assumptions = assumptions_of([(one.measurement, one.values) for one in ones])
     if strict:
         for one in ones:
             refuse_assumptions(one.measurement, one.values, one.at)
     specimens = [_specimen(one, model, start, studio) for one in ones]
+    for one in ones:
+        if (passed := passed_stop(one.measurement, one.values, start.muscle.nominal_length)) is not None:
+            one.remarks.append(passed)
     used = [each for each, one in zip(specimens, ones, strict=True) if not one.said.validation]
     judged = [each for each, one in zip(specimens, ones, strict=True) if one.said.validation]
     several = specimens_of(_with_zeros(used), start.muscle)

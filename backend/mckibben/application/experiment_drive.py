@@ -82,28 +82,46 @@ def drive_values(
 
 
 def _stops(measurement: Measurement, drive: DriveDocument | None, start: StartModel) -> ExperimentValue:
-    """The end stops that a document states, else those assumed: none where the record is beyond them."""
+    """The end stops that a document states, else those assumed."""
     stops = None if drive is None else drive.stops
-    said = drive is not None and "stops" in drive.model_fields_set
-    low = 0.0 if stops is None else stops.min_contraction
-    high = None if stops is None else stops.max_contraction
+    limit = start.limits.max_contraction
+    if drive is not None and stops is not None and "stops" in drive.model_fields_set:
+        shown = _shown_stops(stops.min_contraction, stops.max_contraction or limit or _MAX_CONTRACTION)
+        return ExperimentValue(shown, FIELDS["stops"].unit, "you", FROM_DRIVE)
+    bare = drive is None and "command" not in measurement.columns
+    return assumed_stops(measurement, start.muscle.nominal_length, limit, bare=bare)
+
+
+def assumed_stops(
+    measurement: Measurement | None, rest_length: float | None, limit: float | None, *, bare: bool
+) -> ExperimentValue:
+    """The end stops where nobody states them: none where the record is beyond them.
+
+    Args:
+        measurement: of a transient, if it is known already.
+        rest_length: of the muscle [m], if it is known.
+        limit: contraction that the maker allows.
+        bare: the pressure was measured and no drive is stated, so that no upper stop is simulated.
+    """
+    low, high = 0.0, highest_stop(None, 1.0, None) if bare else limit or _MAX_CONTRACTION
     places = []
-    if not said:
-        if (seen := lowest_stop(measurement, start.muscle.nominal_length)) < 0.0:
+    if measurement is not None and rest_length is not None:
+        if (seen := lowest_stop(measurement, rest_length)) < 0.0:
             low = seen
             places.append("lowest position of the record")
-        limit = start.limits.max_contraction or _MAX_CONTRACTION
-        bare = drive is None and "command" not in measurement.columns
-        high = highest_stop(measurement, start.muscle.nominal_length, None if bare else limit)
-        if high > limit:
-            places.append("no upper stop" if bare else f"the record passes {100.0 * limit:.3g} %")
-        elif start.limits.max_contraction is not None:
-            places.append("limit of the maker")
-    high = high or start.limits.max_contraction or _MAX_CONTRACTION
-    return ExperimentValue(
-        f"{100.0 * low:.3g} % to {100.0 * high:.3g} %", FIELDS["stops"].unit, "you" if said else "assumed",
-        FROM_DRIVE if said else "; ".join(places),
-    )  # fmt: skip
+        free = highest_stop(measurement, rest_length, None if bare else high)
+        if free > high:
+            places.append(f"the record passes {100.0 * high:.3g} %")
+        high = free
+    if bare:
+        places.append("no upper stop")
+    elif limit is not None and high == limit:
+        places.append("limit of the maker")
+    return ExperimentValue(_shown_stops(low, high), FIELDS["stops"].unit, "assumed", "; ".join(places))
+
+
+def _shown_stops(low: float, high: float) -> str:
+    return f"{100.0 * low:.3g} % to {100.0 * high:.3g} %"
 
 
 def passed_stop(

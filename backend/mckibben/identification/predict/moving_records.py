@@ -99,19 +99,19 @@ def lowest_stop(measurement: Measurement, rest_length: float) -> float:
     return -beyond / rest_length
 
 
-def highest_stop(measurement: Measurement, rest_length: float, stop: float | None) -> float:
+def highest_stop(measurement: Measurement | None, rest_length: float, stop: float | None) -> float:
     """Contraction of the upper stop: ``stop``, or one that is not reached where the record passes it.
 
     A stop is no obstacle where the muscle was seen beyond it, whoever stated it: simulated, it would hold
     back what was measured, and effects would be invented for it.
 
     Args:
-        measurement: of a transient.
+        measurement: of a transient, if it is known.
         rest_length: of the muscle [m].
         stop: stated, or the limit of the maker; None = none.
     """
     free = _OUT_OF_WAY
-    if any(name in measurement.columns for name in STROKES):
+    if measurement is not None and any(name in measurement.columns for name in STROKES):
         length = lengths(measurement, rest_length)[measurement.usable]
         if len(length):
             seen = 1.0 - float(np.quantile(length, _RESTING)) / rest_length
