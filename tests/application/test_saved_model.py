@@ -72,3 +72,17 @@ def test_a_drive_that_the_file_describes_is_one() -> None:
 def test_a_measured_pressure_needs_no_drive() -> None:
     asked = question(trace("load_mass: 8 kg", command=False), None)
     assert drive_of_model(asked, asked.fit_model(), STUDIO) is None
+
+
+@pytest.mark.parametrize(
+    ("stops", "simulated", "told"), [("0 % to 20 %", 0.2, False), ("0 % to 3 %", 0.4, True)]
+)
+def test_a_stated_stop_that_the_record_passes_is_told_and_not_simulated(
+    stops: str, simulated: float, told: bool
+) -> None:
+    """The record goes to 19.5 of 300 mm: a stop at 3 % did not hold it, and is not dropped without a word."""
+    asked = question(trace("load_mass: 8 kg", f"stops: {stops}", command=False), None)
+    drive = asked.specimens.each[0].drive
+    assert drive is not None
+    assert drive.max_contraction == pytest.approx(simulated)
+    assert any("passes the stated end stop at 3 %" in remark for remark in asked.remarks) is told

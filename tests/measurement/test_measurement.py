@@ -20,6 +20,7 @@ UNDER_STEPS = {
     "pressure": np.repeat([1e5, 2e5, 3e5], 20),
     "displacement": np.repeat([0.02, 0.04, 0.06], 20) + 1e-5 * np.arange(60),
 }
+RAMP_100 = np.clip(np.arange(100) / 60.0, 0.0, 1.0)
 RNG = np.random.default_rng(7)
 
 
@@ -104,6 +105,48 @@ KIND_CASES = {
         "transient",
     ),
     "command": ({"time": RAMP, "command": RAMP, "displacement": 0.04 * RAMP}, {}, "transient"),
+    "command at clamped lengths": (
+        {
+            "time": TIME,
+            "command": np.sign(np.sin(TIME)),
+            "pressure": 3e5 + 2e5 * np.sin(TIME),
+            "length": np.repeat([0.30, 0.28, 0.26], 100),
+            "force": 500.0 + 300.0 * np.sin(TIME),
+        },
+        {},
+        "isometric",
+    ),
+    "command while a load moves": (
+        {
+            "time": TIME,
+            "command": np.sign(np.sin(TIME)),
+            "pressure": 3e5 + 2e5 * np.sin(TIME),
+            "length": 0.28 - 0.02 * np.sin(TIME),
+            "force": 500.0 + 300.0 * np.sin(TIME),
+        },
+        {},
+        "transient",
+    ),
+    "weights lifted fast": (
+        {
+            "time": np.tile(0.01 * np.arange(100), 3),
+            "force": np.repeat([50.0, 100.0, 150.0], 100),
+            "pressure": np.tile(4e5 * RAMP_100, 3),
+            "displacement": np.tile(0.05 * RAMP_100, 3),
+        },
+        {},
+        "transient",
+    ),
+    "the same weights lifted in a minute and a half": (
+        {
+            "time": np.tile(np.arange(100.0), 3),
+            "force": np.repeat([50.0, 100.0, 150.0], 100),
+            "pressure": np.tile(4e5 * RAMP_100, 3),
+            "displacement": np.tile(0.05 * RAMP_100, 3),
+        },
+        {},
+        "isotonic",
+    ),
     "command and force": (
         {"time": RAMP, "command": RAMP, "pressure": RAMP, "length": 1 + RAMP, "force": RAMP},
         {},

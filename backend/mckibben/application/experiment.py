@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 from mckibben.application.assumptions import Assumption, assumptions_of, refuse_assumptions
-from mckibben.application.experiment_drive import drive_values, own_document, own_drive
+from mckibben.application.experiment_drive import drive_values, own_document, own_drive, passed_stop
 from mckibben.application.specimens import Specimen, Specimens, specimens_of
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.start_model import StartModel
@@ -166,6 +166,9 @@ def resolved(
         for one in ones:
             refuse_assumptions(one.measurement, one.values, one.at)
     specimens = [_specimen(one, model, start, studio) for one in ones]
+    for one in ones:
+        if (passed := passed_stop(one.measurement, one.values, start.muscle.nominal_length)) is not None:
+            one.remarks.append(passed)
     used = [each for each, one in zip(specimens, ones, strict=True) if not one.said.validation]
     judged = [each for each, one in zip(specimens, ones, strict=True) if one.said.validation]
     several = specimens_of(_with_zeros(used), start.muscle)

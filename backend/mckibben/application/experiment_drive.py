@@ -13,7 +13,7 @@ from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
-from mckibben.identification.predict import driven_by_pressure, lowest_stop
+from mckibben.identification.predict import driven_by_pressure, highest_stop, lowest_stop
 from mckibben.measurement.corrected import FROM_DRIVE
 from mckibben.measurement.experiment import FIELDS, LOAD_FORCE, ExperimentValue
 from mckibben.measurement.measurement import Measurement
@@ -77,21 +77,67 @@ def drive_values(
     if not (load is not None and load.arrangement == "antagonist"):
         angle = _angle(load) if load is not None else pi / 2.0
         add("inclination", angle, inclined)
-    stops = None if drive is None else drive.stops
-    low = 0.0 if stops is None else stops.min_contraction
-    high = None if stops is None else stops.max_contraction
-    said = drive is not None and "stops" in drive.model_fields_set
-    limit = start.limits.max_contraction
-    place = "" if limit is None else "limit of the maker"
-    if not said and (seen := lowest_stop(measurement, start.muscle.nominal_length)) < 0.0:
-        low, place = seen, "; ".join(filter(None, ("lowest position of the record", place)))
-    add(
-        "stops",
-        f"{100.0 * low:.3g} % to {100.0 * (high or limit or _MAX_CONTRACTION):.3g} %",
-        said,
-        place=place,
-    )
+    values["stops"] = _stops(measurement, drive, start)
     return values
+
+
+def _stops(measurement: Measurement, drive: DriveDocument | None, start: StartModel) -> ExperimentValue:
+    """The end stops that a document states, else those assumed."""
+    stops = None if drive is None else drive.stops
+    limit = start.limits.max_contraction
+    if drive is not None and stops is not None and "stops" in drive.model_fields_set:
+        shown = _shown_stops(stops.min_contraction, stops.max_contraction or limit or _MAX_CONTRACTION)
+        return ExperimentValue(shown, FIELDS["stops"].unit, "you", FROM_DRIVE)
+    bare = drive is None and "command" not in measurement.columns
+    return assumed_stops(measurement, start.muscle.nominal_length, limit, bare=bare)
+
+
+def assumed_stops(
+    measurement: Measurement | None, rest_length: float | None, limit: float | None, *, bare: bool
+) -> ExperimentValue:
+    """The end stops where nobody states them: none where the record is beyond them.
+
+    Args:
+        measurement: of a transient, if it is known already.
+        rest_length: of the muscle [m], if it is known.
+        limit: contraction that the maker allows.
+        bare: the pressure was measured and no drive is stated, so that no upper stop is simulated.
+    """
+    low, high = 0.0, highest_stop(None, 1.0, None) if bare else limit or _MAX_CONTRACTION
+    places = []
+    if measurement is not None and rest_length is not None:
+        if (seen := lowest_stop(measurement, rest_length)) < 0.0:
+            low = seen
+            places.append("lowest position of the record")
+        free = highest_stop(measurement, rest_length, None if bare else high)
+        if free > high:
+            places.append(f"the record passes {100.0 * high:.3g} %")
+        high = free
+    if bare:
+        places.append("no upper stop")
+    elif limit is not None and high == limit:
+        places.append("limit of the maker")
+    return ExperimentValue(_shown_stops(low, high), FIELDS["stops"].unit, "assumed", "; ".join(places))
+
+
+def _shown_stops(low: float, high: float) -> str:
+    return f"{100.0 * low:.3g} % to {100.0 * high:.3g} %"
+
+
+def passed_stop(
+    measurement: Measurement, values: Mapping[str, ExperimentValue], rest_length: float
+) -> str | None:
+    """What is to be said of a stated upper stop that the record passes; None = it does not."""
+    stops = values.get("stops")
+    if measurement.kind != "transient" or stops is None or stops.origin == "assumed":
+        return None
+    high = stops_of(str(stops.value))[1]
+    if highest_stop(measurement, rest_length, high) <= high:
+        return None
+    return (
+        f"{measurement.name}: the record passes the stated end stop at {100.0 * high:.3g} % contraction, so "
+        "no upper stop is simulated; check the stop, the rest length and the zero of the stroke"
+    )
 
 
 def _angle(load: Any) -> float:
@@ -165,7 +211,8 @@ def own_drive(
         ) from error
     if "stops" not in document.model_fields_set:
         drive = replace(drive, min_contraction=lowest_stop(measurement, start.muscle.nominal_length))
-    return replace(drive, model=studio.static_model(start))
+    top = highest_stop(measurement, start.muscle.nominal_length, drive.max_contraction)
+    return replace(drive, model=studio.static_model(start), max_contraction=top)
 
 
 def _said(values: Mapping[str, ExperimentValue]) -> dict[str, ExperimentValue]:
@@ -240,5 +287,6 @@ def _bare(
         drive = replace(drive, load=replace(drive.load, inclination=float(said["inclination"].value)))
     if "stops" in said:
         low, high = stops_of(str(said["stops"].value))
-        drive = replace(drive, min_contraction=low, max_contraction=high)
+        top = highest_stop(measurement, start.muscle.nominal_length, high)
+        drive = replace(drive, min_contraction=low, max_contraction=top)
     return drive

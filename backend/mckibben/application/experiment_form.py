@@ -9,6 +9,7 @@ from math import pi
 import numpy as np
 
 from mckibben.application.experiment import SaidMeasurement, stated_in
+from mckibben.application.experiment_drive import assumed_stops
 from mckibben.application.form_field import FormField
 from mckibben.application.measurements import UnreadableFile
 from mckibben.application.model_question import ModelQuestion
@@ -164,8 +165,9 @@ def _usual(
     if kind == "transient":
         found["inclination"] = ExperimentValue(pi / 2.0, "rad", "assumed")
         limit = None if facts is None else facts.limits.max_contraction
-        place = "" if limit is None else "limit of the maker"
-        found["stops"] = ExperimentValue(f"0 % to {100.0 * (limit or 0.25):.3g} %", "", "assumed", place)
+        rest = values.get("rest_length", found.get("rest_length"))
+        length = None if rest is None else float(rest.value)
+        found["stops"] = assumed_stops(measurement, length, limit, bare="command" not in channels)
         if "command" in channels:
             found["supply"] = ExperimentValue(6e5, "Pa", "assumed")
             found["tube"] = ExperimentValue("none", "", "assumed")

@@ -23,6 +23,8 @@ _JUMP = 0.02  # change of the load to the next level, share of the range
 _HELD_SHARE = 0.7  # of the rows, in which a hanging weight pulls with its weight alone
 _SECOND = 1.0  # s
 _SLOW = 0.2  # of the range of the stroke in a second; a ramp through it takes longer than five
+_PAUSE = 5.0  # usual steps of time; longer ones are pauses
+_CLOSE = 0.1  # s between rows, at most, where inertia shows
 _FEWEST_STEPS = 20  # of time, in which the speed shows
 _FEWEST_IN_RUN = 5  # rows with the same load
 _MANY_EXTREMES = 200_000  # limit of the loop over extremes; longer signals are reduced to blocks
@@ -52,10 +54,11 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
 
     The rules in this order; "stroke" is length, contraction or displacement:
 
-    1. time with a valve command: ``transient``.
+    1. time with a valve command: ``transient``; but where pressure, force and stroke were measured beside it
+       and the stroke is held, ``isometric``: the pressure says what the valve did, and nothing moves.
     2. force, pressure and stroke: ``transient`` with time and a stated load mass, unless the force is
-       constant and the muscle moves slowly; ``isotonic`` when the force is constant, throughout or in each
-       run, and both others vary; ``isobaric``/``isometric`` when
+       constant and the muscle moves slowly, and where stated weights are lifted fast; ``isotonic`` when
+       the force is constant, throughout or in each run, and both others vary; ``isobaric``/``isometric`` when
        pressure/stroke is constant throughout. Otherwise the occupied 1 % steps of both ranges are counted: a
        filled grid without time and direction is ``static`` (unless one axis is fine, >= 25 levels and 4 times
        the other); an axis with at most half the steps of the other is the constant one; without such an axis
@@ -75,11 +78,17 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     pressure, force = columns.get("pressure"), columns.get("force")
     timed = "time" in columns
     if timed and "command" in columns and (pressure is not None or stroke is not None):
+        if pressure is not None and stroke is not None and force is not None and not _loaded(conditions):
+            found = _force_kind(pressure, stroke, force, swept=True)
+            if found[0] == "isometric":
+                return "isometric", f"{found[1]}, and the pressure shows what the valve did"
         return "transient", "a valve command over time"
     if force is not None and pressure is not None and stroke is not None:
         slow = timed and _moves_slowly(columns["time"], stroke)
         if timed and "load_mass" in conditions and not (slow and _constant(force)):
             return "transient", "force, pressure and stroke over time with a load mass"
+        if lifts_fast(columns):
+            return "transient", "weights are lifted fast: each run has one exact force, and inertia shows"
         found = _force_kind(pressure, stroke, force, swept=timed or "direction" in columns)
         if found[0] == "static" and slow and _held_load(force):
             return "isotonic", "the force stays at one level while pressure and stroke change slowly"
@@ -89,7 +98,7 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     if "diameter" in columns and (pressure is not None or stroke is not None):
         return "diameter", "a diameter beside pressure or stroke"
     if pressure is not None and stroke is not None:
-        if timed and {"load_mass", "load_force"} & set(conditions) and _moves_slowly(columns["time"], stroke):
+        if timed and _loaded(conditions) and _moves_slowly(columns["time"], stroke):
             return "isotonic", "pressure and stroke change slowly under a stated load"
         return (
             ("transient", "pressure and stroke over time") if timed else ("isotonic", "strokes at pressures")
@@ -101,6 +110,60 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
         field="columns",
         hint="force measurements need pressure, length and force; strokes need pressure and length, or time",
     )
+
+
+def _loaded(conditions: Mapping[str, float | str]) -> bool:
+    return bool({"load_mass", "load_force"} & set(conditions))
+
+
+def weights_of_runs(columns: Mapping[str, NDArray]) -> Array | None:
+    """The force of each row where it was stated and not measured: exactly one in each run, and no zero.
+
+    A run ends where time steps back or pauses: nobody changes a weight between two rows.
+    """
+    force, time = columns.get("force"), columns.get("time")
+    if force is None or time is None or len(force) < _FEWEST_STEPS or not np.min(force) > 0.0:
+        return None
+    apart = _run_ends(time)
+    if np.any((np.diff(force) != 0.0) & ~apart):
+        return None
+    return force
+
+
+def starts_of_lifts(columns: Mapping[str, NDArray]) -> tuple[int, ...]:
+    """First row of each run of stated weights (`weights_of_runs`): each has its load and its beginning."""
+    return (0, *(np.flatnonzero(_run_ends(columns["time"])) + 1).tolist())
+
+
+def _run_ends(time: Array) -> NDArray[np.bool_]:
+    """Whether a run ends with each row but the last: time steps back or pauses."""
+    steps = np.diff(time)
+    usual = float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 0.0
+    return (steps < 0.0) | (steps > _PAUSE * usual)
+
+
+def lifts_fast(columns: Mapping[str, NDArray]) -> bool:
+    """Whether stated weights are lifted so fast that their inertia shows, and the rows are close enough."""
+    weights = weights_of_runs(columns)
+    stroke = next((columns[name] for name in STROKES if name in columns), None)
+    if weights is None or stroke is None or not np.ptp(stroke) > 0.0:
+        return False
+    steps = np.diff(columns["time"])
+    if not np.any(steps > 0.0) or float(np.median(steps[steps > 0.0])) > _CLOSE:
+        return False
+    runs = np.split(np.arange(len(stroke)), starts_of_lifts(columns)[1:])
+    span = float(np.ptp(stroke))
+    return any(_fastest(columns["time"][rows], stroke[rows], span) > _SLOW * span for rows in runs)
+
+
+def _fastest(time: Array, stroke: Array, span: float) -> float:
+    """The most that a stroke changes in a second of a run, or at that speed in a quarter of a shorter one."""
+    if len(time) < _FEWEST_STEPS or not time[-1] > time[0]:
+        return 0.0
+    step = (time[-1] - time[0]) / (len(time) - 1)
+    ahead = max(1, min(round(_SECOND / step), len(time) // 4))
+    calm, _ = smoothed(stroke, noise=noise_of(stroke), swing=_SLOW * span)
+    return float(np.max(np.abs(calm[ahead:] - calm[:-ahead]))) / (ahead * step) * _SECOND
 
 
 def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) -> tuple[str, str]:

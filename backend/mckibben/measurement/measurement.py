@@ -98,6 +98,7 @@ class Measurement:
         undecided: those among them of which neither name nor unit tells what they are.
         stated: the conditions with their origin.
         questions: what the file leaves open.
+        by_rows: without time, the order of the rows is that of the test.
     """
 
     name: str
@@ -119,6 +120,7 @@ class Measurement:
     undecided: tuple[str, ...] = ()
     stated: tuple[StatedValue, ...] = ()
     questions: tuple[Question, ...] = ()
+    by_rows: bool = False
 
     @cached_property
     def usable(self) -> NDArray[np.bool_]:
@@ -143,6 +145,11 @@ class Measurement:
     def segments(self) -> Sweeps:
         """Sweeps, cycles, directions and speeds, determined at the first access."""
         return self.segmented or sweeps_of(self.columns, self.kind, starts=self.starts)
+
+    @property
+    def in_order(self) -> bool:
+        """Whether the rows follow each other as in the test: by their time, or without one by themselves."""
+        return self.by_rows or "time" in self.columns
 
     @property
     def rows(self) -> int:

@@ -46,8 +46,9 @@ def settled(measurement: Measurement) -> Settled:
     """The measurement with values of twelve digits and times that begin at 0 in each file.
 
     A row that repeats another one of its file in every column is left out: with time always, without time
-    only where a tenth of the rows does, as coarse readings may be equal by chance. The rows of a static map
-    without time are sorted within each group, along the quantity that changes there.
+    only where a tenth of the rows does, as coarse readings may be equal by chance, and none where the order
+    of the rows is that of the test. The rows of another static map without time are sorted within each group,
+    along the quantity that changes there.
 
     Args:
         measurement: of any kind; a time that steps back begins at 0 again.
@@ -57,14 +58,14 @@ def settled(measurement: Measurement) -> Settled:
         for name, values in measurement.columns.items()
         if name != "time"
     }
-    timed = "time" in measurement.columns
-    if timed:
+    timed = measurement.in_order
+    if "time" in measurement.columns:
         columns["time"] = record_time(measurement.columns["time"], measurement.starts)
     file = np.zeros(measurement.rows, dtype=np.int64)
     file[list(measurement.starts)] = 1
     file = np.cumsum(file)
     copies = _copies(columns, file)
-    if not timed and np.count_nonzero(copies) <= _COPIED * measurement.rows:
+    if measurement.by_rows or (not timed and np.count_nonzero(copies) <= _COPIED * measurement.rows):
         copies[:] = False
     rows = np.flatnonzero(~copies)
     if measurement.kind == "static" and not timed:

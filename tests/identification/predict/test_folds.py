@@ -59,7 +59,7 @@ def test_ranges_are_levels_or_six_of_equal_width():
 def test_sweeps_over_time_are_runs_of_a_group_in_a_record():
     groups = np.array([0, 0, 0, 1, 1, 0, 0, 0])
     records = np.array([0, 0, 0, 0, 0, 0, 1, 1])
-    found = sweeps_of(groups, records, None, np.arange(8.0), timed=True)
+    found = sweeps_of(groups, records, None, np.arange(8.0), ordered=True)
     assert [rows.tolist() for rows in found] == [[0, 1, 2], [3, 4], [5], [6, 7]]
 
 
@@ -67,11 +67,11 @@ def test_sweeps_of_a_map_are_its_longest_lines():
     """Two lengths at five pressures: the lines of equal length, in the order of the pressure."""
     pressure = np.repeat([5e5, 1e5, 3e5, 2e5, 4e5], 2)
     length = np.tile([0.28, 0.3], 5)
-    found = sweeps_of(np.repeat(np.arange(5), 2), np.zeros(10, int), length, pressure, timed=False)
+    found = sweeps_of(np.repeat(np.arange(5), 2), np.zeros(10, int), length, pressure, ordered=False)
     assert [rows.tolist() for rows in found] == [[2, 6, 4, 8, 0], [3, 7, 5, 9, 1]]
     # Five lengths at two pressures: the groups of equal pressure are longer.
     found = sweeps_of(
         np.repeat([0, 1], 5), np.zeros(10, int), np.tile(np.linspace(0.26, 0.3, 5), 2),
-        np.repeat([1e5, 2e5], 5), timed=False,
+        np.repeat([1e5, 2e5], 5), ordered=False,
     )  # fmt: skip
     assert [rows.tolist() for rows in found] == [[0, 1, 2, 3, 4], [5, 6, 7, 8, 9]]

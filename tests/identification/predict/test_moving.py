@@ -17,6 +17,7 @@ from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import (
     TransientPredictor,
     driven_by_pressure,
+    highest_stop,
     lowest_stop,
     moving,
     predictor_of,
@@ -494,3 +495,32 @@ def test_a_load_rests_where_it_was_seen_to_rest(stretched: float, expected: floa
     found = build(columns, name="a.csv", id="0", conditions={"load_mass": 12.0}, kind="transient")
     assert lowest_stop(found, 0.3) == pytest.approx(expected, rel=0.06)
     assert driven_by_pressure(found, MUSCLE).min_contraction == lowest_stop(found, MUSCLE.nominal_length)
+
+
+@pytest.mark.parametrize(
+    ("reached", "stop", "expected"),
+    [(0.06, 0.25, 0.25), (0.075, 0.25, 0.25), (0.12, 0.25, 0.44), (0.09, None, 0.4), (0.105, 0.35, 0.35)],
+)
+def test_a_stop_that_the_record_passes_is_none(reached: float, stop: float | None, expected: float) -> None:
+    """A stop at 25 % of 300 mm holds at 75 mm; who was at 120 mm met none, and it must not hold the model."""
+    rows = 300
+    time, noise = 0.01 * np.arange(rows), 5e-5 * np.random.default_rng(4).standard_normal(rows)
+    columns = {"time": time, "pressure": 3e5 * np.clip(time - 0.9, 0.0, 1.0)}
+    columns["displacement"] = reached * np.clip(time - 1.0, 0.0, 1.0) + noise
+    found = build(columns, name="a.csv", id="0", conditions={"load_mass": 12.0}, kind="transient")
+    assert highest_stop(found, 0.3, stop) == pytest.approx(expected, rel=0.01)
+    assert driven_by_pressure(found, MUSCLE).max_contraction == pytest.approx(max(expected, 0.4), rel=0.01)
+
+
+def test_each_run_lifts_the_weight_that_its_title_states() -> None:
+    """The force of a title is no reading of a cell: it is the load of its run, and moves with it."""
+    masses = (6.0, 12.0)
+    made = measured(*(drive(load=Load(mass=mass)) for mass in masses), command=False)
+    columns = {**made.columns, "force": G * np.repeat(masses, len(GRID))}
+    found = build(columns, name="titles", id="1" * 64, kind="transient", excluded_rows={})
+    predictor = predictor_of(found, MUSCLE)
+    assert isinstance(predictor, TransientPredictor)
+    assert [channel.name for channel in predictor.channels] == ["displacement"]
+    assert [each.load.mass for each in predictor.drives] == pytest.approx(masses)
+    # Rows as close as those of the drive that was measured; a load of the other run is 20 mm away.
+    assert predictor.predict(fit_model(HIDDEN)) == pytest.approx(made.columns["displacement"], abs=1e-3)

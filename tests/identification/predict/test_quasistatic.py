@@ -273,3 +273,34 @@ def test_rows_that_cannot_be_used_are_counted_or_refused():
     with pytest.raises(InputError, match="no row can be compared") as error:
         predictor_of(none, MUSCLE)
     assert error.value.field == "measurement"
+
+
+def slack_rows(pull: float, zero: float = 0.0) -> QuasistaticPredictor:
+    """Readings beyond the free contraction of the braid (ideal: 35 %): 0.5 N of noise about a zero.
+
+    ``pull``: force that grows with the pressure [N at 4 bar], as of a muscle that does pull a little.
+    """
+    rng = np.random.default_rng(11)
+    rows = [
+        f"{p},{kappa:.4f},{zero + pull * p / 4e5 + rng.normal(0.0, 0.5):.4f}"
+        for p in (1e5, 2e5, 3e5, 4e5)
+        for kappa in np.linspace(0.37, 0.42, 8)
+    ]
+    return predictor_of(csv(rows, "pressure_Pa,contraction,force_N", "kind: static"), MUSCLE)
+
+
+@pytest.mark.parametrize("zero", [0.0, 4.0])
+def test_a_muscle_that_is_slack_throughout_is_compared_as_slack(zero: float) -> None:
+    """It would push by up to 150 N if it could; what its cell reads is its zero, however a fit goes on."""
+    predictor, model = slack_rows(0.0, zero), fit_model()
+    values, slopes = predictor.linearised(model, numbers(model, ["nominal_length"]))
+    assert np.max(np.abs(values)) == 0.0
+    assert not slopes.any()
+    offset = fit_model(force_offset={"offset": zero})
+    assert predictor.predict(offset) == pytest.approx(predictor.linearised(offset, [])[0])
+
+
+def test_a_small_force_that_follows_the_pressure_is_no_slack_muscle() -> None:
+    predictor, model = slack_rows(5.0), fit_model()
+    values, _ = predictor.linearised(model, [])
+    assert np.min(values) < -50.0  # a fit has to see how far the model is away

@@ -230,5 +230,19 @@ def test_names_above_and_ways_with_units_below() -> None:
         f"# rest length 300 mm, pressure 4 bar\nKontraktion;Kraft;\n[%];Belasten [N];Entlasten [N]\n{rows}"
     )
     assert found.rows == 40
-    np.testing.assert_allclose(found.columns["contraction"], np.tile(np.arange(20) / 100.0, 2))
-    np.testing.assert_allclose(found.columns["force"][[0, 20]], [500.0, 470.0])
+    # A load that grows stretches a muscle: loading began at the shortest length, unloading ends there.
+    there = np.arange(20)[::-1] / 100.0
+    np.testing.assert_allclose(found.columns["contraction"], np.concatenate([there, there[::-1]]))
+    np.testing.assert_allclose(found.columns["force"][[0, 19, 20, 39]], [120.0, 500.0, 470.0, 90.0])
+    assert found.columns["direction"].tolist() == 20 * [1.0] + 20 * [-1.0]
+
+
+def test_strokes_of_loading_and_unloading_beside_one_weight() -> None:
+    """The weights grow down the table: loading went down it, although the stroke falls, and unloading up."""
+    rows = "\n".join(f"{20 + 5 * n};{60 - 2 * n};{57 - 2 * n}" for n in range(12))
+    found = read(
+        f"# rest length 300 mm, pressure 3 bar\nKraft [N];Hub Belasten [mm];Hub Entlasten [mm]\n{rows}"
+    )
+    weights = 20.0 + 5.0 * np.arange(12)
+    np.testing.assert_allclose(found.columns["force"], np.concatenate([weights, weights[::-1]]))
+    assert found.columns["direction"].tolist() == 12 * [1.0] + 12 * [-1.0]

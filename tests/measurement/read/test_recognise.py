@@ -37,6 +37,10 @@ HEADS = {
     "Kontraktion [%]": ("contraction", "%", None),
     "Last [kg]": ("force", "kg", None),
     "Kanal 3 [N]": ("force", "N", None),  # by its unit alone
+    "dL (база), мм": ("displacement", "mm", None),  # no diameter
+    "ΔL [mm]": ("displacement", "mm", None),
+    "d [mm]": ("diameter", "mm", None),
+    "dx [mm]": ("displacement", "mm", None),
 }
 
 
@@ -69,7 +73,8 @@ NONE_OF_OURS = {
 def test_why_a_head_is_no_channel(head: str) -> None:
     found = recognise(head)
     assert found.channel is None
-    assert NONE_OF_OURS[head] in found.why
+    assert found.left_out is not None
+    assert NONE_OF_OURS[head] in found.left_out.text
 
 
 def test_units_that_stand_apart() -> None:
@@ -77,6 +82,8 @@ def test_units_that_stand_apart() -> None:
     assert recognise("Kraft", "2,0 mV/V")[:2] == ("force", None)
     assert recognise("Druck", "V").channel is None
     assert recognise("Verlängerung", "mm").extends
+    assert recognise("dL [mm]").extends
+    assert not recognise("dx [mm]").extends
 
 
 def test_a_thousandth_of_a_pascal_is_no_megapascal() -> None:

@@ -455,10 +455,14 @@ def test_the_way_there_and_back_in_two_columns_beside_one_pressure() -> None:
     for ways in (("inflating", "deflating"), ("(mm) auf", "(mm) ab")):
         heads = [f"Länge {way}" if "mm" in way else f"Länge (mm) {way}" for way in ways]
         result = read([";".join(["Druck (bar)", *heads]), *rows])
+        # In the order of the test: down from the pressure that was reached, and the muscle becomes longer.
         np.testing.assert_allclose(
-            result.columns["length"], np.concatenate([filling, venting]) * 1e-3, atol=1e-5
+            result.columns["length"], np.concatenate([filling, venting[::-1]]) * 1e-3, atol=1e-5
         )
-        np.testing.assert_allclose(result.columns["pressure"], np.tile(pressure, 2) * 1e5, atol=1.0)
+        np.testing.assert_allclose(
+            result.columns["pressure"], np.concatenate([pressure, pressure[::-1]]) * 1e5, atol=1.0
+        )
+        assert result.columns["direction"].tolist() == 26 * [-1.0] + 26 * [1.0]
 
 
 def test_two_ways_beside_one_time_are_two_sensors() -> None:

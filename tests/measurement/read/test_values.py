@@ -6,7 +6,7 @@ from datetime import datetime
 
 import pytest
 
-from mckibben.measurement.read.values import Clock, NumberStyle, kind_of, number_of, style_of
+from mckibben.measurement.read.values import CLOCK, TEXT, Clock, NumberStyle, kind_of, number_of, style_of
 
 KINDS = {
     "1": "n", "-2.5": "n", "1,5": "n", "1.234,56": "n", "1 234,5": "n", "1'234.5": "n", "1,234.5": "n",
@@ -57,3 +57,10 @@ def test_a_number_of_another_style_stays_a_text() -> None:
 def test_times_count_from_the_first(cells: list[str | datetime], seconds: list[float]) -> None:
     clock = Clock()
     assert [clock.seconds(cell) for cell in cells] == pytest.approx(seconds, abs=1e-6)
+
+
+def test_two_parts_with_a_fraction_are_minutes_and_seconds() -> None:
+    clock = Clock()
+    assert [clock.seconds(cell) for cell in ("00:58,75", "01:00,25", "100:00.5")] == [0.0, 1.5, 5941.75]
+    assert kind_of("00:00,25") == CLOCK
+    assert kind_of("12:75,5") == TEXT  # no minute has 75 seconds

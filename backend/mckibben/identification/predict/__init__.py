@@ -17,7 +17,7 @@ import numpy as np
 
 from mckibben.identification.predict.comparable_rows import comparable_rows
 from mckibben.identification.predict.moving import TransientPredictor
-from mckibben.identification.predict.moving_records import lowest_stop
+from mckibben.identification.predict.moving_records import highest_stop, hung_weights, lowest_stop
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.identification.predict.reading_errors import ReadingError
@@ -31,11 +31,13 @@ from mckibben.simulation.statics.model import StaticModel
 
 __all__ = [
     "PredictedChannel", "Predictor", "QuasistaticPredictor", "TransientPredictor", "driven_by_pressure",
-    "lowest_stop", "predictor_of",
+    "highest_stop", "lowest_stop", "predictor_of",
 ]  # fmt: skip
 
 _PRESSURE = 6e5  # Pa; required by the drive, but unused because the pressure is measured
 _ANY_VALVE = Valve(1e-8, 1e-8)  # the pressure is measured, so no air flows through it
+
+_SAME_CLAMP = 0.1  # of the accuracy of a length, within which two groups have the same
 
 
 def predictor_of(
@@ -71,13 +73,28 @@ def _set_accuracy(predictor: QuasistaticPredictor, accuracy: dict[str, float]) -
     length = accuracy.pop("length", 0.0) if predictor.kind == "isometric" else 0.0
     if length > 0.0:
         at = predictor.inputs["length"]
-        clamped = [predictor.groups == label for label in np.unique(predictor.groups)]
+        clamped = _clamped(predictor.groups, at, length)
         predictor.reading_errors = tuple(
             ReadingError("length", f"clamped at {1e3 * float(np.mean(at[rows])):.4g} mm", length, "m", rows)
             for rows in clamped
         )
     seen = {channel.name for channel in predictor.channels} | set(predictor.inputs)
     predictor.accuracy = {name: sigma for name, sigma in accuracy.items() if name in seen and sigma > 0.0}
+
+
+def _clamped(groups: np.ndarray, length: np.ndarray, accuracy: float) -> list[np.ndarray]:
+    """Masks of the rows that were measured in one clamping: groups one after the other at the same length.
+
+    A way there and its way back are two groups, but nobody clamped the muscle anew between them.
+    """
+    masks: list[np.ndarray] = []
+    for label in np.unique(groups).tolist():
+        rows = groups == label
+        if masks and abs(np.mean(length[rows]) - np.mean(length[masks[-1]])) < _SAME_CLAMP * accuracy:
+            masks[-1] = masks[-1] | rows
+        else:
+            masks.append(rows)
+    return masks
 
 
 def driven_by_pressure(measurement: Measurement, muscle: Muscle) -> Drive:
@@ -94,7 +111,7 @@ def driven_by_pressure(measurement: Measurement, muscle: Muscle) -> Drive:
             '--experiment "valve=MPYE-5-1/8-HF"',
         )
     conditions = measurement.conditions
-    if not {"load_mass", "load_force"} & set(conditions):
+    if not {"load_mass", "load_force"} & set(conditions) and hung_weights(measurement) is None:
         unused = ", ".join(f"'{header}'" for header in measurement.undecided)
         also = f"; is the force in one of the unused columns {unused}?" if unused else ""
         also = "" if "force" in measurement.columns else also
@@ -113,5 +130,5 @@ def driven_by_pressure(measurement: Measurement, muscle: Muscle) -> Drive:
         duration=1.0,
         supply_pressure=_PRESSURE,
         min_contraction=lowest_stop(measurement, muscle.nominal_length),
-        max_contraction=0.4,
+        max_contraction=highest_stop(measurement, muscle.nominal_length, None),
     )

@@ -64,6 +64,7 @@ class ComparableRows:
             displacement, 1 - contraction for a contraction.
         corners: mask of the rows that were put between those of the file, see
             `mckibben.identification.predict.corners`; None without any.
+        ordered: the rows follow each other as in the test, with or without time.
     """
 
     kind: str
@@ -82,6 +83,7 @@ class ComparableRows:
     rest_length: float = 0.0
     by_rest_length: np.ndarray | float = 0.0
     corners: np.ndarray | None = None
+    ordered: bool = False
 
     def chosen(self, keep: np.ndarray) -> ComparableRows:
         """Only some of the rows (a mask or indices)."""
@@ -183,6 +185,7 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
         messages=tuple(messages),
         rest_length=muscle.nominal_length,
         by_rest_length=_by_rest_length(columns)[keep] if length is not None else 0.0,
+        ordered=measurement.in_order,
     )
 
 
@@ -373,9 +376,11 @@ def _turns(moved: np.ndarray, swing: float) -> list[int]:
 def records_of(measurement: Measurement) -> np.ndarray:
     """Label of the uninterrupted record of each row: a new one begins where time does not increase."""
     columns = measurement.columns
-    if "time" not in columns:
+    if not measurement.in_order:
         return np.zeros(measurement.rows, dtype=np.int64)
-    new = ~(np.diff(columns["time"]) > 0.0)
+    new = np.zeros(measurement.rows - 1, bool)
+    if "time" in columns:
+        new |= ~(np.diff(columns["time"]) > 0.0)
     new[np.array(measurement.starts[1:], dtype=int) - 1] = True
     return np.concatenate([[0], np.cumsum(new)]).astype(np.int64)
 

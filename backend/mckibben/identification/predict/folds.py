@@ -39,14 +39,14 @@ def ranges_of(values: np.ndarray) -> np.ndarray:
 
 
 def sweeps_of(
-    groups: np.ndarray, records: np.ndarray, length: np.ndarray | None, pressure: np.ndarray, *, timed: bool
+    groups: np.ndarray, records: np.ndarray, length: np.ndarray | None, pressure: np.ndarray, *, ordered: bool
 ) -> list[np.ndarray]:
     """Indices of the rows of each sweep, in order. Along a sweep a residual changes smoothly.
 
-    With time, a sweep is the rows of a group in a record. A map without time has lines of equal length
-    over pressure or the groups as sweeps, whichever are longer.
+    Where the rows are in the order of the test, a sweep is the rows of a group in a record. A map has lines
+    of equal length over pressure or the groups as sweeps, whichever are longer.
     """
-    if timed:
+    if ordered:
         return _split(np.arange(len(groups)), groups, records)
     by_group = _split(np.arange(len(groups)), groups, records)
     if length is None:

@@ -221,6 +221,7 @@ class Memory:
                 length=task.state["length"][rows],
                 temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
                 begins=[self._begin(run, effect, rows[0], motion) for run in runs],
+                among=len(task.measured),
             )
             for trajectories, of_run in zip(found, states, strict=True):
                 for name in names:

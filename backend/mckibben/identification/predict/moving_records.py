@@ -7,7 +7,9 @@ from functools import cached_property
 
 import numpy as np
 
+from mckibben.measurement.corrected import GRAVITY
 from mckibben.measurement.derivative import noise_of
+from mckibben.measurement.kind import weights_of_runs
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import TableSignal
@@ -22,6 +24,9 @@ _FEW_LEVELS = 0.2  # share of rows at which the command changes, up to which it 
 _FIRST_ROWS = 50  # most rows for the start pressure
 _RESTING = 0.02  # share of the rows of a run for which a load rests at its lowest, at least
 _STRETCHED = 2e-3  # share of the rest length; less is a zero error of the sensor
+_PASSED = 5e-3  # of contraction; a record that goes further beyond a stop shows that none is there
+_OUT_OF_WAY = 0.4  # contraction of a stop that is not reached
+_ROOM = 1.1  # the same, over what was seen
 _NOT_VENTED = 30e3  # Pa from the documented start pressure; less may be a zero error of the gauge
 
 
@@ -94,6 +99,35 @@ def lowest_stop(measurement: Measurement, rest_length: float) -> float:
     return -beyond / rest_length
 
 
+def highest_stop(measurement: Measurement | None, rest_length: float, stop: float | None) -> float:
+    """Contraction of the upper stop: ``stop``, or one that is not reached where the record passes it.
+
+    A stop is no obstacle where the muscle was seen beyond it, whoever stated it: simulated, it would hold
+    back what was measured, and effects would be invented for it.
+
+    Args:
+        measurement: of a transient, if it is known.
+        rest_length: of the muscle [m].
+        stop: stated, or the limit of the maker; None = none.
+    """
+    free = _OUT_OF_WAY
+    if measurement is not None and any(name in measurement.columns for name in STROKES):
+        length = lengths(measurement, rest_length)[measurement.usable]
+        if len(length):
+            seen = 1.0 - float(np.quantile(length, _RESTING)) / rest_length
+            free = max(free, _ROOM * seen)
+            if stop is not None and seen - stop > max(_PASSED, 5.0 * noise_of(length) / rest_length):
+                return free
+    return free if stop is None else stop
+
+
+def hung_weights(measurement: Measurement) -> np.ndarray | None:
+    """Weight of the load of each row [N], where the file states one for each run; None = it does not."""
+    if {"load_mass", "load_force"} & set(measurement.conditions):
+        return None
+    return weights_of_runs(measurement.columns)
+
+
 def recorded_channels(
     measurement: Measurement, drive: Drive, *, commanded: bool
 ) -> list[tuple[str, str, np.ndarray]]:
@@ -105,7 +139,8 @@ def recorded_channels(
     stroke = stroke_of(measurement, drive)
     if stroke is not None:
         channels.append(("displacement", "m", stroke))
-    if "force" in columns and (commanded or stroke is not None):
+    weighed = hung_weights(measurement) is not None  # stated, no reading
+    if "force" in columns and not weighed and (commanded or stroke is not None):
         channels.append(("force", "N", columns["force"]))
     return channels
 
@@ -127,6 +162,8 @@ def record_of(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Recor
         load = replace(load, mass=float(conditions["load_mass"]))
     if "load_force" in conditions:
         load = replace(load, force=float(conditions["load_force"]))
+    if (weights := hung_weights(measurement)) is not None:
+        load = replace(load, mass=float(weights[rows[0]]) / GRAVITY)
     changed: dict = {"duration": float(time[-1]), "load": load, "controller": None, "reference": None}
     if "supply_pressure" in conditions:
         changed["supply_pressure"] = float(conditions["supply_pressure"])

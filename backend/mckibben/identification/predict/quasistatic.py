@@ -24,6 +24,13 @@ from mckibben.simulation.statics.model import clip_slack
 _LEAST = 0.01  # quantile that serves as the smallest force: a single row may be an outlier
 _NEAR_ZERO = 0.05  # largest force of a slack muscle, share of the range of the force
 _INPUT_STEP = 2e-4  # step of a difference by an input, share of its largest value
+_ALL_SLACK = (
+    0.02  # of the blocked force; what a slack muscle reads throughout, zero error and noise, is below
+)
+_FEWEST_READINGS = 8  # that show no trend
+_TREND = (
+    0.3  # of the variance; readings that follow pressure or length less are those of no muscle that pulls
+)
 _SLACK_BAND = 0.02  # scatter of the readings of a slack muscle, share of the range of the force
 
 
@@ -37,6 +44,7 @@ class QuasistaticPredictor(Predictor):
 
     def __init__(self, task: ComparableRows, *, largest_load: float = 0.0) -> None:
         self.kind = task.kind
+        self._blocked = largest_load
         self._follow(task)
         # A late reading is one of an instant between two rows, where the way may have turned.
         cornered = with_corners(task) if np.any(~task.turning) else task
@@ -59,7 +67,7 @@ class QuasistaticPredictor(Predictor):
             self.records,
             counted.state.get("length"),
             counted.state["pressure"],
-            timed=task.time is not None,
+            ordered=task.ordered,
         )
         time = {} if counted.time is None else {"time": counted.time}
         self.inputs = {
@@ -76,9 +84,9 @@ class QuasistaticPredictor(Predictor):
         self.task = task
         # Rows where the motion turns belong to the path, but are not scored.
         self._counted = ~task.turning if np.any(~task.turning) else np.ones(len(task.turning), bool)
-        self._idle = (
-            _like_slack(task.measured) if task.channel == "force" else np.zeros(len(task.measured), bool)
-        )
+        self._idle = np.zeros(len(task.measured), bool)
+        if task.channel == "force":
+            self._idle = self._like_slack(task.measured, np.ones(len(task.measured), bool))
         self._evaluation = Evaluation(task)
 
     def _along(self, fit_model: FitModel) -> QuasistaticPredictor:
@@ -96,11 +104,13 @@ class QuasistaticPredictor(Predictor):
 
         Static rows with time also reveal effects of isobaric and isometric measurements.
         """
-        free = self.kind == "static" and self.task.time is not None
+        free = self.kind == "static" and self.task.ordered
         if not effect.kinds & ({"static", "isobaric", "isometric"} if free else {self.kind}):
             return f"it does not show in {self.kind} data, only in {effect.shown_in}"
         delays = late(effect)
-        if (remembers(effect) or delays) and self.task.time is None:
+        # What a hysteretic effect remembers depends on the way alone, which the order of rows shows as well.
+        known = self.task.ordered and effect.type == "hysteretic"
+        if (remembers(effect) or delays) and self.task.time is None and not known:
             return "it depends on what happened before, and the rows have no time"
         if delays and self.task.channel != "force":
             return "it delays the force reading, and no force was predicted"
@@ -153,8 +163,15 @@ class QuasistaticPredictor(Predictor):
         other.measured, other.task = values, replace(self.task, measured=measured)
         other._idle = np.zeros(len(measured), bool)
         if self.task.channel == "force":
-            other._idle[self._counted] = _like_slack(values)
+            other._idle[self._counted] = self._like_slack(values, self._counted)
         return other
+
+    def _like_slack(self, force: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        """Mask of the forces that a slack muscle may show, in some rows of the task."""
+        inputs = [self.task.state[name][rows] for name in ("pressure", "length") if name in self.task.state]
+        if _is_slack_throughout(force, inputs, self._blocked):
+            return np.ones(len(force), bool)
+        return _like_slack(force)
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """Force, length or diameter of each row; the length is limited by the lock of the braid."""
@@ -268,6 +285,24 @@ def _like_slack(force: np.ndarray) -> np.ndarray:
     if span == 0.0 or abs(least) > _NEAR_ZERO * span:
         return np.zeros(len(force), bool)
     return force <= max(least + _SLACK_BAND * span, -least)
+
+
+def _is_slack_throughout(force: np.ndarray, inputs: Sequence[np.ndarray], blocked: float) -> bool:
+    """Whether readings are those of a muscle that never pulls: small, and no matter of pressure or length.
+
+    Args:
+        force: the readings [N].
+        inputs: what the force of a muscle that pulls depends on.
+        blocked: force at the highest pressure and the rest length [N]; 0 = unknown.
+    """
+    if len(force) < _FEWEST_READINGS or not np.max(np.abs(force)) < _ALL_SLACK * blocked:
+        return False
+    spread = float(np.sum((force - np.mean(force)) ** 2))
+    if spread == 0.0:
+        return True
+    columns = [np.ones(len(force)), *((v - np.mean(v)) / max(float(np.std(v)), 1e-300) for v in inputs)]
+    left = force - np.column_stack(columns) @ np.linalg.lstsq(np.column_stack(columns), force)[0]
+    return float(np.sum(left**2)) > (1.0 - _TREND) * spread
 
 
 def _at_once(fit_model: FitModel) -> FitModel:

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.cells import CellTable
 from mckibben.measurement.read.conditions import ATMOSPHERE, Constant, Note, condition_value
-from mckibben.measurement.read.header import HeaderColumn
+from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.physics.units import convert
 
 _SAME = 1e-3  # relative; values that differ by less are the same one, rounded

@@ -9,7 +9,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.kind import FORCE_KINDS
+from mckibben.measurement.kind import FORCE_KINDS, lifts_fast, starts_of_lifts, weights_of_runs
 from mckibben.measurement.measurement import (
     CHANNEL_UNITS,
     STROKES,
@@ -18,6 +18,7 @@ from mckibben.measurement.measurement import (
     StatedValue,
     build,
 )
+from mckibben.measurement.order import FROM_ROWS, order_of_rows
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.air import air_questions, column_of_air
 from mckibben.measurement.read.cells import CellTable, Skip
@@ -30,8 +31,10 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.hangers import add_hanger
 from mckibben.measurement.read.head_text import channel_number, without_paths
-from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning, map_headers
+from mckibben.measurement.read.header import Meaning, map_headers
 from mckibben.measurement.read.held_by_text import hold_pressure, hold_stroke
+from mckibben.measurement.read.left_out import UNKNOWN, Reason
+from mckibben.measurement.read.plain_head import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.recognise import recognise
@@ -42,6 +45,7 @@ from mckibben.measurement.read.tares import notes_of_tares, subtract_tare, zero_
 from mckibben.physics.errors import InputError
 
 _FEWEST_TO_TURN = 3  # rows
+_LOADS = {"load_mass", "load_force"}
 _DISORDERED = 1.0 / 3.0  # share of steps back in time from which rows are in no order; a half by chance
 _RUN_CHANGES = (
     0.1  # share of rows that begin another run, above which the runs do not follow each other in time
@@ -190,7 +194,12 @@ def assemble(
         rows = "1 row" if left_out.rows == 1 else f"{left_out.rows} rows"
         messages.append(f"{rows} left out: {reason} (first: {left_out.first})")
     questions = questions_of(_evidence(source, meaning, reading, by_use, columns, correction))
-    tare += zero_questions(columns, by_use, source.unzeroed, conditions) if not tare else []
+    weights = weights_of_runs(columns)
+    if weights is not None and np.ptp(weights) > 0.0 and not _LOADS & set(correction.conditions):
+        for key in _LOADS & set(conditions):  # of the first run, in its title
+            del conditions[key]
+    if not tare and weights is None:  # a weight that is stated has no zero
+        tare += zero_questions(columns, by_use, source.unzeroed, conditions)
     tare += air_questions(conditions, by_use, source.notes)
     weighed = {*correction.conditions, *(column.key for column in meaning.constants)}
     questions += tare
@@ -204,9 +213,17 @@ def assemble(
     kind = conditions.pop("kind", None) if correction.kind is None else correction.kind
     conditions.pop("kind", None)
     kind_said = str(conditions.pop(KIND_SAID, ""))
-    if kind is None and kind_said and _suits(kind_said, columns):
+    fast = kind_said == "isotonic" and lifts_fast(columns)  # of loads in titles: the readings say how fast
+    if kind is None and kind_said and not fast and _suits(kind_said, columns):
         kind = kind_said
         messages.append(f"kind {kind_said}: a text of the file says so")
+    rows_order = None if "time" in columns else order_of_rows(columns)
+    if rows_order is not None and "direction" not in columns:
+        columns["direction"] = rows_order.direction
+        messages.append(
+            "no time, but the rows go there and back step by step: their order is taken as that of the test, "
+            "and the direction of each row from it"
+        )
     order = {header: index for index, header in reversed(list(enumerate(source.headers)))}
     for key in [key for key in conditions if key.startswith((FORCE_SIGN, STROKE_SIGN, REFERENCE_OF))]:
         del conditions[key]
@@ -215,16 +232,20 @@ def assemble(
         name=name,
         id=id,
         kind=None if kind is None else str(kind).lower(),
-        origins={c: (by_use[c].header, by_use[c].unit or CHANNEL_UNITS[c]) for c in columns},
+        origins={
+            c: (by_use[c].header, by_use[c].unit or CHANNEL_UNITS[c]) if c in by_use else (FROM_ROWS, "1")
+            for c in columns
+        },
         ignored=sorted(reading.ignored, key=lambda header: order.get(header, len(order))),
         conditions=conditions,
         marked_slack=slack,
         messages=messages,
         skipped={reason: left_out.rows for reason, left_out in skipped.items()},
-        starts=_starts(columns),
+        starts=rows_order.starts if rows_order is not None else _starts(columns, weights),
     )
     measurement = replace(
         measurement,
+        by_rows=rows_order is not None,
         unread=unread_columns(source, meaning, reading.ignored),
         undecided=_undecided(source, meaning),
         stated=stated_values(source, meaning, conditions, correction),
@@ -275,8 +296,13 @@ def _suits(kind: str, columns: Mapping[str, NDArray]) -> bool:
     return needed <= set(columns) and bool(set(columns) & set(STROKES))
 
 
-def _starts(columns: Mapping[str, NDArray]) -> tuple[int, ...]:
-    """Rows at which a new part of the file begins: the group changes, and the time goes back."""
+def _starts(columns: Mapping[str, NDArray], weights: NDArray | None) -> tuple[int, ...]:
+    """Rows at which a new part of the file begins: the group changes, and the time goes back.
+
+    Of fast lifts of stated weights each run is one: its load is another, and nothing was read between them.
+    """
+    if weights is not None and lifts_fast(columns):
+        return starts_of_lifts(columns)
     if "group" not in columns or "time" not in columns:
         return (0,)
     apart = (np.diff(columns["group"]) != 0) & (np.diff(columns["time"]) < 0.0)
@@ -306,19 +332,20 @@ def _undecided(source: RawTable, meaning: Meaning) -> tuple[str, ...]:
         header or f"column {index + 1}"
         for index, header in enumerate(source.headers)
         if index not in used
-        and (known := recognise(names[index], units[index])).undecided
-        and meaning.reasons.get(index, known.why) == known.why
+        and (known := recognise(names[index], units[index]).left_out) is not None
+        and known.reason in (Reason.UNKNOWN, Reason.RAW)
+        and meaning.reasons.get(index, known) == known
     )
 
 
 def _why_unread(meaning: Meaning, index: int) -> str:
     if index in meaning.reasons:
-        return meaning.reasons[index]
+        return meaning.reasons[index].text
     if index in meaning.problems:
         return meaning.problems[index].message
     if any(column.place == index for column in meaning.columns):
         return "its cells do not fit its name"
-    return "its name is not known"
+    return UNKNOWN.text
 
 
 def stated_values(

@@ -10,11 +10,11 @@ from itertools import islice
 from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.grid import Grid
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import plainly_known
 from mckibben.measurement.read.held import HeldQuantity, held_quantities
 from mckibben.measurement.read.locate import Run, TableHead, texts_of
 from mckibben.measurement.read.map_axes import axes_of_map, value_of_map
-from mckibben.measurement.read.qualified import qualified_groups, without_way
+from mckibben.measurement.read.plain_head import plainly_known
+from mckibben.measurement.read.qualified import qualified_groups, way_of, without_way
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.values import GAP, NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import folded
@@ -42,6 +42,7 @@ class Part:
         held: channel -> pressure, stroke or load of the part, where a title or head says it.
         clocks: columns of the grid with times of day or dates.
         carried: those whose value stands in the first row of a block only, as merged cells have it.
+        way: what the head says of the way of the muscle or the test, where another part holds the other way.
     """
 
     grid: Grid
@@ -51,6 +52,7 @@ class Part:
     held: dict[str, Held] = field(default_factory=dict)
     clocks: frozenset[int] = frozenset()
     carried: frozenset[int] = frozenset()
+    way: str = ""
 
     def rows(self) -> Iterator[tuple[int, list[Cell]]]:
         """Row of the file and cells, in the order of the heads."""
@@ -163,8 +165,15 @@ def tables_of_run(grid: Grid, run: Run, head: TableHead, titles: Sequence[tuple[
         own = tuple(c for c in group if c in run.numbers and c not in carried) or tuple(group)
         held = _held_of_group(grid, names, group, titles, span if len(groups) > 1 else None, head)
         inside = carried & {*shared, *group}
-        table.parts.append(Part(grid, pieces, (*shared, *group), own, held, run.clocks, inside))
+        way = _way_of(names, group)
+        table.parts.append(Part(grid, pieces, (*shared, *group), own, held, run.clocks, inside, way))
     return table
+
+
+def _way_of(names: Sequence[str], group: Sequence[int]) -> str:
+    """The way that all heads of a part say; empty where they say none."""
+    ways = {way_of(names[c]) for c in group}
+    return ways.pop() if len(ways) == 1 else ""
 
 
 def _carried(grid: Grid, pieces: Sequence[tuple[int, int]], used: Sequence[int]) -> frozenset[int]:

@@ -108,7 +108,7 @@ def _of_position(name: str, unit: str, texts: Texts) -> Scale | None:
             at_zero = length_scale(name, unit, texts)
             if at_zero is not None:
                 return at_zero
-        open_one = known.channel is None and not known.why.startswith("it is")
+        open_one = known.channel is None and not known.otherwise
         return position_scale(name, unit, texts) if open_one or is_position(name) else None
     return found[0] if all(_equal(found[0], other) for other in found) else None
 

@@ -17,7 +17,7 @@ from mckibben.measurement.read.conditions import Constant
 from mckibben.measurement.read.correction import SAMPLE, SLACK
 from mckibben.measurement.read.directions import direction_of
 from mckibben.measurement.read.head_text import channel_number
-from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn
+from mckibben.measurement.read.plain_head import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, proposal
 from mckibben.measurement.read.sentinels import sentinels_in
 from mckibben.measurement.read.signs import (

@@ -13,12 +13,15 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.blocks import UNNAMED
 from mckibben.measurement.read.constants import constant_questions
 from mckibben.measurement.read.correction import SAMPLE
+from mckibben.measurement.read.counted_rows import counted_rows
 from mckibben.measurement.read.evidence import Evidence, bare_name
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import HeaderColumn
+from mckibben.measurement.read.joints import beside_chosen, of_a_joint
+from mckibben.measurement.read.left_out import FINAL, Reason
 from mckibben.measurement.read.physical_checks import context_questions, physical_questions
+from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible, median_step, proposal
-from mckibben.measurement.read.propose import KNOWN_REASONS, PROPOSED
+from mckibben.measurement.read.propose import PROPOSED
 from mckibben.measurement.read.questions import column_option, ignore_option
 from mckibben.measurement.read.raw_signals import raw_questions
 from mckibben.measurement.read.recognise import BY_WORDS
@@ -30,6 +33,8 @@ Floats = NDArray[np.float64]
 _CARRIES = {"a force": "force", "a pressure": "pressure", "a length": "length"}
 _SAME = 0.01  # of the range; columns that differ by less are the same reading
 _OPPOSED = -0.5  # correlation of the pressures of a pair, of which one is filled as the other is vented
+_PROPORTIONAL = 0.98  # correlation of two strokes of one motion
+_OF_A_PART = 0.8  # range of one of them over that of the other, below which it is of a part
 _CLIPPED = 100  # the penalty of a clipped column
 _RAW_PENALTY = 1  # between a column and its raw, filtered or clipped form
 
@@ -51,6 +56,7 @@ def _questions(evidence: Evidence) -> list[Question]:
             *raw_questions(evidence),
             *_rivals(evidence),
             *_specimens(evidence),
+            *counted_rows(evidence),
         ]
         unit_doubts = {question.about for question in asked}
         if not any(about.startswith("unit of") for about in unit_doubts):
@@ -147,6 +153,7 @@ def _open_force(evidence: Evidence, choices: tuple[str, ...]) -> bool:
 _LONG_TEST = 900.0  # s; a test of readings by hand is shorter
 _SWING = 0.1  # of the largest value; less is noise about a held value
 _TURNS = 1
+_JUMP, _JUMPS = 0.6, 2  # of the range of the pressure, between two rows
 _HARDLY = 2e3  # Pa; below it a pressure moves no muscle
 _LARGEST_AREA = 0.5  # m2, force over pressure; the largest catalogue muscle has 0.04
 
@@ -165,9 +172,13 @@ def _back(values: Floats, unit: str, si: str) -> Floats:
 
 
 def _moves(evidence: Evidence) -> bool:
-    """Whether a test of many minutes goes up and down all the way, as no slow drift and no creep does."""
+    """Whether a test of many minutes goes up and down all the way, as no slow drift and no creep does.
+
+    A log of holds does too, but there a pressure is another one from row to row, which in milliseconds no
+    muscle follows.
+    """
     time = evidence.channels["time"]
-    if float(np.ptp(time)) < _LONG_TEST:
+    if float(np.ptp(time)) < _LONG_TEST or _jumps(evidence.channels.get("pressure")):
         return False
     for channel in ("pressure", *STROKES, "force"):
         values = evidence.channels.get(channel)
@@ -176,6 +187,14 @@ def _moves(evidence: Evidence) -> bool:
             if np.count_nonzero(turns) >= _TURNS:
                 return True
     return False
+
+
+def _jumps(pressure: Floats | None) -> bool:
+    """Whether a pressure goes most of its way between two rows, more than once."""
+    if pressure is None or len(pressure) < ENOUGH:
+        return False
+    jumps = np.abs(np.diff(pressure)) > _JUMP * float(np.ptp(pressure))
+    return bool(np.count_nonzero(jumps) >= _JUMPS)
 
 
 def _unread(evidence: Evidence) -> list[Question]:
@@ -192,11 +211,12 @@ def _unread(evidence: Evidence) -> list[Question]:
         channel = "force" if header == UNNAMED else _CARRIES.get(dimension_of(head.unit))
         if dimension_of(head.unit) == "a mass" and "force" not in filled:
             channel = "force"  # a scale pulled by the muscle; beside a force it may be anything
-        reason = meaning.reasons.get(index, "")
-        if channel is None or any(known in reason for known in KNOWN_REASONS):
+        left_out = meaning.reasons.get(index)
+        reason = Reason.UNKNOWN if left_out is None else left_out.reason
+        if channel is None or reason in FINAL:
             continue
         is_filled = channel in filled or (channel == "length" and bool(filled & set(STROKES)))
-        if "a set value" in reason and is_filled:
+        if reason is Reason.SET_VALUE and is_filled:
             continue
         name = head.name or header or f"column {index + 1}"
         target = "displacement" if channel == "length" else channel
@@ -211,7 +231,7 @@ def _unread(evidence: Evidence) -> list[Question]:
             Question(
                 f"column '{name}'",
                 f"{evidence.noun} '{header or name}' is in {head.unit or 'no unit'} and is not read"
-                f"{' (' + reason + ')' if reason else ''}{doubt}",
+                f"{'' if left_out is None else f' ({left_out.text})'}{doubt}",
                 f"{ignore_option(name)} or {column_option(target, name)}",
                 header or name,
                 choices=("ignore", *others),
@@ -247,6 +267,8 @@ def _rivals(evidence: Evidence) -> list[Question]:
     asked = []
     for winner, other in evidence.meaning.rivals:
         if "you" in (winner.origin, other.origin) or winner.use not in evidence.channels:
+            if winner.use == "pressure" and winner.origin == "you" and _are_opposed(evidence, winner, other):
+                asked.append(beside_chosen(winner, other))
             continue
         if winner.use == "time":
             asked += _other_time(evidence, winner, other)
@@ -262,19 +284,16 @@ def _rivals(evidence: Evidence) -> list[Question]:
         if float(np.max(np.abs(second - values))) <= _SAME * max(float(np.ptp(values)), 1e-12):
             continue
         first, later = bare_name(winner), bare_name(other)
-        opposed = winner.use == "pressure" and float(np.corrcoef(values, second)[0, 1]) < _OPPOSED
+        opposed = winner.use == "pressure" and _are_opposed(evidence, winner, other)
         which = f"'{winner.header}' and '{other.header}' are both {winner.use} and differ"
         if opposed:
-            which = (
-                f"'{winner.header}' and '{other.header}' are pressures that run against each other, as in a "
-                "joint or pair of two muscles; measurements of pairs are not compared, and this one shows "
-                "neither muscle's own load"
-            )
+            which = of_a_joint(evidence, winner, other)
+        marked = _between_marks(winner, other, values, second)
         asked.append(
             Question(
                 f"second {winner.use}",
-                f"{evidence.noun}s {which}; which one acts on the muscle"
-                f"{' where one was tested by itself' if opposed else ''}",
+                f"{evidence.noun}s {which}{marked}; which one acts on the muscle"
+                f"{' that was tested by itself, if one was' if opposed else ''}",
                 f"{column_option(winner.use, first)} or {column_option(winner.use, later)}",
                 other.header,
                 winner.header,
@@ -282,6 +301,30 @@ def _rivals(evidence: Evidence) -> list[Question]:
             )
         )
     return asked
+
+
+def _are_opposed(evidence: Evidence, first: HeaderColumn, second: HeaderColumn) -> bool:
+    """Whether two pressures run against each other, as in a joint."""
+    both = evidence.pair(first.place, second.place) if evidence.numeric(second.place) else None
+    if both is None or not all(np.ptp(values) > 0.0 for values in both):
+        return False
+    return float(np.corrcoef(both[0], both[1])[0, 1]) < _OPPOSED
+
+
+def _between_marks(winner: HeaderColumn, other: HeaderColumn, values: Floats, second: Floats) -> str:
+    """What is to be said of two strokes in proportion: one may be that of a part of the muscle."""
+    if winner.use not in STROKES or not (np.ptp(values) > 0.0 and np.ptp(second) > 0.0):
+        return ""
+    alike = abs(float(np.corrcoef(values, second)[0, 1]))
+    spans = sorted((float(np.ptp(values)), float(np.ptp(second))))
+    if alike < _PROPORTIONAL or spans[0] > _OF_A_PART * spans[1]:
+        return ""
+    smaller = bare_name(winner if np.ptp(values) < np.ptp(second) else other)
+    option = column_option("displacement", smaller, "0 to 100 mm = 0 to 300 mm")
+    return (
+        f"; '{smaller}' is {spans[0] / spans[1]:.2g} of the other: a stroke between marks belongs to their "
+        f"distance, and of the whole muscle it is e.g. {option} for marks 100 mm apart on 300 mm"
+    )
 
 
 def _other_time(evidence: Evidence, winner: HeaderColumn, other: HeaderColumn) -> list[Question]:

@@ -13,7 +13,9 @@ from mckibben.measurement.read.conditions import CONDITION_UNITS, Constant, Note
 from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import WEIGHTS, HeaderColumn, Meaning
+from mckibben.measurement.read.header import Meaning
+from mckibben.measurement.read.left_out import LeftOut, Reason
+from mckibben.measurement.read.plain_head import WEIGHTS, HeaderColumn
 from mckibben.measurement.read.recognise import BY_WORDS
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import NAME, in_known_words, notes_of_code
@@ -41,7 +43,10 @@ def with_constants(source: RawTable, meaning: Meaning) -> Meaning:
         )
     if not found:
         return meaning
-    held = {c.place: f"it is a condition, {c.key} {', '.join(c.values[:_SHOWN])}" for c in found}
+    held = {
+        c.place: LeftOut(Reason.CONDITION, f"it is a condition, {c.key} {', '.join(c.values[:_SHOWN])}")
+        for c in found
+    }
     headers = {source.headers[c.place] for c in found if len(c.values) == 1}
     return meaning._replace(
         constants=tuple(found),

@@ -16,11 +16,12 @@ from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.encodings import decoded_otherwise
 from mckibben.measurement.read.grid import split_line
-from mckibben.measurement.read.header import HEADER_EXAMPLE, plainly_known
+from mckibben.measurement.read.header import HEADER_EXAMPLE
 from mckibben.measurement.read.held import held_pressure
 from mckibben.measurement.read.json_file import is_json, open_json
 from mckibben.measurement.read.lines import located_text
 from mckibben.measurement.read.other_texts import other_text
+from mckibben.measurement.read.plain_head import plainly_known
 from mckibben.measurement.read.raw import RawRows, shown_rows
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable

@@ -16,7 +16,8 @@ _UNKNOWN = {"", "-", "unknown", "none", "nan", "na", "n/a"}
 _SURE = {"shortening": -1.0, "lengthening": 1.0}
 #: Ways of the test; what they do to the muscle is told by the readings: +1, -1 of a pair.
 _OF_TEST = {"pressure rises": 1.0, "pressure falls": -1.0, "one way": 1.0, "other way": -1.0}
-_PAIRS = (("shortening", "lengthening"), ("pressure rises", "pressure falls"), ("one way", "other way"))
+#: The way there and the way back, as keys of `MOVES`.
+PAIRS = (("shortening", "lengthening"), ("pressure rises", "pressure falls"), ("one way", "other way"))
 _STEM = 6  # letters from which a word counts as the beginning of its other forms
 _MOST = 40  # different words
 _CLEAR = 0.2  # of the range of a channel, from which its change on the way shows a direction
@@ -32,7 +33,7 @@ def direction_of(
     """
     if len(labels.words) > _MOST:
         return None
-    ways = [way for word in labels.words if (way := _way_of(word)) is not None]
+    ways = [way for word in labels.words if (way := way_of_word(word)) is not None]
     if len(ways) < len(labels.words):
         return None
     sides = np.array([_OF_TEST.get(way, 0.0) for way in ways])
@@ -47,7 +48,7 @@ def direction_of(
     return np.array(values)[labels.codes] + 0.0
 
 
-def _way_of(word: str) -> str | None:
+def way_of_word(word: str) -> str | None:
     """The way that a word says: a key of `MOVES`, ``"0"``, ``"1"`` or ``"-1"``; None = not understood."""
     low = word.strip().lower()
     if low in _UNKNOWN:
@@ -56,11 +57,7 @@ def _way_of(word: str) -> str | None:
         return str(int(float(low)))
     parts = words_of(word)
     found = {way for part in parts for way, known in MOVES.items() if _is_among(part, known)}
-    for pair in (
-        ("shortening", "lengthening"),
-        ("pressure rises", "pressure falls"),
-        ("one way", "other way"),
-    ):
+    for pair in PAIRS:
         if len(both := found & set(pair)) == 1:
             return both.pop()
         if both:

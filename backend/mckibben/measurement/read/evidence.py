@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 
 from mckibben.measurement.read.cells import Labels
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import HeaderColumn, Meaning
+from mckibben.measurement.read.header import Meaning
+from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
 
 Array = NDArray[np.float64]

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.evidence import Array
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import WEIGHTS, HeaderColumn
+from mckibben.measurement.read.plain_head import WEIGHTS, HeaderColumn
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.vocabulary import REMARK_WORDS, has_word, word_set, words_of
 from mckibben.measurement.read.words.hangers import HANGER, MORE

@@ -10,69 +10,25 @@ from typing import NamedTuple
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.conditions import Constant
-from mckibben.measurement.read.correction import SAMPLE, SLACK, Choice
+from mckibben.measurement.read.correction import Choice
 from mckibben.measurement.read.head_text import taken_apart, without_paths
-from mckibben.measurement.read.marks import MARK_WORDS, split_mark
+from mckibben.measurement.read.left_out import DISMISSED, UNKNOWN, LeftOut, Reason
+from mckibben.measurement.read.plain_head import (
+    MAX_HEADER,
+    SYNONYMS,
+    WEIGHTS,
+    HeaderColumn,
+    plain_column,
+    with_unit,
+)
 from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise
 from mckibben.measurement.read.unit_words import CLOCK, fits, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.physics.units import is_unit, meaning
 
-#: Words of a header -> channel; the case of a single letter counts only between t (time) and T (temperature).
-SYNONYMS: dict[str, str] = {
-    word: channel
-    for channel, words in {
-        "time": "time t",
-        "pressure": "pressure p",
-        "force": "force load weight f",
-        "length": "length l",
-        "contraction": "contraction kappa strain κ ε",
-        "displacement": "displacement position stroke x",
-        "diameter": "diameter d",
-        "velocity": "velocity v",
-        "command": "command u valve",
-        "temperature": "temperature",
-        "direction": "direction",
-        "group": "group run cycle sweep",
-    }.items()
-    for word in words.split()
-}
-
-# Words that leave a column what it is, and how much less it is wanted than the same column without them.
-_QUALIFIERS = dict.fromkeys(
-    ("measured", "meas", "actual", "mean", "avg", "average", "raw", "unclipped", "as", "given", "sensor",
-     "muscle", "actuator", "pam", "pulling", "total", "number", "no", "nr", "id", "index"),
-    1,
-) | {"filtered": 2, "smoothed": 2, "clipped": 100}  # fmt: skip
-_BRACKETED = re.compile(r"([^\[(]*)[\[(](.*)[\])]\s*")
-_NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)?[A-Za-z]")
-_MAX_HEADER = 120
 _CLIPPED = 100  # penalty of a clipped column
 _NEAR = 0.75  # likeness of a word to one that it is probably meant for
 
 HEADER_EXAMPLE = "e.g. a header 'pressure_bar,length_mm,force_N'"
-
-#: Uses of a column that are words rather than numbers.
-TEXT_COLUMNS = ("direction", "group", SLACK, SAMPLE)
-
-
-class HeaderColumn(NamedTuple):
-    """A column that is used: ``use`` is a channel, ``slack`` or ``sample``; ``unit`` None = not given.
-
-    ``sign`` -1: the file counts it the other way. ``origin``: who says what it is, ``file``, ``you``
-    or ``proposed`` from its numbers; ``extends``: its name says that it grows as the muscle becomes longer.
-    """
-
-    place: int
-    header: str
-    use: str
-    unit: str | None = None
-    absolute: bool | None = None
-    penalty: int = 0
-    sign: int = 1
-    origin: str = "file"
-    extends: bool = False
-    unit_origin: str = "file"
 
 
 class Meaning(NamedTuple):
@@ -87,7 +43,7 @@ class Meaning(NamedTuple):
     ignored: list[str]
     messages: list[str]
     problems: dict[int, InputError]
-    reasons: Mapping[int, str] = MappingProxyType({})
+    reasons: Mapping[int, LeftOut] = MappingProxyType({})
     rivals: tuple[tuple[HeaderColumn, HeaderColumn], ...] = ()
     dismissed: frozenset[int] = frozenset()
     constants: tuple[Constant, ...] = ()
@@ -119,7 +75,7 @@ def map_headers(
     """
     names = [header.strip() for header in headers]
     apart = [*units, *[None] * (len(names) - len(units))]
-    reasons: dict[int, str] = {}
+    reasons: dict[int, LeftOut] = {}
     where = place if row is None else f"{place}, row {row}"
     field = f"{noun}s" if row is None else f"row {row}"
     if not any(names):
@@ -136,10 +92,10 @@ def map_headers(
             if index in choices:
                 column = _chosen(index, header, choices[index], apart[index])
                 if column is None:
-                    reasons[index] = "you do not want it"
+                    reasons[index] = DISMISSED
             elif header and header.casefold() in seen and recognise(name, apart[index]).channel != "time":
                 raise InputError(
-                    f"{where}, {noun} '{header[:_MAX_HEADER]}': the name occurs twice",
+                    f"{where}, {noun} '{header[:MAX_HEADER]}': the name occurs twice",
                     field=field,
                     hint=f'give every {noun} its own name, or leave one out: --ignore "column {index + 1}"',
                 )  # fmt: skip
@@ -147,13 +103,13 @@ def map_headers(
                 column, said = None, []
                 if CLOCK not in (recognise(name).unit, apart[index]):
                     text = _with(name, apart[index])
-                    column = _column(index, text, f"{where}, {noun} '{header}'", noun, said)
+                    column = plain_column(index, text, f"{where}, {noun} '{header}'", noun, said)
                 if column is None and not (said and recognise(name, apart[index]).unit is None):
                     other: list[str] = []
                     column = _in_other_words(index, name, apart[index], reasons, other, f"{where}, {noun}")
                     said = said if column is None else other
                 if column is None and said:
-                    reasons[index] = said[-1].partition(" is not used: ")[2] or reasons.get(index, "")
+                    reasons[index] = LeftOut(Reason.UNFIT, said[-1].partition(" is not used: ")[2])
                 messages += [text.replace(f"'{name}'", f"'{header}'") for text in said]
                 column = column if column is None else column._replace(header=header)
         except InputError as error:
@@ -179,7 +135,7 @@ def map_headers(
         winner = used.setdefault(column.use, column)
         if winner is not column:
             better = f"{column.use} is read from '{winner.header}'"
-            reasons[column.place] = better
+            reasons[column.place] = LeftOut(Reason.RIVAL, better)
             rivals.append((winner, column))
             messages.append(f"{noun} '{column.header}' is not used: {better}")
     if not collect and not any(use in CHANNEL_UNITS and use not in ("direction", "group") for use in used):
@@ -206,38 +162,24 @@ def _with(header: str, unit: str | None) -> str:
 
 
 def _in_other_words(
-    index: int, header: str, unit: str | None, reasons: dict[int, str], messages: list[str], where: str
+    index: int, header: str, unit: str | None, reasons: dict[int, LeftOut], messages: list[str], where: str
 ) -> HeaderColumn | None:
     """The column of a header that is not written the plain way; ``where`` it stands, for a refusal."""
-    if not (header or unit) or len(header) > _MAX_HEADER:
+    if not (header or unit) or len(header) > MAX_HEADER:
         return None
     known = recognise(header, unit)
     if known.channel is None:
-        reasons[index] = known.why
+        reasons[index] = known.left_out or UNKNOWN
         return None
     column = HeaderColumn(index, header, known.channel, known.unit, known.absolute, known.penalty)
     column = column._replace(extends=known.extends)
     if known.unit in (None, CLOCK):
         return column
-    return _with_unit(column, "", f"{where} '{header}'", "column", messages)
+    return with_unit(column, "", f"{where} '{header}'", "column", messages)
 
 
 def _is_unit(header: str) -> bool:
     return not header or unit_of(header) is not None
-
-
-def plainly_known(headers: Sequence[str]) -> list[int]:
-    """Indices of the headers that name a channel the plain way; a wrong unit does not matter."""
-    known = []
-    for index, header in enumerate(headers):
-        try:
-            column = _column(index, header.strip(), "", "column", [])
-        except InputError:
-            known.append(index)
-            continue
-        if column is not None and column.use not in TEXT_COLUMNS:
-            known.append(index)
-    return known
 
 
 def _positions(chosen: Mapping[str, Choice | None], names: Sequence[str]) -> dict[int, Choice | None]:
@@ -254,8 +196,8 @@ def _positions(chosen: Mapping[str, Choice | None], names: Sequence[str]) -> dic
             index = int(numbered[1]) - 1
         else:
             raise InputError(
-                f"mapping.columns: the file has no column '{key[:_MAX_HEADER]}'",
-                field=f"mapping.columns.{key[:_MAX_HEADER]}",
+                f"mapping.columns: the file has no column '{key[:MAX_HEADER]}'",
+                field=f"mapping.columns.{key[:MAX_HEADER]}",
                 hint=did_you_mean(key, [name for name in names if name]),
             )
         result[index] = choice
@@ -271,7 +213,7 @@ def _chosen(index: int, header: str, choice: Choice | None, apart: str | None) -
     origin = "file" if unit is None else who
     if unit is None and choice.channel in CHANNEL_UNITS:
         try:
-            guess = _column(index, _with(header, apart), header, "column", [])
+            guess = plain_column(index, _with(header, apart), header, "column", [])
         except InputError:
             guess = None
         guess = guess or _in_other_words(index, header, apart, {}, [], "column")
@@ -306,95 +248,3 @@ def _no_channel(
     why = "".join(f"; {message}" for message in messages)
     problem = f"no known channel among the {noun}s {shown}{why}"
     return InputError(f"{where}: {problem}", field=field, hint=hint)
-
-
-def _column(index: int, header: str, where: str, noun: str, messages: list[str]) -> HeaderColumn | None:
-    """The column of one header; None = not one of ours."""
-    if not header or len(header) > _MAX_HEADER:
-        return None
-    if header.lower() in ("muscle", "sample"):
-        return HeaderColumn(index, header, SAMPLE)
-    text, absolute = split_mark(header)
-    bracketed = _BRACKETED.fullmatch(text)
-    unit = None
-    if bracketed is not None:
-        text, inside = bracketed.groups()
-        if re.search(r"[\])][^\[(]*[\[(]", inside):
-            return None  # two brackets, "[kPa] (gauge)"
-        words = inside.lower().split()
-        if words and all(word in _QUALIFIERS or word in MARK_WORDS for word in words):
-            text = f"{text} {inside}"
-        elif inside.strip():
-            unit = inside.strip()
-    tokens = [token for token in re.split(r"[\s_]+", text) if token]
-    channel, penalty, letter = "", 0, ""
-    for position, token in enumerate(tokens):
-        low = token.lower()
-        last = position == len(tokens) - 1
-        if low in SYNONYMS and not (channel and len(low) == 1 and last and unit is None and is_unit(token)):
-            if channel not in ("", SYNONYMS[low]):
-                return None  # "supply_time", "valve_position": a name of its own
-            channel, letter = SYNONYMS[low], letter or (token if len(token) == 1 else "")
-        elif low in MARK_WORDS:
-            absolute = MARK_WORDS[low]
-        elif low in _QUALIFIERS or low.startswith("slack") or (low == "zero" and penalty >= 100):
-            penalty += _QUALIFIERS.get(low, 100)
-        elif _NUMBERED.match(token):
-            penalty += 1
-        elif channel and unit is None and is_unit(token):
-            unit = token
-        else:
-            return None
-    if penalty >= 100 and unit is None and channel in ("", "force"):
-        return HeaderColumn(index, header, SLACK)
-    if not channel:
-        return None
-    column = HeaderColumn(index, header, channel, unit, absolute if channel == "pressure" else None, penalty)
-    return _with_unit(column, letter, where, noun, messages)
-
-
-def _with_unit(
-    column: HeaderColumn, letter: str, where: str, noun: str, messages: list[str]
-) -> HeaderColumn | None:
-    """The column after its unit had a word: contraction in mm is a displacement, volts are no pressure."""
-    use, unit = column.use, column.unit
-    if letter in ("t", "T"):
-        use = "time" if letter == "t" else "temperature"
-        if unit is not None and fits(unit, "s"):
-            use = "time"
-        elif unit is not None and (fits(unit, "K") or unit in ("C", "F")):
-            use = "temperature"
-    if unit is None:
-        return column._replace(use=use)
-    if use == "temperature" and unit in ("C", "F"):
-        unit = f"deg{unit}"
-    if use == "force" and unit in WEIGHTS:
-        messages.append(f"{noun} '{column.header}' is a mass: its weight is the force")
-        unit = WEIGHTS[unit]
-    if use == "contraction" and fits(unit, "m"):
-        use = "displacement"
-    elif use == "displacement" and fits(unit, "1"):
-        use = "contraction"
-    if column.header.isupper() and fits(unit.lower(), CHANNEL_UNITS[use]):
-        unit = unit.lower()  # "TIME_S" is no siemens
-    if fits(unit, CHANNEL_UNITS[use]):
-        return column._replace(use=use, unit=unit)
-    measured = meaning(unit)
-    share = unit == "%" and use in ("pressure", "force", "length")  # of the range of its sensor
-    if measured in ("a voltage", "a current") or share or letter or use in ("direction", "group"):
-        what = f"{measured}, not a {use}" if measured else f"no unit of a {use}"
-        messages.append(f"{noun} '{column.header}' is not used: '{unit}' is {what}")
-        return None
-    raise InputError(
-        f"{where}: the unit '{unit}' is {measured or 'not known'}, a unit of {use} is needed",
-        field=f"{noun} {column.header}",
-        hint=f"e.g. '{use}_{_UNIT_EXAMPLES.get(use, CHANNEL_UNITS[use])}'",
-    )
-
-
-#: Unit of a mass -> that of its weight.
-WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf"}
-_UNIT_EXAMPLES = {
-    "pressure": "bar", "length": "mm", "displacement": "mm", "diameter": "mm", "contraction": "pct",
-    "command": "pct", "temperature": "degC",
-}  # fmt: skip

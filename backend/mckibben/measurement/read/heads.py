@@ -180,7 +180,7 @@ def _continued(grid: Grid, named: int, index: int, names: Sequence[str]) -> list
         result[over[0]] = " ".join(pair)
     for column, (name, longer) in enumerate(zip(names, result, strict=True)):
         known = recognise(longer)
-        if recognise(name).channel is not None and known.channel is None and known.why[:5] != "it is":
+        if recognise(name).channel is not None and known.channel is None and not known.otherwise:
             result[column] = name
     return result
 

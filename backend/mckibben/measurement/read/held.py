@@ -6,6 +6,7 @@ import re
 from typing import NamedTuple
 
 from mckibben.measurement.measurement import STROKES
+from mckibben.measurement.read.left_out import Reason
 from mckibben.measurement.read.unit_words import DIMENSIONS, dimension_of, reference_of
 from mckibben.measurement.read.vocabulary import (
     LETTERS,
@@ -33,7 +34,7 @@ _SCALE = re.compile(
     rf"(?i){_NUMBER}\s*(?:%(?:\s*FS)?|m?V(?:/V)?|m?A|counts?|digits?|ticks?)\s*(?:=|≙|≈|:|->|→|for|per|to|is|entspr\w*)"
     rf"\s*{_NUMBER}|{_NUMBER}\s*(?:m?bar|[kMh]?Pa|psi|k?N|mm|cm)\s*(?:=|≙|≈|->|→|@|at)\s*{_NUMBER}\s*(?:%|m?V|m?A|counts?|digits?)"
 )
-_NOT_HELD = ("the supply", "the surrounding air", "a preload", "a deviation")
+_NOT_HELD = (Reason.SUPPLY, Reason.AIR, Reason.PRELOAD, Reason.DEVIATION)
 _BARE_LENGTH = 80.0  # mm; a title that says less without a word names a stroke, not a length
 
 

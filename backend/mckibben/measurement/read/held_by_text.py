@@ -12,8 +12,8 @@ from numpy.typing import NDArray
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.air import ambient_of
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import HeaderColumn
 from mckibben.measurement.read.held import HeldQuantity, held_pressure, held_quantities
+from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import KIND_SAID, NAME
 from mckibben.measurement.read.unit_words import RAW_DIMENSIONS, dimension_of

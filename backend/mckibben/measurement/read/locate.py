@@ -174,7 +174,7 @@ def _is_titled(grid: Grid, first: int, last: int) -> bool:
         quantity.channel == "pressure" or quantity.named or quantity.worded
         for index in range(first, last)
         for _, text in titles_of(grid, index)
-        if not recognise(text).why.startswith("it is")
+        if not recognise(text).otherwise
         for quantity in held_quantities(text)
     )
 

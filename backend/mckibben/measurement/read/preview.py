@@ -22,7 +22,8 @@ from mckibben.measurement.read.assemble import (
 from mckibben.measurement.read.cells import Skip
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.formats import open_source
-from mckibben.measurement.read.header import TEXT_COLUMNS, HeaderColumn, Meaning
+from mckibben.measurement.read.header import Meaning
+from mckibben.measurement.read.plain_head import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.raw import RawRows
 from mckibben.measurement.read.source import RawTable

@@ -11,8 +11,10 @@ from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.read.conditions import read_conditions
 from mckibben.measurement.read.evidence import is_numeric
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import HeaderColumn, Meaning
+from mckibben.measurement.read.header import Meaning
+from mckibben.measurement.read.left_out import FINAL, UNKNOWN
 from mckibben.measurement.read.physical_checks import mostly_negative, runs_against
+from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible
 from mckibben.measurement.read.recognise import BY_UNIT
 from mckibben.measurement.read.source import RawTable
@@ -20,17 +22,6 @@ from mckibben.measurement.read.unit_words import CLOCK, dimension_of
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
-#: Reasons with which a column is left out for good; it is neither asked about nor proposed.
-KNOWN_REASONS = (
-    "it is a condition",
-    "the supply",
-    "the surrounding air",
-    "a length at rest",
-    "a size of the tube",
-    "a preload",
-    "a deviation",
-    "you do not want it",
-)
 PROPOSED = "proposed"  # origin of a column that only its unit and its numbers tell
 _SHORTEST = 0.5  # of its greatest length; no muscle shortens further
 _LONGEST = 1.15  # of the rest length, under load
@@ -102,7 +93,7 @@ def _columns_of_lengths(source: RawTable, meaning: Meaning) -> list[tuple[int, s
         unit = taken_apart(header, source.units[index] if index < len(source.units) else None).unit
         if unit is None or dimension_of(unit) != "a length":
             continue
-        if not any(known in meaning.reasons.get(index, "") for known in KNOWN_REASONS):
+        if meaning.reasons.get(index, UNKNOWN).reason not in FINAL:
             found.append((index, unit))
     return found
 

@@ -6,13 +6,29 @@ from collections.abc import Sequence
 
 from mckibben.measurement.read.head_text import without_run
 from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.unit_words import unit_of
 from mckibben.measurement.read.vocabulary import WAYS, folded
+
+_OF_UNIT = "values"  # of which a head says the unit alone
 
 
 def without_way(name: str) -> str:
-    """``"Kraft hin [N]"`` -> ``"Kraft [N]"``."""
-    kept = [word for word in name.split() if folded(word.strip("()-,")) not in WAYS]
+    """``"Kraft hin [N]"`` -> ``"Kraft [N]"``; ``"unloading kgf"`` -> ``"values [kgf]"``."""
+    kept = [word for word in name.split() if not _is_way(word)]
+    if len(kept) == 1 < len(name.split()) and unit_of(kept[0]) is not None:
+        return f"{_OF_UNIT} [{kept[0].strip('()[]')}]"
     return " ".join(kept) if kept else name
+
+
+def way_of(name: str) -> str:
+    """The words that `without_way` leaves out: ``"Kraft hin [N]"`` -> ``"hin"``; empty without any."""
+    words = name.split()
+    ways = [word.strip("()-,") for word in words if _is_way(word)]
+    return " ".join(ways) if len(ways) < len(words) else ""
+
+
+def _is_way(word: str) -> bool:
+    return folded(word.strip("()-,")) in WAYS
 
 
 def qualified_groups(

@@ -9,6 +9,8 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.calibrations import is_raw_share
 from mckibben.measurement.read.evidence import Evidence
 from mckibben.measurement.read.head_text import is_voltage, taken_apart
+from mckibben.measurement.read.joints import TORQUE, TORQUE_ON_RIM, column_of
+from mckibben.measurement.read.left_out import UNKNOWN, Reason
 from mckibben.measurement.read.questions import column_option
 from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.unit_words import BRIDGE, COUNT, FULL_SCALE, RAW_DIMENSIONS, dimension_of
@@ -30,12 +32,32 @@ _RAW_SPANS = {
     BRIDGE: "0 to 2 mV/V", FULL_SCALE: "0 to 100 %FS", "%": "0 to 100 %",
 }  # fmt: skip
 _CALIBRATED = tuple(dimension for dimension in RAW_DIMENSIONS if dimension != "a count")
-_UNKNOWN = "its name is not known"
 
 
 def raw_questions(evidence: Evidence) -> list[Question]:
     """How a signal is to be read that must be a missing channel: its scale, or what a count means."""
-    return [*_volts(evidence), *_strokes(evidence)]
+    return [*_volts(evidence), *_strokes(evidence), *_torques(evidence)]
+
+
+def _torques(evidence: Evidence) -> list[Question]:
+    """Where a pressure has no force beside it: a torque, which is one on the rim of its pulley."""
+    name = column_of(evidence, TORQUE)
+    if name is None or "pressure" not in evidence.channels or "force" in evidence.channels:
+        return []
+    if any(
+        winner.use == "pressure" and "you" not in (winner.origin, other.origin)
+        for winner, other in evidence.meaning.rivals
+    ):
+        return []  # of a joint, perhaps: which muscle is meant comes first
+    return [
+        Question(
+            "force",
+            f"{evidence.noun} '{name}' holds a torque, and the file has no force; no text states the radius "
+            "of its pulley; which torque is which force",
+            column_option("force", name, TORQUE_ON_RIM),
+            name,
+        )
+    ]
 
 
 def _is_filled(evidence: Evidence, channel: str) -> bool:
@@ -139,8 +161,8 @@ def _strokes(evidence: Evidence) -> list[Question]:
             ]
     for index in _free(evidence):
         name, unit = _head(evidence, index)
-        reason = evidence.meaning.reasons.get(index, _UNKNOWN)
-        if unit is None and reason == _UNKNOWN and _span(evidence, index) is not None:
+        reason = evidence.meaning.reasons.get(index, UNKNOWN).reason
+        if unit is None and reason is Reason.UNKNOWN and _span(evidence, index) is not None:
             return [
                 Question(
                     "stroke",

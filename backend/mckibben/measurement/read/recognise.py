@@ -10,6 +10,7 @@ from typing import NamedTuple
 
 from mckibben.measurement.read.head_text import channel_of_letter, taken_apart, without_run
 from mckibben.measurement.read.held import proper, without_pressure
+from mckibben.measurement.read.left_out import OF_WORDS, UNKNOWN, LeftOut, Reason, by_word
 from mckibben.measurement.read.unit_words import COUNT, DIMENSIONS, RAW_DIMENSIONS, dimension_of
 from mckibben.measurement.read.vocabulary import (
     LESS_WANTED,
@@ -25,26 +26,36 @@ _VALUE = re.compile(r"[^\W\d_]{1,12}0?\s*[=≈]\s*[0-9]+(?:[.,][0-9]+)?\s*[^\W\d
 _CHANGES = frozenset(("change", "delta", "anderung", "variation", "difference"))
 _ALSO_VOLTAGE = frozenset(("tension", "tensione", "tensao"))  # a voltage in other languages
 _STROKES_FROM_REST = frozenset(("displacement", "contraction", "extension"))  # "shortening from rest length"
+#: "dL", "ΔL", "delta x": how much longer or further; a d before another letter is no diameter.
+_CHANGE_OF = re.compile(r"(?:d|Δ|δ|delta|Delta)[ _]?([Llxs])(?![^\W\d_])")
 _RAW = 3  # of LESS_WANTED: a raw column
 
 
 class Recognised(NamedTuple):
-    """What a head means. ``channel`` None = none, because ``why``; ``sign`` -1 = counted the other way.
+    """What a head means. ``channel`` None = none, because of ``left_out``.
 
-    ``undecided``: no channel, because neither name nor unit tells what it is.
+    ``extends``: it grows as the muscle becomes longer.
     """
 
     channel: str | None
     unit: str | None
     absolute: bool | None
     penalty: int
-    why: str
+    left_out: LeftOut | None = None
     extends: bool = False
-    undecided: bool = False
+
+    @property
+    def otherwise(self) -> bool:
+        """Whether a word of the name says that it is something else than a channel."""
+        return self.left_out is not None and self.left_out.reason in OF_WORDS
 
 
 def _unknown(unit: str | None) -> Recognised:
-    return Recognised(None, unit, None, 0, "its name is not known", undecided=True)
+    return Recognised(None, unit, None, 0, UNKNOWN)
+
+
+def _none(unit: str | None, reason: Reason, text: str) -> Recognised:
+    return Recognised(None, unit, None, 0, LeftOut(reason, text))
 
 
 def recognise(header: str, unit_below: str | None = None) -> Recognised:
@@ -52,7 +63,7 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
 
     >>> recognise("Kraftaufnehmer U10M [kN]")[:2]
     ('force', 'kN')
-    >>> recognise("Solldruck [bar]").why
+    >>> recognise("Solldruck [bar]").left_out.text
     'it is a set value'
     """
     head = taken_apart(header, unit_below)
@@ -60,12 +71,11 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
     base = without_pressure(head.name) if head.held is not None else head.name
     words = words_of(without_run(base)[0])
     if _VALUE.fullmatch(header.strip()):
-        return Recognised(None, None, None, 0, "it names a value, not what was measured")
+        return _none(None, Reason.VALUE, "it names a value, not what was measured")
     if head.unit == COUNT:
-        return Recognised(None, head.unit, None, 0, "it holds counts of a converter, not a physical value")
+        return _none(COUNT, Reason.COUNTS, "it holds counts of a converter, not a physical value")
     if dimension in RAW_DIMENSIONS:
-        why = f"'{head.unit}' is {dimension}, not a calibrated value"
-        return Recognised(None, head.unit, None, 0, why, undecided=True)
+        return _none(head.unit, Reason.RAW, f"'{head.unit}' is {dimension}, not a calibrated value")
     meant = _without_statistic(words, dimension)
     named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
     if "command" in named:
@@ -76,40 +86,43 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         named = [channel for channel in named if channel != "direction"]
     for word in words:
         reason = other_quantity(word, named[-1] if named else None)
-        if reason == "a length at rest" and set(named) & _STROKES_FROM_REST:
+        if reason is Reason.AT_REST and set(named) & _STROKES_FROM_REST:
             named = [channel for channel in named if channel != "length"]
             continue
-        if reason == "a set value" and named[-1:] == ["command"]:
+        if reason is Reason.SET_VALUE and named[-1:] == ["command"]:
             continue  # what a valve is set to is its command
         if reason is not None and (named or dimension):
-            return Recognised(None, head.unit, None, 0, f"it is {reason}")
+            return Recognised(None, head.unit, None, 0, by_word(reason))
     distinct = set(named)
     if len(distinct) > 1 and ("command" in distinct or not dimension):
-        return Recognised(None, head.unit, None, 0, f"its name says {' and '.join(sorted(distinct))}")
+        return _none(head.unit, Reason.SEVERAL, f"its name says {' and '.join(sorted(distinct))}")
     penalty = BY_WORDS + sum(LESS_WANTED.get(word, 0) for word in words)
     channel = _of_names(named, dimension) or channel_of_letter(words, dimension)
+    if (change := _CHANGE_OF.match(base)) is not None and channel in (
+        "diameter",
+        "length",
+        "displacement",
+        None,
+    ):
+        channel = "extension" if change[1] in "Ll" else "displacement"
     if channel == "length" and set(words) & _CHANGES:
         channel = "extension"
     if channel is not None and (not dimension or dimension in DIMENSIONS[channel]):
         ambiguous = set(words) & {"last", "charge", "carga", "load"} and len(words) > 2
         if channel == "force" and not dimension and (ambiguous or set(words) & _ALSO_VOLTAGE):
             return _unknown(None)
-        return Recognised(
-            proper(channel), head.unit, head.absolute, penalty, "by its name", channel == "extension"
-        )
+        return Recognised(proper(channel), head.unit, head.absolute, penalty, extends=channel == "extension")
     if channel is not None and dimension:
-        return Recognised(None, head.unit, None, 0, f"its name says {channel}, '{head.unit}' is {dimension}")
+        return _none(head.unit, Reason.UNFIT, f"its name says {channel}, '{head.unit}' is {dimension}")
     if not dimension or dimension == "a plain number or a share":
         no_channel = next((NO_CHANNEL[word] for word in words if word in NO_CHANNEL), None)
         if no_channel is None:
             return _unknown(head.unit)
-        return Recognised(None, head.unit, None, 0, f"it is {no_channel}")
+        return Recognised(None, head.unit, None, 0, by_word(no_channel))
     by_unit = {"a force": "force", "a pressure": "pressure", "a time": "time"}.get(dimension)
     if by_unit is None:
         return _unknown(head.unit)
-    return Recognised(
-        by_unit, head.unit, head.absolute, penalty + BY_UNIT, f"by its unit '{head.unit}' alone"
-    )
+    return Recognised(by_unit, head.unit, head.absolute, penalty + BY_UNIT)
 
 
 def _without_statistic(words: list[str], dimension: str) -> list[str]:

@@ -116,10 +116,14 @@ def scale_in(text: str, where: str) -> Scale | None:
     return found
 
 
+_OF_PULLEY = re.compile(r"(?<=[0-9])\s*(?:deg(?:rees?)?\b|°|N\s*[*·.]?\s*m\b)")
+
+
 def said_scale(text: str) -> Scale | None:
     """The scale that a user says: ``0-10 V = 0-10 bar``, ``4100 to 9300 counts = 0 to 80 mm``.
 
-    Also where a position counts from: ``0 to 72 mm = 228 to 300 mm``.
+    Also where a position counts from, ``0 to 72 mm = 228 to 300 mm``, and what an angle or a torque on a
+    pulley is on its rim: ``0 to 3 Nm = 0 to 100 N``.
     """
     moved = _MOVED.fullmatch(text.strip())
     if moved is not None:
@@ -128,7 +132,7 @@ def said_scale(text: str) -> Scale | None:
         if raw and unit and dimension_of(raw.unit) == dimension_of(unit.unit) == "a length" and high != low:
             slope = (most - least) / (high - low)
             return Scale(slope, least - slope * low, raw.unit, unit.unit, "", f"'{text.strip()}'", "you")
-    return scale_in(re.sub(r"(?<=[0-9])\s*(?:deg(?:rees?)?\b|°)", " counts", text), "you")
+    return scale_in(_OF_PULLEY.sub(" counts", text), "you")
 
 
 def valve_scale_of(text: str, where: str) -> Scale | None:

@@ -12,6 +12,7 @@ from typing import NamedTuple
 from mckibben.measurement.read.air import AIR, unit_of_air
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, Note, key_of
 from mckibben.measurement.read.head_text import channel_number, taken_apart
+from mckibben.measurement.read.left_out import Reason
 from mckibben.measurement.read.limits import MAX_REMARKS
 from mckibben.measurement.read.signs import signs_of
 from mckibben.measurement.read.tares import reads_empty
@@ -56,6 +57,10 @@ _NO_PRESSURE = re.compile(
 _OTHER_GAUGES = re.compile(
     r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]*gau?ges?|gau?ge length"
 )
+_AT_PRESSURE = re.compile(
+    r"(?i)[\s(,]*(?:at|bei|@|à|a|con|mit|with|при|przy|při|pri|vid|bij|med)?\s*"
+    r"[0-9.,]*[1-9][0-9.,]*\s*(?:mbar|bar|[hkM]?Pa|psi)(?!\w)"
+)
 #: Words behind a quantity that no other one follows, up to a sign or an "and".
 _OWN_BEHIND = re.compile(
     r"[\s(]*([^,;:=()\d.]{0,60}?)(?=[,;().]|$|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s)"
@@ -63,12 +68,14 @@ _OWN_BEHIND = re.compile(
 _CLAUSE = re.compile(r"[;|]|[.,:](?!\d)\s")
 _BEFORE = frozenset(("mm", "cm", "kg", "bar", "mbar", "kPa", "MPa", "hPa", "psi", "kN", "lbf", "inch"))
 _VALUED = re.compile(rf"(?P<name>[^\W\d_]+)\s*(?:[=:]|is|was|ist|war)?\s*{_NUMBER}\s*(?:{_UNIT})")
-_OF_OTHER_AIR = ("the supply", "the surrounding air")
+_OF_OTHER_AIR = (Reason.SUPPLY, Reason.AIR)
 _POSITIONS = word_set(POSITION)
 _WITHOUT = REMARK_WORDS["without"]
 _LONG = word_set("long lang lungo largo comprido dlugi длинный uzun")
 _AT_REST, _LOADS, _SUPPLIES = REMARK_WORDS["at rest"], REMARK_WORDS["load"], REMARK_WORDS["supply"]
 _BAROMETERS = REMARK_WORDS["barometer"]
+_WHOLE, _BETWEEN, _ENDS = (REMARK_WORDS[what] for what in ("whole length", "between", "ends"))
+_OTHER_LENGTHS = REMARK_WORDS["other length"]
 _SAMPLES, _DATES, _AMBIENT = REMARK_WORDS["sample"], REMARK_WORDS["date"], REMARK_WORDS["ambient"]
 _REST_LENGTHS = re.compile(
     "|".join([r"(ruhe|einspann|anfangs|nenn|ausgangs|probe[nr]?)[a-z]{0,2}(lange|laenge)",
@@ -89,6 +96,7 @@ class _Quantity(NamedTuple):
     unit: str | None
     behind: Sequence[str] = ()
     own_behind: Sequence[str] = ()  # those that no other quantity follows
+    pressed: bool = False  # a pressure is said at which it has this value
 
 
 def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
@@ -203,7 +211,7 @@ def _quantities(text: str) -> Iterator[_Quantity]:
             unit = unit_of(last[1]) if last[1] in _BEFORE else None  # a cell of its own: "L0 | cm | 18.5"
         yield _Quantity(
             words_of(before), value, None if unit is None else unit.unit, words_of(behind),
-            words_of(own[1]) if own else (),
+            words_of(own[1]) if own else (), _AT_PRESSURE.match(text, found.end()) is not None,
         )  # fmt: skip
 
 
@@ -237,6 +245,8 @@ def _key_of(quantity: _Quantity) -> str | None:
         return AIR  # "barometer 1013"
     if words & LOADLESS:
         return None
+    if measured == "a length" and not quantity.pressed and _is_whole(quantity):
+        return "nominal_length"
     if measured == "a length" and has_word(quantity.words[-3:], _POSITIONS):
         return None  # "the laser reads 152 mm at the rest length"
     lengthy = any(channel_of_word(word) == "length" for word in quantity.words)
@@ -269,10 +279,22 @@ def _is_at_rest(words: Sequence[str]) -> bool:
 
 def _is_length_at_rest(behind: Sequence[str], *, lengthy: bool) -> bool:
     """Whether the words behind a length say so: "250 mm rest length", "is 250 mm long when unpressurised"."""
-    if any(other_quantity(word, "length") not in (None, "a length at rest") for word in behind):
+    if any(other_quantity(word, "length") not in (None, Reason.AT_REST) for word in behind):
         return False
     named = any(word in _LONG or channel_of_word(word) == "length" for word in behind)
     return bool((_is_at_rest(behind) and (lengthy or named)) or _REST_LENGTHS.search("".join(behind)))
+
+
+def _is_whole(quantity: _Quantity) -> bool:
+    """Whether words say that a length is all of the muscle's: "active length", "400 mm between fittings"."""
+    before, words = quantity.words, [*quantity.words, *quantity.own_behind]
+    if has_word(words, _OTHER_LENGTHS | _LOADS):
+        return False
+    ends = sum(has_word([word], _ENDS) for word in words)
+    if ends > 1 or (ends and has_word(words, _BETWEEN)):  # "from clamp to clamp"
+        return True
+    lengthy = any(word == "l" or channel_of_word(word) == "length" for word in before)
+    return lengthy and has_word(before, _WHOLE)
 
 
 def _of_code(text: str) -> Iterator[tuple[str, str]]:

@@ -9,17 +9,23 @@ from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.blocks import MapPart, Part, Table
 from mckibben.measurement.read.cells import Cell, CellTable, Problems, no_rows, read_cells
 from mckibben.measurement.read.conditions import Note
+from mckibben.measurement.read.directions import PAIRS, way_of_word
 from mckibben.measurement.read.grid import BLANKS, TextGrid
 from mckibben.measurement.read.header import map_headers
 from mckibben.measurement.read.raw import RawRows, shown_rows
+from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.stated import KIND_SAID
 from mckibben.measurement.read.table import FAST_FROM, read_table
 from mckibben.measurement.read.tables import told_channels
 from mckibben.measurement.read.values import Clock, NumberStyle, is_elapsed, is_falling, number_of, style_of
+from mckibben.measurement.read.vocabulary import word_set, words_of
+from mckibben.measurement.read.words.ways import LOADING
 from mckibben.physics.units import factor
 
 PART = "group"  # head of the column that numbers the parts
+WAY = "direction"  # head of the column with the ways that the heads of the parts say
+_LOADING = word_set(LOADING)
 _STYLE_ROWS = 2000  # rows from which the way of writing numbers is told
 
 
@@ -52,7 +58,13 @@ def source_of(
     style = style_of(
         cell for part in table.parts for _, row in islice(part.rows(), _STYLE_ROWS) for cell in row
     )
-
+    back = _ways_back(table, style) if not _has(table, WAY) else None
+    if back is not None:
+        names.append(WAY)
+        units.append(None)
+        words = ", ".join(f"'{way}'" for way in dict.fromkeys(part.way for part in table.parts))
+        reverse = ", ".join(f"'{way}'" for way in sorted(back))
+        said.append(f"the columns {words} are two ways of one test; {reverse} was gone from the last row up")
     ways = _ways_of_clocks(table, said)
 
     def rows(clocks: bool) -> Iterator[tuple[int, list[Cell]]]:
@@ -65,7 +77,10 @@ def source_of(
             times = {
                 i: Clock(**ways.get(i, {})) for i, c in enumerate(part.columns) if clocks and c in part.clocks
             }
-            for line, row in part.rows():
+            if back is not None:
+                more.append(part.way)
+            backwards = back is not None and part.way in back
+            for line, row in reversed(list(part.rows())) if backwards else part.rows():
                 cells: list[Cell] = [number_of(cell, style) for cell in row]
                 for i, clock in times.items():
                     cells[i] = clock.seconds(row[i])
@@ -95,6 +110,31 @@ def source_of(
         clocks=frozenset(i for part in table.parts for i, c in enumerate(part.columns) if c in part.clocks),
         raw=_raw(table, shown, len(names), rewritten),
     )  # fmt: skip
+
+
+def _ways_back(table: Table, style: NumberStyle) -> frozenset[str] | None:
+    """The ways that run against the order of the rows; None where the parts are no ways there and back.
+
+    Rows of both ways stand beside each other, so one of the two runs against the test: the way back, but of
+    loading and unloading the one on which the force would change the wrong way.
+    """
+    known = {part.way: way_of_word(part.way) for part in table.parts}
+    pair = next((pair for pair in PAIRS if set(known.values()) == set(pair)), None)
+    if pair is None or any(len(part.columns) == len(part.own) for part in table.parts):
+        return None  # each way has rows of its own
+    there = next(part for part in table.parts if known[part.way] == pair[0])
+    falls = set(words_of(there.way)) & _LOADING and _force_falls(table, there, style)
+    return frozenset(way for way, meant in known.items() if meant == pair[0 if falls else 1])
+
+
+def _force_falls(table: Table, part: Part, style: NumberStyle) -> bool:
+    """Whether the force falls from the first row of a part to its last; it may be in any of its columns."""
+    names = zip(table.names, table.units, strict=True)
+    place = next((i for i, head in enumerate(names) if recognise(*head).channel == "force"), None)
+    if place is None:
+        return False
+    values = [v for _, row in part.rows() if isinstance(v := number_of(row[place], style), float)]
+    return len(values) > 1 and values[-1] < values[0]
 
 
 def _ways_of_clocks(table: Table, said: list[str]) -> dict[int, dict[str, bool]]:

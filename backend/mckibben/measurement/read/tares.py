@@ -12,7 +12,7 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.conditions import Note
 from mckibben.measurement.read.evidence import Array
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.header import WEIGHTS, HeaderColumn
+from mckibben.measurement.read.plain_head import WEIGHTS, HeaderColumn
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.vocabulary import channel_of_word, folded, word_set, words_of
 from mckibben.measurement.read.words import tares as words_of_tares

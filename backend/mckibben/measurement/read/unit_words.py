@@ -18,7 +18,7 @@ _SPELLINGS = {spelling: unit for unit, text in UNITS.items() for spelling in tex
 _MEANINGS = frozenset({
     "a pressure", "a force", "a length", "a time", "a mass", "a speed", "a temperature", "a voltage",
     "a current", "a plain number or a share", "a frequency", "a rate", "a volume", "a volume flow",
-    "an angle", "a power",
+    "an angle", "a power", "an energy or a torque",
 })  # fmt: skip
 _CLOCK = re.compile(r"(?i)h{1,2}\s*:\s*m{1,2}(\s*:\s*s{1,2})?([.,:]\s*(m|ms|f|s|z|0)+)?|clock|iso ?8601")
 _DEGREES = re.compile(r"(?i)(?:deg(?:rees?)?\.?|°|º)\s*([CF])")

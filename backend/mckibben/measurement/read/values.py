@@ -19,7 +19,8 @@ _GROUPED = re.compile(
 )
 _DAY = r"(?:[0-9]{4}[-/.][0-9]{1,2}[-/.][0-9]{1,2}|[0-9]{1,2}[./-][0-9]{1,2}[./-][0-9]{2,4})"
 _TIME = r"[0-9]{1,2}:[0-9]{2}(?::[0-9]{2}(?:[.,:][0-9]{1,9})?)?(?:\s*[aApP][mM])?"
-_CLOCK = re.compile(rf"{_TIME}|{_DAY}(?:[T ]+{_TIME}(?:Z|\s*[+-][0-9]{{2}}:?[0-9]{{2}})?)?")
+_MINUTES = r"[0-9]{1,3}:[0-5][0-9][.,][0-9]{1,9}"  # and seconds: hours and minutes have no fraction
+_CLOCK = re.compile(rf"{_TIME}|{_MINUTES}|{_DAY}(?:[T ]+{_TIME}(?:Z|\s*[+-][0-9]{{2}}:?[0-9]{{2}})?)?")
 
 
 class NumberStyle(NamedTuple):
@@ -162,6 +163,9 @@ def _absolute_seconds(cell: Cell) -> tuple[float, bool] | None:
     if not isinstance(cell, str) or not _CLOCK.fullmatch(cell.strip()):
         return None
     text = cell.strip()
+    if re.fullmatch(_MINUTES, text):
+        minutes, seconds = text.replace(",", ".").split(":")
+        return 60.0 * int(minutes) + float(seconds), False
     day, rest = re.match(rf"({_DAY})?[T ]*(.*)", text).groups()  # type: ignore
     found = re.match(
         r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,:]([0-9]{1,9}))?)?\s*([aApP][mM])?", rest or "0:00"

@@ -9,6 +9,7 @@ from functools import lru_cache
 from typing import NamedTuple
 
 from mckibben.measurement.read import words
+from mckibben.measurement.read.left_out import Reason
 
 _UNPARTED = "\u3000"  # from here on stand the letters of languages that do not part their words
 _LETTERS = str.maketrans({"ł": "l", "ı": "i", "đ": "d", "ø": "o", "æ": "ae", "œ": "oe"})
@@ -109,7 +110,7 @@ LETTERS = {
 #: Words that make a column something else -> what it is.
 OTHER_QUANTITIES = {word: reason for reason, texts in words.OTHERS.items() for word in all_words(texts)}
 #: These leave a pressure or a time what it is, but not a diameter; of a length only.
-_ONLY_OF_DIAMETERS = frozenset(all_words(words.OTHERS["a size of the tube"]))
+_ONLY_OF_DIAMETERS = frozenset(all_words(words.OTHERS[Reason.TUBE_SIZE]))
 #: A column with one of these is wanted less than one without.
 LESS_WANTED = {
     **dict.fromkeys(word_set("raw roh brut grezzo crudo adc counts digits uncalibrated unkalibriert"), 3),
@@ -203,7 +204,7 @@ def proper_channel(channel: str | None) -> str | None:
 
 
 @lru_cache(maxsize=4096)
-def other_quantity(word: str, channel: str | None) -> str | None:
+def other_quantity(word: str, channel: str | None) -> Reason | None:
     """What a folded word makes of a column, where that is not the channel itself."""
     if word in OTHER_QUANTITIES:
         reason = OTHER_QUANTITIES[word]

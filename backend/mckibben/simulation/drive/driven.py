@@ -88,6 +88,7 @@ def driven_states_of_many(
     begins: Sequence[Mapping[str, float]],
     temperature: float = ROOM_TEMPERATURE,
     tolerance: float = TOLERANCE,
+    among: int = 0,
 ) -> list[dict[str, np.ndarray]]:
     """Some states along one record of models with the same effects: the numbers of `driven_states`, at once.
 
@@ -98,11 +99,12 @@ def driven_states_of_many(
         begins: of each model, states that do not begin at rest.
         temperature: [K].
         tolerance: relative error per step.
+        among: rows of all records that are followed again and again; many short ones are worth the kernel.
 
     Raises:
         InputError: as for `driven_force`.
     """
-    if engine_by_size(len(time) - 1) != "rodas":
+    if engine_by_size(max(len(time), among) - 1) != "rodas":
         return [
             driven_states(
                 model, time=time, pressure=pressure, length=length, temperature=temperature,

@@ -79,7 +79,7 @@ def _head(said: Sequence[tuple[str, str]]) -> str:
     unit = next(iter(labelled or [text for _, text in units]), None)
     texts = [text for _, text in said if text != unit and kind_of(text) != NUMBER][:2]
     known = next((text for text in texts[::-1] if recognise(text, unit).channel is not None), None)
-    why = next((text for text in texts[::-1] if recognise(text, unit).why.startswith("it is")), None)
+    why = next((text for text in texts[::-1] if recognise(text, unit).otherwise), None)
     name = (
         " ".join(texts[:1] + [text for text in (why, known) if text and text != texts[0]][:1])
         if texts

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from mckibben.measurement.read.left_out import Reason
+
 #: What makes a column something else -> language -> words.
 OTHERS = {
-    "a set value": {
+    Reason.SET_VALUE: {
         "en": "set setpoint target desired demand demanded commanded cmd reference ref sp",
         "de": "soll sollwert fuehrung führung", "fr": "consigne désirée cible",
         "it": "riferimento impostata impostato", "es": "consigna objetivo deseado",
@@ -15,7 +17,7 @@ OTHERS = {
         "ro": "referință impusă", "el": "επιθυμητή στόχος", "uk": "задане завдання",
         "hr": "zadani zadana željeni", "sl": "želeni", "sk": "žiadaný", "ko": "목표 설정 지령",
     },
-    "the supply": {
+    Reason.SUPPLY: {
         "en": "supply line tank reservoir inlet source",
         "de": "versorgung versorgungs speise vordruck kessel", "fr": "alimentation réseau",
         "it": "alimentazione", "es": "alimentación", "pt": "alimentação", "pl": "zasilanie zasilania",
@@ -26,7 +28,7 @@ OTHERS = {
         "uk": "живлення", "bg": "захранване захранващо", "hr": "dovod dovodni napajanje opskrba",
         "sl": "napajanje napajalni", "sk": "napájací napájanie", "ko": "공급 공급압",
     },
-    "the surrounding air": {
+    Reason.AIR: {
         "en": "ambient atmosphere atmospheric baro barometer barometric",
         "de": "umgebung umgebungs luftdruck", "fr": "ambiante atmosphérique atmosphère",
         "it": "ambiente atmosferica", "es": "atmosférica ambiental",
@@ -37,7 +39,7 @@ OTHERS = {
         "ro": "atmosferică ambiantă", "el": "ατμοσφαιρική περιβάλλοντος", "uk": "атмосферний навколишнього",
         "hr": "atmosferski okoline", "ko": "대기압 주위",
     },
-    "a length at rest": {
+    Reason.AT_REST: {
         "en": "rest initial nominal l0", "de": "ruhe ruhelänge ruhelaenge anfang anfangs nenn nennlänge",
         "pt": "inicial repouso", "pl": "spoczynkowa początkowa", "cs": "klidová počáteční",
         "ru": "исходная начальная свободная", "tr": "serbest başlangıç", "nl": "rustlengte beginlengte",
@@ -47,13 +49,13 @@ OTHERS = {
         "el": "αρχικό ηρεμίας", "uk": "початкова", "hr": "početna pocetna slobodna", "sl": "začetna",
         "sk": "počiatočná pokojová", "ko": "초기길이 자연길이",
     },
-    "a preload": {
+    Reason.PRELOAD: {
         "en": "preload pretension prestress", "de": "vorkraft vorlast", "it": "precarico", "es": "precarga",
         "ru": "преднатяг", "fr": "précharge", "nl": "voorspanning voorlast", "sv": "förspänning förlast",
         "pl": "naprężenie wstępne", "cs": "předpětí", "ja": "予荷重 初期荷重", "zh": "预载 预紧",
         "ko": "예하중",
     },
-    "a deviation": {
+    Reason.DEVIATION: {
         "en": "dev stdev error vs versus std sigma residual rms uncertainty",
         "de": "fehler abweichung messunsicherheit unsicherheit stdabw standardabweichung",
         "fr": "incertitude écart erreur", "ru": "погрешность", "ja": "誤差", "zh": "误差",
@@ -61,7 +63,7 @@ OTHERS = {
         "pl": "błąd odchylenie", "cs": "chyba odchylka", "nl": "fout afwijking", "sv": "fel avvikelse",
         "fi": "virhe", "tr": "hata", "ko": "오차",
     },
-    "a size of the tube": {
+    Reason.TUBE_SIZE: {
         "en": "inside inner outside outer wall bore", "de": "innen aussen",
     },
 }  # fmt: skip
@@ -84,14 +86,14 @@ STATISTIC = {
 
 #: Columns that are no channel -> language -> words.
 NO_CHANNELS = {
-    "a running number": {
+    Reason.NUMBER: {
         "en": "no number index idx point id scan sample row row# n i # unnamed seq sequence record frame",
         "de": "nr nummer lfd punkt zeile", "pl": "lp", "cs": "poř číslo", "ru": "№", "tr": "sıra",
         "ja": "番号 No", "zh": "序号 编号", "fr": "numéro num", "es": "núm número", "it": "numero",
         "pt": "número", "nl": "volgnummer", "sv": "nr", "da": "nr", "fi": "nro", "hu": "sorszám",
         "ro": "nr", "el": "α/α", "hr": "rbr br", "ko": "번호 순번",
     },
-    "a remark": {
+    Reason.REMARK: {
         "en": (
             "remark remarks comment comments note notes status state flag quality alarm alarms event "
             "marker validity error_code mode"

@@ -36,6 +36,51 @@ REMARKS = {
         "no": "hvilelengde startlengde", "fi": "lepopituus alkupituus", "hu": "nyugalmihossz",
         "et": "algpikkus",
     },
+    "whole length": {
+        "en": "active effective working useful usable braided",
+        "de": "aktiv aktive aktiven wirksam wirksame nutzbar nutz nutzlänge",
+        "fr": "utile active", "it": "attiva utile", "es": "activa útil efectiva",
+        "pt": "ativo útil efetivo", "pl": "czynna robocza aktywna", "cs": "aktivní činná užitečná",
+        "sk": "aktívna činná účinná", "ru": "рабочая активная рабочей активной",
+        "uk": "робоча активна", "nl": "actieve werkzame effectieve", "sv": "aktiv effektiv",
+        "da": "aktiv", "fi": "aktiivinen tehollinen", "hu": "aktív hasznos", "ro": "activă utilă",
+        "tr": "etkin aktif", "ja": "有効長", "zh": "有效长度 有效长 工作长度", "ko": "유효 유효길이",
+    },
+    "between": {
+        "en": "between from", "de": "zwischen zw", "fr": "entre", "it": "tra fra", "pl": "między pomiędzy",
+        "cs": "mezi", "sk": "medzi", "ru": "между", "uk": "між", "nl": "tussen", "sv": "mellan",
+        "da": "mellem", "no": "mellom", "fi": "välillä", "hu": "között", "ro": "între", "hr": "između",
+        "tr": "arası arasında", "ja": "間", "zh": "之间 间", "ko": "사이",
+    },
+    "ends": {
+        "en": "fitting fittings clamp clamps end ends endcap endcaps cap caps nipple nipples ferrule "
+        "ferrules crimp crimps plug plugs flange flanges terminals ties wraps connectors",
+        "de": "armatur armaturen einspannung einspannungen klemmen enden anschlüssen anschlussstücken "
+        "endstücken endkappen schellen verpressungen stopfen nippeln",
+        "fr": "embouts raccords extrémités colliers mors sertissages bouchons",
+        "it": "raccordi estremità morsetti fascette tappi terminali",
+        "es": "racores extremos mordazas abrazaderas terminales tapones",
+        "pt": "terminais extremidades abraçadeiras conexões tampões",
+        "pl": "końcówkami końcówki zaciskami końcami", "cs": "koncovkami koncovky svorkami konci",
+        "sk": "koncovkami koncovky svorkami koncami", "ru": "заделками заделки наконечниками зажимами "
+        "концами штуцерами", "uk": "наконечниками затискачами", "nl": "klemmen uiteinden fittingen",
+        "sv": "ändar ändstycken klämmor kopplingar", "da": "ender klemmer fittings",
+        "fi": "päiden liittimien", "hu": "csatlakozók végek",
+        "ro": "capete racorduri", "hr": "krajeva spojnica",
+        "tr": "uçlar bağlantı", "ja": "金具 両端", "zh": "接头 两端 端头 夹具", "ko": "피팅 양단",
+    },
+    "other length": {
+        "en": "tube tubing hose line pipe cable wire rope stroke travel step steps marks markers "
+        "contracted shortened inflated pressurized pressurised stretched sensor laser crosshead carriage "
+        "reading reads",
+        "de": "schlauch leitung rohr kabel seil hub weg schritt marken kontrahiert verkürzt gefüllt",
+        "fr": "tuyau câble course pas repères contracté gonflé", "it": "tubo cavo corsa passo contratto",
+        "es": "tubo manguera cable carrera paso marcas contraído", "pt": "mangueira cabo curso passo marcas",
+        "pl": "wąż przewód skok znacznikami", "cs": "hadice lanko zdvih značkami",
+        "sk": "hadica lanko zdvih značkami", "ru": "шланг трубка трос ход метками меток шаг",
+        "nl": "slang kabel slag markeringen", "sv": "slang kabel slag märken", "ja": "標点 チューブ",
+        "zh": "标距 气管 行程", "ko": "표점 호스",
+    },
     "load": {
         "en": "load mass weight hanging hung hangs deadweight dead suspended attached "
         "lifts lifting lifted carries carrying",

@@ -94,6 +94,13 @@ MOVES = {
     },
 }  # fmt: skip
 
+#: Those of "one way" on which the load grows, folded, parted by blanks.
+LOADING = (
+    "load loading loaded belasten belastung charge chargement carico carga carregamento obciazanie "
+    "zatezovani нагружение нагрузка навантаження yukleme belastning kuormitus terheles incarcare opterecenje "
+    "zatazovanie 負荷 載荷 加载 부하"
+)
+
 #: Words for a state in which the muscle does not move, by language.
 HOLDS = {
     "en": "hold holding held dwell wait waiting pause rest idle settle settling steady",
@@ -117,7 +124,8 @@ PHASES = {
 WAYS = {
     "en": (
         "up down loading unloading load unload inflation deflation inflating deflating forward "
-        "backward return there back increasing decreasing rising falling filling venting"
+        "backward return there back increasing decreasing rising falling filling venting "
+        "pressurizing depressurizing pressurising depressurising loaded unloaded"
     ),
     "de": (
         "auf ab aufwärts abwärts hin rück hinweg rückweg belasten entlasten belastung entlastung "
@@ -127,5 +135,7 @@ WAYS = {
     "es": "subida bajada ida vuelta", "pt": "subida descida ida volta", "pl": "góra dół",
     "cs": "nahoru dolů tam zpět", "ru": "вверх вниз прямой обратный нагружение разгрузка",
     "tr": "gidiş dönüş artan azalan yükleme boşaltma", "nl": "heen terug op neer",
-    "sv": "upp ner fram tillbaka", "ja": "加圧 減圧 往路 復路", "zh": "加压 减压 上升 下降 加载 卸载",
+    "sv": "upp ner fram tillbaka", "ja": "加圧 減圧 往路 復路 昇圧 降圧 負荷 除荷 上昇 下降",
+    "ko": "가압 감압 상승 하강 부하 제하",
+    "zh": "加压 减压 升压 降压 充气 放气 上升 下降 加载 卸载 去程 回程",
 }  # fmt: skip

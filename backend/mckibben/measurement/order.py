@@ -1,0 +1,128 @@
+"""Order of the rows of a file without time: whether it is that of the test, and which way the muscle went.
+
+Weights are put on one after the other and taken off again, a pressure is stepped up and down: the rows go
+there and come back step by step, which no sorted list does. Friction then has a direction although nothing
+was timed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.kind import STROKES, turning_points
+
+Array = NDArray[np.float64]
+
+FROM_ROWS = "order of the rows"  # where a direction comes from that no column holds
+_FEWEST = 8  # rows of an ordered test
+_STEPS = 3  # one after the other on both sides of a reversal
+_AT_ONCE = 0.4  # of the range of a block; more between two rows is no step on the way but a new beginning
+_NEW_LEVEL = 0.1  # of the range of the quantity that is held; the same
+_TURNS = 0.1  # of the range; less is scatter
+_BACK = 0.5  # of the way there
+_MOVED = 0.02  # of the range; less is none
+_MOST = 0.8  # share of the rows that has to lie in blocks of there and back, or to agree with a direction
+
+
+@dataclass(frozen=True, eq=False)
+class RowOrder:
+    """What the order of rows says.
+
+    Attributes:
+        direction: of each row, -1 shortening or filling, +1 lengthening or venting, 0 before the first step.
+        starts: first row of each block; between blocks something else was done.
+    """
+
+    direction: Array
+    starts: tuple[int, ...]
+
+
+def order_of_rows(columns: Mapping[str, NDArray]) -> RowOrder | None:
+    """The order of the rows of a file without time, where the rows themselves show it.
+
+    The swept quantity (stroke, pressure) goes there and back in most blocks of rows; a block ends where it
+    jumps, or where what is held jumps. A stated direction has to agree.
+
+    Args:
+        columns: channels in SI; ``time`` is not looked at.
+    """
+    stroke = next((name for name in STROKES if name in columns), None)
+    pressure = columns.get("pressure")
+    if stroke is None or pressure is None:
+        return None
+    longer = columns[stroke] if stroke == "length" else -columns[stroke]
+    force = columns.get("force")
+    tried = [(longer, longer, pressure)]  # isobaric
+    if force is None:
+        tried.append((-pressure, longer, np.zeros(len(pressure))))  # one load throughout
+    else:
+        tried += [(-pressure, -pressure, longer), (-pressure, longer, force)]  # isometric, isotonic
+    for swept, moved, held in tried:
+        if (found := _there_and_back(swept, moved, held)) is not None:
+            stated = columns.get("direction")
+            if stated is None or _agree(stated, found.direction):
+                return found
+    return None
+
+
+def _there_and_back(swept: Array, moved: Array, held: Array) -> RowOrder | None:
+    """Order and directions of blocks in which one quantity is swept and another is held."""
+    rows = len(swept)
+    span = float(np.ptp(swept))
+    if rows < _FEWEST or not span > 0.0:
+        return None
+    new = np.abs(np.diff(held)) > _NEW_LEVEL * max(float(np.ptp(held)), 1e-12)
+    if np.ptp(held) <= _MOVED * float(np.max(np.abs(held))):
+        new[:] = False
+    if np.count_nonzero(new) * _STEPS > rows:
+        return None  # it is not held
+    new |= np.abs(np.diff(swept)) > _AT_ONCE * span
+    starts = [0, *(np.flatnonzero(new) + 1).tolist()]
+    direction = np.zeros(rows)
+    returned = 0
+    for first, last in zip(starts, [*starts[1:], rows], strict=True):
+        returned += (last - first) * _comes_back(swept[first:last])
+        direction[first:last] = _ways(moved[first:last], float(np.ptp(moved)))
+    return RowOrder(direction, tuple(starts)) if returned >= _MOST * rows else None
+
+
+def _comes_back(values: Array) -> bool:
+    """Whether a quantity goes several steps one way and comes back by several steps."""
+    span = float(np.ptp(values))
+    if len(values) < 2 * _STEPS + 1 or not span > 0.0:
+        return False
+    turns = np.flatnonzero(turning_points(values, threshold=_TURNS * span)).tolist()
+    good = sum(_is_turn(values, turn, span) for turn in turns)
+    # Scatter turns at every other row, and by chance a few times step by step.
+    return good > 0 and 2 * good >= len(turns) and len(values) >= _STEPS * (len(turns) + 1)
+
+
+def _is_turn(values: Array, turn: int, span: float) -> bool:
+    """Whether several steps lead to a reversal and several lead back from it, most of the way."""
+    before, after = values[max(0, turn - _STEPS) : turn + 1], values[turn : turn + _STEPS + 1]
+    if len(before) <= _STEPS or len(after) <= _STEPS:
+        return False
+    there, back = np.diff(before), np.diff(after)
+    sign = np.sign(np.sum(there))
+    steady = (sign * there >= -_MOVED * span).all() and (sign * back <= _MOVED * span).all()
+    return bool(steady and float(np.max(sign * (values[turn] - values[turn:]))) >= _BACK * span)
+
+
+def _ways(moved: Array, span: float) -> Array:
+    """-1 or +1 with the last change before each row; rows without one keep the way, 0 before the first."""
+    ways = np.zeros(len(moved))
+    at, way = float(moved[0]), 0.0
+    for row, value in enumerate(moved[1:].tolist(), start=1):
+        if abs(value - at) > _MOVED * span:
+            way, at = float(np.sign(value - at)), value
+        ways[row] = way
+    return ways
+
+
+def _agree(stated: Array, found: Array) -> bool:
+    both = (stated != 0.0) & (found != 0.0)
+    return bool(np.any(both) and np.mean(stated[both] == found[both]) >= _MOST)

@@ -1,0 +1,97 @@
+"""Rows without time: those that go there and back step by step are in the order of the test."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from mckibben.identification.predict.comparable_rows import comparable_rows, records_of
+from mckibben.identification.predict.quasistatic import QuasistaticPredictor
+from mckibben.measurement.order import order_of_rows
+from mckibben.physics.catalogue import default_catalogue
+from tests.identification.synthetic import MUSCLE, csv
+
+RNG = np.random.default_rng(3)
+UP = np.arange(0.0, 11.0)
+LOOP = np.concatenate([UP, UP[-2::-1]])
+
+
+def weights(pressures: tuple[float, ...] = (2e5, 4e5)) -> dict[str, np.ndarray]:
+    """Weights put on one by one and taken off again, at each pressure; 0.2 N and 0.02 mm of scatter."""
+    force = np.concatenate([20.0 * LOOP + 30.0 for _ in pressures])
+    pressure = np.repeat(pressures, len(LOOP))
+    stroke = 0.06 - 1e-4 * (force - 30.0) + 1e-7 * pressure
+    scatter = RNG.standard_normal((2, len(force)))
+    return {
+        "pressure": pressure + 50.0 * RNG.standard_normal(len(force)),
+        "force": force + 0.2 * scatter[0],
+        "displacement": stroke + 2e-5 * scatter[1],
+    }
+
+
+def test_weights_put_on_and_off_tell_the_direction() -> None:
+    found = order_of_rows(weights())
+    assert found is not None
+    assert found.starts == (0, 21)
+    # More weight stretches: lengthening on the way there, up to and with its last row.
+    assert found.direction[:21].tolist() == [0.0] + 10 * [1.0] + 10 * [-1.0]
+
+
+@pytest.mark.parametrize("swept", ["length", "contraction"])
+def test_any_stroke_tells_it(swept: str) -> None:
+    columns = weights()
+    stroke = columns.pop("displacement")
+    columns[swept] = 0.3 - stroke if swept == "length" else stroke / 0.3
+    found = order_of_rows(columns)
+    assert found is not None
+    assert found.direction[5] == 1.0
+
+
+def test_a_pressure_stepped_up_and_down_at_fixed_lengths() -> None:
+    pressure = np.tile(5e4 * LOOP, 3)
+    length = np.repeat([0.30, 0.28, 0.26], len(LOOP)) + 1e-5 * RNG.standard_normal(63)
+    found = order_of_rows({"pressure": pressure, "length": length, "force": pressure * length})
+    assert found is not None
+    assert found.starts == (0, 21, 42)
+    assert found.direction[[5, 15]].tolist() == [-1.0, 1.0]  # filling, venting
+
+
+def test_lists_that_are_sorted_shuffled_or_noise_are_in_no_order() -> None:
+    columns = weights()
+    rows = {
+        "sorted": np.lexsort((columns["displacement"], columns["pressure"] > 3e5)),
+        "shuffled": RNG.permutation(len(columns["force"])),
+    }
+    for order in rows.values():
+        assert order_of_rows({name: values[order] for name, values in columns.items()}) is None
+    held = {name: float(np.mean(values)) * np.ones(400) for name, values in columns.items()}
+    scatter = {name: values * (1.0 + 1e-3 * RNG.standard_normal(400)) for name, values in held.items()}
+    assert order_of_rows(scatter) is None
+
+
+def test_a_stated_direction_that_says_otherwise_counts() -> None:
+    columns = weights()
+    found = order_of_rows(columns)
+    assert found is not None
+    assert order_of_rows(columns | {"direction": found.direction}) is not None
+    assert order_of_rows(columns | {"direction": -found.direction}) is None
+
+
+def test_friction_of_ordered_rows_can_be_found() -> None:
+    """The file has no time; what friction remembers of the way is known all the same, creep is not."""
+    columns = weights()
+    lines = [
+        f"{p / 1e5:.5f},{f:.2f},{1e3 * s:.3f}"
+        for p, f, s in zip(columns["pressure"], columns["force"], columns["displacement"], strict=True)
+    ]
+    measurement = csv(lines, "pressure_bar,force_N,displacement_mm")
+    assert measurement.by_rows
+    assert any("order is taken as that of the test" in message for message in measurement.messages)
+    assert np.unique(records_of(measurement)).tolist() == [0, 1]
+    predictor = QuasistaticPredictor(comparable_rows(measurement, MUSCLE))
+    for effect in default_catalogue().values():
+        hidden = predictor.why_hidden(effect)
+        if effect.type == "hysteretic" and measurement.kind in effect.kinds:
+            assert hidden == ""
+        elif effect.type == "dynamic" and measurement.kind in effect.kinds:
+            assert "no time" in hidden
