@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import cast
 
@@ -13,7 +14,7 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.specimens import SpecimenData, SpecimensPredictor
-from tests.identification.synthetic import MUSCLE, Plain, linear_node
+from tests.identification.synthetic import CATALOGUE, MUSCLE, Plain, linear_node
 
 X = np.linspace(-1.0, 1.0, 240)
 NOISE = np.random.default_rng(3).normal(size=240)
@@ -47,6 +48,26 @@ def test_a_law_whose_further_constants_are_needed_does_not_imitate() -> None:
     measured = 8.0 * X + 1.5 * X**2 + NOISE
     simple, general = fitted(measured, X), fitted(measured, X**3, X, X**2)
     assert not _imitates(fitter(measured), simple, general, fitted(measured, X**3))
+
+
+def test_a_law_that_is_the_likelier_cause_does_not_imitate() -> None:
+    """Prior odds of bladder over spring: (0.9/0.1)/(0.2/0.8) = 36; one constant more costs the root of 240
+    rows, 15, two of them 240."""
+    measured = 8.0 * X + NOISE
+    spring, bladder = (
+        FitModel(MUSCLE, (CATALOGUE[name],), {name: CATALOGUE[name].defaults})
+        for name in ("linear_elasticity", "bladder_elasticity")
+    )
+    simple = replace(fitted(measured, X), fit_model=spring)
+    one, two = (
+        replace(fitted(measured, X, *(X**power for power in powers)), fit_model=bladder)
+        for powers in ((3,), (3, 2))
+    )
+    declared = fitted(measured, X**3)
+    assert not _imitates(fitter(measured), simple, one, declared)
+    assert _imitates(fitter(measured), simple, two, declared)
+    # A priori alike, one constant more is enough.
+    assert _imitates(fitter(measured), simple, replace(one, fit_model=spring), declared)
 
 
 def test_two_models_are_the_same_only_where_they_are_in_each_measurement() -> None:

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.identification.diagnose.probability import log_preference
-from mckibben.identification.diagnose.score import effective_rows, score
+from mckibben.identification.diagnose.probability import log_preference, log_weight
+from mckibben.identification.diagnose.score import effective_rows
 from mckibben.identification.diagnose.search import exchanged
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
@@ -52,7 +52,8 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
 
     Such an effect predicts the same within the noise, or has a parallel sensitivity, or its likelihood does
     not decide against it. One that only imitates the other is none: the data refute it as it is declared, and
-    it fits where further constants make it act as the simpler one does, no better than that.
+    it fits where further constants make it act as the simpler one does, and neither the data nor the prior
+    prefer it.
     """
     equivalent = []
     rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
@@ -92,9 +93,8 @@ def _imitates(fitter: Fitter, best: FittedModel, other: FittedModel, declared: F
     refuted = (
         rows * excess >= UNDECIDED and _difference(declared, best, fitter.predictor) >= SAME * fitter.noise
     )
-    return refuted and score(other, rows=rows, noise=fitter.noise) >= score(
-        best, rows=rows, noise=fitter.noise
-    )
+    weights = [log_weight(model, rows=rows, noise=fitter.noise) for model in (other, best)]
+    return refuted and weights[0] <= weights[1]
 
 
 def _difference(one: FittedModel, two: FittedModel, predictor: Predictor) -> float:
