@@ -296,7 +296,7 @@ def _diagnose(
         ),
         key=lambda candidate: candidate.score,
     )
-    remaining = left_structure(predictor, best.residual, variables)
+    remaining = left_structure(predictor, best.residual, variables, fitter.noise)
     context = ()
     if statements is not None:
         context = contest(
@@ -305,7 +305,9 @@ def _diagnose(
     doubted = any(entry.stands for entry in context)
     # What a correction explains is not an unknown effect.
     explained = best if best.rmse <= searched.rmse else searched
-    unexplained = remaining if explained is best else left_structure(predictor, searched.residual, variables)
+    unexplained = remaining
+    if explained is not best:
+        unexplained = left_structure(predictor, explained.residual, variables, fitter.noise)
     status = status_of(
         start, explained, fitter.noise, added, exchangeable, unexplained, full_scale, doubted=doubted
     )

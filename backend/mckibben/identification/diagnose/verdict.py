@@ -39,14 +39,38 @@ Status = Literal["adequate", "missing_effects", "ambiguous", "unknown_effect"]
 
 
 def left_structure(
-    predictor: Predictor, residual: np.ndarray, variables: Mapping[str, np.ndarray]
+    predictor: Predictor, residual: np.ndarray, variables: Mapping[str, np.ndarray], noise: float | None
 ) -> ResidualStructure:
-    """Structure left in the residual; channels are weighted by their mean squares."""
+    """Structure left in the residual; channels are weighted by their mean squares.
+
+    Within what correlated noise reaches, only what the other curves show as well is structure.
+
+    Args:
+        predictor: the data.
+        residual: scaled, shape (values,).
+        variables: that it may depend on.
+        noise: of the scaled residual; None when it cannot be estimated.
+    """
+    found = _structure_of_channels(predictor, residual, variables)
+    within = noise is not None and float(np.sqrt(np.mean(residual**2))) <= _BEYOND * noise
+    if not within or found.share <= _STRUCTURED:
+        return found
+    others = _structure_of_channels(predictor, residual, variables, predictor.folds[0])
+    return min(found, others, key=lambda each: each.share)
+
+
+def _structure_of_channels(
+    predictor: Predictor,
+    residual: np.ndarray,
+    variables: Mapping[str, np.ndarray],
+    left_out: np.ndarray | None = None,
+) -> ResidualStructure:
     parts = []
     for channel in predictor.channels:
         channel_variables = {name: values[channel.rows] for name, values in variables.items()}
         left = residual[channel.rows]
-        parts.append((float(np.mean(left**2)), structure(left, channel_variables)))
+        label = None if left_out is None else left_out[channel.rows]
+        parts.append((float(np.mean(left**2)), structure(left, channel_variables, left_out=label)))
     whole = sum(size for size, _ in parts) or 1.0
     lost: dict[str, float] = {}
     for size, part in parts:

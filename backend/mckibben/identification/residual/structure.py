@@ -1,6 +1,7 @@
 """Structure that no catalogued effect explains: its share of the residual and its variables.
 
-The share comes from a regression without any physics, cross-validated over blocks of rows.
+The share comes from a regression without any physics, cross-validated over blocks of rows. Correlated noise
+is predicted from rows beside the block, like an effect; from other curves it is not.
 """
 
 from __future__ import annotations
@@ -33,8 +34,16 @@ class ResidualStructure:
     variables: tuple[tuple[str, float], ...]
 
 
-def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualStructure:
-    """The part of a residual that a regression without physics predicts, and from which variables."""
+def structure(
+    residual: np.ndarray, variables: Mapping[str, np.ndarray], *, left_out: np.ndarray | None = None
+) -> ResidualStructure:
+    """The part of a residual that a regression without physics predicts, and from which variables.
+
+    Args:
+        residual: shape (rows,).
+        variables: that it may depend on, name -> shape (rows,).
+        left_out: label of each row, those of a label are predicted from the others; by default short blocks.
+    """
     names = [name for name in variables if name != "group"]
     if not names or len(residual) < 40 or not np.any(residual):
         return ResidualStructure(0.0, ())
@@ -44,12 +53,16 @@ def structure(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Resi
     table = np.column_stack([variables[name][rows] for name in names])
     target = residual[rows]
     random = np.random.default_rng(_SEED)
-    blocks = np.arange(len(rows)) // min(_BLOCK, max(2, len(rows) // (4 * _FOLDS)))
-    fold = random.integers(0, _FOLDS, blocks[-1] + 1)[blocks]
+    if left_out is None:
+        blocks = np.arange(len(rows)) // min(_BLOCK, max(2, len(rows) // (4 * _FOLDS)))
+        fold = random.integers(0, _FOLDS, blocks[-1] + 1)[blocks]
+    else:
+        fold = left_out[rows]
     left, shuffled = np.zeros(len(rows)), np.zeros((len(names), len(rows)))
-    for label in range(_FOLDS):
+    for label in np.unique(fold):
         out = fold == label
-        if not np.any(out) or np.all(out):
+        if np.all(out):
+            left[out], shuffled[:, out] = target[out], target[out]
             continue
         forest = Forest(table[~out], target[~out], trees=_TREES, random=random)
         inputs = np.tile(
