@@ -58,13 +58,28 @@ def test_two_stages_rise_as_the_sum_of_two_lags():
 def test_every_record_starts_at_rest_and_columns_go_through_alike():
     time = np.concatenate([jittered(50), jittered(60)])
     records = [np.arange(50), np.arange(50, 110)]
-    signal = np.random.default_rng(0).normal(size=(110, 3))
+    signal = np.column_stack([slope * np.maximum(time - 0.3, 0.0) for slope in (1.0, -2.0, 5.0)])
     model = fit_model(sensor_lag={"force_time": 0.05}, time_skew={"delay": 0.01})
     shown = as_read(model, time=time, records=records, values=signal)
     assert shown[[0, 50]] == pytest.approx(signal[[0, 50]])
     for column in range(3):
         alone = as_read(model, time=time, records=records, values=signal[:, column])
         assert shown[:, column] == pytest.approx(alone, abs=1e-12)
+
+
+def test_a_lag_does_not_average_the_noise_of_the_inputs():
+    """A ramp 3 t with a step of 2 and noise of 0.02 from its pressure: its closed form, and all the noise."""
+    time = np.linspace(0.0, 4.0, 801)
+    noise = 0.02 * np.random.default_rng(5).standard_normal(801)
+    signal = 3.0 * time + np.where(time >= 2.0, 2.0, 0.0)
+    model = fit_model(sensor_lag={"force_time": TAU})
+    shown = as_read(model, time=time, records=[np.arange(801)], values=signal + noise)
+    clean = as_read(model, time=time, records=[np.arange(801)], values=signal)
+    ramp = 3.0 * (time - TAU * (1.0 - np.exp(-time / TAU)))
+    assert clean[:400] == pytest.approx(ramp[:400], abs=1e-12)
+    assert np.std(shown - clean - noise) < 0.3 * 0.02
+    # The lag itself would leave the root of dt/(2 tau) of it, 11 %.
+    assert np.std(shown - clean) > 0.85 * 0.02
 
 
 def test_without_a_time_constant_nothing_is_late():

@@ -9,9 +9,10 @@ with the slope s of the line. Stages in series are a sum of such lags, by partia
 
 .. math:: \prod_i \frac{1}{1+\tau_i p} = \sum_i \frac{1}{1+\tau_i p}\prod_{j\ne i}\frac{\tau_i}{\tau_i-\tau_j}
 
-A skew shifts the signal in time. Lag and skew are linear, so derivatives by a model's parameters pass through
-the same filter. A corner between two rows of the file is one of the rows here
-(`mckibben.identification.predict.corners`).
+What a prediction has from the noise of its inputs passes neither
+(`mckibben.identification.predict.input_noise`). A skew shifts the signal in time. Lag and skew are linear, so
+derivatives by a model's parameters pass through the same filter. A corner between two rows of the file is one
+of the rows here (`mckibben.identification.predict.corners`).
 """
 
 from __future__ import annotations
@@ -21,6 +22,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.input_noise import without_input_noise
 from mckibben.physics.effect import Effect
 
 _SLOTS = ("skew", "force_reading", "pressure_reading", "stroke_reading")
@@ -44,7 +46,11 @@ def as_read(
         records: rows of each record.
         values: readings of an ideal channel, of the same shape.
     """
-    read = values.astype(float).copy()
+    values = values.astype(float)
+    read = values.copy()
+    for rows in records:
+        read[rows] = without_input_noise(time[rows], values[rows])
+    noise = values - read
     for effect in fit_model.effects:
         if not late(effect):
             continue
@@ -57,7 +63,7 @@ def as_read(
                 read[rows] = _filtered(clock, read[rows], constants)
             if delay:
                 read[rows] = _shifted(clock, read[rows], delay)
-    return read
+    return read + noise
 
 
 def _constants(effect: Effect, values: Mapping[str, float]) -> list[float]:
