@@ -4,17 +4,27 @@ A greedy search misses pairs of effects that only help together, and may pick th
 effects. So the search keeps several models, ranked by `mckibben.identification.diagnose.score`. It adds each
 candidate to each model and refits all parameters jointly. Further constants of an effect are freed before
 another effect is added. At the end each effect is tentatively dropped or exchanged; effects that are not
-needed are removed.
+needed are removed. Where the error is still far above the noise, two steps are tried at once
+(`mckibben.identification.diagnose.two_steps`).
 """
 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
 from mckibben.identification.diagnose.extremes import reaching_farthest
-from mckibben.identification.diagnose.score import LEAST_SCORE, better, effective_rows, score
+from mckibben.identification.diagnose.score import (
+    LEAST_GAIN,
+    LEAST_SCORE,
+    better,
+    effective_rows,
+    score,
+    score_within,
+)
+from mckibben.identification.diagnose.two_steps import two_steps_ahead
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.physics.effect import Effect
@@ -24,9 +34,11 @@ _TRIED = 8  # candidates fitted per model: those with the largest first-order ga
 _FLEXIBLE = 2  # effects tried in exchange for the sake of their further constants
 _PATIENCE = 2  # rounds without a better model after which the search stops
 _ALIKE = 0.02  # share of the mean square; models whose residuals differ by less are merged
+_EXACTLY = 1e-4  # the same where effects that differ but little may lead on to different ones
 _DEEPEST = 7  # most effects added
 _NOTHING_LEFT = 1.05  # error over noise below which the search stops
 _WITHIN = 1.15  # error over the best error above which a model is dropped near the noise
+_FAR = 1.5  # error over noise above which two steps are tried at once
 
 
 def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel]) -> FittedModel:
@@ -82,7 +94,7 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
                 fitter.adding(fitted_model, effect)
                 for effect in fitter.promising(fitted_model, others)[: min(_TRIED, fitter.effort.tried)]
             ]
-    best = _polished(fitter, best, root)
+    best = _two_steps_on(fitter, _polished(fitter, best, root), root)
     rows, known = _rows(fitter, best), fitter.known.values()
     start = root.fit_model.ids
     return reaching_farthest(best, known, fitter.predictor, rows=rows, noise=fitter.noise, start=start)
@@ -201,16 +213,69 @@ def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedMod
     return best
 
 
+def _two_steps_on(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
+    """The best model, or what two steps at once from it or from others about as good lead to.
+
+    Only where something is missing, the error is still far above the noise, and predictions cost little. The
+    model there leaves out groups at least as well; half of the evidence is the error within the data.
+    """
+    start = set(root.fit_model.ids)
+    while best is not root and fitter.effort.thorough and fitter.noise and best.rmse > _FAR * fitter.noise:
+        rows = _rows(fitter, best)
+        value = partial(score, rows=rows, noise=fitter.noise)
+        limit = value(best) + LEAST_SCORE
+        near = [
+            model
+            for model in fitter.known.values()
+            if start <= set(model.fit_model.ids)
+            and model.implausible <= best.implausible
+            and value(model) <= limit
+        ]
+        near = _different(sorted([best, *near], key=value), _EXACTLY)[: 2 * _BEAM]
+        near += [other for model in near for other in _chosen_anew(fitter, model) if value(other) <= limit]
+        near = _different(sorted(near, key=value), _EXACTLY)[: 3 * _BEAM]
+        ahead = [lean(fitter, model, root) for model in two_steps_ahead(fitter, near)]
+        ahead = [
+            model
+            for model in ahead
+            if model.implausible <= best.implausible
+            and model.rmse < (1.0 - LEAST_GAIN) * best.rmse
+            and value(model) <= value(best)
+        ]
+
+        def evidence(model: FittedModel, rows: float = rows) -> float:
+            within = score_within(model, rows=rows, noise=fitter.noise)
+            return 0.5 * (within + score(model, rows=rows, noise=fitter.noise))
+
+        farther = min(ahead, key=evidence, default=best)
+        if evidence(farther) >= evidence(best) - LEAST_SCORE:
+            break
+        fitter.update_noise(farther)
+        best = _polished(fitter, farther, root)
+    return best
+
+
+def _chosen_anew(fitter: Fitter, model: FittedModel) -> list[FittedModel]:
+    """The model with other further constants of an effect in place of those that are freed."""
+    found = []
+    for effect in model.fit_model.effects:
+        own = {name for name in model.freed if name.startswith(f"{effect.id}.")}
+        for name in own:
+            held = fitter.holding(model, name, effect.parameter(name.partition(".")[2]).default)
+            found += [other for other in fitter.freeing(held, effect) if other.key != model.key]
+    return found
+
+
 def _as_good(fitted_model: FittedModel, best: FittedModel) -> bool:
     return fitted_model.mean_square < (1.0 + _ALIKE) * best.mean_square
 
 
-def _different(fitted_models: Sequence[FittedModel]) -> list[FittedModel]:
+def _different(fitted_models: Sequence[FittedModel], alike: float = _ALIKE) -> list[FittedModel]:
     """The models without those that predict the same as an earlier one."""
     kept: list[FittedModel] = []
     for fitted_model in fitted_models:
         if all(
-            np.mean((fitted_model.residual - other.residual) ** 2) > _ALIKE * fitted_model.mean_square
+            np.mean((fitted_model.residual - other.residual) ** 2) > alike * fitted_model.mean_square
             for other in kept
         ):
             kept.append(fitted_model)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
+from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.physics.effect import Effect
 
 _USUAL = 0.01  # share of the range: size of a parameter that is off by default
@@ -28,3 +29,10 @@ def gain(columns: np.ndarray, basis: np.ndarray, unexplained: np.ndarray) -> flo
     directions = rest[:, distinct] / size[distinct]
     solution = np.linalg.lstsq(directions, unexplained, rcond=1e-6)[0]
     return float(np.sum((directions @ solution) ** 2))
+
+
+def unexplained_by(fitted_model: FittedModel) -> tuple[np.ndarray, np.ndarray]:
+    """Orthonormal basis of what the free parameters change, and the residual outside of it."""
+    inner = fitted_model.jacobian[:, fitted_model.inner]
+    basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(fitted_model.residual), 0))
+    return basis, fitted_model.residual - basis @ (basis.T @ fitted_model.residual)

@@ -10,7 +10,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from mckibben.identification.fit.effort import SearchEffort
-from mckibben.identification.fit.first_order import between, gain
+from mckibben.identification.fit.first_order import between, gain, unexplained_by
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
 from mckibben.identification.fit.trials import at_places, off_of, pace_of, place_of, with_each
 from mckibben.identification.predict.fit_model import FitModel, free_numbers, held_beside
@@ -132,8 +132,7 @@ class Fitter:
 
     def freeing(self, fitted_model: FittedModel, effect: Effect) -> list[FittedModel]:
         """The model with further constants of an effect freed: all, and subsets if all are too many."""
-        names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted and not p.reference}
-        names -= fitted_model.freed | held_beside(self.geometry)
+        names = self.further(fitted_model, effect)
         hidden = self._blind(fitted_model.fit_model, names)
         seen = self._seen_from(fitted_model, effect, hidden)
         hidden -= set(seen)
@@ -162,13 +161,18 @@ class Fitter:
         groups = [group for group in together.values() if len(group) > 1]
         return [fit(some) for some in (*fewer, *singles, *groups)]
 
+    def further(self, fitted_model: FittedModel, effect: Effect) -> set[str]:
+        """Names of the further constants of an effect that may still be freed."""
+        names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted and not p.reference}
+        return names - fitted_model.freed - held_beside(self.geometry)
+
     def _would_matter(self, fitted_model: FittedModel, moved: FitModel, names: set[str]) -> bool:
         """Whether freeing constants may lower the error, by the linear model of their changes.
 
         Of the constants whose freeing improves a score, the least promising ones promise a share of the mean
         square four times as large.
         """
-        basis, unexplained = self._unexplained(fitted_model)
+        basis, unexplained = unexplained_by(fitted_model)
         free = [p for p in free_numbers(moved, (), names) if p.name in names]
         columns = self.predictor.weighted(self.predictor.linearised(moved, free)[1])
         columns = columns[:, np.any(columns, axis=0)]
@@ -216,7 +220,7 @@ class Fitter:
     def promising(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> list[Effect]:
         """Effects by their first-order gain, the largest first; what gains little is left out."""
         gains = self.gains(fitted_model, effects)
-        unexplained = self._unexplained(fitted_model)[1]
+        unexplained = unexplained_by(fitted_model)[1]
         share = _LEAST_NEAR_FLOOR if self.near_floor(fitted_model) else _LEAST_PROMISE
         least = share * float(unexplained @ unexplained)
         order = sorted(effects, key=lambda effect: -gains[effect.id])
@@ -227,7 +231,7 @@ class Fitter:
 
         Only effects that have such constants: what a pressure fades in, say, does not show by its factor.
         """
-        basis, unexplained = self._unexplained(fitted_model)
+        basis, unexplained = unexplained_by(fitted_model)
         gains = {}
         for effect in effects:
             off = {p.name: p.off for p in effect.parameters if p.off is not None}
@@ -237,7 +241,7 @@ class Fitter:
 
     def gains(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> dict[str, float]:
         """Effect -> first-order reduction of the sum of squares if it is added and all is refitted."""
-        basis, unexplained = self._unexplained(fitted_model)
+        basis, unexplained = unexplained_by(fitted_model)
         gains = self.known_gains.setdefault(fitted_model, {})
         self._try_ahead(fitted_model, [effect for effect in effects if effect.id not in gains])
         for effect in effects:
@@ -245,13 +249,6 @@ class Fitter:
                 continue
             gains[effect.id] = gain(self.changes(fitted_model, effect), basis, unexplained)
         return {effect.id: gains[effect.id] for effect in effects}
-
-    @staticmethod
-    def _unexplained(fitted_model: FittedModel) -> tuple[np.ndarray, np.ndarray]:
-        """Orthonormal basis of what the free parameters change, and the residual outside of it."""
-        inner = fitted_model.jacobian[:, fitted_model.inner]
-        basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(fitted_model.residual), 0))
-        return basis, fitted_model.residual - basis @ (basis.T @ fitted_model.residual)
 
     def guess_ahead(self, fitted_model: FittedModel, effects: Sequence[Effect]) -> None:
         """Simulate side by side what `guessed` asks for effect by effect."""
@@ -297,7 +294,7 @@ class Fitter:
             for history in self.predictor.histories((effect,))
         ]
         if others:
-            basis, unexplained = self._unexplained(fitted_model)
+            basis, unexplained = unexplained_by(fitted_model)
             changes = max((changes, *others), key=lambda columns: gain(columns, basis, unexplained))
         # What changes nothing differs in the last digits, which would explain as much as any other column.
         return np.where(self._sizes(changes) > self._rounding, changes, 0.0)
@@ -352,7 +349,7 @@ class Fitter:
 
         0 where it changes nothing that the free parameters do not change as well.
         """
-        basis, unexplained = self._unexplained(fitted_model)
+        basis, unexplained = unexplained_by(fitted_model)
         self.predictor.try_ahead(changed.values())
         explained = {}
         for value, model in changed.items():
