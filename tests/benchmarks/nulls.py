@@ -1,6 +1,6 @@
 """Nothing is missing, but the noise is a laboratory's: how often a diagnosis still says "adequate".
 
-    python -m tests.benchmarks.nulls [--each 100] [--noise white] [--keep FILE]
+    python -m tests.benchmarks.nulls [--each 100] [--first 0] [--noise white] [--keep FILE]
 
 Muscles, rigs, numbers of rows and noise are drawn anew for each case: loops at held pressures, whole and
 nested, with rests, loops and steps of the pressure at held lengths, pressure cycles under loads, grids and
@@ -272,6 +272,7 @@ def main() -> None:
     """Print the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--each", type=int, default=100, help="cases of each group of noises")
+    parser.add_argument("--first", type=int, default=0, help="number of the first case: other draws")
     parser.add_argument("--noise", default="", help="part of the name of a noise")
     parser.add_argument("--rig", default="", help="part of the name of a rig")
     add_keep(parser)
@@ -280,7 +281,7 @@ def main() -> None:
     todo = [
         (rigs[number % len(rigs)], noises[(number // len(rigs)) % len(noises)], number)
         for _, noises, _ in PROMISES
-        for number in range(options.each)
+        for number in range(options.first, options.first + options.each)
     ]
     todo = [each for each in todo if options.noise in each[1] and options.rig in each[0]]
     lines: list[Examined[Line]] = []

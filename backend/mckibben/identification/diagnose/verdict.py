@@ -19,7 +19,9 @@ from mckibben.physics.muscle import assumption
 _FAR = 2.0  # error over noise above which a structured rest is an unknown effect, however much was explained
 _STRUCTURED = 0.3  # share of the residual predicted by a regression, above which it is not noise
 _EXPLAINED = 0.98  # explained share of the excess over the noise, above which the rest does not matter
-_BEYOND = 4.0  # error over noise that correlated noise does not reach
+# Error over noise that correlated noise does not reach: of an autoregressive process with the coefficient 0.9
+# the third differences have the variance 20 - 30 a + 12 a^2 - 2 a^3 = 1.26 instead of 20, a ratio of 4.0.
+_BEYOND = 5.0
 _MOST_ROWS = 2.0  # the same for the median row; below, a few outliers make the error
 _SMALL = 0.03  # error over full scale up to which a model is adequate when the noise is unknown
 
