@@ -93,6 +93,14 @@ def test_standard_errors_are_those_of_the_textbook():
     variance = fitted_model.residual @ fitted_model.residual / (ROWS - 3)
     expected = np.sqrt(variance * np.diag(np.linalg.inv(DESIGN.T @ DESIGN)))
     assert fitted_model.standard_errors == pytest.approx(expected.tolist(), rel=1e-6)
+    # In other units, as the moduli and lengths of a model are: 1e9 of one for 1e-9 of another.
+    units = np.array([1e-9, 1.0, 1e9])
+    free = tuple(
+        replace(p, start=p.start / unit, lower=p.lower / unit, upper=p.upper / unit)
+        for p, unit in zip(fitted_model.free, units, strict=True)
+    )
+    other = replace(fitted_model, free=free, jacobian=fitted_model.jacobian * units)
+    assert np.array(other.standard_errors) * units == pytest.approx(expected, rel=1e-6)
 
 
 def with_free(fitted_model: FittedModel, *changes: dict) -> FittedModel:

@@ -100,11 +100,13 @@ class FittedModel:
         inner = [i for i in self.inner if not self.at_bound[i]]
         if not inner or self.implausible:
             return errors
-        jacobian = self.jacobian[:, inner]
+        # Columns of one size: N per Pa and N per m differ by more than the digits of a number.
+        scale = np.linalg.norm(self.jacobian[:, inner], axis=0)
+        unit = self.jacobian[:, inner] / scale
         variance = self.mean_square * len(self.residual) / max(len(self.residual) - len(inner), 1)
-        covariance = variance * np.linalg.pinv(jacobian.T @ jacobian)
+        covariance = variance * np.linalg.pinv(unit.T @ unit)
         for place, index in enumerate(inner):
-            errors[index] = float(np.sqrt(max(covariance[place, place], 0.0)))
+            errors[index] = float(np.sqrt(max(covariance[place, place], 0.0)) / scale[place])
         return errors
 
     @cached_property
