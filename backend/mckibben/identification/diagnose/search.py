@@ -232,7 +232,8 @@ def _two_steps_on(fitter: Fitter, best: FittedModel, root: FittedModel) -> Fitte
             and value(model) <= limit
         ]
         near = _different(sorted([best, *near], key=value), _EXACTLY)[: 2 * _BEAM]
-        near += [other for model in near for other in _chosen_anew(fitter, model) if value(other) <= limit]
+        anew = [other for model in near for other in _chosen_anew(fitter, model, root)]
+        near += [model for model in anew if value(model) <= limit]
         near = _different(sorted(near, key=value), _EXACTLY)[: 3 * _BEAM]
         ahead = [lean(fitter, model, root) for model in two_steps_ahead(fitter, near)]
         ahead = [
@@ -255,14 +256,13 @@ def _two_steps_on(fitter: Fitter, best: FittedModel, root: FittedModel) -> Fitte
     return best
 
 
-def _chosen_anew(fitter: Fitter, model: FittedModel) -> list[FittedModel]:
-    """The model with other further constants of an effect in place of those that are freed."""
+def _chosen_anew(fitter: Fitter, model: FittedModel, root: FittedModel) -> list[FittedModel]:
+    """The model with other further constants of an effect in place of one that the search has freed."""
     found = []
-    for effect in model.fit_model.effects:
-        own = {name for name in model.freed if name.startswith(f"{effect.id}.")}
-        for name in own:
-            held = fitter.holding(model, name, effect.parameter(name.partition(".")[2]).default)
-            found += [other for other in fitter.freeing(held, effect) if other.key != model.key]
+    for name in sorted(model.freed - root.freed):
+        effect = next(e for e in model.fit_model.effects if e.id == name.partition(".")[0])
+        held = fitter.holding(model, name, _fixed_value(name, model, root))
+        found += [other for other in fitter.freeing(held, effect) if other.key != model.key]
     return found
 
 

@@ -94,8 +94,8 @@ def _steps(fitter: Fitter, model: FittedModel, basis: np.ndarray) -> Iterator[_S
     """All steps from a model; columns beside the basis of what its free parameters change."""
     inside = set(model.fit_model.ids)
     for effect in fitter.candidates:
-        if effect.id not in inside:
-            off = fitter.acting(model, effect)
+        off = {} if effect.id in inside else fitter.acting(model, effect)
+        if off:
             reach = np.array([between(effect, off)[name] - value for name, value in off.items()])
             ranges = [(effect.parameter(name), value) for name, value in off.items()]
             ends = np.array([(p.lower - value, p.upper - value) for p, value in ranges]) / reach[:, None]
