@@ -63,9 +63,10 @@ def test_what_no_other_curve_shows_is_a_structure_only_beyond_correlated_noise()
     ripple = np.sqrt(2.0) * np.sin(20.0 * contraction)
     for left, lasting in ((ripple, True), (ripple * (-1.0) ** level, False)):
         subject = Plain(left, np.empty((600, 0)), [level])
-        assert left_structure(subject, left, variables, 0.1).share > 0.3
-        assert (left_structure(subject, left, variables, 1.0 / 3.0).share > 0.3) is lasting
-        assert left_structure(subject, left, variables, None).share > 0.3
+        assert left_structure(subject, left, variables, 0.1, ()).share > 0.3
+        assert (left_structure(subject, left, variables, 1.0 / 3.0, ()).share > 0.3) is lasting
+        assert left_structure(subject, left, variables, 1.0 / 3.0, ("creep",)).share > 0.3
+        assert left_structure(subject, left, variables, None, ()).share > 0.3
 
 
 def test_a_structure_is_one_and_has_no_interval_of_noise() -> None:

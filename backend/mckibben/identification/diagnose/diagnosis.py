@@ -296,7 +296,7 @@ def _diagnose(
         ),
         key=lambda candidate: candidate.score,
     )
-    remaining = left_structure(predictor, best.residual, variables, fitter.noise)
+    remaining = left_structure(predictor, best.residual, variables, fitter.noise, added)
     context = ()
     if statements is not None:
         context = contest(
@@ -307,7 +307,7 @@ def _diagnose(
     explained = best if best.rmse <= searched.rmse else searched
     unexplained = remaining
     if explained is not best:
-        unexplained = left_structure(predictor, explained.residual, variables, fitter.noise)
+        unexplained = left_structure(predictor, explained.residual, variables, fitter.noise, added)
     status = status_of(
         start, explained, fitter.noise, added, exchangeable, unexplained, full_scale, doubted=doubted
     )

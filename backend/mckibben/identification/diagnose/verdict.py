@@ -19,9 +19,10 @@ from mckibben.physics.muscle import assumption
 _FAR = 2.0  # error over noise above which a structured rest is an unknown effect, however much was explained
 _STRUCTURED = 0.3  # share of the residual predicted by a regression, above which it is not noise
 _EXPLAINED = 0.98  # explained share of the excess over the noise, above which the rest does not matter
-# Error over noise that correlated noise does not reach: of an autoregressive process with the coefficient 0.9
-# the third differences have the variance 20 - 30 a + 12 a^2 - 2 a^3 = 1.26 instead of 20, a ratio of 4.0.
-_BEYOND = 5.0
+_BEYOND = 4.0  # error over noise that is more than noise beside effects that are named
+# Error over noise that correlated noise alone does not reach: of an autoregressive process with a = 0.9 the
+# third differences have the variance 20 - 30 a + 12 a^2 - 2 a^3 = 1.26 instead of 20, a ratio of 4.0.
+_BEYOND_NOISE = 5.0
 _MOST_ROWS = 2.0  # the same for the median row; below, a few outliers make the error
 _SMALL = 0.03  # error over full scale up to which a model is adequate when the noise is unknown
 
@@ -41,21 +42,27 @@ Status = Literal["adequate", "missing_effects", "ambiguous", "unknown_effect"]
 
 
 def left_structure(
-    predictor: Predictor, residual: np.ndarray, variables: Mapping[str, np.ndarray], noise: float | None
+    predictor: Predictor,
+    residual: np.ndarray,
+    variables: Mapping[str, np.ndarray],
+    noise: float | None,
+    added: Sequence[str],
 ) -> ResidualStructure:
     """Structure left in the residual; channels are weighted by their mean squares.
 
-    Within what correlated noise reaches, only what the other curves show as well is structure.
+    Where no effect is named, within what correlated noise reaches, only what the other curves show as well is
+    structure. Beside effects a rest that belongs to one curve may be run-in or another history.
 
     Args:
         predictor: the data.
         residual: scaled, shape (values,).
         variables: that it may depend on.
         noise: of the scaled residual; None when it cannot be estimated.
+        added: the missing effects.
     """
     found = _structure_of_channels(predictor, residual, variables)
-    within = noise is not None and float(np.sqrt(np.mean(residual**2))) <= _BEYOND * noise
-    if not within or found.share <= _STRUCTURED:
+    within = noise is not None and float(np.sqrt(np.mean(residual**2))) <= _BEYOND_NOISE * noise
+    if added or not within or found.share <= _STRUCTURED:
         return found
     others = _structure_of_channels(predictor, residual, variables, predictor.folds[0])
     return min(found, others, key=lambda each: each.share)
@@ -116,7 +123,8 @@ def status_of(
     ):
         return "unknown_effect"
     # Without structure the rest is noise unlike that between neighbours: correlated, or with outliers.
-    if best.rmse > _BEYOND * floor and typical(best.residual) > _MOST_ROWS * floor:
+    beyond = _BEYOND if added else _BEYOND_NOISE
+    if best.rmse > beyond * floor and typical(best.residual) > _MOST_ROWS * floor:
         return "unknown_effect"
     if not added:
         return "adequate"
