@@ -16,14 +16,7 @@ from functools import partial
 import numpy as np
 
 from mckibben.identification.diagnose.extremes import reaching_farthest
-from mckibben.identification.diagnose.score import (
-    LEAST_GAIN,
-    LEAST_SCORE,
-    better,
-    effective_rows,
-    score,
-    score_within,
-)
+from mckibben.identification.diagnose.score import LEAST_SCORE, better, effective_rows, score, score_within
 from mckibben.identification.diagnose.two_steps import two_steps_ahead
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
@@ -39,6 +32,7 @@ _DEEPEST = 7  # most effects added
 _NOTHING_LEFT = 1.05  # error over noise below which the search stops
 _WITHIN = 1.15  # error over the best error above which a model is dropped near the noise
 _FAR = 1.5  # error over noise above which two steps are tried at once
+_OF_TWO = 0.75  # largest share of the mean square that they may leave; less gain may follow an unknown effect
 
 
 def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel]) -> FittedModel:
@@ -240,7 +234,7 @@ def _two_steps_on(fitter: Fitter, best: FittedModel, root: FittedModel) -> Fitte
             model
             for model in ahead
             if model.implausible <= best.implausible
-            and model.rmse < (1.0 - LEAST_GAIN) * best.rmse
+            and model.mean_square < _OF_TWO * best.mean_square
             and value(model) <= value(best)
         ]
 
