@@ -2600,6 +2600,8 @@ export interface components {
       effect: string;
       /** The reason. */
       why: string;
+      /** Whether the time of each row would make it a candidate. */
+      needs_time: boolean;
     };
     /** What the file leaves open. */
     OpenQuestion: {

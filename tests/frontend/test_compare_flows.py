@@ -217,8 +217,8 @@ def test_what_no_effect_explains_is_told_with_its_place_and_a_term_by_hand_expla
     expect(page.locator("#next-what")).to_contain_text("ε")
     expect(page.locator("#next-action")).to_have_text("Copy plan")
     # Where rows without times keep effects from being tried, times are asked for.
-    reason = "it depends on what happened before, and the rows have no time"
-    assert run(page, PLANNED, [{"effect": "coulomb_friction", "why": reason}]) == [
+    untimed = {"effect": "coulomb_friction", "why": "the rows have no time", "needs_time": True}
+    assert run(page, PLANNED, [untimed]) == [
         "Repeat contraction 8.8 to 10.8 % in finer steps",
         "Record the time of each row",
         "Repeat the whole run with the clamps turned or the sensor exchanged",

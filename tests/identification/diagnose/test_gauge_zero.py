@@ -43,3 +43,6 @@ def test_what_is_read_is_certain_and_is_stated_as_read():
     assert "Pressure sensor: zero error (read from the data)" in sentence
     assert "perhaps" not in sentence
     assert sentence.count("probability") == 1
+    # The rows have no time.
+    assert {"pressure_creep", "sensor_lag"} <= {each.effect for each in found.not_tried if each.needs_time}
+    assert not any(each.needs_time for each in found.not_tried if each.effect == "leak")

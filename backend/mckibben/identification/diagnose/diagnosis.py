@@ -55,10 +55,11 @@ _DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest 
 
 @dataclass(frozen=True)
 class NotTried:
-    """An effect that was not a candidate, and why."""
+    """An effect that was not a candidate, and why; ``needs_time``: the time of each row would make it one."""
 
     effect: str
     why: str
+    needs_time: bool = False
 
 
 @dataclass(frozen=True)
@@ -206,7 +207,7 @@ def _diagnose(
     absent = [effect for effect in catalogue.values() if effect.id not in start_ids]
     reasons = {effect: _why_not(effect, predictor) for effect in absent}
     candidates = tuple(effect for effect in absent if not reasons[effect])
-    not_tried = [NotTried(effect.id, why) for effect, why in reasons.items() if why]
+    not_tried = [NotTried(e.id, why, why == predictor.without_time) for e, why in reasons.items() if why]
     progress = _Progress(watch)
     predictor = allowing_for_errors(predictor.prepared(fit_model, candidates), fit_model)
     fitter = Fitter(

@@ -148,6 +148,9 @@ class Predictor(ABC):
         other.measured = values
         return other
 
+    #: Why rows without time do not reveal what remembers the past.
+    without_time = "it depends on what happened before, and the rows have no time"
+
     @abstractmethod
     def why_hidden(self, effect: Effect) -> str:
         """Why these data cannot reveal an effect; empty if they can."""

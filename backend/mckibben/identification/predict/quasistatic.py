@@ -111,7 +111,7 @@ class QuasistaticPredictor(Predictor):
         # What a hysteretic effect remembers depends on the way alone, which the order of rows shows as well.
         known = self.task.ordered and effect.type == "hysteretic"
         if (remembers(effect) or delays) and self.task.time is None and not known:
-            return "it depends on what happened before, and the rows have no time"
+            return self.without_time
         if delays and self.task.channel != "force":
             return "it delays the force reading, and no force was predicted"
         if "compliance" in effect.slots and self.task.channel == "diameter":

@@ -222,6 +222,7 @@ class NotTried(Strict):
 
     effect: str = Field(description="Its id.")
     why: str = Field(description="The reason.")
+    needs_time: bool = Field(description="Whether the time of each row would make it a candidate.")
 
 
 class MeasuredRange(Strict):

@@ -13,15 +13,13 @@ import { termPlot } from "./term-plot.js";
 
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
 
-/** How the server says why an effect was not tried to rows without times. */
-const NO_TIME = /the rows have no time$/;
 /** Names of effects that a line has room for. */
 const MOST_NAMES = 3;
 
 /** Without times no direction of motion is known, and what depends on it or on the past cannot be tried.
  * @param {Diagnosis} result */
 function timesFirst({ not_tried: left }) {
-  const names = left.filter(({ why }) => NO_TIME.test(why)).map(({ effect }) => titleOf(effect));
+  const names = left.filter((each) => each.needs_time).map(({ effect }) => titleOf(effect));
   const more = names.length - MOST_NAMES;
   return names.length
     ? [{
