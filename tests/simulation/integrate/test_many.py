@@ -347,8 +347,9 @@ def test_sets_that_run_together_do_not_depend_on_their_group():
     for index in range(1, len(many.rows)):
         assert np.array_equal(many.rows[index], few.rows[1 + (index - 1) % len(free)])
     alone = changed(case, (), 0.0, 1e-5)
-    # To the last digits, which an impact enlarges: far below what the tolerance of 1e-5 leaves.
-    assert few.rows[0] == pytest.approx(alone.rows[0], rel=1e-6, abs=2e-8), "it runs as it does alone"
+    # To the last digits, which an impact enlarges, by how much depends on the processor (1e-7 with AVX-512,
+    # 2.4e-6 with AVX2): below the tolerance of 1e-5.
+    assert few.rows[0] == pytest.approx(alone.rows[0], rel=1e-5, abs=2e-7), "it runs as it does alone"
 
 
 def test_no_sets():

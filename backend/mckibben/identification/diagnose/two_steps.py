@@ -19,7 +19,6 @@ from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
-from scipy.optimize import lsq_linear
 
 from mckibben.identification.fit.first_order import between, gain, unexplained_by
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -85,6 +84,8 @@ def _pairs(fitter: Fitter, model: FittedModel) -> Iterator[_Pair]:
 
 def _left(steps: Sequence[_Step], unexplained: np.ndarray) -> float:
     """Sum of squares that steps leave within the bounds of their parameters, to first order."""
+    from scipy.optimize import lsq_linear
+
     columns = np.hstack([step.columns for step in steps])
     low, high = (np.concatenate([getattr(step, end) for step in steps]) for end in ("low", "high"))
     return 2.0 * float(lsq_linear(columns, unexplained, (low, high)).cost)
