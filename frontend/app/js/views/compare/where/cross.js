@@ -3,10 +3,9 @@
 // the input acts, before it that the input follows the muscle.
 import { h } from "../../../dom.js";
 import { readable } from "../../../format.js";
-import { FOR_LABEL, sticks } from "./leftover.js";
+import { correlations, FOR_LABEL } from "./leftover.js";
 
 /** @typedef {import("../../../plots/chart.js").Spec} Spec */
-/** @typedef {import("../../../plots/chart.js").Trace} Trace */
 /** @typedef {import("../../../plots/theme.js").Palette} Palette */
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** @typedef {Comparison["cross"][number]} Cross */
@@ -53,27 +52,13 @@ export function crossCorrelation(a, channel) {
 function spec({ lags, correlation, band, input }, p) {
   const ends = lags.map((lag, i) => /** @type {[number, number]} */ ([lag, correlation[i] ?? 0]));
   const size = Math.min(1.05, 1.15 * Math.max(band, ...ends.map(([, r]) => Math.abs(r))));
-  /** @param {string} id @param {boolean} beyond @param {string} color @returns {Trace[]} */
-  const set = (id, beyond, color) => {
-    const some = ends.filter(([, r]) => Math.abs(r) > band === beyond);
-    if (!some.length) return [];
-    return [
-      { id: `${id}-stick`, ...sticks(some), line: { color, width: 3 }, column: `${id} the band` },
-      {
-        id,
-        x: some.map(([lag]) => lag),
-        y: some.map(([, r]) => r),
-        marker: { size: 7, symbol: beyond ? "diamond" : "circle", color },
-      },
-    ];
-  };
   return {
     x: {
       title: `Residual after the ${readable(input)} (rows)`,
       range: [lags[0] - 1, FOR_LABEL * (lags.at(-1) ?? 1)],
     },
     y: { title: "Correlation", range: [-size, size] },
-    traces: [...set("inside", false, p.soft), ...set("outside", true, p.load)],
+    traces: correlations(ends, band, p),
     zones: [{ x: null, y: [-band, band], text: "95 % of independent" }],
     revision: `cross${input}${lags.length}`,
     table: {

@@ -76,7 +76,7 @@ function histogramSpec(v, p) {
 }
 
 /** Sticks from zero, one line in pieces. @param {[number, number][]} ends */
-export const sticks = (ends) => ({
+const sticks = (ends) => ({
   x: ends.flatMap(([x]) => [x, x, null]),
   y: ends.flatMap(([, y]) => [0, y, null]),
 });
@@ -101,10 +101,9 @@ export function autocorrelation(a) {
   };
 }
 
-/** @param {number[]} rho @param {number} band @param {Palette} p @returns {Spec} */
-function autocorrelationSpec(rho, band, p) {
-  const ends = rho.map((r, i) => /** @type {[number, number]} */ ([i + 1, r]));
-  const low = Math.min(...rho, -band);
+/** Correlations over their lags as sticks; those outside the band differ in colour and mark.
+ * @param {[number, number][]} ends @param {number} band @param {Palette} p @returns {Trace[]} */
+export function correlations(ends, band, p) {
   /** @param {string} id @param {boolean} beyond @param {string} color @returns {Trace[]} */
   const set = (id, beyond, color) => {
     const some = ends.filter(([, r]) => Math.abs(r) > band === beyond);
@@ -119,10 +118,17 @@ function autocorrelationSpec(rho, band, p) {
       },
     ];
   };
+  return [...set("inside", false, p.soft), ...set("outside", true, p.load)];
+}
+
+/** @param {number[]} rho @param {number} band @param {Palette} p @returns {Spec} */
+function autocorrelationSpec(rho, band, p) {
+  const ends = rho.map((r, i) => /** @type {[number, number]} */ ([i + 1, r]));
+  const low = Math.min(...rho, -band);
   return {
     x: { title: "Distance between rows (rows)", range: [0, FOR_LABEL * (rho.length + 1)] },
     y: { title: "Autocorrelation", range: [Math.max(-1.05, Math.min(-0.4, 1.2 * low)), 1.05] },
-    traces: [...set("inside", false, p.soft), ...set("outside", true, p.load)],
+    traces: correlations(ends, band, p),
     zones: [{ x: null, y: [-band, band], text: "95 % of noise" }],
     revision: `autocorrelation${rho.length}`,
     table: {
