@@ -25,7 +25,7 @@ from mckibben.physics.effect import Effect
 _BEAM = 4  # models kept in each round
 _TRIED = 8  # candidates fitted per model: those with the largest first-order gain
 _FLEXIBLE = 2  # effects tried in exchange for the sake of their further constants
-_PATIENCE = 2  # rounds without a better model after which the search stops
+_PATIENCE = 2  # rounds without a better model after which the search stops; one where predictions are costly
 _ALIKE = 0.02  # share of the mean square; models whose residuals differ by less are merged
 _EXACTLY = 1e-4  # the same where effects that differ but little may lead on to different ones
 _DEEPEST = 7  # most effects added
@@ -76,7 +76,8 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
         fitter.update_noise(leader)
         if better(leader, best, rows=_rows(fitter, leader), noise=fitter.noise):
             best, idle = leader, 0
-        if idle >= _PATIENCE or _at_floor(fitter, best):
+        costly = not fitter.effort.thorough and fitter.near_floor(best)
+        if idle >= (1 if costly else _PATIENCE) or _at_floor(fitter, best):
             break
         if fitter.near_floor(best):  # a model far above the noise cannot become the best any more
             beam = [fitted_model for fitted_model in beam if fitted_model.rmse < _WITHIN * best.rmse]
