@@ -23,6 +23,9 @@ _JUMP = 0.02  # change of the load to the next level, share of the range
 _HELD_SHARE = 0.7  # of the rows, in which a hanging weight pulls with its weight alone
 _SECOND = 1.0  # s
 _SLOW = 0.2  # of the range of the stroke in a second; a ramp through it takes longer than five
+_SWING = 0.25  # s; a weight on a muscle swings in a few tenths of a second
+_LITTLE = 0.01 * 9.80665  # m/s2, 1 % of gravity; less does not show
+_RARELY = 0.05  # share of the way
 _PAUSE = 5.0  # usual steps of time; longer ones are pauses
 _CLOSE = 0.1  # s between rows, at most, where inertia shows
 _FEWEST_STEPS = 20  # of time, in which the speed shows
@@ -69,7 +72,9 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     5. time with pressure or stroke: ``transient``.
 
     "Slowly" is by at most 20 % of the range within any second, on average between rows that are further
-    apart: inertia and damping do not show.
+    apart: inertia and damping do not show. A stated load also moves slowly where its inertia is below 1 % of
+    its weight along 95 % of the way: nothing swings, and without a damping that no file states a simulation
+    would.
 
     Raises:
         InputError: no rule applies.
@@ -98,8 +103,11 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     if "diameter" in columns and (pressure is not None or stroke is not None):
         return "diameter", "a diameter beside pressure or stroke"
     if pressure is not None and stroke is not None:
-        if timed and _loaded(conditions) and _moves_slowly(columns["time"], stroke):
-            return "isotonic", "pressure and stroke change slowly under a stated load"
+        if timed and _loaded(conditions):
+            if _moves_slowly(columns["time"], stroke):
+                return "isotonic", "pressure and stroke change slowly under a stated load"
+            if _inertia_hidden(columns["time"], stroke):
+                return "isotonic", "a stated load moves so evenly that its inertia is below 1 % of its weight"
         return (
             ("transient", "pressure and stroke over time") if timed else ("isotonic", "strokes at pressures")
         )
@@ -208,15 +216,41 @@ def _moves_slowly(time: Array, stroke: Array) -> bool:
     span = float(np.ptp(stroke))
     if len(steps) < _FEWEST_STEPS or span == 0.0:
         return False
-    ahead = max(1, round(_SECOND / float(np.median(steps))))
+    step = float(np.median(steps))
+    ahead = max(1, round(_SECOND / step))
     if ahead >= len(stroke):
         return False
     calm, _ = smoothed(stroke, noise=noise_of(stroke), swing=_SLOW * span)
+    # A swing of one second is back after it, so parts of a second count as well.
+    return all(
+        _slow_over(rows, time, calm, step, span) for rows in {max(1, ahead // 4), max(1, ahead // 2), ahead}
+    )
+
+
+def _slow_over(ahead: int, time: Array, calm: Array, step: float, span: float) -> bool:
+    """Whether a stroke changes slowly between rows that are some rows apart."""
     apart = np.abs(time[ahead:] - time[:-ahead])
-    near = apart <= 2.0 * max(_SECOND, float(np.median(steps)))
+    near = apart <= 2.0 * max(_SECOND, step)
     # Between rows that are further apart only the mean speed is known: no dynamics show in a log.
     moved = (np.abs(calm[ahead:] - calm[:-ahead]) / np.maximum(apart / _SECOND, 1.0))[near]
     return bool(len(moved) and np.max(moved) <= _SLOW * span)
+
+
+def _inertia_hidden(time: Array, stroke: Array) -> bool:
+    """Whether a weight accelerates by less than 1 % of gravity along nearly all of its way."""
+    steps = np.diff(time)
+    steps = steps[steps > 0.0]
+    if len(steps) < _FEWEST_STEPS or not np.ptp(stroke) > 0.0:
+        return False
+    step = float(np.median(steps))
+    ahead = max(1, round(_SWING / step))
+    if len(stroke) <= 2 * ahead + _FEWEST_STEPS:
+        return False
+    even = np.abs(time[2 * ahead :] - time[: -2 * ahead] - 2 * ahead * step) < 0.5 * ahead * step
+    curved = np.abs(stroke[2 * ahead :] - 2.0 * stroke[ahead:-ahead] + stroke[: -2 * ahead])[even]
+    way = np.abs(stroke[2 * ahead :] - stroke[: -2 * ahead])[even]
+    quick = curved > _LITTLE * (ahead * step) ** 2
+    return np.count_nonzero(even) >= _FEWEST_STEPS and bool(np.sum(way[quick]) < _RARELY * np.sum(way))
 
 
 def _constant_runs(force: Array, pressure: Array, stroke: Array) -> int:

@@ -139,11 +139,12 @@ def _noisy_ceiling(force: Array, others: list[Array]) -> NDArray[np.bool_]:
     runs = _runs(above)
     runs = runs.only((above[runs.begin] == top) & (runs.rows >= 3 * _SHORTEST))
     clear = 10.0 * noise / float(np.ptp(force))
-    kept = (
-        _level(force[begin:end], noise) and any(_change(other, begin, end) > clear for other in others)
+    level = [
+        end - begin if _level(force[begin:end], noise) else begin - end
         for begin, end in zip(*runs, strict=True)
-    )
-    if not any(kept):
+        if any(_change(other, begin, end) > clear for other in others)
+    ]
+    if not sum(level) > 0:  # the top of a slow swing is level by chance here and there, but not in most rows
         return np.zeros(len(force), bool)
     return force >= top - 3.0 * noise  # short saturated intervals too
 

@@ -108,6 +108,21 @@ def test_a_weight_that_moves_slowly_is_isotonic_with_what_the_preamble_says(prea
     assert result.conditions["load_force"] == pytest.approx(25.0 * POUND_FORCE)
 
 
+def test_a_weight_on_sines_of_some_seconds_is_isotonic_although_its_pressure_jumps_now_and_then() -> None:
+    """40 kg, periods of 7 s: at most 0.6 % of the weight is inertia, and three steps are 4 % of the way."""
+    time = np.arange(0.0, 150.0, 0.1)
+    way = 0.03 * (1.0 - np.cos(2.0 * np.pi * time / 7.0)) + 0.01 * ((time > 50.0) ^ (time > 100.0))
+    rows = "\n".join(f"{t:.1f}\t{1.0 + 50.0 * w:.3f}\t{0.6 - w:.5f}" for t, w in zip(time, way, strict=True))
+    head = "# a mass of 40 kg hangs from the muscle, rest length 0.6 m\n"
+    file = f"{head}time (s)\tpressure (bar)\tlength (m)\n{rows}\n".encode()
+    assert read_measurement(file, "log.tsv").kind == "isotonic"
+    rows = "\n".join(
+        f"{t / 7.0:.4f}\t{1.0 + 50.0 * w:.3f}\t{0.6 - w:.5f}" for t, w in zip(time, way, strict=True)
+    )
+    faster = f"{head}time (s)\tpressure (bar)\tlength (m)\n{rows}\n".encode()
+    assert read_measurement(faster, "log.tsv").kind == "transient"
+
+
 def test_a_weight_that_jumps_or_is_not_known_is_transient() -> None:
     jumping = read_measurement(hanging(60.0, PREAMBLES[0], jump=True), "run.tsv")
     assert jumping.kind == "transient"

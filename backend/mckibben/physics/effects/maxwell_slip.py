@@ -5,28 +5,39 @@ Cell i carries the share :math:`w_i` of the force and slides after
 equal at the balance :math:`\sigma = 1`; above it the late cells carry more, below it the early ones. With the
 deflection :math:`z_i` of a cell as a share of its limit
 
-.. math:: F = F_c\sum_{i=1}^4 w_i z_i, \qquad w_i = \frac{\sigma^i}{\sum_k \sigma^k}, \qquad
+.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q}\sum_{i=1}^4 w_i z_i, \qquad
+   w_i = \frac{\sigma^i}{\sum_k \sigma^k}, \qquad
    \dot z_i = \frac{\dot L}{x_i}\bigl[1 - s(z_i \operatorname{sgn}\dot L)\bigr]
 
 The saturation s is 0 up to 0.9 of the limit and a smooth step from there to 1 at the limit. So a cell is
-elastic below 0.9, never passes the limit, and its rate has no jump.
+elastic below 0.9, never passes the limit, and its rate has no jump. Where the gas presses the threads
+together, q > 0, with :math:`P_r = 3` bar.
 """
 
 from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
-from mckibben.physics.presliding import slide
+from mckibben.physics.presliding import pressed, slide
 
 _CELLS = 4
 
 
 def friction(
-    *, cell_1: Value, cell_2: Value, cell_3: Value, cell_4: Value, force: Value, balance: Value
+    *,
+    pressure: Value,
+    cell_1: Value,
+    cell_2: Value,
+    cell_3: Value,
+    cell_4: Value,
+    force: Value,
+    balance: Value,
+    pressure_power: Value,
 ) -> Value:
-    """F_c times the weighted mean of the cells [N], within +-F_c."""
+    """F_c (P/P_r)^q times the weighted mean of the cells [N], within +-F_c (P/P_r)^q."""
     weighted = cell_1 + balance * (cell_2 + balance * (cell_3 + balance * cell_4))
-    return force * weighted / (1.0 + balance * (1.0 + balance * (1.0 + balance)))
+    limit = force * pressed(pressure=pressure, power=pressure_power)
+    return limit * weighted / (1.0 + balance * (1.0 + balance * (1.0 + balance)))
 
 
 def rates(
@@ -51,6 +62,7 @@ def rates(
 _MINH = Source("Vo-Minh, Tjahjowidodo, Ramon & Van Brussel, IEEE/ASME Trans. Mech. 16 (2011) 177", "M")
 _RANGE = Source("1-2.5 % of the maximum force", "E")
 _WAY = Source("break-away at 0.1-3 % of the nominal length", "E")
+_POWER = Source("0 friction without pressure, 2/3 Hertzian contacts, 1 rough surfaces under the gas", "M")
 _DEFINITION = Source("definition, by hand", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 
@@ -60,18 +72,13 @@ EFFECT = Effect(
     type="hysteretic",
     cause="The crossings of the braid do not all slide at once: some slip early, some late. The friction "
     "depends on earlier reversals, so small loops close within large ones.",
-    equation=r"F_{h} = F_c\frac{\sum_i \sigma^i z_i}{\sum_i \sigma^i},\quad \dot z_i = \frac{\dot L}{x_i}"
-    r"\left[1-s(z_i\operatorname{sgn}\dot L)\right],\quad x_i = \varepsilon_b L_0\,\rho^{\,i-4}",
+    equation=r"F_{h} = F_c\,(P_+/P_r)^q\,\frac{\sum_i \sigma^i z_i}{\sum_i \sigma^i},\quad "
+    r"\dot z_i = \frac{\dot L}{x_i}\left[1-s(z_i\operatorname{sgn}\dot L)\right],"
+    r"\quad x_i = \varepsilon_b L_0\,\rho^{\,i-4}",
     parameters=(
         Parameter(
-            "force",
-            "F_c",
-            "N",
-            default=10.0,
-            lower=0.0,
-            upper=200.0,
-            source=_RANGE,
-            description="Friction after a long travel.",
+            *("force", "F_c", "N", 10.0, 0.0, 200.0, _RANGE),
+            description="Friction after a long travel; with a power q, that at 3 bar.",
             off=0.0,
         ),
         Parameter(
@@ -88,13 +95,7 @@ EFFECT = Effect(
             fitted=False,
         ),
         Parameter(
-            "ratio",
-            r"\rho",
-            "1",
-            default=2.5,
-            lower=1.1,
-            upper=5.0,
-            source=_WAY,
+            *("ratio", r"\rho", "1", 2.5, 1.1, 5.0, _WAY),
             description="Ratio of the travel limits of successive cells.",
             fitted=False,
         ),
@@ -102,6 +103,12 @@ EFFECT = Effect(
             *("balance", r"\sigma", "1", 1.0, 0.3, 3.0, Source("1 = equal cells", "E")),
             description="Ratio of the forces of successive cells: above 1 the late ones carry more.",
             fitted=False,
+        ),
+        Parameter(
+            *("pressure_power", "q", "1", 0.0, 0.0, 1.0, _POWER),
+            description="Power of the pressure with which the friction grows.",
+            fitted=False,
+            natural=True,
         ),
     ),
     slots={"friction": friction, "rates": rates},
@@ -136,12 +143,17 @@ EFFECT = Effect(
             _DEFINITION,
             {"force": 10.0},
             {},
-            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25},
+            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 2e5},
         ),
         Example(
             # 10 N (1 + 2 0.5 - 4 0.25 - 8 0.25)/15
             *("slot:friction", -0.6666666666666666, 1e-12, _DEFINITION, {"force": 10.0, "balance": 2.0}, {}),
-            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25},
+            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 2e5},
+        ),
+        Example(
+            # 2.5 N sqrt(2), but for the rounding at low pressure
+            *("slot:friction", 3.5355339, 1e-6, _DEFINITION, {"force": 10.0, "pressure_power": 0.5}, {}),
+            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 6e5},
         ),
         Example(
             "slot:rates:2",
