@@ -229,17 +229,16 @@ def test_a_clipped_ramp_of_few_rows_is_found_whatever_its_noise(noise):
     assert np.count_nonzero(force == 445.0) > 50
 
 
-def test_the_tops_of_slow_swings_against_a_spring_are_not_saturated() -> None:
-    """One of the tops is level by chance of its noise; the others are not, and a clipped cell clips all."""
-    rng = np.random.default_rng(110)
+def test_the_tops_of_slow_swings_against_a_spring_are_not_saturated():
+    """One of the tops may be level by chance of its noise; the others are not, and a clipped cell clips all."""
     time = np.arange(0.0, 60.0, 0.02)
-    swing = np.where(time < 24.0, np.sin(2.0 * np.pi * 0.1 * time), np.sin(2.0 * np.pi * 0.5 * time))
-    length = 0.21 - 0.012 * swing + 1.5e-5 * rng.standard_normal(len(time))
+    frequency = np.where(time < 24.0, 0.1, 0.32)
+    swing = np.sin(2.0 * np.pi * frequency * time)
+    pressure = 3e5 + 2e5 * np.sin(2.0 * np.pi * frequency * (time + 0.12))
+    columns = {"time": time, "pressure": pressure, "length": 0.21 - 0.012 * swing}
     force = 350.0 + 150.0 * swing
-    pressure = 3e5 + 2e5 * np.sin(2.0 * np.pi * np.where(time < 24.0, 0.1, 0.5) * (time + 0.04))
-    columns = {"time": time, "pressure": pressure, "length": length}
     slack = np.zeros(len(time), bool)
-    for seed in range(8):
+    for seed in range(6):
         noise = 1.5 * np.random.default_rng(seed).standard_normal(len(time))
         assert not unusable_rows(columns | {"force": force + noise}, "static", slack=slack)
         clipped = np.minimum(force, 440.0) + noise
