@@ -230,7 +230,7 @@ def test_a_clipped_ramp_of_few_rows_is_found_whatever_its_noise(noise):
 
 
 def test_the_tops_of_slow_swings_against_a_spring_are_not_saturated():
-    """One of the tops may be level by chance of its noise; the others are not, and a clipped cell clips all."""
+    """One of the tops may be level by chance; the others are not, and a clipped cell clips all."""
     time = np.arange(0.0, 60.0, 0.02)
     frequency = np.where(time < 24.0, 0.1, 0.32)
     swing = np.sin(2.0 * np.pi * frequency * time)

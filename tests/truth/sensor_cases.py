@@ -82,6 +82,28 @@ def _(rng: np.random.Generator, seed: int) -> Case:
     return case_of("force-lag-steps-isometric", seed, truth, record, "isometric", rng)
 
 
+@BOOK.recipe("tube-behind-sensor-isometric")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed, 1), rng)
+    tube = sensors.tube_behind_the_sensor(m, 0.025, "pressure_lag")
+    truth = Truth(m, hidden=(tube,))
+    record = isometric(
+        truth, contractions=(0.0, 0.06, 0.12), turns=(1.0, 0.3, 0.8, 0.1, 0.6), rows=500, steps=0.05
+    )
+    return case_of("tube-behind-sensor-isometric", seed, truth, record, "isometric", rng)
+
+
+@BOOK.recipe("slow-pressure-isometric")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed, 2), rng)
+    slow = sensors.slow_amplifier("pressure", 10.0, 1.1, "pressure_lag", "time_skew")
+    truth = Truth(m, hidden=(slow,))
+    record = isometric(
+        truth, contractions=(0.0, 0.06, 0.12), turns=(1.0, 0.3, 0.8, 0.1, 0.6), rows=500, steps=0.1
+    )
+    return case_of("slow-pressure-isometric", seed, truth, record, "isometric", rng)
+
+
 @BOOK.recipe("skew-isobaric")
 def _(rng: np.random.Generator, seed: int) -> Case:
     m = made(size(seed, 1), rng)

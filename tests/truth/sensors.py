@@ -8,8 +8,8 @@ from typing import cast
 import numpy as np
 from scipy.signal import cont2discrete, lfilter
 
-from tests.truth.composition import Hidden, accept
-from tests.truth.muscle import Array
+from tests.truth.composition import Hidden, Record, accept
+from tests.truth.muscle import Array, Muscle, ideal_force
 
 
 def zero_error(channel: str, offset: float, *ids: str) -> Hidden:
@@ -52,6 +52,46 @@ def slow_amplifier(channel: str, frequency: float, damping: float, *ids: str) ->
         return channels
 
     return Hidden(f"slow {channel} amplifier", accept(*ids), reading=reading)
+
+
+def tube_behind_the_sensor(muscle: Muscle, seconds: float, *ids: str) -> Hidden:
+    """The sensor sits before a rough tube: Weymouth's flow, the root of a difference of squared pressures.
+
+    Args:
+        seconds: to fill the muscle of full length from 3 to 4 bar, were that flow constant.
+    """
+    atmosphere = 101.3e3
+
+    def memory(record: Record) -> Array:
+        before = np.maximum(record.pressure, 0.0) + atmosphere
+        flow = 1e5 / seconds / np.sqrt(5.013e5**2 - 4.013e5**2)
+        slower = muscle.volume(record.length) / float(muscle.volume(np.array(muscle.nominal)))
+        rounded = (2e4) ** 2  # Pa^2, laminar below
+
+        def rate(sensor: float, inside: float) -> float:
+            head = sensor**2 - inside**2
+            return flow * head / (head**2 + rounded**2) ** 0.25
+
+        inside = np.empty_like(before)
+        inside[0] = before[0]
+        for row in range(1, len(before)):
+            span = float(record.time[row] - record.time[row - 1])
+            parts = min(50, max(1, int(np.ceil(span / (0.02 * seconds)))))
+            x, step = float(inside[row - 1]), span / parts / float(slower[row])
+            for part in range(parts):
+                here, there = (
+                    float(before[row - 1] + (before[row] - before[row - 1]) * (part + k) / parts)
+                    for k in (0, 1)
+                )
+                first = rate(here, x)
+                second = rate(0.5 * (here + there), x + 0.5 * step * first)
+                x += step * rate(0.5 * (here + there), x + 0.5 * step * second)
+            inside[row] = x
+        return ideal_force(muscle, inside - atmosphere, record.length) - ideal_force(
+            muscle, record.pressure, record.length
+        )
+
+    return Hidden("tube behind the sensor", accept(*ids), memory=memory)
 
 
 def late_recorder(delay: float, *ids: str) -> Hidden:

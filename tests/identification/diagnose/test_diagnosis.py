@@ -123,9 +123,10 @@ def test_one_missing_friction_is_found(noise):
     assert found.added == ("coulomb_friction",)
     # Steps of several millimetres do not show over which travel the friction changes sign.
     presliding = {"bouc_wen", "dahl", "maxwell_slip"}
-    assert {(other.of, other.effect in presliding) for other in found.alternatives} == {
-        ("coulomb_friction", True)
-    }
+    # Without any noise even their smallest travel is told from none.
+    assert {(other.of, other.effect in presliding) for other in found.alternatives} == (
+        {("coulomb_friction", True)} if noise else set()
+    )
     value = found.best.fit_model.values["coulomb_friction"]["force"]
     assert value == pytest.approx(FRICTION, abs=0.2 * noise + 1e-4)
     assert found.start.rmse == pytest.approx(np.hypot(FRICTION, noise), rel=0.02)

@@ -9,6 +9,7 @@ import numpy as np
 
 from mckibben.identification.predict.comparable_rows import ComparableRows
 from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.input_noise import without_input_noise
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.simulation.drive.driven import driven_states_of_many
@@ -217,7 +218,7 @@ class Memory:
                 models,
                 names,
                 time=clock[rows],
-                pressure=task.state["pressure"][rows],
+                pressure=self._pressure(effect, clock, rows),
                 length=task.state["length"][rows],
                 temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
                 begins=[self._begin(run, effect, rows[0], motion) for run in runs],
@@ -230,6 +231,11 @@ class Memory:
                         between = np.flatnonzero(task.corners & (task.records == task.records[rows[0]]))
                         trajectories[name][between] = np.interp(clock[between], clock[rows], of_run[name])
         return found
+
+    def _pressure(self, effect: Effect, clock: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        """The pressure that an effect's states follow; noise passes a lag of the pressure without a lag."""
+        pressure = self._task.state["pressure"][rows]
+        return without_input_noise(clock[rows], pressure) if "pressure" in effect.slots else pressure
 
     def _begin(self, run: _Wanted, effect: Effect, row: int, motion: float) -> dict[str, float]:
         """The states that are not at rest at the first row of a record."""
