@@ -30,6 +30,7 @@ _ALIKE = 0.02  # share of the mean square; models whose residuals differ by less
 _EXACTLY = 1e-4  # the same where effects that differ but little may lead on to different ones
 _DEEPEST = 7  # most effects added
 _NOTHING_LEFT = 1.05  # error over noise below which the search stops
+_RANG = 0.7  # error over that of the start model below which a single effect shows less noise
 _WITHIN = 1.15  # error over the best error above which a model is dropped near the noise
 _FAR = 1.5  # error over noise above which two steps are tried at once
 _OF_TWO = 0.75  # largest share of the mean square that they may leave; less gain may follow an unknown effect
@@ -44,6 +45,10 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
         singles: the start model plus each single candidate, fitted.
     """
     best, idle = root, 0
+    # A simulation that rings seems to be noise: what an effect takes away was none.
+    nearest = min(singles, key=lambda single: single.rmse, default=root)
+    if nearest.rmse < _RANG * root.rmse:
+        fitter.update_noise(nearest)
     if _at_floor(fitter, root):
         return root
     children = list(singles)
