@@ -99,7 +99,7 @@ def driven(
     points: int = 1200,
     tolerance: float = 1e-8,
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Contribution to the tension [N] over a swing, and dL at the same rows, for the loop integral.
+    """Contribution to the read force [N] over a swing, and dL at the same rows, for the loop integral.
 
     Several claims look at the same run, and those that are false on purpose do so again: it is made once.
     """
@@ -121,9 +121,10 @@ def _driven(
     others = companions(effect)
     state = {name: value for name, value in swing.at(time).items() if name != "pressure_rate"}
     own = {**effect.defaults, **(values or {}), **states}
-    with_it = Model((*others, effect)).at(muscle=MUSCLE, values={**defaults(others), effect.id: own}, **state)
-    without = Model(others).at(muscle=MUSCLE, values=defaults(others), **state)
-    force = np.broadcast_to(with_it.tension - without.tension, time.shape)
+    values_with = {**defaults(others), effect.id: own}
+    with_it = Model((*others, effect)).evaluate(muscle=MUSCLE, values=values_with, **state)
+    without = Model(others).evaluate(muscle=MUSCLE, values=defaults(others), **state)
+    force = np.broadcast_to(with_it.force - without.force, time.shape)
     return force, np.gradient(state["length"]) * np.ones_like(time)
 
 
@@ -175,7 +176,13 @@ def check_shows_in_runs(effect: Effect) -> None:
 
 
 def check_work_of_run(effect: Effect) -> None:
-    """Dissipative: no run from rest gains work, and none of its cycles. Lumped: some closed path does."""
+    """Dissipative: no run from rest gains work, and none of its cycles. Lumped: some closed path does.
+
+    Reading: it acts in the force sensor alone.
+    """
+    if effect.signature.energy == "reading":
+        assert set(effect.slots) == {"force_sensor", "rates"}
+        return
     works = []
     for stretch, period, swing, phase in product((1e-3, 0.02, 0.1), (0.5, 20.0), (0.0, 2e5), (0.0, 2.0)):
         if phase and not swing:

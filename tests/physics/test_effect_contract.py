@@ -21,7 +21,7 @@ KNOWN_IDS = frozenset(  # one block of words reads better than fifty quoted line
     """
     effectiveness contraction_factor end_caps lost_stroke braid_stiffening wall_thickness thread_extensibility
     braid_lock bladder_elasticity linear_elasticity prestress threshold_pressure mullins creep pressure_creep
-    temperature self_heating pressure_lag
+    temperature self_heating pressure_lag force_thermal force_drift
     coulomb_friction pressure_friction contact_friction dahl bouc_wen maxwell_slip pressure_hysteresis
     viscous_damping guide_friction dead_volume heat_exchange leak valve_delay spool_lag valve_deadband
     valve_hysteresis flow_coefficient exhaust_restriction tube_resistance tube_delay supply_droop

@@ -104,6 +104,24 @@ def _(rng: np.random.Generator, seed: int) -> Case:
     return case_of("slow-pressure-isometric", seed, truth, record, "isometric", rng)
 
 
+@BOOK.recipe("warm-cell-isobaric")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed), rng)
+    truth = Truth(m, hidden=(sensors.warm_cell(0.0011 * m.blocked, "force_thermal"),))
+    record = isobaric(truth, levels=(*FIVE, *FIVE[::-1]))
+    record.temperature = 293.15 + 12.0 * np.sin(2.5 * record.time / record.time[-1])
+    return case_of("warm-cell-isobaric", seed, truth, record, "isobaric", rng, temperature=True)
+
+
+@BOOK.recipe("warming-amplifier-isobaric")
+def _(rng: np.random.Generator, seed: int) -> Case:
+    m = made(size(seed, 1), rng)
+    record = isobaric(Truth(m), levels=(*FIVE, *FIVE[::-1]))
+    late = 0.25 * float(record.time[-1] - record.time[0])
+    truth = Truth(m, hidden=(sensors.warming_amplifier(0.02 * m.blocked, late, "force_drift"),))
+    return case_of("warming-amplifier-isobaric", seed, truth, record, "isobaric", rng)
+
+
 @BOOK.recipe("skew-isobaric")
 def _(rng: np.random.Generator, seed: int) -> Case:
     m = made(size(seed, 1), rng)

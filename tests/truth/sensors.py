@@ -94,6 +94,26 @@ def tube_behind_the_sensor(muscle: Muscle, seconds: float, *ids: str) -> Hidden:
     return Hidden("tube behind the sensor", accept(*ids), memory=memory)
 
 
+def warm_cell(slope: float, *ids: str) -> Hidden:
+    """A load cell whose zero follows its temperature, with a slight bend [N/K]."""
+
+    def memory(record: Record) -> Array:
+        warmer = record.temperature - 293.15
+        return slope * warmer * (1.0 + 0.002 * warmer)
+
+    return Hidden("warm load cell", accept(*ids), memory=memory)
+
+
+def warming_amplifier(drift: float, half: float, *ids: str) -> Hidden:
+    """A zero that drifts from the start of the record: half of it within a time, the rest hyperbolically."""
+
+    def memory(record: Record) -> Array:
+        since = record.time - record.time[0]
+        return drift * since / (since + half)
+
+    return Hidden("amplifier that warms up", accept(*ids), memory=memory)
+
+
 def late_recorder(delay: float, *ids: str) -> Hidden:
     """The force comes from another recorder, whose clock is off: resampled by cubic lines."""
 

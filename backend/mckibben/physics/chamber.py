@@ -161,7 +161,9 @@ def muscle_side(
         **({"gas_mass": inflow} if balanced else {}),
     }
     # The sensor of a pair is zero in the middle, as the position of its load is.
-    instant = _readings(model, muscle, values, gauge=gauge, force=force, stroke=stroke - motion.start)
+    instant = _readings(
+        model, muscle, values, gauge=gauge, force=force, stroke=stroke - motion.start, temperature=ambient
+    )
     drive = {
         "supply_flow": flows["supply"],
         "mass_flow": inflow,
@@ -209,10 +211,11 @@ def _readings(
     gauge: Value,
     force: Value,
     stroke: Value,
+    temperature: Value,
 ) -> dict[str, Value]:
     """Sensor readings of a muscle, before any lag of the sensors."""
     sensor = {
-        name: model.reading(f"{name}_sensor", muscle=muscle, values=values)
+        name: model.reading(f"{name}_sensor", muscle=muscle, values=values, temperature=temperature)
         for name in ("pressure", "force", "length")
     }
     return {

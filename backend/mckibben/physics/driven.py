@@ -87,7 +87,7 @@ def _equations(
     model: Model, muscle: Muscle, values: Any, c: Any, y: Any, u: Any, *, motion: bool
 ) -> tuple[dict[str, Any], dict[str, Any], list[Switch]]:
     sensors = {
-        name: model.reading(f"{name}_sensor", muscle=muscle, values=values)
+        name: model.reading(f"{name}_sensor", muscle=muscle, values=values, temperature=c["temperature"])
         for name in ("pressure", "length", "force")
     }
     passed = y["clock"] - u["begin"]

@@ -80,7 +80,7 @@ class Model:
         (`mckibben.simulation.statics.model` solves for both). Direction is the sign of the velocity dL/dt: -1
         shortening (filling), +1 lengthening (venting), 0 at rest.
         """
-        sensor = self.reading("force_sensor", muscle=muscle, values=values)
+        sensor = self.reading("force_sensor", muscle=muscle, values=values, temperature=temperature)
         state = self.at(
             muscle=muscle,
             values=values,
@@ -197,11 +197,15 @@ class Model:
             start = effect.call(slot, {**context, name: start}, values[effect.id])
         return start
 
-    def reading(self, slot: str, *, muscle: Muscle, values: Values) -> Reading:
+    def reading(
+        self, slot: str, *, muscle: Muscle, values: Values, temperature: Value = ROOM_TEMPERATURE
+    ) -> Reading:
         """The sensors of a channel in series, combined into one."""
         chain = Reading(1.0, 0.0)
         for effect in self._with(slot):
-            scale, offset = effect.call(slot, {"muscle": muscle}, values[effect.id])
+            scale, offset = effect.call(
+                slot, {"muscle": muscle, "temperature": temperature}, values[effect.id]
+            )
             chain = Reading(chain.scale * scale, chain.offset * scale + offset)
         return chain
 

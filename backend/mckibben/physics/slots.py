@@ -123,5 +123,5 @@ SLOTS: dict[str, Slot] = {
     "skew": Slot("delay of the force channel against the others [s]", (), "sum"),
     "pressure_sensor": Slot("true to measured gauge pressure (a Reading)", (), "chain"),
     "length_sensor": Slot("true to measured length (a Reading)", ("muscle",), "chain"),
-    "force_sensor": Slot("true to measured force (a Reading)", (), "chain"),
+    "force_sensor": Slot("true to measured force (a Reading)", ("temperature",), "chain"),
 }

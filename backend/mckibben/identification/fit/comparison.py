@@ -212,7 +212,10 @@ def compared(
         messages.append("nothing to fit: the model has no effects and no geometry was freed")
     result = None
     if choice:
-        result = fit_of(predictor, fit_model, choice)
+        usual = free_numbers(fit_model, (), (), load=predictor.unknown_load)
+        result = fit_of(
+            predictor, fit_model, choice, first=[p for p in choice if p.name in {q.name for q in usual}]
+        )
         fit_model = fit_model.with_numbers([p.name for p in choice], result.numbers)
     predicted = predictor.predict(fit_model)
     rmse = predictor.rmse(predictor.measured - predicted)
@@ -255,9 +258,34 @@ def check_finite(predictor: Predictor, fit_model: FitModel) -> None:
         )
 
 
-def fit_of(predictor: Predictor, fit_model: FitModel, choice: Sequence[Free]) -> FitResult:
-    """Fit the chosen parameters with the effort of a final fit."""
-    return Misfit(predictor, fit_model, choice).fit(final_effort(simulated=predictor.simulated))
+def fit_of(
+    predictor: Predictor, fit_model: FitModel, choice: Sequence[Free], *, first: Sequence[Free] = ()
+) -> FitResult:
+    """Fit the chosen parameters with the effort of a final fit.
+
+    Args:
+        predictor: the data.
+        fit_model: the model.
+        choice: the free parameters.
+        first: those of them that are fitted alone before; where that leads closer, the fit begins there. Many
+            constants at once may lose their way from the usual values.
+    """
+    effort = final_effort(simulated=predictor.simulated)
+    misfit = Misfit(predictor, fit_model, choice)
+    result = misfit.fit(effort)
+    if not 0 < len(first) < len(choice):
+        return result
+    begun = dict(
+        zip([p.name for p in first], Misfit(predictor, fit_model, first).fit(effort).numbers, strict=True)
+    )
+    near = [replace(p, start=begun.get(p.name, p.start)) for p in choice]
+    staged = Misfit(predictor, fit_model, near)
+    other = staged.fit(effort)
+    sizes = [
+        float(np.sum(one.value(np.array(found.numbers)) ** 2))
+        for one, found in ((misfit, result), (staged, other))
+    ]
+    return other if sizes[1] < sizes[0] else result
 
 
 def determined(

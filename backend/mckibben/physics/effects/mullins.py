@@ -49,7 +49,7 @@ EFFECT = Effect(
             "1",
             default=0.1,
             lower=0.0,
-            upper=0.5,
+            upper=0.7,
             source=_LOSS,
             description="Largest share of the elastic force that is lost.",
             off=0.0,
