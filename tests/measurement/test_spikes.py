@@ -25,12 +25,19 @@ def test_one_row_or_two_are_found(height: float, rows: int) -> None:
     assert set(np.flatnonzero(found)) == {start + k for start in (30, 222) for k in range(rows)}
 
 
-@pytest.mark.parametrize(("height", "count"), [(150.0, 0), (300.0, 7)])
-def test_frequent_spikes_have_to_be_high(height: float, count: int) -> None:
-    """Seven in 400 rows: pulses of a signal, unless nothing in the signal is as high by far."""
+UP, BOTH = [1, 1, 1, 1, 1, 1, 1], [1, -1, 1, 1, -1, 1, -1]
+
+
+@pytest.mark.parametrize(
+    ("height", "ways", "count"), [(150.0, UP, 0), (-150.0, UP, 0), (150.0, BOTH, 7), (300.0, UP, 7)]
+)
+def test_frequent_spikes_have_to_be_high_or_to_go_both_ways(
+    height: float, ways: list[int], count: int
+) -> None:
+    """Seven in 400 rows: pulses of a signal, unless they go up and down or nothing else is as high by far."""
     force = 400.0 * TRIANGLE + 1.5 * NOISE
     rows = [20, 71, 130, 188, 222, 301, 370]
-    force[rows] += height * np.array([1, -1, 1, 1, -1, 1, -1])
+    force[rows] += height * np.array(ways)
     found = spiked_rows({"force": force})
     assert [np.flatnonzero(mask).tolist() for mask in found.values()] == ([rows] if count else [])
 

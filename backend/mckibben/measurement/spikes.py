@@ -23,6 +23,7 @@ _BACK = 0.3  # largest difference of both neighbours over the height
 #: Height over the least one, and the largest share of rows with such spikes; more frequent jumps belong to
 #: the signal, unless they are so high that nothing in a signal is.
 _RATES = ((1.0, 0.01), (3.0, 0.03))
+_BOTH_SIDES, _AMONG = 0.04, 0.2  # share of rows allowed where at least this share leaps to either side
 _FEWEST = 20  # rows of a signal that is checked
 _AT_ONCE = 1_000_000  # rows processed together, which bounds the memory
 
@@ -39,10 +40,19 @@ def spiked_rows(columns: Mapping[str, NDArray]) -> dict[str, NDArray[np.bool_]]:
             values = np.asarray(columns[name], dtype=float)
             for clear, most in _RATES:
                 spiked = _spikes(values, clear)
-                if 0 < np.count_nonzero(spiked) <= max(3, most * len(spiked)):
+                allowed = max(most, _BOTH_SIDES) if _to_both_sides(values, spiked) else most
+                if 0 < np.count_nonzero(spiked) <= max(3, allowed * len(spiked)):
                     spikes[f"spikes of the {name}"] = spiked
                     break
     return spikes
+
+
+def _to_both_sides(values: NDArray[np.float64], spiked: NDArray[np.bool_]) -> bool:
+    """Whether spikes leap up and down, as a bad contact does; features of a signal leap to one side."""
+    rows = np.flatnonzero(spiked)
+    rows = rows[(rows > 0) & (rows < len(values) - 1)]
+    up = np.count_nonzero(values[rows] > 0.5 * (values[rows - 1] + values[rows + 1]))
+    return min(up, len(rows) - up) >= max(1.0, _AMONG * len(rows))
 
 
 def _spikes(values: NDArray[np.float64], clear: float) -> NDArray[np.bool_]:

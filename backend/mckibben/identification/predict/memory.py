@@ -11,6 +11,7 @@ from mckibben.identification.predict.comparable_rows import ComparableRows
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.input_noise import without_input_noise
 from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.simulation.drive.driven import driven_states_of_many
 from mckibben.simulation.statics.model import StaticModel
@@ -214,16 +215,19 @@ class Memory:
         ]
         for rows in parts:
             motion = self._first_motion(rows) if any(run.before.slid for run in runs) else 0.0
-            states = driven_states_of_many(
-                models,
-                names,
-                time=clock[rows],
-                pressure=self._pressure(effect, clock, rows),
-                length=task.state["length"][rows],
-                temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
-                begins=[self._begin(run, effect, rows[0], motion) for run in runs],
-                among=len(task.measured),
-            )
+            try:
+                states = driven_states_of_many(
+                    models,
+                    names,
+                    time=clock[rows],
+                    pressure=self._pressure(effect, clock, rows),
+                    length=task.state["length"][rows],
+                    temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
+                    begins=[self._begin(run, effect, rows[0], motion) for run in runs],
+                    among=len(task.measured),
+                )
+            except InputError:  # values of a trial; rows without a value count as lost
+                states = [{name: np.full(len(rows), np.nan) for name in names} for _ in runs]
             for trajectories, of_run in zip(found, states, strict=True):
                 for name in names:
                     trajectories[name][rows] = of_run[name]

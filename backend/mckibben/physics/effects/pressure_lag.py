@@ -9,7 +9,7 @@ upstream and downstream of the tube, the air flows as through a restriction of I
 :math:`Q_r` is the flow into 3 bar at a lag of :math:`P_d = 0.1` bar; below about 1 mbar the flow is linear.
 The index m is 1/2 for an orifice and 1 for a capillary. The gas that a change of volume takes is not
 counted. A negative time is a sensor behind the muscle, :math:`P_m = P + 5d,\ \dot d = \dot P - 5d/|\tau|`, to
-first order :math:`P + |\tau|\dot P`. Below 10 microseconds the muscle has the measured pressure.
+first order :math:`P + |\tau|\dot P`. Below 0.1 ms the muscle has the measured pressure.
 """
 
 from mckibben.physics import ops
@@ -21,10 +21,11 @@ from mckibben.physics.parameter import Parameter, Source
 from mckibben.physics.presliding import REFERENCE_PRESSURE
 from mckibben.physics.units import STANDARD_ATMOSPHERE
 
-_SHORTEST = 1e-5  # s
+_SHORTEST = 1e-4  # s
 _USUAL = 1e4  # Pa, the lag at which the time is stated
 _ROUNDED = 7e-4  # of 1 - ((r - b)/(1 - b))^2, about 1 mbar; the slope of a root would be infinite
 _SHARPER = 5.0  # a derivative over a fifth of the time
+_SMALLEST = 0.05  # of the volume at rest; a stretched braid closes
 _LEAST = 1e4  # Pa, absolute; of trial values that are no pressures
 
 
@@ -51,10 +52,11 @@ def rates(
     usual = STANDARD_ATMOSPHERE + REFERENCE_PRESSURE
     flow = _flow(usual + _USUAL, usual, index, critical_ratio)
     narrow = _USUAL * _flow(sensor, sensor - behind, index, critical_ratio) / flow
-    braid = muscle.braid
-    narrow = narrow * volume(braid=braid, length=muscle.nominal_length) / volume(braid=braid, length=length)
+    full = volume(braid=muscle.braid, length=muscle.nominal_length)
+    narrow = narrow * full / ops.maximum(volume(braid=muscle.braid, length=length), _SMALLEST * full)
     followed = ops.where(ops.greater(time, _SHORTEST), narrow, _SHARPER * behind)
-    return (pressure_rate - followed / ops.maximum(ops.absolute(time), _SHORTEST),)
+    rate = pressure_rate - followed / ops.maximum(ops.absolute(time), _SHORTEST)
+    return (ops.where(ops.greater(ops.absolute(time), _SHORTEST), rate, 0.0),)
 
 
 def _flow(one: Value, other: Value, index: Value, critical_ratio: Value) -> Value:
