@@ -90,6 +90,23 @@ def test_a_preset_takes_a_length(run: Run, muscle: str) -> None:
     assert json.loads(run("curves", "--muscle", muscle, "--json")[1])["geometry"]["nominal_length"] == 0.5
 
 
+def test_a_muscle_in_a_file_may_stand_inside_muscle_but_a_drive_is_no_muscle(run: Run) -> None:
+    geometry = GEOMETRY | {"nominal_length": "300 mm"}
+    nested, bare = write("nested.json", {"muscle": geometry}), write("bare.json", geometry)
+    assert run("curves", "--muscle", nested, "--json")[1] == run("curves", "--muscle", bare, "--json")[1]
+    data = write("d.csv", CSV)
+    lengths = [
+        json.loads(run("compare", data, "--muscle", file, "--json")[1])["experiment"]
+        for file in (nested, bare)
+    ]
+    assert lengths[0] == json.loads(json.dumps(lengths[1]).replace("bare.json", "nested.json"))
+    drive = write("drive.json", {"muscle": geometry, "valve": "MPYE-5-1/8-HF"})
+    for command in (("curves",), ("compare", data)):
+        err = refused(run(*command, "--muscle", drive))
+        assert "drive.json: beside the muscle it holds valve" in err
+        assert "--drive" in err
+
+
 def test_a_muscle_can_be_a_file_by_geometry_or_a_whole_preset(run: Run) -> None:
     by_geometry = json.loads(run("curves", "--muscle", write("m.json", GEOMETRY), "--json")[1])
     assert by_geometry["model"]["effects"] == {}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -44,14 +44,16 @@ def measurements_of(
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
     found = []
-    for name in files:
-        for entry in _entries(name):
-            reading = correction or Correction()
-            own = dict(said or {})
-            if entry.words:
-                reading = _read_as(entry.words, name, reading)
-                own |= _said_in(entry.words, name)
-            found.append(SaidMeasurement(_read(entry, studio, reading, given or {}), own))
+    entries = [(name, entry) for name in files for entry in _entries(name)]
+    names = [Path(entry.name).name for _, entry in entries]
+    for place, (name, entry) in enumerate(entries):
+        others = (*names[:place], *names[place + 1 :])
+        reading = replace(correction or Correction(), beside=others)
+        own = dict(said or {})
+        if entry.words:
+            reading = _read_as(entry.words, name, reading)
+            own |= _said_in(entry.words, name)
+        found.append(SaidMeasurement(_read(entry, studio, reading, given or {}), own))
     return found
 
 
@@ -154,6 +156,7 @@ def _read_as(entry: Mapping[str, Any], source: str, correction: Correction) -> C
         sheet=spoken.sheet or correction.sheet,
         head=spoken.head or correction.head,
         strict=correction.strict,
+        beside=correction.beside,
     )
 
 

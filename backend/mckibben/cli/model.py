@@ -13,7 +13,7 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.located import at_file
 from mckibben.documents.model_files import drive_document, saved_model
-from mckibben.documents.muscle_files import is_file
+from mckibben.documents.muscle_files import is_file, muscle_alone
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
@@ -94,8 +94,9 @@ def _said_length(studio: Studio, options: ModelOptions) -> ExperimentValue | Non
         length = options.muscle.partition(":")[2] or _ordered(studio, options.muscle)
         where = f"--muscle {options.muscle}"
     elif options.muscle:
-        document = _json(options.muscle)
-        length = document.get("nominal_length") if "kind" not in document else None
+        document = muscle_alone(_json(options.muscle), options.muscle)
+        stated = isinstance(document, dict) and "kind" not in document
+        length = document.get("nominal_length") if stated else None
         where = options.muscle
     elif options.model or options.drive:
         muscle = stated_model(options)[0].get("muscle")

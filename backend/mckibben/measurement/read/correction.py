@@ -70,6 +70,7 @@ class Correction:
         sheet: the sheet (or group, or struct) to read, None = the one with the table.
         head: 1-based row of the column names, None = looked for.
         strict: what would be proposed or assumed is refused as well.
+        beside: names of the other files of the same test; as the file's own, no part of what identifies it.
     """
 
     columns: Mapping[str, Choice | None] = field(default_factory=dict)
@@ -79,6 +80,7 @@ class Correction:
     sheet: str | None = None
     head: int | None = None
     strict: bool = False
+    beside: tuple[str, ...] = ()
 
     def canonical(self) -> str:
         """The one JSON text of this correction: sorted keys, nothing that is said by leaving it out."""
