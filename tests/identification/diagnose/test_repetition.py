@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
 import pytest
 
+from mckibben.identification.diagnose.atlas import _TESTS, stand_ins
 from mckibben.identification.diagnose.repetition import Repetition, _chance, repetition
 from mckibben.identification.diagnose.repetition_words import repetition_text
+from mckibben.identification.diagnose.verdict import left_repetition
+from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.predict.quasistatic import QuasistaticPredictor
+from mckibben.physics.effect import Effect
+from tests.identification.synthetic import CATALOGUE, MUSCLE
 
 #: Sweeps of a test, rows in each.
 LAYOUTS = {"three files": (12, 240), "short": (4, 30), "there and back": (2, 40), "one": (1, 100)}
@@ -39,6 +47,20 @@ def noise(count: int, seed: int, memory: float = 0.0) -> np.ndarray:
     for row in range(1, len(drawn)):
         drawn[row] += memory * drawn[row - 1]
     return drawn[200:]
+
+
+def left_by(effect: Effect) -> Iterator[tuple[str, np.ndarray, Predictor]]:
+    """What the model without an effect leaves in the tests of the atlas that are not simulated."""
+    base = FitModel(MUSCLE)
+    for name in stand_ins(effect, CATALOGUE, {}):
+        base = base.adding(CATALOGUE[name])
+    both = base.adding(effect)
+    bare = replace(base, muscle=both.muscle, assumed=both.assumed)
+    for kind in effect.kinds & set(_TESTS):
+        predictor = QuasistaticPredictor(_TESTS[kind](bare, 6e5)).after(("rest",))
+        if not predictor.why_hidden(effect):
+            left = predictor.predict(both, clipped=False) - predictor.predict(bare, clipped=False)
+            yield kind, np.where(np.isfinite(left), left, 0.0), predictor
 
 
 FILES = Pulls(*LAYOUTS["three files"])
@@ -173,6 +195,25 @@ def test_the_chance_is_that_of_the_beta_distribution() -> None:
         expected = beta.sf(share, pairs, 0.5 * rows - pairs)
         assert _chance(share, rows, pairs) == pytest.approx(expected, rel=1e-9)
     assert _chance(0.9, 2.0, 1) == 1.0
+
+
+def test_the_rows_of_a_map_are_no_records() -> None:
+    """Eight pressures at 60 places, in no order of time: each row is a record, each curve a sweep."""
+    place = np.tile(np.linspace(0.26, 0.20, 60), 8)
+    residual = 3.0 * np.sin(2.0 * np.pi * place / 6e-3) + noise(480, 13)
+    inputs = {"length": place, "pressure": np.repeat(1e5 * np.arange(1.0, 9.0), 60)}
+    curves = list(np.arange(480).reshape(8, 60))
+    found = repetition(residual, inputs, sweeps=curves, records=np.arange(480))
+    assert found is not None
+    assert (found.over, found.parts, found.shown, found.of_sweeps) == ("length", 8, 8, True)
+
+
+@pytest.mark.parametrize("effect", CATALOGUE.values(), ids=list(CATALOGUE))
+def test_what_a_missing_effect_of_the_catalogue_leaves_does_not_repeat(effect: Effect) -> None:
+    for kind, residual, predictor in left_by(effect):
+        for level in (0.0, 0.1):
+            size = level * float(np.sqrt(np.mean(residual**2)))
+            assert left_repetition(predictor, residual + size * noise(len(residual), 14)) is None, kind
 
 
 LENGTH = Repetition("length", 3.2e-3, 0.62, 10.7, True, 1e-30, 0.5, 3, 3)

@@ -193,7 +193,8 @@ def _judged(rows: SweptRows, scan: _Scan, tried: float) -> Repetition | None:
     left_out = min(fit.left_out(rows, way) for way in _ways(rows, scan.over))
     if chance > _FALSE_ALARM or left_out < _HOLDS * of_left:
         return None
-    by_record = scan.over != "time" and rows.record.max() > 0
+    records = int(rows.record.max()) + 1  # of a map each row is one
+    by_record = scan.over != "time" and 1 < records <= len(rows.parts)
     parts, shown = _shown(rows, fit, rows.record if by_record else rows.sweep)
     if shown < _SHOWN * parts or not _is_everywhere(rows, scan, fit, _EVERYWHERE * of_left):
         return None
@@ -274,16 +275,28 @@ def _ways(rows: SweptRows, over: str) -> Iterator[np.ndarray]:
     yield rows.sweep % 2 == 0
     if sweeps >= 4 and (over != "time" or min(per_record) >= 4):
         yield (rows.sweep // 2) % 2 == 0
-    if records > 1 and over != "time":
+    if 1 < records <= sweeps and over != "time":
         yield rows.record % 2 == 0
 
 
-def _shown(rows: SweptRows, fit: _Fit, labels: np.ndarray) -> tuple[int, int]:
-    """(number of parts, of those that the fit to the others explains)."""
-    number = int(labels.max()) + 1
+def _shown(rows: SweptRows, fit: _Fit, parts: np.ndarray) -> tuple[int, int]:
+    """(number of parts, of those that the fit to the others explains); rows of a part share their phase."""
+    number = int(parts.max()) + 1
     if number < 2:
         return 1, 1
-    return number, sum(fit.predicted_share(rows, labels == label) > 0.0 for label in range(number))
+    products = fit.columns[:, :, None] * fit.columns[:, None, :]
+    normal, right = np.zeros((number, 2, 2)), np.zeros((number, 2))
+    np.add.at(normal, parts, products)
+    np.add.at(right, parts, fit.columns * rows.left[:, None])
+    label = np.zeros(number, dtype=np.intp)
+    label[parts] = fit.labels
+    whole, whole_right = np.zeros((len(fit.weights), 2, 2)), np.zeros((len(fit.weights), 2))
+    np.add.at(whole, label, normal)
+    np.add.at(whole_right, label, right)
+    inverse = np.linalg.pinv(whole[label] - normal, hermitian=True)
+    weights = np.einsum("pij,pj->pi", inverse, whole_right[label] - right)
+    explained = 2.0 * np.sum(weights * right, axis=1) - np.einsum("pi,pij,pj->p", weights, normal, weights)
+    return number, int(np.count_nonzero(explained > 0.0))
 
 
 def _is_everywhere(rows: SweptRows, scan: _Scan, fit: _Fit, least: float) -> bool:
