@@ -107,6 +107,17 @@ def test_a_muscle_in_a_file_may_stand_inside_muscle_but_a_drive_is_no_muscle(run
         assert "--drive" in err
 
 
+def test_the_length_of_the_muscle_tells_the_number_in_a_file_name(run: Run) -> None:
+    muscle = write("m.json", GEOMETRY | {"nominal_length": "150 mm"})
+    rows = "".join(f"{0.1 * n},{1 + 0.1 * n:.1f},{10 + n}\n" for n in range(40))
+    file = write("iso_138.csv", f"# isometric test\ntime_s,pressure_bar,force_N\n{rows}")
+    answer = json.loads(run("compare", file, "--muscle", muscle, "--json")[1])
+    assert answer["kind"] == "isometric"
+    assert answer["experiment"]["rest_length"]["value"] == pytest.approx(0.15)
+    assert any("'138' (read as mm, 92 % of the rest length" in message for message in answer["messages"])
+    assert "--rest-length" in refused(run("convert", file))
+
+
 def test_a_muscle_can_be_a_file_by_geometry_or_a_whole_preset(run: Run) -> None:
     by_geometry = json.loads(run("curves", "--muscle", write("m.json", GEOMETRY), "--json")[1])
     assert by_geometry["model"]["effects"] == {}

@@ -30,6 +30,8 @@ def measurements_of(
     correction: Correction | None = None,
     said: Mapping[str, ExperimentValue] | None = None,
     given: Mapping[str, bytes] | None = None,
+    *,
+    muscle_length: float | None = None,
 ) -> list[SaidMeasurement]:
     """Files, presets where there is no such file, and lists of files in JSON.
 
@@ -39,6 +41,7 @@ def measurements_of(
         correction: how the files are to be read; it is for files, not for presets.
         said: about the experiment of all of them.
         given: name -> content, of names that are no files: standard input.
+        muscle_length: rest length of the muscle that is stated beside the files [m], if it is.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
@@ -48,7 +51,7 @@ def measurements_of(
     names = [Path(entry.name).name for _, entry in entries]
     for place, (name, entry) in enumerate(entries):
         others = (*names[:place], *names[place + 1 :])
-        reading = replace(correction or Correction(), beside=others)
+        reading = replace(correction or Correction(), beside=others, muscle_length=muscle_length)
         own = dict(said or {})
         if entry.words:
             reading = _read_as(entry.words, name, reading)
@@ -157,6 +160,7 @@ def _read_as(entry: Mapping[str, Any], source: str, correction: Correction) -> C
         head=spoken.head or correction.head,
         strict=correction.strict,
         beside=correction.beside,
+        muscle_length=correction.muscle_length,
     )
 
 

@@ -88,6 +88,12 @@ def said_model(studio: Studio, options: ModelOptions) -> SaidModel:
     return SaidModel(start, _said_length(studio, options), muscle, *_drive(options))
 
 
+def muscle_length(studio: Studio, options: ModelOptions) -> float | None:
+    """The rest length that the options state for the muscle [m]."""
+    said = _said_length(studio, options)
+    return said.value if said is not None and isinstance(said.value, float) else None
+
+
 def _said_length(studio: Studio, options: ModelOptions) -> ExperimentValue | None:
     """The rest length that the options state; the default length of a preset is not stated."""
     if options.muscle and not is_file(options.muscle, studio):

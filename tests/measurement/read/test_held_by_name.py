@@ -97,6 +97,14 @@ def test_files_given_together_are_one_test(tmp_path: Path) -> None:
     np.testing.assert_allclose(lengths, [0.029, 0.034, 0.038])
 
 
+@pytest.mark.parametrize(("name", "millimetres"), [("iso_138.txt", 138.0), ("iso_L140mm.txt", 140.0)])
+def test_the_length_of_the_muscle_may_stand_beside_the_file(name: str, millimetres: float) -> None:
+    """It says what the number in the name is, but not who says the rest length of the file."""
+    found = read_measurement(ISOMETRIC.encode(), name, Correction(muscle_length=0.15))
+    np.testing.assert_allclose(found.columns["length"], 1e-3 * millimetres)
+    assert "nominal_length" not in found.conditions
+
+
 def test_without_a_rest_length_the_hint_names_the_number() -> None:
     for name, shown in (("iso_138.txt", "'138'"), ("sine_L380mm.dat", "'380 mm'")):
         with pytest.raises(InputError) as caught:

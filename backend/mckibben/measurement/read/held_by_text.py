@@ -77,7 +77,7 @@ def hold_pressure(
 
 def hold_stroke(
     columns: dict[str, NDArray], by_use: dict[str, HeaderColumn], source: RawTable, name: str,
-    conditions: Mapping[str, float | str], messages: list[str], correction: Correction,
+    conditions: dict[str, float | str], messages: list[str], correction: Correction,
 ) -> None:  # fmt: skip
     """Forces over pressure without any stroke are at the length, stroke or contraction that a text names.
 
@@ -102,6 +102,11 @@ def hold_stroke(
     if named is not None:
         columns["length"] = np.full(len(columns["force"]), named.value)
         by_use["length"] = HeaderColumn(-1, NAME, "length", "m")
+        if (
+            correction.conditions.get("nominal_length") is None
+            and conditions.get("nominal_length") == named.value
+        ):
+            del conditions["nominal_length"]  # the name was taken to say the rest length
         messages.append(
             f"length is taken from {NAME}: '{named.text}'{f' ({named.why})' if named.why else ''}"
         )
@@ -141,10 +146,12 @@ def _rest_length(
 ) -> float | None:
     """The rest length [m], unless the name of the file alone says it: then it may be the length held."""
     rest = conditions.get("nominal_length")
-    if not isinstance(rest, (int, float)):
-        return None
     by_name = any(note.key == "nominal_length" and note.where == NAME for note in source.notes)
-    return None if by_name and correction.conditions.get("nominal_length") is None else float(rest)
+    if not isinstance(rest, (int, float)) or (
+        by_name and correction.conditions.get("nominal_length") is None
+    ):
+        return correction.muscle_length
+    return float(rest)
 
 
 def _how_to_say(
