@@ -24,7 +24,7 @@ class SweptRows:
         left: the residual without the polynomial of each sweep.
         whole: sum of squares of ``own``.
         parts: where each sweep is among the rows.
-        bases: orthonormal polynomials of each sweep.
+        alike: (rows of all sweeps of one length, shape (sweeps, length), their orthonormal polynomials).
         record: index of the record of each row, from 0.
         sweep: index of the sweep.
     """
@@ -34,7 +34,7 @@ class SweptRows:
     left: np.ndarray
     whole: float
     parts: list[slice]
-    bases: list[np.ndarray]
+    alike: list[tuple[np.ndarray, np.ndarray]]
     record: np.ndarray
     sweep: np.ndarray
 
@@ -51,7 +51,11 @@ class SweptRows:
         ends = np.cumsum([0, *map(len, lines)])
         parts = [slice(int(a), int(b)) for a, b in pairwise(ends)]
         order = np.concatenate(lines)
-        bases = [_polynomials(len(line)) for line in lines]
+        sizes = np.diff(ends)
+        alike = [
+            (ends[:-1][sizes == size, None] + np.arange(size), _polynomials(int(size)))
+            for size in np.unique(sizes)
+        ]
         own = residual[order] - np.mean(residual[order])
         whole = float(own @ own)
         result = cls(
@@ -60,9 +64,9 @@ class SweptRows:
             left=own,
             whole=whole,
             parts=parts,
-            bases=bases,
+            alike=alike,
             record=np.unique(records[order], return_inverse=True)[1],
-            sweep=np.repeat(np.arange(len(lines)), np.diff(ends)),
+            sweep=np.repeat(np.arange(len(lines)), sizes),
         )
         left = result.projected(own)
         if not float(left @ left) > 1e-12 * whole:
@@ -76,10 +80,10 @@ class SweptRows:
 
     def projected(self, columns: np.ndarray) -> np.ndarray:
         """Columns without what the polynomials of the sweeps can follow."""
-        result = np.array(columns, dtype=float)
-        for part, basis in zip(self.parts, self.bases, strict=True):
-            result[part] -= basis @ (basis.T @ result[part])
-        return result
+        result = np.array(columns, dtype=float).reshape(len(columns), -1)
+        for rows, basis in self.alike:
+            result[rows] -= basis @ (basis.T @ result[rows])
+        return result.reshape(columns.shape)
 
 
 def _polynomials(rows: int) -> np.ndarray:
