@@ -3186,6 +3186,35 @@ export interface components {
       /** The name that the user saw; refused if it is another by now. */
       was?: string | null;
     };
+    /** A periodic part of the unexplained residual. */
+    Repetition: {
+      /** What it repeats over. */
+      over: "length" | "pressure" | "time";
+      /** Unit of the period. */
+      unit: "m" | "Pa" | "s";
+      /** The period. */
+      period: number;
+      /** Share of the mean square of the residual that it explains. */
+      share: number;
+      /** Of the predicted channel, in its unit; at the mean pressure where it grows with it. */
+      amplitude: number;
+      /** Whether its amplitude is in proportion to the pressure. */
+      grows_with_pressure: boolean;
+      /** Chance that noise does as well somewhere among all periods tried; below 1e-4. */
+      false_alarm: number;
+      /** The share that it explains of sweeps it was not fitted to. */
+      left_out_share: number;
+      /** Number of records, or of sweeps. */
+      parts: number;
+      /** Number of those that a fit to the others explains. */
+      shown: number;
+      /** What the parts are. */
+      parts_are: "records" | "sweeps";
+      /** What these data cannot tell it from. */
+      also: components["schemas"]["SamePeriod"][];
+      /** All of it in words. */
+      text: string;
+    };
     /** A comparison request, with further content of the report. */
     ReportRequest: {
       /** Null: the drive's. */
@@ -3302,6 +3331,13 @@ export interface components {
       runs?: number;
       /** The random numbers follow from it: the same seed gives the same runs. */
       seed?: number;
+    };
+    /** A period over another coordinate that the data cannot tell from the repetition. */
+    SamePeriod: {
+      /** The coordinate. */
+      over: "length" | "pressure" | "time";
+      /** In m, Pa or s. */
+      period: number;
     };
     /** A model with its values: a muscle with its fitted geometry, effects, and of a transient the drive. */
     SavedModel: {
@@ -4432,6 +4468,8 @@ export interface components {
       unexplained_share: number;
       /** Variables that this part depends on. */
       unexplained_in: string[];
+      /** What of it is periodic; null where nothing is beyond doubt, or no effect is unknown. */
+      repeats: components["schemas"]["Repetition"] | null;
       /** A formula for it; null where none was proven. */
       proposed_term: components["schemas"]["ProposedTerm"] | null;
       /** Without a formula: the ranges in which the unexplained error is largest. */

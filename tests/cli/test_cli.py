@@ -90,6 +90,34 @@ def test_a_preset_takes_a_length(run: Run, muscle: str) -> None:
     assert json.loads(run("curves", "--muscle", muscle, "--json")[1])["geometry"]["nominal_length"] == 0.5
 
 
+def test_a_muscle_in_a_file_may_stand_inside_muscle_but_a_drive_is_no_muscle(run: Run) -> None:
+    geometry = GEOMETRY | {"nominal_length": "300 mm"}
+    nested, bare = write("nested.json", {"muscle": geometry}), write("bare.json", geometry)
+    assert run("curves", "--muscle", nested, "--json")[1] == run("curves", "--muscle", bare, "--json")[1]
+    data = write("d.csv", CSV)
+    lengths = [
+        json.loads(run("compare", data, "--muscle", file, "--json")[1])["experiment"]
+        for file in (nested, bare)
+    ]
+    assert lengths[0] == json.loads(json.dumps(lengths[1]).replace("bare.json", "nested.json"))
+    drive = write("drive.json", {"muscle": geometry, "valve": "MPYE-5-1/8-HF"})
+    for command in (("curves",), ("compare", data)):
+        err = refused(run(*command, "--muscle", drive))
+        assert "drive.json: beside the muscle it holds valve" in err
+        assert "--drive" in err
+
+
+def test_the_length_of_the_muscle_tells_the_number_in_a_file_name(run: Run) -> None:
+    muscle = write("m.json", GEOMETRY | {"nominal_length": "150 mm"})
+    rows = "".join(f"{0.1 * n},{1 + 0.1 * n:.1f},{10 + n}\n" for n in range(40))
+    file = write("iso_138.csv", f"# isometric test\ntime_s,pressure_bar,force_N\n{rows}")
+    answer = json.loads(run("compare", file, "--muscle", muscle, "--json")[1])
+    assert answer["kind"] == "isometric"
+    assert answer["experiment"]["rest_length"]["value"] == pytest.approx(0.15)
+    assert any("'138' (read as mm, 92 % of the rest length" in message for message in answer["messages"])
+    assert "--rest-length" in refused(run("convert", file))
+
+
 def test_a_muscle_can_be_a_file_by_geometry_or_a_whole_preset(run: Run) -> None:
     by_geometry = json.loads(run("curves", "--muscle", write("m.json", GEOMETRY), "--json")[1])
     assert by_geometry["model"]["effects"] == {}

@@ -12,7 +12,7 @@ import pytest
 
 from mckibben.server.schemas.diagnoses import DiagnosisAnswer
 from tests.cli.conftest import Run, result_of, write
-from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text
+from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text, truth
 
 DRIVE = {"schema": 1, **LIFT}
 
@@ -39,6 +39,33 @@ def answer_of(result: tuple[int, str, str]) -> dict[str, Any]:
     answer = result_of(out)
     DiagnosisAnswer.model_validate(answer)
     return answer
+
+
+def test_a_rest_that_repeats_is_told_with_its_pitch_and_not_as_chance(run: Run) -> None:
+    """Three files of pulls; the force has a ripple of 3 mm that grows with the pressure."""
+    way = 0.3 - 1e-3 * np.concatenate([np.linspace(0.0, 45.0, 120), np.linspace(45.0, 0.0, 120)])
+    noise, files = np.random.default_rng(3), []
+    for bar in (2, 4, 6):
+        force = truth(bar * 1e5, way) + 3.0 * bar * np.sin(2.0 * np.pi * way / 3e-3)
+        force += noise.standard_normal(len(way))
+        rows = [f"{0.1 * i:.1f},{bar},{1e3 * way[i]:.3f},{force[i]:.3f}" for i in range(len(way))]
+        files.append(
+            write(f"pull_{bar}bar.csv", text(rows, "time_s,pressure_bar,length_mm,force_N", "kind: isobaric"))
+        )
+    options = ("--muscle", write("m.json", BRAID), "--json", "--report", "r.html")
+    verdict = answer_of(run("diagnose", *files, *options))["verdict"]
+    assert verdict["status"] == "unknown_effect"
+    found = verdict["repeats"]
+    assert (found["over"], found["unit"], found["parts_are"]) == ("length", "m", "records")
+    assert (found["parts"], found["shown"], found["grows_with_pressure"]) == (3, 3, True)
+    assert found["period"] == pytest.approx(3e-3, rel=0.01)
+    assert found["amplitude"] == pytest.approx(12.0, rel=0.1)
+    assert found["false_alarm"] < 1e-4
+    assert found["share"] > 0.5
+    assert "it repeats every 3.0" in found["text"] or "it repeats every 2.99 mm" in found["text"]
+    assert found["text"] in verdict["sentence"]
+    assert "no measured variable" not in verdict["sentence"]
+    assert found["text"][1:] in Path("r.html").read_text("utf-8")
 
 
 @pytest.mark.parametrize("noise", ["0", "-1", "inf", "nan"])

@@ -278,6 +278,24 @@ def test_data_and_residuals_as_csv(page: Page, sweeps: FilePayload, tmp_path: Pa
     assert re.search(r"force|length|pressure from .* \(measured\)", code)
 
 
+LEFT = 'const { whatIsLeft } = await import("/js/views/compare/words.js"); return whatIsLeft(argument);'
+
+
+def test_what_repeats_is_told_in_place_of_no_variable_and_beside_others(page: Page) -> None:
+    open_compare(page)
+    repeats = {"text": "it repeats every 3.20 mm of length"}
+
+    def left(names: list[str], what: dict[str, str] | None) -> str:
+        verdict = {"unexplained_share": 0.62, "unexplained_in": names, "repeats": what}
+        return str(run(page, LEFT, verdict)).replace("\u00a0", " ")
+
+    size = "62.0 % of the squared residual is above the noise"
+    assert left([], None) == f"{size} and depends on no measured variable"
+    assert left([], repeats) == f"{size}: {repeats['text']}"
+    assert left(["pressure"], None) == f"{size} and depends on pressure"
+    assert left(["pressure"], repeats) == f"{size} and depends on pressure; {repeats['text']}"
+
+
 @pytest.mark.examination("tests/frontend/test_sizing.py::test_from_the_empty_page_to_the_printed_report")
 def test_a_diagnosis_can_be_cancelled_and_asked_for_again(page: Page, sweeps: FilePayload) -> None:
     open_compare(page)

@@ -17,6 +17,8 @@ from mckibben.application.diagnosis_result import (
     DiagnosisResult,
     NoiseFloor,
     PathPoint,
+    RepetitionResult,
+    SamePeriod,
     TermCurve,
     TermProposal,
     Verdict,
@@ -45,6 +47,7 @@ from mckibben.identification.diagnose.words import (
     applied_reasons,
     corrections_sentence,
     left_out_sentence,
+    repeats,
     sentence_of,
     title_of,
     where_to_look,
@@ -266,6 +269,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
             diagnosis.status, diagnosis.best, diagnosis.noise, diagnosis.structure
         ),
         unexplained_in=[name for name, _ in diagnosis.structure.variables],
+        repeats=_repetition(diagnosis),
         proposed_term=_term(question, diagnosis),
         where_to_look=where_to_look(diagnosis) or None,
         next_measurement=next_measurement(diagnosis, titles),
@@ -282,6 +286,27 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
             )
             if text
         ),
+    )
+
+
+def _repetition(diagnosis: Diagnosis) -> RepetitionResult | None:
+    found = diagnosis.repetition
+    if found is None:
+        return None
+    return RepetitionResult(
+        over=found.over,
+        unit={"length": "m", "pressure": "Pa", "time": "s"}[found.over],
+        period=found.period,
+        share=found.share,
+        amplitude=found.amplitude,
+        grows_with_pressure=found.grows,
+        false_alarm=found.false_alarm,
+        left_out_share=found.left_out,
+        parts=found.parts,
+        shown=found.shown,
+        parts_are="sweeps" if found.of_sweeps else "records",
+        also=[SamePeriod(over, period) for over, period in found.also],
+        text=repeats(diagnosis),
     )
 
 

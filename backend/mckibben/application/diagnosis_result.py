@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -117,6 +117,46 @@ class PathPoint:
 
 
 @dataclass(frozen=True, slots=True)
+class SamePeriod:
+    """A period over another coordinate that the data cannot tell from the repetition; SI."""
+
+    over: str
+    period: float
+
+
+@dataclass(frozen=True, slots=True)
+class RepetitionResult:
+    """A periodic part of the unexplained residual, SI.
+
+    Attributes:
+        over, unit: coordinate, ``length``, ``pressure`` or ``time``, and its unit.
+        period: in it.
+        share: explained part of the mean square.
+        amplitude: of the predicted channel, in its unit, at the mean pressure where it grows.
+        grows_with_pressure: whether its amplitude is in proportion to the pressure.
+        false_alarm: chance that noise does as well somewhere among all periods tried.
+        left_out_share: share explained of sweeps that it was not fitted to.
+        parts, shown, parts_are: number of records or sweeps, of those that the others predict, which it is.
+        also: periods over other coordinates that the data cannot tell from it.
+        text: all of it in words.
+    """
+
+    over: str
+    unit: str
+    period: float
+    share: float
+    amplitude: float
+    grows_with_pressure: bool
+    false_alarm: float
+    left_out_share: float
+    parts: int
+    shown: int
+    parts_are: Literal["records", "sweeps"]
+    also: list[SamePeriod]
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
 class TermCurve:
     """A proposed term and the residual that it describes, over one variable."""
 
@@ -151,6 +191,7 @@ class Verdict:
         corrections: effects that lower the error but are not called missing; the model keeps some of them.
         unexplained_share, unexplained_in: what is left to explain of the residual, and the variables it
             depends on; of an unknown effect at least all above the noise.
+        repeats: what of it is periodic.
         proposed_term: a short formula for it that halves the error of the groups left out.
         where_to_look: without a formula, the ranges of these variables with the largest error.
         next_measurement: recommended next measurement.
@@ -169,6 +210,7 @@ class Verdict:
     corrections: list[CorrectionResult]
     unexplained_share: float
     unexplained_in: list[str]
+    repeats: RepetitionResult | None
     proposed_term: TermProposal | None
     where_to_look: str | None
     next_measurement: str | None

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
@@ -30,6 +30,8 @@ def measurements_of(
     correction: Correction | None = None,
     said: Mapping[str, ExperimentValue] | None = None,
     given: Mapping[str, bytes] | None = None,
+    *,
+    muscle_length: float | None = None,
 ) -> list[SaidMeasurement]:
     """Files, presets where there is no such file, and lists of files in JSON.
 
@@ -39,19 +41,22 @@ def measurements_of(
         correction: how the files are to be read; it is for files, not for presets.
         said: about the experiment of all of them.
         given: name -> content, of names that are no files: standard input.
+        muscle_length: rest length of the muscle that is stated beside the files [m], if it is.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
     found = []
-    for name in files:
-        for entry in _entries(name):
-            reading = correction or Correction()
-            own = dict(said or {})
-            if entry.words:
-                reading = _read_as(entry.words, name, reading)
-                own |= _said_in(entry.words, name)
-            found.append(SaidMeasurement(_read(entry, studio, reading, given or {}), own))
+    entries = [(name, entry) for name in files for entry in _entries(name)]
+    names = [Path(entry.name).name for _, entry in entries]
+    for place, (name, entry) in enumerate(entries):
+        others = (*names[:place], *names[place + 1 :])
+        reading = replace(correction or Correction(), beside=others, muscle_length=muscle_length)
+        own = dict(said or {})
+        if entry.words:
+            reading = _read_as(entry.words, name, reading)
+            own |= _said_in(entry.words, name)
+        found.append(SaidMeasurement(_read(entry, studio, reading, given or {}), own))
     return found
 
 
@@ -154,6 +159,8 @@ def _read_as(entry: Mapping[str, Any], source: str, correction: Correction) -> C
         sheet=spoken.sheet or correction.sheet,
         head=spoken.head or correction.head,
         strict=correction.strict,
+        beside=correction.beside,
+        muscle_length=correction.muscle_length,
     )
 
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from mckibben.application.compare import compare
 from mckibben.application.measurement_files import measurements_of
-from mckibben.cli.model import model_question
+from mckibben.cli.model import model_question, muscle_length
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import progress, standard_input, write_json, write_summary
 from mckibben.documents.studio import Studio
@@ -32,7 +32,10 @@ def run(
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
     with progress("fitting" if fit else "comparing"):
-        measurements = measurements_of(files, studio, correction, said, given=standard_input(files))
+        measurements = measurements_of(
+            files, studio, correction, said, given=standard_input(files),
+            muscle_length=muscle_length(studio, model),
+        )  # fmt: skip
         question = model_question(studio, measurements, model, free=free, strict=correction.strict, refit=fit)
         result = compare(question, fit=fit)
     if as_json:

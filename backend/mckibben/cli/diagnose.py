@@ -12,7 +12,7 @@ from mckibben.application.model_question import ModelQuestion
 from mckibben.application.next_experiment import NO_EXPERIMENT, schedule_csv
 from mckibben.application.saved_model import model_text, saved_model
 from mckibben.cli.diagnose_folder import FolderOptions, run_folder
-from mckibben.cli.model import model_question
+from mckibben.cli.model import model_question, muscle_length
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import (
     check_folder,
@@ -54,7 +54,10 @@ def run(
     """
 
     def asked(names: Sequence[str]) -> ModelQuestion:
-        measurements = measurements_of(names, studio, correction, said, given=standard_input(names))
+        measurements = measurements_of(
+            names, studio, correction, said, given=standard_input(names),
+            muscle_length=muscle_length(studio, model),
+        )  # fmt: skip
         return model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)
 
     if any(Path(name).is_dir() for name in files):

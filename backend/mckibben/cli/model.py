@@ -13,7 +13,7 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.located import at_file
 from mckibben.documents.model_files import drive_document, saved_model
-from mckibben.documents.muscle_files import is_file
+from mckibben.documents.muscle_files import is_file, muscle_alone
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
@@ -88,14 +88,21 @@ def said_model(studio: Studio, options: ModelOptions) -> SaidModel:
     return SaidModel(start, _said_length(studio, options), muscle, *_drive(options))
 
 
+def muscle_length(studio: Studio, options: ModelOptions) -> float | None:
+    """The rest length that the options state for the muscle [m]."""
+    said = _said_length(studio, options)
+    return said.value if said is not None and isinstance(said.value, float) else None
+
+
 def _said_length(studio: Studio, options: ModelOptions) -> ExperimentValue | None:
     """The rest length that the options state; the default length of a preset is not stated."""
     if options.muscle and not is_file(options.muscle, studio):
         length = options.muscle.partition(":")[2] or _ordered(studio, options.muscle)
         where = f"--muscle {options.muscle}"
     elif options.muscle:
-        document = _json(options.muscle)
-        length = document.get("nominal_length") if "kind" not in document else None
+        document = muscle_alone(_json(options.muscle), options.muscle)
+        stated = isinstance(document, dict) and "kind" not in document
+        length = document.get("nominal_length") if stated else None
         where = options.muscle
     elif options.model or options.drive:
         muscle = stated_model(options)[0].get("muscle")

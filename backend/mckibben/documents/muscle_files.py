@@ -36,6 +36,24 @@ def with_length(document: object, rest_length: float | None) -> object:
     return {**document, "nominal_length": rest_length}
 
 
+def muscle_alone(document: object, source: str) -> object:
+    """The muscle of a document that holds it alone, also as ``{"muscle": {...}}``.
+
+    Raises:
+        InputError: it is a whole drive.
+    """
+    if not isinstance(document, dict) or not isinstance(document.get("muscle"), dict):
+        return document
+    beside = ", ".join(str(key) for key in document if key != "muscle")
+    if beside:
+        raise InputError(
+            f"{source}: beside the muscle it holds {beside}",
+            field="muscle",
+            hint="what belongs here is what stands inside 'muscle'; a whole drive goes to --drive",
+        )
+    return document["muscle"]
+
+
 def is_file(muscle: str, studio: Studio) -> bool:
     """Whether it names a JSON file; a preset id with a slash, or a file named like a preset, does not."""
     if muscle.lower().endswith(".json"):
@@ -56,7 +74,8 @@ def start_of_file(
 
     content = preset_of_file(path, studio)
     if not isinstance(content, PresetFacts):
-        return start_of_input(studio, with_length(content, rest_length), effects, str(path))
+        document = muscle_alone(content, str(path))
+        return start_of_input(studio, with_length(document, rest_length), effects, str(path))
     if isinstance(effects, NamedEffects):
         effects = effects.of(content.effects)
     return start_of_input(studio, {}, effects, str(path), facts=content)

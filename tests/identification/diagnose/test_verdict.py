@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.diagnosis import diagnose
-from mckibben.identification.diagnose.verdict import left_structure, unexplained_share
+from mckibben.identification.diagnose.verdict import left_repetition, left_structure, unexplained_share
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.read import read_measurement
@@ -74,6 +75,24 @@ def test_a_structure_is_one_and_has_no_interval_of_noise() -> None:
     assert found.status == "unknown_effect"
     assert found.structure.share > 0.3
     assert found.noise_interval is None
+    # Four periods of 2 pi/150 of the contraction, in all sweeps.
+    assert found.repetition is not None
+    assert (found.repetition.over, found.repetition.grows) == ("length", False)
+    assert found.repetition.period == pytest.approx(0.3 * 2.0 * np.pi / 150.0, rel=0.02)
+    assert found.repetition.amplitude == pytest.approx(12.0, rel=0.1)
+
+
+def test_only_the_channel_with_the_largest_rest_is_looked_at_and_only_its_rows() -> None:
+    place = np.tile(np.linspace(0.26, 0.20, 120), 5)
+    wave, noise = np.sin(2.0 * np.pi * place / 5e-3), np.random.default_rng(0).standard_normal(1200)
+    sweeps = np.split(np.arange(1200), 10)
+    for first, second, found in ((3.0, 0.0, True), (0.0, 0.5, False)):
+        left = np.concatenate([first * wave, second * wave]) + np.repeat([0.1, 1.0], 600) * noise
+        subject = SimpleNamespace(
+            channels=[SimpleNamespace(rows=slice(0, 600)), SimpleNamespace(rows=slice(600, 1200))],
+            sweeps=sweeps, inputs={"length": np.tile(place, 2)}, records=np.zeros(1200, int),
+        )  # fmt: skip
+        assert (left_repetition(subject, left) is not None) is found  # type: ignore[arg-type]
 
 
 def test_what_is_left_of_an_unknown_effect_is_all_above_the_noise() -> None:

@@ -9,6 +9,7 @@ from typing import Any
 import pytest
 
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen
+from mckibben.identification.diagnose.repetition import Repetition
 from mckibben.identification.diagnose.verdict import Interval
 from mckibben.identification.diagnose.words import (
     applied_reasons,
@@ -30,6 +31,7 @@ def result(
     status: str, before: float, after: float, *added: str, unit: str = "N", noise: float | None = 2.0,
     share: float = 0.05, alternatives: tuple[Any, ...] = (), refitted: float | None = None,
     highest: float | None = None, doubted: bool = False, term: object = None,
+    repetition: Repetition | None = None,
 ) -> Any:  # fmt: skip
     return SimpleNamespace(
         status=status,
@@ -45,6 +47,7 @@ def result(
         context=(SimpleNamespace(stands=True),) if doubted else (),
         alternatives=alternatives,
         term=term,
+        repetition=repetition,
         evidence=tuple(
             SimpleNamespace(
                 effect=name,
@@ -64,7 +67,19 @@ def result(
     )
 
 
+WEAVE = Repetition("length", 3.2e-3, 0.62, 10.7, True, 1e-30, 0.5, 3, 3)
+REPEATS = (
+    "it repeats every 3.20 mm of length (the same in all 3 records): a thread, rack or weave with that "
+    "pitch; this is 62 % of it, with an amplitude of 10.7 N that grows with the pressure"
+)
 SENTENCES = {
+    f"No catalogued effect explains the error of 40.0 N: {REPEATS}.": result(
+        "unknown_effect", 40.0, 40.0, repetition=WEAVE
+    ),
+    "Missing: Creep (probability 97 %). With it the error falls from 40.0 to 9.00 N; the noise is 2.00 N. No "
+    f"catalogued effect explains the rest: 40 % of it depends on pressure and time; {REPEATS}.": result(
+        "unknown_effect", 40.0, 9.0, "creep", share=0.4, repetition=WEAVE, term=object()
+    ),
     "Nothing is missing: the error of 2.00 N is of the size of the noise (2.00 N).": result(
         "adequate", 2.0, 2.0
     ),

@@ -18,6 +18,7 @@ from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
 from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, model_weights
 from mckibben.identification.diagnose.reason import traits_of
+from mckibben.identification.diagnose.repetition import Repetition
 from mckibben.identification.diagnose.score import effective_rows
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.steps import PathStep, SingleAddition, path_to, single_addition
@@ -27,6 +28,7 @@ from mckibben.identification.diagnose.verdict import (
     Interval,
     Status,
     is_force,
+    left_repetition,
     left_structure,
     messages,
     noise_interval,
@@ -86,6 +88,7 @@ class Diagnosis:
         added: effects of the best model that the start model does not have.
         alternatives: effects that could replace one of these.
         structure: the part of the last residual that a regression still predicts.
+        repetition: what of the last residual of an unknown effect is periodic; None without it.
         term: a short formula that halves the error of the folds left out; None without one.
         proposals: experiments that would separate the alternatives.
         designs: for each group of alternatives the experiment of this rig that splits it best.
@@ -116,6 +119,7 @@ class Diagnosis:
     added: tuple[str, ...]
     alternatives: tuple[Alternative, ...]
     structure: ResidualStructure
+    repetition: Repetition | None
     term: Term | None
     proposals: tuple[SeparatingExperiment, ...]
     designs: tuple[DesignedExperiment, ...] = ()
@@ -315,12 +319,9 @@ def _diagnose(
     term = None
     if status == "unknown_effect" and is_force(predictor):
         term = proposed_term(
-            best.residual,
-            variables,
-            folds=predictor.folds,
-            basis=best.jacobian[:, best.inner],
+            best.residual, variables, folds=predictor.folds, basis=best.jacobian[:, best.inner],
             weigh=predictor.weighted,
-        )
+        )  # fmt: skip
     shown = partial(as_compared, predictor)
     designer = Designer.of(predictor, lean, level) if exchangeable else Designer((), level)
     pairs, designs = next_measurements(designer, lean, exchangeable, catalogue)
@@ -343,6 +344,7 @@ def _diagnose(
         added=added,
         alternatives=tuple(exchangeable),
         structure=remaining,
+        repetition=left_repetition(predictor, best.residual) if status == "unknown_effect" else None,
         term=term,
         proposals=tuple(pairs),
         designs=tuple(designs),

@@ -7,6 +7,7 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from mckibben.identification.diagnose.repetition import Repetition, repetition
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -66,6 +67,15 @@ def left_structure(
         return found
     others = _structure_of_channels(predictor, residual, variables, predictor.folds[0])
     return min(found, others, key=lambda each: each.share)
+
+
+def left_repetition(predictor: Predictor, residual: np.ndarray) -> Repetition | None:
+    """What of the residual repeats over length, pressure or time, in the channel with the largest rest."""
+    channel = max(predictor.channels, key=lambda each: float(np.mean(residual[each.rows] ** 2)))
+    inside = np.zeros(len(residual), bool)
+    inside[channel.rows] = True
+    sweeps = [np.asarray(sweep)[inside[sweep]] for sweep in predictor.sweeps]
+    return repetition(residual, predictor.inputs, sweeps=sweeps, records=predictor.records)
 
 
 def _structure_of_channels(

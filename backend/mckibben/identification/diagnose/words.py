@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis
+from mckibben.identification.diagnose.repetition_words import repetition_text
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.verdict import Status, is_force
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -257,8 +258,16 @@ def _unit_of(result: Diagnosis) -> tuple[str, float]:
     return {"1": ("times the noise", 1.0), "m": ("mm", 1e3)}.get(unit, (unit, 1.0))
 
 
+def repeats(result: Diagnosis) -> str:
+    """What of the last residual repeats, in words; empty without it."""
+    return "" if result.repetition is None else repetition_text(result.repetition, *_unit_of(result))
+
+
 def _rest(result: Diagnosis) -> str:
-    """The variables that the last residual depends on."""
+    """The variables that the last residual depends on, and what of it repeats."""
+    if result.repetition is not None:
+        first = f"{_structured(result, ' of it')}; " if result.structure.share >= _WORTH_TELLING else ""
+        return f"{first}{repeats(result)}"
     if result.structure.share < _WORTH_TELLING:
         if result.term is not None:
             return f"the proposed term takes {100.0 * result.term.share:.0f} % of it"

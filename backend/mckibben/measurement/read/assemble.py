@@ -42,6 +42,7 @@ from mckibben.measurement.read.signs import FORCE_SIGN, STROKE_SIGN
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import KIND_SAID, REFERENCE_OF
 from mckibben.measurement.read.tares import notes_of_tares, subtract_tare, zero_questions
+from mckibben.measurement.read.valve_pressure import with_valve_pressure
 from mckibben.physics.errors import InputError
 
 _FEWEST_TO_TURN = 3  # rows
@@ -73,7 +74,7 @@ def meaning_of(source: RawTable, correction: Correction, *, collect: bool = Fals
         collect=collect,
         units=source.units,
     )
-    meaning = with_constants(source, with_clock(source, meaning))
+    meaning = with_valve_pressure(source, with_constants(source, with_clock(source, meaning)))
     return with_proposed_stroke(source, meaning, correction.conditions)
 
 
@@ -183,7 +184,7 @@ def assemble(
     columns, by_use, slack = read_channels(used, reading)
     slack = _oldest_first(columns, by_use, slack, source, messages)
     hold_pressure(columns, by_use, name, source, conditions, messages)
-    hold_stroke(columns, by_use, source, name, conditions, messages)
+    hold_stroke(columns, by_use, source, name, conditions, messages, correction)
     tare = subtract_tare(columns, by_use, [*source.rest, *notes_of_tares(source.notes)], conditions, messages)
     tare += add_hanger(
         columns, by_use, source.rest, conditions, messages,

@@ -15,10 +15,11 @@ from mckibben.measurement.read.evidence import Evidence, is_numeric
 from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.header import Meaning
 from mckibben.measurement.read.left_out import LeftOut, Reason
+from mckibben.measurement.read.order_codes import notes_of_code
 from mckibben.measurement.read.plain_head import WEIGHTS, HeaderColumn
 from mckibben.measurement.read.recognise import BY_WORDS
 from mckibben.measurement.read.source import RawTable
-from mckibben.measurement.read.stated import NAME, in_known_words, notes_of_code
+from mckibben.measurement.read.stated import NAME, in_known_words
 from mckibben.physics.errors import InputError
 
 _MOST_VALUES = 12  # different ones of a condition that changes from test to test; more are readings

@@ -70,6 +70,9 @@ class Correction:
         sheet: the sheet (or group, or struct) to read, None = the one with the table.
         head: 1-based row of the column names, None = looked for.
         strict: what would be proposed or assumed is refused as well.
+        beside: names of the other files of the same test; as the file's own, no part of what identifies it.
+        muscle_length: rest length [m] of the muscle that is stated beside the file; it only says what a
+            number in the file's name can be.
     """
 
     columns: Mapping[str, Choice | None] = field(default_factory=dict)
@@ -79,6 +82,8 @@ class Correction:
     sheet: str | None = None
     head: int | None = None
     strict: bool = False
+    beside: tuple[str, ...] = ()
+    muscle_length: float | None = None
 
     def canonical(self) -> str:
         """The one JSON text of this correction: sorted keys, nothing that is said by leaving it out."""

@@ -106,6 +106,11 @@ def taken_apart(header: str, unit_below: str | None = None) -> Head:
     return Head(text.strip(" _"), None if unit is None else unit.unit, absolute, held)
 
 
+def is_run_word(word: str) -> bool:
+    """Whether a number behind a word counts runs: "run 12", "Versuch 3"."""
+    return folded(word) in _RUN_WORDS
+
+
 def channel_number(text: str) -> str:
     """The one number of a channel that a text names: "ch1" of "CH 1: pressure"; "" = none, or several.
 

@@ -11,13 +11,23 @@ from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.air import ambient_of
+from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.held import HeldQuantity, held_pressure, held_quantities
+from mckibben.measurement.read.held_by_name import NamedLength, length_of_name, numbers_in_name
 from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import KIND_SAID, NAME
 from mckibben.measurement.read.unit_words import RAW_DIMENSIONS, dimension_of
-from mckibben.measurement.read.vocabulary import REMARK_WORDS, folded, has_word, word_set, words_of
+from mckibben.measurement.read.valve_pressure import is_command
+from mckibben.measurement.read.vocabulary import (
+    OTHER_LENGTHS,
+    REMARK_WORDS,
+    folded,
+    has_word,
+    word_set,
+    words_of,
+)
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
@@ -67,9 +77,11 @@ def hold_pressure(
 
 def hold_stroke(
     columns: dict[str, NDArray], by_use: dict[str, HeaderColumn], source: RawTable, name: str,
-    conditions: Mapping[str, float | str], messages: list[str],
+    conditions: dict[str, float | str], messages: list[str], correction: Correction,
 ) -> None:  # fmt: skip
     """Forces over pressure without any stroke are at the length, stroke or contraction that a text names.
+
+    Where no text does, it is the length in the file's name, if the rest length is known from elsewhere.
 
     Raises:
         InputError: texts name several, or the file says that it is an isometric test and names none.
@@ -85,11 +97,24 @@ def hold_stroke(
     }
     if len({channel for channel, _ in found}) > 1:  # a length with the contraction that it is
         found = {key: one for key, one in found.items() if key[0] == "length"} or found
-    if not found and str(conditions.get(KIND_SAID, conditions.get("kind", ""))) == "isometric":
+    isometric = str(conditions.get(KIND_SAID, conditions.get("kind", ""))) == "isometric"
+    named = None if found else _named_length(source, name, conditions, correction, isometric=isometric)
+    if named is not None:
+        columns["length"] = np.full(len(columns["force"]), named.value)
+        by_use["length"] = HeaderColumn(-1, NAME, "length", "m")
+        if (
+            correction.conditions.get("nominal_length") is None
+            and conditions.get("nominal_length") == named.value
+        ):
+            del conditions["nominal_length"]  # the name was taken to say the rest length
+        messages.append(
+            f"length is taken from {NAME}: '{named.text}'{f' ({named.why})' if named.why else ''}"
+        )
+    elif not found and isometric:
         raise InputError(
             f"{name}: the file says that the test is isometric, but neither a column nor a text states the "
             "length at which the muscle was held",
-            field="length", hint="write it as a column, 'length_mm', or as a line, '# clamped at L = 285 mm'",
+            field="length", hint=_how_to_say(name, source, conditions, correction),
         )  # fmt: skip
     if len(found) > 1:
         shown = ", ".join(f"'{said.text}' ({where})" for said, where in found.values())
@@ -104,6 +129,43 @@ def hold_stroke(
         messages.append(f"{channel} is taken from {where}: '{said.text}'")
 
 
+def _named_length(
+    source: RawTable, name: str, conditions: Mapping[str, float | str], correction: Correction, *,
+    isometric: bool,
+) -> NamedLength | None:  # fmt: skip
+    """The length in the file's name; a bare number is an assumption, which a strict reading refuses."""
+    rest = _rest_length(source, conditions, correction)
+    if rest is None:
+        return None
+    found = length_of_name(name, rest, isometric=isometric, others=correction.beside)
+    return None if found is not None and found.why and correction.strict else found
+
+
+def _rest_length(
+    source: RawTable, conditions: Mapping[str, float | str], correction: Correction
+) -> float | None:
+    """The rest length [m], unless the name of the file alone says it: then it may be the length held."""
+    rest = conditions.get("nominal_length")
+    by_name = any(note.key == "nominal_length" and note.where == NAME for note in source.notes)
+    if not isinstance(rest, (int, float)) or (
+        by_name and correction.conditions.get("nominal_length") is None
+    ):
+        return correction.muscle_length
+    return float(rest)
+
+
+def _how_to_say(
+    name: str, source: RawTable, conditions: Mapping[str, float | str], correction: Correction
+) -> str:
+    """What would be right where nothing says the length; the name may hold it beside a rest length."""
+    hint = "write it as a column, 'length_mm', or as a line, '# clamped at L = 285 mm'"
+    numbers = numbers_in_name(name)
+    if not numbers or _rest_length(source, conditions, correction) is not None:
+        return hint
+    shown = " or ".join(f"'{number}'" for number in numbers)
+    return f"{hint}; if it is the {shown} in {NAME}, state the rest length: --rest-length"
+
+
 def _held_strokes(text: str) -> list[HeldQuantity]:
     """The strokes at which a text says that the muscle was held, clause by clause.
 
@@ -112,7 +174,7 @@ def _held_strokes(text: str) -> list[HeldQuantity]:
     found = []
     for clause in re.split(r"[,;(]\s|[.]\s|:\s", text):
         words = words_of(clause)
-        if _LIMITS & set(words) or has_word(words, _OTHER_LENGTHS):
+        if _LIMITS & set(words) or has_word(words, OTHER_LENGTHS):
             continue
         held = has_word(words, _HELD_WORDS) or "isometr" in folded(clause)
         for said in held_quantities(clause):
@@ -128,18 +190,14 @@ def _has_other_stroke(source: RawTable, by_use: Mapping[str, HeaderColumn]) -> b
     used = {column.place for column in by_use.values()}
     units = [*source.units, *[None] * (len(source.headers) - len(source.units))]
     for index, header in enumerate(source.headers):
-        unit = taken_apart(header, units[index]).unit if index not in used else None
+        head = taken_apart(header, units[index])
+        unit = head.unit if index not in used and not is_command(head.name, head.unit) else None
         if unit is not None and dimension_of(unit) in ("a length", "an angle", *RAW_DIMENSIONS):
             return True
     return False
 
 
 _NEAR = 5  # words, those of the quantity among them
-_OTHER_LENGTHS = word_set(
-    "radius diameter pulley drum wheel wire tube hose cylinder bore wall travel range durchmesser rolle "
-    "scheibe schlauch rayon diametre poulie raggio diametro puleggia radio polea raio polia promien srednica "
-    "polomer prumer straal halfsalja"
-)
 _LIMITS = REMARK_WORDS["loadless"]
 _HELD_WORDS = REMARK_WORDS["constant"] | word_set(
     "clamped clamp held locked blocked fixed at eingespannt "

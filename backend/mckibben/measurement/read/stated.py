@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Iterator, Sequence
-from functools import cache
 from itertools import islice
 from pathlib import PurePath
 from typing import NamedTuple
@@ -14,6 +13,7 @@ from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITION
 from mckibben.measurement.read.head_text import channel_number, taken_apart
 from mckibben.measurement.read.left_out import Reason
 from mckibben.measurement.read.limits import MAX_REMARKS
+from mckibben.measurement.read.order_codes import notes_of_code, of_code
 from mckibben.measurement.read.signs import signs_of
 from mckibben.measurement.read.tares import reads_empty
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
@@ -28,7 +28,7 @@ from mckibben.measurement.read.vocabulary import (
     words_of,
 )
 from mckibben.measurement.read.words.positions import POSITION
-from mckibben.resources import presets_folder
+from mckibben.physics.units import convert
 
 NAME = "the file's name"
 #: Conditions that only these texts say, besides those with a unit.
@@ -84,8 +84,6 @@ _REST_LENGTHS = re.compile(
 _SUPPLY_SYMBOLS = word_set("ps pv psup psupply pversorgung p0 pin")
 #: Kind of a test -> how its name begins in the languages of the heads.
 _KINDS = {"isobaric": "isobar", "isometric": "isometr", "isotonic": "isoton"}
-_CODE = re.compile(r"(?<![A-Za-z0-9])([A-Z]{2,6}-[0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?")
-_CODE_IN_A_WORD = re.compile(r"(?i)(?<![a-z0-9])([a-z]{2,6})[-_ ]?([0-9]{1,3})(?![0-9a-z])")
 
 
 class _Quantity(NamedTuple):
@@ -116,7 +114,7 @@ def statements(rest: Iterable[tuple[str, str]], name: str) -> list[Note]:
     stem = PurePath(name).stem
     coded.append((stem, NAME))
     for text, where in coded:
-        for key, value in _of_code(text):
+        for key, value in of_code(text):
             found.setdefault(key, Note(where, key, value))
     for quantity in (*_quantities(stem.replace("_", " ")), *_glued(stem)):
         key = _key_of(quantity)
@@ -235,6 +233,14 @@ def _glued(text: str) -> Iterator[_Quantity]:
             yield _Quantity(words_of(found[1]), found[2].replace(",", "."), unit.unit)
 
 
+def lengths_named(stem: str) -> Iterator[tuple[float, str, list[str]]]:
+    """(length [m], as written, words before it) of the lengths of a name that are no rest length."""
+    for quantity in (*_quantities(stem.replace("_", " ")), *_glued(stem)):
+        if quantity.unit and dimension_of(quantity.unit) == "a length" and _key_of(quantity) is None:
+            metres = float(convert([float(quantity.value)], quantity.unit, "m")[0])
+            yield metres, f"{quantity.value} {quantity.unit}", quantity.words
+
+
 def _key_of(quantity: _Quantity) -> str | None:
     words = set(quantity.words)
     joined = "".join(quantity.words)
@@ -297,24 +303,6 @@ def _is_whole(quantity: _Quantity) -> bool:
     return lengthy and has_word(before, _WHOLE)
 
 
-def _of_code(text: str) -> Iterator[tuple[str, str]]:
-    """Muscle and length in an order code: ``DMSP-20-250N`` is 250 mm of a DMSP-20."""
-    for found in _CODE.finditer(text.replace("_", " ")):
-        if found[1].upper() in _known_muscles():
-            yield "muscle", found[1]
-            if found[2]:
-                yield "nominal_length", f"{found[2]} mm"
-    for found in _CODE_IN_A_WORD.finditer(text):
-        if (code := f"{found[1]}-{found[2]}".upper()) in _known_muscles():
-            yield "muscle", code
-
-
-@cache
-def _known_muscles() -> frozenset[str]:
-    """Ids of the muscles that come with the program."""
-    return frozenset(path.stem.upper() for path in (presets_folder() / "muscles").glob("*.json"))
-
-
 def in_known_words(notes: Iterable[Note]) -> list[Note]:
     """Conditions under the names of this program: ``L0_mm`` and ``Ruhelänge [mm]`` are ``nominal_length``.
 
@@ -361,11 +349,6 @@ def _unit_at_the_end(key: str) -> str | None:
     name, _, last = key.strip().rpartition("_")
     unit = unit_of(last) if name else None
     return unit.unit if unit and dimension_of(unit.unit) == "a pressure" else None
-
-
-def notes_of_code(note: Note) -> list[Note]:
-    """Muscle and rest length in the order code of a value."""
-    return [Note(note.where, key, value) for key, value in _of_code(str(note.value))]
 
 
 def _in_millimetres(note: Note) -> Note:

@@ -118,6 +118,12 @@ LESS_WANTED = {
         word_set("filtered gefiltert smoothed geglaettet filtre filtrato filtrado mean mittel"), 2
     ),
 }
+#: Words before a length that is not the muscle's.
+OTHER_LENGTHS = word_set(
+    "radius diameter pulley drum wheel wire tube hose cylinder bore wall travel range durchmesser rolle "
+    "scheibe schlauch rayon diametre poulie raggio diametro puleggia radio polea raio polia promien srednica "
+    "polomer prumer straal halfsalja"
+)
 #: Words for a running number, a remark: columns of these names are no channel.
 NO_CHANNEL = {word: reason for reason, texts in words.NO_CHANNELS.items() for word in all_words(texts)}
 #: Remark -> its words: "at rest", "load", "supply", "ambient", "barometer", "sample", "date".
@@ -142,6 +148,8 @@ HOLDS = frozenset(all_words(words.HOLDS))
 SIGN_WORDS = {what: frozenset(all_words(texts)) for what, texts in words.SIGNS.items()}
 #: State of a valve, "closed", "open" (fills the muscle), "exhaust" -> words for it.
 VALVE_WORDS = {state: frozenset(all_words(texts)) for state, texts in words.VALVES.items()}
+#: Words with which a text says that a pressure was measured, not set.
+MEASURED_WORDS = frozenset(all_words(words.MEASURED))
 #: Words of heads that name the phase of a test.
 PHASES = frozenset(all_words(words.PHASES))
 #: Words for the reference of a pressure: True = absolute.

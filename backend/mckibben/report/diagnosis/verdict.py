@@ -128,6 +128,8 @@ def _unknown(verdict: Verdict) -> Html:
             ]
         ),
     ]
+    if verdict.repeats is not None:
+        parts.append(paragraph(f"{verdict.repeats.text[0].upper()}{verdict.repeats.text[1:]}."))
     term = verdict.proposed_term
     if term is None:
         return html([*parts, *([paragraph(verdict.where_to_look)] if verdict.where_to_look else [])])

@@ -178,6 +178,35 @@ class NextExperiment(Strict):
     set_points: dict[str, SetPoints] = Field(description="Linear between the rows.")
 
 
+class SamePeriod(Strict):
+    """A period over another coordinate that the data cannot tell from the repetition."""
+
+    over: Literal["length", "pressure", "time"] = Field(description="The coordinate.")
+    period: float = Field(description="In m, Pa or s.")
+
+
+class Repetition(Strict):
+    """A periodic part of the unexplained residual."""
+
+    over: Literal["length", "pressure", "time"] = Field(description="What it repeats over.")
+    unit: Literal["m", "Pa", "s"] = Field(description="Unit of the period.")
+    period: float = Field(description="The period.")
+    share: float = Field(description="Share of the mean square of the residual that it explains.")
+    amplitude: float = Field(
+        description="Of the predicted channel, in its unit; at the mean pressure where it grows with it."
+    )
+    grows_with_pressure: bool = Field(description="Whether its amplitude is in proportion to the pressure.")
+    false_alarm: float = Field(
+        description="Chance that noise does as well somewhere among all periods tried; below 1e-4."
+    )
+    left_out_share: float = Field(description="The share that it explains of sweeps it was not fitted to.")
+    parts: int = Field(description="Number of records, or of sweeps.")
+    shown: int = Field(description="Number of those that a fit to the others explains.")
+    parts_are: Literal["records", "sweeps"] = Field(description="What the parts are.")
+    also: list[SamePeriod] = Field(description="What these data cannot tell it from.")
+    text: str = Field(description="All of it in words.")
+
+
 class Verdict(Strict):
     """The verdict of the diagnosis."""
 
@@ -200,6 +229,9 @@ class Verdict(Strict):
     )
     unexplained_share: float = Field(description="Share of the residual that is left to explain, 0 to 1.")
     unexplained_in: list[str] = Field(description="Variables that this part depends on.")
+    repeats: Repetition | None = Field(
+        description="What of it is periodic; null where nothing is beyond doubt, or no effect is unknown."
+    )
     proposed_term: ProposedTerm | None = Field(description="A formula for it; null where none was proven.")
     where_to_look: str | None = Field(
         description="Without a formula: the ranges in which the unexplained error is largest."

@@ -12,7 +12,7 @@ from mckibben.measurement.read.words.channels import CHANNELS
 from mckibben.measurement.read.words.columns import COUNTERS, NO_CHANNELS, OTHERS, STATISTIC, VALUES
 from mckibben.measurement.read.words.conditions import REFERENCES, REMARKS
 from mckibben.measurement.read.words.signs import SIGNS
-from mckibben.measurement.read.words.valves import VALVES
+from mckibben.measurement.read.words.valves import MEASURED, VALVES
 from mckibben.measurement.read.words.ways import DIRECTIONS, HOLDS, MOVES, PHASES, WAYS
 
 __all__ = [
@@ -21,6 +21,7 @@ __all__ = [
     "DIRECTIONS",
     "HOLDS",
     "MARKERS",
+    "MEASURED",
     "MOVES",
     "NO_CHANNELS",
     "OTHERS",

@@ -28,3 +28,15 @@ VALVES = {
         "nl": "afblazen", "fi": "purku", "ja": "排出",
     },
 }  # fmt: skip
+
+#: Words with which a text says that a pressure was measured, not set, by language.
+MEASURED = {
+    "en": "measured outlet output downstream behind sensor transducer transmitter actual",
+    "de": "gemessen gemessene ausgang auslass hinter sensor aufnehmer druckaufnehmer istdruck istwert",
+    "fr": "mesurée mesuré sortie aval capteur", "it": "misurata misurato uscita valle sensore trasduttore",
+    "es": "medida medido salida sensor transductor", "pt": "medida medido saída sensor transdutor",
+    "pl": "zmierzone wyjście wyjściu czujnik", "cs": "měřený výstup výstupu snímač",
+    "ru": "измеренное выход выходе датчик", "tr": "ölçülen çıkış çıkışı sensör",
+    "nl": "gemeten uitgang sensor opnemer", "sv": "uppmätt utlopp utgång givare",
+    "ja": "実測 測定 出口 センサ", "zh": "实测 测量 出口 传感器", "ko": "실측 측정 출구 센서",
+}  # fmt: skip

@@ -19,11 +19,12 @@ const listed = (names) =>
   names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
 
 /** "62 % of the squared residual is above the noise and depends on pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
-export function whatIsLeft({ unexplained_share: share, unexplained_in: names }) {
+export function whatIsLeft({ unexplained_share: share, unexplained_in: names, repeats }) {
   const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? readable(name));
-  return `${brief(100 * share)}\u00a0% of the squared residual is above the noise and depends on ${
-    where.length ? listed(where) : "no measured variable"
-  }`;
+  const size = `${brief(100 * share)}\u00a0% of the squared residual is above the noise`;
+  if (!where.length && repeats) return `${size}: ${repeats.text}`;
+  const depends = `${size} and depends on ${where.length ? listed(where) : "no measured variable"}`;
+  return repeats ? `${depends}; ${repeats.text}` : depends;
 }
 
 /** @typedef {{value: number | string, unit: string}} Stated */
