@@ -3,8 +3,8 @@
     python -m tests.benchmarks.laboratories [--set first] [--only lab02,lab06] [--keep FILE]
 
 `tests/laboratories` holds them. Each is diagnosed from the ideal muscle with the arguments of its user, the
-model found is saved, and it predicts the files of the laboratory's second test. Errors are over the true noise
-of the laboratory's predicted channel; a refused file is told with its message.
+model found is saved, and it predicts the files of the laboratory's second test. Errors are over the true
+noise of the laboratory's predicted channel; a refused file is told with its message.
 """
 
 from __future__ import annotations
@@ -116,13 +116,13 @@ def summary(lines: Sequence[Line]) -> list[str]:
     """The figures of the table; what no catalogue has is counted apart."""
     known = [line for line in lines if line.hidden and all(line.hidden)]
     nothing = [line for line in lines if not line.hidden]
-    judged = [*known, *nothing]
+    held = [line.second <= WANTED for line in (*known, *nothing)]
     return [
         f"read and diagnosed                  {sum(not line.refusal for line in lines)} of {len(lines)}",
         f"all hidden effects found            {sum(line.complete for line in known)} of {len(known)}",
         f"with surplus effects                {sum(bool(line.surplus) for line in known)} of {len(known)}",
         f"nothing missing: false alarms       {sum(bool(line.named) for line in nothing)} of {len(nothing)}",
-        f"second test: error <= {WANTED} x noise   {sum(one.second <= WANTED for one in judged)} of {len(judged)}",
+        f"second test: error <= {WANTED} x noise   {sum(held)} of {len(held)}",
     ]
 
 

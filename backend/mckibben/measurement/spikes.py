@@ -52,7 +52,7 @@ def _to_both_sides(values: NDArray[np.float64], spiked: NDArray[np.bool_]) -> bo
     rows = np.flatnonzero(spiked)
     rows = rows[(rows > 0) & (rows < len(values) - 1)]
     up = np.count_nonzero(values[rows] > 0.5 * (values[rows - 1] + values[rows + 1]))
-    return min(up, len(rows) - up) >= max(1.0, _AMONG * len(rows))
+    return bool(min(up, len(rows) - up) >= max(1.0, _AMONG * len(rows)))
 
 
 def _spikes(values: NDArray[np.float64], clear: float) -> NDArray[np.bool_]:
