@@ -23,6 +23,7 @@ from mckibben.identification.fit.fitter import Fitter
 from mckibben.physics.effect import Effect
 
 _BEAM = 4  # models kept in each round
+_FIRST = 6  # the same while nothing has proved better than the start: the half of a pair may look poor
 _TRIED = 8  # candidates fitted per model: those with the largest first-order gain
 _FLEXIBLE = 2  # effects tried in exchange for the sake of their further constants
 _PATIENCE = 2  # rounds without a better model after which the search stops; one where predictions are costly
@@ -64,7 +65,8 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
             best = first
             break
         beam = [with_further_constants(fitter, n, _examined(fitter, n, root)) for n in children[: 2 * _BEAM]]
-        beam = _different(beam)[:_BEAM]
+        wide = _FIRST if fitter.effort.thorough and best is root else _BEAM
+        beam = _different(beam)[:wide]
         leader = min(
             beam,
             key=lambda fitted_model: (
