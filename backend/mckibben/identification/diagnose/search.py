@@ -218,7 +218,7 @@ def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedMod
 
 
 def _with_other_constants(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
-    """The model with other further constants of an effect, where these serve better since effects have gone."""
+    """The model with other further constants of an effect where these serve better than those it has."""
     if _at_floor(fitter, best) or not fitter.effort.thorough:
         return best
     value = partial(score, rows=_rows(fitter, best), noise=fitter.noise)
