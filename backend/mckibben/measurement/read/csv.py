@@ -210,10 +210,12 @@ def without_footer(body: str, separator: str, first_line: int) -> tuple[str, lis
             lines.append(line)
         end = begin - 1
     counted = any(_is_statistic(line, separator) for line in lines)
+    titled = len(lines) > 1 and kind_of(lines[-1].strip(separator + ' "')) == TEXT
+    titled = titled and separator not in lines[-1].strip(separator + " ")
     if (
         not lines
         or end <= 0
-        or not (gap or counted or all(_is_no_reading(line, separator) for line in lines))
+        or not (gap or counted or titled or all(_is_no_reading(line, separator) for line in lines))
     ):
         return body, []
     kept = body[:end]

@@ -148,7 +148,7 @@ def main_runs(grid: Grid, runs: Sequence[Run]) -> list[Run]:
         if kept and alike and not headed and run.rows >= 2 and _is_titled(grid, kept[-1].last, run.first):
             run.headless = True
             kept.append(run)
-        elif alike and follows and not _is_footer(grid, run):
+        elif alike and follows and not _is_footer(grid, run) and not _is_summary(grid, kept[-1], run):
             last = kept[-1]
             between = range(last.last, run.first)
             broken = [(i, i + 1) for i in between if _is_broken(grid, i) and not _is_remark(grid, i, last)]
@@ -264,6 +264,23 @@ def _is_footer(grid: Grid, run: Run) -> bool:
     for index in range(run.first, run.last):
         words = words_of(next((text for text in texts_of(grid.cells(index)) if text), ""))
         if not words or not (words[0] in STATISTICS or (parted and re.match(r"[^\W\d_]", words[0]))):
+            return False
+    return True
+
+
+def _is_summary(grid: Grid, table: Run, run: Run) -> bool:
+    """Whether a piece below a table is set apart from it and its rows begin with words: "Fmax", "Fmin".
+
+    An empty row or a title without numbers sets it apart; the words stand where the table has numbers.
+    """
+    between = [texts_of(grid.cells(index)) for index in range(table.last, run.first)]
+    filled = [[cell for cell in cells if cell] for cells in between]
+    if not any(not cells or (len(cells) == 1 and kind_of(cells[0]) == TEXT) for cells in filled):
+        return False
+    for index in range(run.first, run.last):
+        kinds = [kind_of(cell) for cell in grid.cells(index)]
+        first = next((column for column, kind in enumerate(kinds) if kind != GAP), None)
+        if first is None or first not in table.numbers or kinds[first] != TEXT:
             return False
     return True
 

@@ -200,7 +200,7 @@ def _quantities(text: str) -> Iterator[_Quantity]:
     begin = 0
     for found in _QUANTITY.finditer(text):
         unit = (unit_of(found[2]) or unit_of(found[2].partition("(")[0])) if found[2] else None
-        before = re.split(r"[,;](?!\d)\s*(?=[^\W\d])", text[begin : found.start()])[-1]
+        before = re.split(r"[,;](?!\d)\s*(?=[^\W\d])(?![^()]*\))", text[begin : found.start()])[-1]
         begin = found.end()
         behind = re.split(r"[,;.:(]", text[begin : begin + 40])[0]
         own = _OWN_BEHIND.match(text, begin)
