@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Sequence
+from itertools import pairwise
 
 from mckibben.measurement.read.formulas import formulas_in
 from mckibben.measurement.read.head_text import taken_apart
@@ -195,6 +196,10 @@ def _with_clauses(texts: Texts) -> Iterator[tuple[str, str]]:
     for text, where in texts:
         clauses = re.split(r"[;|]|,(?=\s)", text)
         stated = [clause for clause in clauses if scale_in(clause, where) is not None]
+        if len(stated) < 2:  # cells of one row: "pressure 0.5 bar/V force 400 N/V"
+            begins = [m.start() for m in re.finditer(r"[^\W\d_]+", text) if channel_of_word(m[0]) in _SCALED]
+            clauses = [text[a:b] for a, b in pairwise([*begins, len(text)])]
+            stated = [clause for clause in clauses if scale_in(clause, where) is not None] or stated
         yield from ((clause, where) for clause in stated) if len(stated) > 1 else ((text, where),)
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from types import MappingProxyType
@@ -41,6 +41,7 @@ from mckibben.physics.units import convert
 _PARTS = {"ms": 1e3, "us": 1e6, "µs": 1e6, "ns": 1e9}  # of a second, and how many it has
 _FRACTION = re.compile(r":[0-9]{2}:[0-9]{2}[.,:][0-9]+\s*$")  # of a second
 _MOST_SCALED = 40  # columns
+_NUMBERED = re.compile(rf"(?<![^\W_]){CHANNEL_NUMBER.pattern.removeprefix('(?i)')}", re.IGNORECASE)
 
 
 @dataclass(frozen=True)
@@ -84,6 +85,10 @@ def with_derived(
         list(source.headers),
         [*source.units, *[None] * (len(source.headers) - len(source.units))],
     )
+    stood = [
+        f"{header} [{unit}]" if unit and taken_apart(header).unit is None else header
+        for header, unit in zip(headers, units, strict=True)
+    ]
     said: list[str] = []
     unzeroed: set[int] = set()
     pair = _seconds_and_parts(source)
@@ -95,7 +100,7 @@ def with_derived(
             f"time is the sum of '{headers[whole]}' and '{headers[part]}': it counts from the first row"
         )
         headers[whole], units[whole] = f"time from {names} [s]", None
-        del columns[part], headers[part], units[part]
+        del columns[part], headers[part], units[part], stood[part]
     for index, column in enumerate(columns[:_MOST_SCALED]):
         own = _own_scale(headers[index], index, scales)
         if own is not None:
@@ -127,7 +132,7 @@ def with_derived(
     messages = [*source.messages, *said]
     return replace(
         _mapped(source, columns), headers=headers, units=tuple(units), messages=messages,
-        unzeroed=frozenset(unzeroed),
+        unzeroed=frozenset(unzeroed), stood=tuple(stood),
     )  # fmt: skip
 
 
@@ -297,7 +302,7 @@ def _named_scale(source: RawTable, index: int, header: str, unit: str | None) ->
     if head.unit is None or not (dimension_of(head.unit) in RAW_DIMENSIONS or share):
         return None
     measured = dimension_of(FULL_SCALE if share else head.unit)
-    for text, where in source.rest:
+    for text, where in _by_channels(source.rest):
         found = scale_of(text, head.name, where)
         named = found is not None
         if found is None and _names_only(text, index, source.headers):
@@ -316,6 +321,19 @@ def _named_scale(source: RawTable, index: int, header: str, unit: str | None) ->
         if found is not None and dimension_of(found.raw) == dimension_of(head.unit):
             return found._replace(factor=found.factor * float(convert([1.0], head.unit, found.raw)[0]))
     return None
+
+
+def _by_channels(texts: Sequence[tuple[str, str]]) -> Iterator[tuple[str, str]]:
+    """Each text; of one that states scales of several channels what it says of each: "CH1: .. CH2: ..".
+
+    >>> [text for text, _ in _by_channels([("Scale CH1: 2 bar/V CH2: 50 N/V", "line 2")])]
+    ['CH1: 2 bar/V', 'CH2: 50 N/V']
+    """
+    for text, where in texts:
+        begins = [match.start() for match in _NUMBERED.finditer(text)]
+        parts = [text[a:b].strip(" ,;|") for a, b in pairwise([*begins, len(text)])]
+        scaled = len(parts) > 1 and sum(scale_in(part, where) is not None for part in parts) > 1
+        yield from ((part, where) for part in parts) if scaled else ((text, where),)
 
 
 def _names_only(text: str, index: int, headers: Sequence[str]) -> bool:

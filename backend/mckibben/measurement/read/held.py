@@ -22,12 +22,12 @@ from mckibben.measurement.read.vocabulary import (
 _NUMBER = r"[0-9]+(?:[.,][0-9]+)?"
 _HELD = re.compile(
     rf"(?i)(?:(?:\b(?:bei|at|à|a|con|für|for|mit|avec|with|of|von)\b|@|\b[a-zκ]\s*[=:])\s*)?"
-    rf"(?<![\d.,…–-])(?P<number>{_NUMBER})\s*(?P<unit>mbar|bar|kPa|MPa|hPa|Pa|psi)(?:\s*\(?(?P<mark>abs|a|g|ü|rel)\b\.?\)?)?(?![\w/])"
+    rf"(?<![\d.,…–-])(?P<number>{_NUMBER})\s*(?P<unit>mbar|bar|kPa|MPa|hPa|Pa|psi)(?:\s*\(?(?P<mark>abs|a|g|ü|rel)\b\.?\)?)?(?![\w/]|\s+(?:per|pro|je|par|por)\s)"
 )
 
 
 _HELD_OTHER = re.compile(
-    rf"(?:(?P<word>[^\W\d_]+0?)\s*[=:]?\s*)?(?<![\w.,-])(?P<number>{_NUMBER})\s*(?P<unit>mm|cm|m|%|kg|kN|N)(?![\w/])"
+    rf"(?:(?P<word>[^\W\d_]+0?)\s*[=:]?\s*)?(?<![\w.,-])(?P<number>{_NUMBER})\s*(?P<unit>mm|cm|m|%|kg|kN|N)(?![\w/]|\s+(?:per|pro|je|par|por)\s)"
 )
 #: A scale or a range of a sensor is nothing held: "100 % = 10 bar", "1 V = 2 bar", "0-10 bar".
 _SCALE = re.compile(

@@ -19,7 +19,7 @@ from mckibben.measurement.read.vocabulary import MOVES, VALVE_WORDS, has_word, r
 _NUMBER = r"[+-]?[0-9]+(?:[.,][0-9]+)?"
 _COUNTED = r"counts?|cts|digits?|pulses?|incs?|increments?|inkremente|impulse?|ticks?|steps?|LSB"
 _SHARE = r"%(?:\s*(?:FS|F\.S\.|full[ -]scale|of (?:full scale|range)|v\.\s?E\.))?"
-_RAW = rf"(?P<raw>mV\s?/\s?V|mV|V|mA|A|{_SHARE}|{_COUNTED})"
+_RAW = rf"(?P<raw>mV\s?/\s?V|mV|[Vv]olts?|V|mA|A|{_SHARE}|{_COUNTED})"
 _UNIT = r"(?P<unit>[^\W\d_]+[0-9²]?(?:/[^\W\d_]+[2²]?)?(?:\s?\((?:a|g|abs|gauge)\))?|%)"
 _TO = r"\s*(?:=|≙|≈|:|->|→|for|per|to|is|corresponds to|entspricht|entsprechen|pour|per|für)\s*"
 _SPAN = rf"({_NUMBER})\s*(?:-|–|\.\.+|to|bis|\.{{2,3}}|…)\s*({_NUMBER})\s*"
@@ -234,6 +234,8 @@ _ZERO_WORD = (
 _ZERO_AT = re.compile(
     rf"{_ZERO_WORD}\s*(?:at|bei|is|=|:|of|von|à|a)?\s*({_NUMBER})\s*(?P<unit>{_RAW}|[^\W\d_]+)(?![\w/])"
 )
+#: The reading that is taken off: "(U - 1 V)".
+_SHIFTED = re.compile(rf"\(\s*[^\W\d]\w*\s*(?P<sign>[-−–+])\s*(?P<number>{_NUMBER})\s*{_RAW}\s*\)")
 
 
 def zero_in(text: str, raw: str) -> float | None:
@@ -241,7 +243,15 @@ def zero_in(text: str, raw: str) -> float | None:
 
     >>> zero_in("gain 200 N/V, offset 0.12 V", "V")
     0.12
+    >>> zero_in("0.5 bar/V * (U - 1 V)", "V"), zero_in("2 mm per volt, 2.5 V = 0 mm", "V")
+    (1.0, 2.5)
     """
+    for found in _SHIFTED.finditer(text):
+        if _raw_unit(found["raw"]) == raw:
+            return -_float(found["number"]) if found["sign"] == "+" else _float(found["number"])
+    for found in _POINT.finditer(text):
+        if _raw_unit(found["raw"]) == raw and not _float(found[3]) and _float(found[1]):
+            return _float(found[1])
     for found in _ZERO_AT.finditer(text):
         if _raw_unit(found["unit"]) == raw:
             return _float(found[1])
@@ -286,7 +296,9 @@ def _raw_unit(text: str) -> str:
     bare = "".join(text.split())
     if bare.startswith("%"):
         return FULL_SCALE
-    return COUNT if re.fullmatch(_COUNTED, bare) else BRIDGE if bare == "mV/V" else bare
+    if re.fullmatch(_COUNTED, bare):
+        return COUNT
+    return BRIDGE if bare == "mV/V" else "V" if bare.lower().startswith("volt") else bare
 
 
 def _float(text: str) -> float:

@@ -43,6 +43,7 @@ class RawTable:
         raw: the first rows as they stand in the file; None where the format has no rows.
         tables: the tables that the user may pick by name, and whether each is read.
         unzeroed: columns read by a scale of which the file does not say at which reading the value is 0.
+        stood: the headers with their units before anything was computed; empty = they are the same.
     """
 
     place: str
@@ -63,6 +64,7 @@ class RawTable:
     raw: RawRows | None = None
     tables: tuple[tuple[str, bool], ...] = ()
     unzeroed: frozenset[int] = frozenset()
+    stood: tuple[str, ...] = ()
 
 
 def array_source(
