@@ -72,8 +72,8 @@ def meaning_of(source: RawTable, correction: Correction, *, collect: bool = Fals
         noun=source.noun,
         chosen=correction.columns,
         collect=collect,
-        units=source.units,
-    )
+        units=source.units, stood=source.stood,
+    )  # fmt: skip
     meaning = with_valve_pressure(source, with_constants(source, with_clock(source, meaning)))
     return with_proposed_stroke(source, meaning, correction.conditions)
 

@@ -23,7 +23,7 @@ from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.read.propose import PROPOSED
 from mckibben.measurement.read.questions import column_option, ignore_option
-from mckibben.measurement.read.raw_signals import raw_questions
+from mckibben.measurement.read.raw_signals import question_of_chosen, raw_questions
 from mckibben.measurement.read.recognise import BY_WORDS
 from mckibben.measurement.read.unit_words import dimension_of
 from mckibben.physics.units import convert
@@ -95,7 +95,9 @@ def _units(evidence: Evidence) -> list[Question]:
         raw = convert(values, si, si) if unit == si else _back(values, unit, si)
         span = f"{np.min(raw):.4g} to {np.max(raw):.4g}"
         named = f"{evidence.noun} '{column.header}'"
-        if column.unit_origin == "proposed":
+        if column.unit_origin == "proposed" and (signal := question_of_chosen(evidence, channel)) is not None:
+            asked.append(signal)
+        elif column.unit_origin == "proposed":
             found = proposal(channel, raw)
             if found.si_will_do and not (channel == "force" and _open_force(evidence, found.choices)):
                 continue

@@ -23,13 +23,15 @@ from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
 from mckibben.measurement.read.marks import split_mark
 from mckibben.measurement.read.scales import said_scale
-from mckibben.measurement.read.unit_words import CLOCK, unit_of
+from mckibben.measurement.read.unit_words import CLOCK, RAW_DIMENSIONS, dimension_of, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import factor
 
 #: Uses of a column besides a channel.
 SLACK, SAMPLE = "slack", "sample"
 USES = (*CHANNEL_UNITS, SLACK, SAMPLE)
+#: Other names of a channel: the weights that hang on a muscle are the force that it pulls with.
+SAME_CHANNEL = {"load": "force", "mass": "force", "weight": "force"}
 MAX_LENGTH = 20_000  # characters of the JSON
 _PARTS = (
     "columns", "kind", "conditions", "bad_rows", "sheet", "head", "column", "ignore", "rest_length", "load",
@@ -226,12 +228,13 @@ def column_choice(text: str, *, where: str) -> tuple[str, Choice]:
             field=where,
             hint='e.g. "force=-Kraft [kN]"',
         )
-    channel, sign, name = found.groups()
+    said, sign, name = found.groups()
+    channel = SAME_CHANNEL.get(said, said)
     if channel not in USES:
         raise InputError(
-            f"{where} {text[:80]!r}: there is no channel '{channel}'",
+            f"{where} {text[:80]!r}: there is no channel '{said}'",
             field=where,
-            hint=did_you_mean(channel, USES),
+            hint=did_you_mean(said, (*USES, *SAME_CHANNEL)),
         )
     minus = -1 if sign == "-" else 1
     split = _WITH_UNIT.fullmatch(name)
@@ -244,7 +247,14 @@ def column_choice(text: str, *, where: str) -> tuple[str, Choice]:
             f"{where} {text[:80]!r}: '{split[2][:40]}' is not a known unit", field=where,
             hint=f"e.g. '{CHANNEL_UNITS.get(channel, '1')}'",
         )  # fmt: skip
-    spelling = _WEIGHT_UNITS.get(unit.unit, unit.unit) if channel == "force" else unit.unit
+    if scale is None and dimension_of(unit.unit) in RAW_DIMENSIONS and channel != "command":
+        return name, Choice(channel, None, None, minus)  # a signal has its own unit in its name
+    spelling = WEIGHTS.get(unit.unit, unit.unit) if channel == "force" else unit.unit
+    if said == "mass" and dimension_of(unit.unit) != "a mass":
+        raise InputError(
+            f"{where} {text[:80]!r}: '{split[2][:40]}' is not a unit of mass", field=where,
+            hint="e.g. 'kg', or force= or load= for a weight in N",
+        )  # fmt: skip
     try:
         if spelling != CLOCK:
             factor(spelling, CHANNEL_UNITS.get(channel, "1"))
@@ -256,7 +266,8 @@ def column_choice(text: str, *, where: str) -> tuple[str, Choice]:
     return split[1], Choice(channel, spelling, unit.absolute, minus, None if scale is None else split[2])
 
 
-_WEIGHT_UNITS = {"kg": "kgf", "g": "gf"}
+#: Unit of a mass -> that of its weight.
+WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf"}
 
 
 def _given(value: str | float, key: str, where: str) -> float | str:
@@ -320,7 +331,8 @@ def _choice(value: Any, key: str) -> Choice | None:
     if value is None:
         return None
     given = _object(value, key, _CHOICE_KEYS)
-    channel = _one_of(given.get("channel"), USES, f"{key}.channel")
+    said = _one_of(given.get("channel"), (*USES, *SAME_CHANNEL), f"{key}.channel")
+    channel = None if said is None else SAME_CHANNEL.get(said, said)
     if channel is None:
         raise _refused(f"{key}.channel", "is missing", f"one of {', '.join(USES)}")
     if (scale := given.get("scale")) is not None:
@@ -336,6 +348,7 @@ def _choice(value: Any, key: str) -> Choice | None:
     if not isinstance(unit, str):
         raise _refused(f"{key}.unit", "is not a text", "e.g. 'bar'")
     unit, marked = split_mark(unit)
+    unit = WEIGHTS.get(unit, unit) if channel == "force" else unit
     try:
         factor(unit, CHANNEL_UNITS.get(channel, "1"))
     except ValueError as error:

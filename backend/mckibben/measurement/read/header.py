@@ -21,10 +21,13 @@ from mckibben.measurement.read.plain_head import (
     plain_column,
     with_unit,
 )
-from mckibben.measurement.read.recognise import BY_UNIT, is_raw, recognise
+from mckibben.measurement.read.recognise import BY_UNIT, BY_WORDS, is_raw, recognise
 from mckibben.measurement.read.unit_words import CLOCK, fits, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 
+_MASSES = {weight: mass for mass, weight in WEIGHTS.items() if mass != "lb"}  # lbf is a unit of force as well
+#: What loggers write above their ticks -> the unit of these; "s" alone may be a stroke.
+_TICKS = {"ms": "ms", "msec": "ms", "msecs": "ms", "millis": "ms", "micros": "us"}
 _CLIPPED = 100  # penalty of a clipped column
 _NEAR = 0.75  # likeness of a word to one that it is probably meant for
 
@@ -52,7 +55,7 @@ class Meaning(NamedTuple):
 def map_headers(
     headers: Sequence[str], *, place: str, row: int | None = None, noun: str = "column",
     chosen: Mapping[str, Choice | None] | None = None, collect: bool = False,
-    units: Sequence[str | None] = (),
+    units: Sequence[str | None] = (), stood: Sequence[str] = (),
 ) -> Meaning:  # fmt: skip
     """Which column is which channel.
 
@@ -68,6 +71,7 @@ def map_headers(
         chosen: header (or "column 3") -> what the user says it is; None = not used.
         collect: keep what is wrong with a header in ``problems`` instead of raising it.
         units: units that stand apart from the headers, one per header.
+        stood: the names as the file writes them, where they differ; a choice may use either.
 
     Raises:
         InputError: no or duplicate names, no known channel, a unit that is unknown or of another dimension, a
@@ -80,7 +84,7 @@ def map_headers(
     field = f"{noun}s" if row is None else f"row {row}"
     if not any(names):
         raise InputError(f"{where}: the header names no column", field=field, hint=HEADER_EXAMPLE)
-    choices = _positions(chosen or {}, names)
+    choices = _positions(chosen or {}, names, apart, stood)
     messages: list[str] = []
     problems: dict[int, InputError] = {}
     seen: set[str] = set()
@@ -93,6 +97,9 @@ def map_headers(
                 column = _chosen(index, header, choices[index], apart[index])
                 if column is None:
                     reasons[index] = DISMISSED
+                elif column.use == "force" and column.unit in _MASSES:
+                    kilos = _MASSES[column.unit]
+                    messages.append(f"{noun} '{header}' is the force: the weight of its {kilos}")
             elif header and header.casefold() in seen and recognise(name, apart[index]).channel != "time":
                 raise InputError(
                     f"{where}, {noun} '{header[:MAX_HEADER]}': the name occurs twice",
@@ -168,6 +175,8 @@ def _in_other_words(
     if not (header or unit) or len(header) > MAX_HEADER:
         return None
     known = recognise(header, unit)
+    if unit is None and (ticks := _TICKS.get(header.lower().removesuffix("()"))) is not None:
+        return HeaderColumn(index, header, "time", ticks, penalty=BY_WORDS + BY_UNIT)
     if known.channel is None:
         reasons[index] = known.left_out or UNKNOWN
         return None
@@ -182,26 +191,56 @@ def _is_unit(header: str) -> bool:
     return not header or unit_of(header) is not None
 
 
-def _positions(chosen: Mapping[str, Choice | None], names: Sequence[str]) -> dict[int, Choice | None]:
-    """Column index of each choice; a column is named by its header, or by its place ("column 3")."""
+def _positions(
+    chosen: Mapping[str, Choice | None], names: Sequence[str], apart: Sequence[str | None],
+    stood: Sequence[str],
+) -> dict[int, Choice | None]:  # fmt: skip
+    """Column index of each choice.
+
+    A column is named by its header, also as the file writes it or with its unit, or by its place, "column 3".
+    """
+    bare = [taken_apart(name).name for name in names]
+    before = [taken_apart(name).name for name in stood]
+    with_units = [_united(name, unit) for name, unit in zip(names, apart, strict=True)]
+    with_units_before = [_united(name, None) for name in stood]
     result = {}
     for key, choice in chosen.items():
         numbered = re.fullmatch(r"column ([1-9][0-9]{0,4})", key)
-        bare = [taken_apart(name).name for name in names]
+        written = _united(key, None)
+        among = next(
+            (
+                (known, wanted)
+                for known, wanted in (
+                    (bare, key),
+                    (stood, key),
+                    (before, key),
+                    (with_units, written),
+                    (with_units_before, written),
+                )
+                if list(known).count(wanted) == 1
+            ),
+            None,
+        )
         if key in names:
             index = names.index(key)
-        elif bare.count(key) == 1:
-            index = bare.index(key)
+        elif among is not None:
+            index = list(among[0]).index(among[1])
         elif numbered and int(numbered[1]) <= len(names):
             index = int(numbered[1]) - 1
         else:
             raise InputError(
                 f"mapping.columns: the file has no column '{key[:MAX_HEADER]}'",
                 field=f"mapping.columns.{key[:MAX_HEADER]}",
-                hint=did_you_mean(key, [name for name in names if name]),
+                hint=did_you_mean(key, [name for name in (*names, *stood) if name]),
             )
         result[index] = choice
     return result
+
+
+def _united(name: str, unit: str | None) -> tuple[str, str | None, bool | None]:
+    """Name, unit and reference of a column, however they are written: "Kraft (N)" and "Kraft" over "N"."""
+    head = taken_apart(name, unit)
+    return head.name, head.unit, head.absolute
 
 
 def _chosen(index: int, header: str, choice: Choice | None, apart: str | None) -> HeaderColumn | None:

@@ -8,10 +8,11 @@ from collections.abc import Mapping, Sequence
 from mckibben.measurement.read.channel_lists import listed_above
 from mckibben.measurement.read.column_lists import listed_columns
 from mckibben.measurement.read.grid import BLANKS, Grid, TextGrid
-from mckibben.measurement.read.head_text import CHANNEL_NUMBER
+from mckibben.measurement.read.head_text import CHANNEL_NUMBER, taken_apart
 from mckibben.measurement.read.held import held_quantities
 from mckibben.measurement.read.locate import Run, TableHead, names_channel, texts_of
 from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.scales import scale_in
 from mckibben.measurement.read.unit_words import dimension_of, unit_of
 from mckibben.measurement.read.values import NUMBER, TEXT, kind_of
 from mckibben.measurement.read.vocabulary import UNIT_WORDS, words_of
@@ -137,7 +138,46 @@ def _listed(grid: Grid, run: Run, rows: Sequence[int]) -> TableHead | None:
         named = [cell for cell in texts_of(grid.cells(index)) if names_channel(cell)]
         if index != found.row and len(named) >= listed and _fits(grid, index, run.width):
             return None
+    if (own := _named_above(grid, run, found.row)) is not None:
+        return TableHead(
+            _explained(own, found.names), [None] * run.width, run.first - 1, None, (run.first - 1,)
+        )
     return TableHead(found.names, [None] * run.width, found.row, None, ())
+
+
+def _named_above(grid: Grid, run: Run, listed_at: int) -> list[str] | None:
+    """The names in the row right above the numbers: one for each column, two of them with a channel or unit.
+
+    None where that row is the list itself, a comment, or says less.
+    """
+    index = run.first - 1
+    names = texts_of(grid.cells(index)) if index >= 0 and index != listed_at else []
+    if len(names) != run.width or not all(kind_of(name) == TEXT for name in names):
+        return None
+    if isinstance(grid, TextGrid) and re.match(r"\s*(#|%|//)", grid.lines[index]):
+        return None
+    telling = [
+        name for name in names if names_channel(name) or (recognise(name).unit and unit_of(name) is None)
+    ]
+    return names if len(telling) > 1 and len(set(names)) == len(names) else None
+
+
+def _explained(names: Sequence[str], listed: Sequence[str]) -> list[str]:
+    """Names, those that tell no channel with the words of a list: "len_mm" is "len_mm: length [mm]".
+
+    The unit of the name itself counts where it has one.
+    """
+    result = []
+    for name, words in zip(names, listed, strict=True):
+        own, told = recognise(name), recognise(words)
+        helps = own.channel is None and not own.otherwise and told.channel is not None
+        if not helps:
+            result.append(name)
+            continue
+        unit = own.unit or (unit.unit if (unit := unit_of(name)) is not None else None)
+        plain = taken_apart(words)
+        result.append(f"{name}: {plain.name} [{unit}]" if unit else f"{name}: {words}")
+    return result
 
 
 def _fits(grid: Grid, index: int, width: int) -> bool:
@@ -281,7 +321,9 @@ def _row_of_names(
             return 0, 0, index
         inside = [cell for column, cell in enumerate(cells) if cell and column < run.width]
         units = sum(unit_of(cell) is not None for cell in inside)
-        known = sum(names_channel(cell) or cell in lists[index] for cell in inside)
+        known = sum(
+            (names_channel(cell) and scale_in(cell, "") is None) or cell in lists[index] for cell in inside
+        )
         return known, 0 if inside and 2 * units > len(inside) else len(inside), index
 
     return max(rows, key=score)

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
-from mckibben.measurement.read.correction import SAMPLE, SLACK
+from mckibben.measurement.read.correction import SAMPLE, SLACK, WEIGHTS
 from mckibben.measurement.read.marks import MARK_WORDS, split_mark
 from mckibben.measurement.read.unit_words import fits
 from mckibben.physics.errors import InputError
@@ -163,8 +163,6 @@ def with_unit(
     )
 
 
-#: Unit of a mass -> that of its weight.
-WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf"}
 _UNIT_EXAMPLES = {
     "pressure": "bar", "length": "mm", "displacement": "mm", "diameter": "mm", "contraction": "pct",
     "command": "pct", "temperature": "degC",

@@ -94,17 +94,31 @@ def _volts(evidence: Evidence) -> list[Question]:
         channel = proper_channel(recognise(name).channel) or _of_voltage(name)
         if channel not in _SCALES or _is_filled(evidence, channel) or channel in asked:
             continue
-        span = f"{_RAW_SPANS.get(unit, f'0 to 10 {unit}')} = {_SCALES[channel][1]}"
-        header = evidence.headers[index]
-        asked[channel] = Question(
-            f"scale of {channel}",
-            f"{evidence.noun} '{header}' ({channel}) is a signal in {unit}"
-            f"{' of a range' if share else ''}, and no text of the file says its "
-            f"scale; which one is it",
-            column_option(channel, name, span),
-            header,
-        )
+        asked[channel] = scale_question(evidence.noun, evidence.headers[index], channel, name, unit, share)
     return list(asked.values())
+
+
+def scale_question(
+    noun: str, header: str, channel: str, name: str, unit: str, share: bool = False
+) -> Question:  # fmt: skip
+    """What a signal without a scale is asked; ``name`` is that of the column without its unit."""
+    span = f"{_RAW_SPANS.get(unit, f'0 to 10 {unit}')} = {_SCALES[channel][1]}"
+    return Question(
+        f"scale of {channel}",
+        f"{noun} '{header}' ({channel}) is a signal in {unit}{' of a range' if share else ''}, and no text "
+        "of the file says its scale; which one is it",
+        column_option(channel, name, span),
+        header,
+    )
+
+
+def question_of_chosen(evidence: Evidence, channel: str) -> Question | None:
+    """The question for a column whose channel the user says, where it holds a signal without a scale."""
+    index = evidence.used[channel].place
+    name, unit = _head(evidence, index)
+    if unit is None or dimension_of(unit) not in _CALIBRATED or channel not in _SCALES:
+        return None
+    return scale_question(evidence.noun, evidence.headers[index], channel, name, unit)
 
 
 def _of_voltage(name: str) -> str | None:
