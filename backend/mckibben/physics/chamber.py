@@ -180,7 +180,9 @@ def muscle_side(
         if not effect.states:
             continue
         if "rates" in effect.slots:
-            given = effect.call("rates", seen, values[effect.id])
+            # The gas here is that of the muscle: no sensor is before or behind it.
+            still = {"pressure_rate": 0.0} if effect.between_sensor_and_muscle else {}
+            given = effect.call("rates", seen | still, values[effect.id])
         else:
             here = {**drive, "opening": flows["openings"].get(effect.id, 0.0)}
             given = effect.call("drive_rates", here, values[effect.id])

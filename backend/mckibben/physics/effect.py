@@ -256,6 +256,11 @@ class Effect:
             "tube_length" in names for names in self._wanted.values()
         )
 
+    @property
+    def between_sensor_and_muscle(self) -> bool:
+        """Whether the pressure in the muscle follows the measured one with it."""
+        return "pressure" in self.slots and bool(self.states)
+
     def wanted(self, slot: str) -> tuple[str, ...]:
         """Names of the arguments that the slot's function requests."""
         return self._wanted[slot]

@@ -239,7 +239,7 @@ class Memory:
     def _pressure(self, effect: Effect, clock: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """The pressure that an effect's states follow; noise passes a lag of the pressure without a lag."""
         pressure = self._task.state["pressure"][rows]
-        return without_input_noise(clock[rows], pressure) if "pressure" in effect.slots else pressure
+        return without_input_noise(clock[rows], pressure) if effect.between_sensor_and_muscle else pressure
 
     def _begin(self, run: _Wanted, effect: Effect, row: int, motion: float) -> dict[str, float]:
         """The states that are not at rest at the first row of a record."""

@@ -165,7 +165,7 @@ class TransientPredictor(Predictor):
             return "it acts on the force reading, and no force was measured"
         if not self.commanded and set(effect.slots) & set(_AIR):
             return "it acts on the flow of air; here the measured pressure is the input"
-        if self.commanded and effect.states and "pressure" in effect.slots:
+        if self.commanded and effect.between_sensor_and_muscle:
             return "it acts between a pressure sensor and the muscle; here the drive fills the muscle"
         drive = self._records[0].drive
         if effect.of_tube and drive.tube is None and drive.assumed_tube is None:

@@ -10,6 +10,8 @@ upstream and downstream of the tube, the air flows as through a restriction of I
 The index m is 1/2 for an orifice and 1 for a capillary. The gas that a change of volume takes is not
 counted. A negative time is a sensor behind the muscle, :math:`P_m = P + 5d,\ \dot d = \dot P - 5d/|\tau|`, to
 first order :math:`P + |\tau|\dot P`. Below 0.1 ms the muscle has the measured pressure.
+
+Where a valve fills a simulated muscle the pressure is that in the muscle, and the effect does nothing.
 """
 
 from mckibben.physics import ops
