@@ -84,3 +84,15 @@ def test_the_rows_of_a_map_are_sorted_along_its_lines():
     np.testing.assert_array_equal(plain.rows, np.arange(len(rows)))
     np.testing.assert_array_equal(order[mixed.rows], np.arange(len(rows)))
     np.testing.assert_array_equal(plain.measurement.columns["force"], mixed.measurement.columns["force"])
+
+
+def test_where_the_order_is_that_of_the_test_only_a_row_after_its_like_is_a_copy():
+    """Up and down again, the same pressures on both ways: a reading that comes back is none."""
+    way = [*range(10), *range(9, -1, -1)]
+    rows = [f"{1 + 0.5 * k},0.28,{300 + 50 * k}" for k in way]
+    header = "pressure_bar,length_m,force_N"
+    plain = read(header, rows, "isometric")
+    assert plain.by_rows
+    assert settled(plain).repeated == 0  # one equal pair, at the turn, may be two readings
+    twice = settled(read(header, [row for row in rows for _ in range(2)], "isometric"))
+    assert twice.repeated == 21

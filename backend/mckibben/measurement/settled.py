@@ -46,8 +46,9 @@ def settled(measurement: Measurement) -> Settled:
     """The measurement with values of twelve digits and times that begin at 0 in each file.
 
     A row that repeats another one of its file in every column is left out: with time always, without time
-    only where a tenth of the rows does, as coarse readings may be equal by chance, and none where the order
-    of the rows is that of the test. The rows of another static map without time are sorted within each group,
+    only where a tenth of the rows does, as coarse readings may be equal by chance. Where the order of the rows
+    is that of the test, a way comes back to its readings: only a row after its like is a copy. The rows of
+    another static map without time are sorted within each group,
     along the quantity that changes there.
 
     Args:
@@ -64,8 +65,8 @@ def settled(measurement: Measurement) -> Settled:
     file = np.zeros(measurement.rows, dtype=np.int64)
     file[list(measurement.starts)] = 1
     file = np.cumsum(file)
-    copies = _copies(columns, file)
-    if measurement.by_rows or (not timed and np.count_nonzero(copies) <= _COPIED * measurement.rows):
+    copies = _copies(columns, file, only_next=measurement.by_rows)
+    if "time" not in measurement.columns and np.count_nonzero(copies) <= _COPIED * measurement.rows:
         copies[:] = False
     rows = np.flatnonzero(~copies)
     if measurement.kind == "static" and not timed:
@@ -118,9 +119,11 @@ def record_time(time: NDArray, starts: Sequence[int] = (0,)) -> NDArray[np.float
     return np.round(elapsed, -int(np.ceil(np.log10(grid)))).astype(np.float64)
 
 
-def _copies(columns: Mapping[str, NDArray], file: NDArray) -> NDArray[np.bool_]:
-    """Mask of the rows that equal an earlier row of their file in every column."""
+def _copies(columns: Mapping[str, NDArray], file: NDArray, *, only_next: bool) -> NDArray[np.bool_]:
+    """Mask of the rows that equal an earlier row of their file, or the one before, in every column."""
     table = np.column_stack([file, *columns.values()]) + 0.0  # -0 and 0 are equal
+    if only_next:
+        return np.concatenate([[False], np.all(table[1:] == table[:-1], axis=1)])
     first = np.unique(table, axis=0, return_index=True)[1]
     copies = np.ones(len(table), bool)
     copies[first] = False
