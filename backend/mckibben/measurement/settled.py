@@ -46,10 +46,9 @@ def settled(measurement: Measurement) -> Settled:
     """The measurement with values of twelve digits and times that begin at 0 in each file.
 
     A row that repeats another one of its file in every column is left out: with time always, without time
-    only where a tenth of the rows does, as coarse readings may be equal by chance. Where the order of the rows
-    is that of the test, a way comes back to its readings: only a row after its like is a copy. The rows of
-    another static map without time are sorted within each group,
-    along the quantity that changes there.
+    only where a tenth of the rows does, as coarse readings may be equal by chance. Where the order of the
+    rows is that of the test, a way comes back to its readings: only a row after its like is a copy. The rows
+    of another static map without time are sorted within each group, along the quantity that changes there.
 
     Args:
         measurement: of any kind; a time that steps back begins at 0 again.
