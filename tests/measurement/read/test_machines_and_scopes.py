@@ -233,3 +233,15 @@ def test_ticks_without_another_name_are_the_time(head: str, step: float) -> None
     found = read_measurement(text.encode(), "a.csv")
     np.testing.assert_allclose(np.diff(found.columns["time"]), step)
     assert any(f"'{head}' is read as time by its unit" in m for m in found.messages)
+
+
+def test_a_staircase_by_hand_with_times_of_the_day_is_not_asked_for_their_unit() -> None:
+    """Fifty readings a minute apart, 14h02: as seconds they are long, but nobody writes milliseconds so."""
+    minutes = range(2, 52)
+    rows = [
+        f"14h{minute:02d};{1.0 + 0.1 * (minute % 30):.1f};{400.0 - 1.2 * (minute % 30):.1f};20"
+        for minute in minutes
+    ]
+    head = "Heure;Pression [bar];Longueur [mm];Masse [kg]"
+    measurement = read_measurement("\n".join([head, *rows]).encode(), "paliers.csv")
+    assert measurement.columns["time"].tolist() == [60.0 * (minute - 2) for minute in minutes]

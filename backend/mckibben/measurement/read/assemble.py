@@ -392,5 +392,5 @@ def _evidence(
         used={use: column for use, column in by_use.items() if use in channels or use not in CHANNEL_UNITS},
         channels=thinned, numeric=numeric, pair=pair, labels=reading.table.labels,
         conditions=reading.conditions, choices=source.choices if correction.sheet is None else (),
-        noun=source.noun,
+        noun=source.noun, by_clock="time" in by_use and by_use["time"].place in source.clocks,
     )  # fmt: skip

@@ -88,6 +88,7 @@ def _units(evidence: Evidence) -> list[Question]:
             channel not in evidence.channels
             or column.unit_origin in ("you", "assumed")
             or channel in ("group", "direction")
+            or (channel == "time" and evidence.by_clock)
         ):
             continue
         values = evidence.channels[channel]

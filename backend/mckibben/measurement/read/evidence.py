@@ -30,6 +30,7 @@ class Evidence(NamedTuple):
         labels: index of a column of words -> its words.
         conditions: of the test.
         choices: other tables of the file (option, columns).
+        by_clock: the times are times of the day, whose unit nobody has to ask for.
     """
 
     headers: Sequence[str]
@@ -43,6 +44,7 @@ class Evidence(NamedTuple):
     conditions: Mapping[str, float | str]
     choices: Sequence[tuple[str, str]]
     noun: str = "column"
+    by_clock: bool = False
 
 
 def bare_name(column: HeaderColumn) -> str:

@@ -20,7 +20,12 @@ _GROUPED = re.compile(
 _DAY = r"(?:[0-9]{4}[-/.][0-9]{1,2}[-/.][0-9]{1,2}|[0-9]{1,2}[./-][0-9]{1,2}[./-][0-9]{2,4})"
 _TIME = r"[0-9]{1,2}:[0-9]{2}(?::[0-9]{2}(?:[.,:][0-9]{1,9})?)?(?:\s*[aApP][mM])?"
 _MINUTES = r"[0-9]{1,3}:[0-5][0-9][.,][0-9]{1,9}"  # and seconds: hours and minutes have no fraction
-_CLOCK = re.compile(rf"{_TIME}|{_MINUTES}|{_DAY}(?:[T ]+{_TIME}(?:Z|\s*[+-][0-9]{{2}}:?[0-9]{{2}})?)?")
+_HOURS = (
+    r"([0-9]{1,2})\s?[hH]\s?([0-5][0-9])(?:\s?(?:m|min|mn|')?\s?([0-5][0-9])\s?(?:s|\")?)?"  # 14h02, 14h02m10
+)
+_CLOCK = re.compile(
+    rf"{_TIME}|{_HOURS}|{_MINUTES}|{_DAY}(?:[T ]+{_TIME}(?:Z|\s*[+-][0-9]{{2}}:?[0-9]{{2}})?)?"
+)
 
 
 class NumberStyle(NamedTuple):
@@ -163,6 +168,8 @@ def _absolute_seconds(cell: Cell) -> tuple[float, bool] | None:
     if not isinstance(cell, str) or not _CLOCK.fullmatch(cell.strip()):
         return None
     text = cell.strip()
+    if spoken := re.fullmatch(_HOURS, text):
+        text = ":".join(part for part in spoken.groups() if part)
     if re.fullmatch(_MINUTES, text):
         minutes, seconds = text.replace(",", ".").split(":")
         return 60.0 * int(minutes) + float(seconds), False
