@@ -7,11 +7,10 @@ Every mistake of `tests.truth.wrong_entries` is made, alone and beside an effect
 is too thick and the effectiveness), the two are listed together. ``--right`` runs the cases of the sealed
 table instead, whose entries are right: none may be asked about.
 
-On 24 November 2026, seed 0: alone 26 of 27 (asked while reading 4, first 20, beside an exact twin 2),
-beside an effect 37 of 40 (5, 27, 5); wanted 90 %. Processor time 1.7 and 2.9 s in the median. Not found: a
-rest length of a muscle that is stated by thread and turns; beside an effect, a braid angle, a rest length
-and an absolute pressure that other effects explain as well. Not all drives were run. Right entries doubted:
-0 of 52 (``--right iso``), and 0 of 500 nulls.
+On 26 November 2026, seed 0: alone 26 of 27 (asked while reading 4, first 20, beside an exact twin 2),
+beside an effect 45 of 46 (5, 34, 6); wanted 90 %. Not found: a rest length of a muscle that is stated by
+thread and turns, and one beside an effect. Right entries doubted, two days before: 0 of 52
+(``--right iso``), and 0 of 500 nulls.
 """
 
 from __future__ import annotations

@@ -7,7 +7,7 @@ time, other units, names, order. *Exact* relations must give the same status, th
 alternatives, the same error and noise within 1e-3 and the same probabilities within 0.02; of half the
 sampling each effect must be in one of the groups. ``--few`` lets the diagnosis choose from six effects only.
 
-On 24 November 2026: 11 cases with 11 to 16 exact relations each that apply to them, 165 in all: every one
+On 26 November 2026: 11 cases with 11 to 16 exact relations each that apply to them, 165 in all: every one
 holds. Half the sampling: 10 of 11; of the clamped muscle, a threshold takes the place of the effectiveness.
 Three shifts and units of time of the logger hold as well.
 """
