@@ -6,6 +6,9 @@ The diagnosis sees the file, the muscle or drive document and the start model; t
 Errors are over the true noise of the case. *Found*: every hidden effect is named or in a named group of
 twins. *Surplus*: a named group that holds none of them. Where a short term is proposed for an effect that
 is in no catalogue, it is added and refitted: *taken* is the share of the excess over the noise that it takes.
+
+On 26 November 2026, seed 0: single 65 of 66, at most 1.15 x noise 62 of 66, pairs and triples 15 of 16, false
+alarms 0 of 7, not in the catalogue and flagged 6 of 7, surplus 4 of 89.
 """
 
 from __future__ import annotations
