@@ -9,11 +9,13 @@ import pytest
 
 from mckibben.identification.fit.effort import final_effort
 from mckibben.identification.fit.misfit import Misfit
+from mckibben.identification.predict import memory
 from mckibben.identification.predict.comparable_rows import ComparableRows, comparable_rows
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
-from mckibben.identification.predict.memory import Memory, remembers
+from mckibben.identification.predict.memory import HISTORIES, Memory, remembers
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.measurement.read import read_measurement
+from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.driven import driven_force
 from mckibben.simulation.statics.model import StaticModel
 from tests.identification.synthetic import (
@@ -205,3 +207,21 @@ def test_after_a_new_level_the_first_way_is_not_counted():
     assert not unseen[0, 2:15].any()
     assert unseen[1:, :15].all()
     assert not unseen[:, 20:95].any()
+
+
+def test_a_trial_that_cannot_be_followed_is_lost_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Two models side by side, one of which fails: the other has the states that it has alone."""
+    task = comparable_rows(cycles(c10=0.4e6, each=40), MUSCLE)
+    models = [fit_model(dahl={"break_strain": strain}) for strain in (0.002, 0.004)]
+    alone = Memory(task).states(models[0])["dahl.presliding"]
+    followed = memory.driven_states_of_many
+
+    def failing(given, *rest, **named):
+        if any(model.values["dahl"]["break_strain"] == 0.004 for model in given):
+            raise InputError("it does not follow this record")
+        return followed(given, *rest, **named)
+
+    monkeypatch.setattr(memory, "driven_states_of_many", failing)
+    first, second = Memory(task).together([(model, HISTORIES["rest"]) for model in models])
+    np.testing.assert_array_equal(first["dahl.presliding"], alone)
+    assert np.isnan(second["dahl.presliding"]).all()

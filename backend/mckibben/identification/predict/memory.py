@@ -93,6 +93,7 @@ class Memory:
     def __init__(self, task: ComparableRows) -> None:
         self._task = task
         self._kept: dict[tuple, dict[str, np.ndarray]] = {}
+        self._smooth: dict[tuple[int, int], np.ndarray] = {}  # pressures by first row and number of rows
         # A model remembers the same with and without a late reading, so corners do not belong to its path.
         path = np.ones(len(task.records), bool) if task.corners is None else ~task.corners
         records = [np.flatnonzero(path & (task.records == label)) for label in np.unique(task.records)]
@@ -215,19 +216,9 @@ class Memory:
         ]
         for rows in parts:
             motion = self._first_motion(rows) if any(run.before.slid for run in runs) else 0.0
-            try:
-                states = driven_states_of_many(
-                    models,
-                    names,
-                    time=clock[rows],
-                    pressure=self._pressure(effect, clock, rows),
-                    length=task.state["length"][rows],
-                    temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
-                    begins=[self._begin(run, effect, rows[0], motion) for run in runs],
-                    among=len(task.measured),
-                )
-            except InputError:  # values of a trial; rows without a value count as lost
-                states = [{name: np.full(len(rows), np.nan) for name in names} for _ in runs]
+            states = self._followed(models, names, effect, clock, rows, [
+                self._begin(run, effect, rows[0], motion) for run in runs
+            ])  # fmt: skip
             for trajectories, of_run in zip(found, states, strict=True):
                 for name in names:
                     trajectories[name][rows] = of_run[name]
@@ -236,10 +227,41 @@ class Memory:
                         trajectories[name][between] = np.interp(clock[between], clock[rows], of_run[name])
         return found
 
+    def _followed(
+        self, models: Sequence[StaticModel], names: Sequence[str], effect: Effect, clock: np.ndarray,
+        rows: np.ndarray, begins: Sequence[Mapping[str, float]],
+    ) -> list[dict[str, np.ndarray]]:  # fmt: skip
+        """The states of models along a record; NaN for one that cannot be followed: those rows are lost."""
+        task = self._task
+        try:
+            return driven_states_of_many(
+                models,
+                names,
+                time=clock[rows],
+                pressure=self._pressure(effect, clock, rows),
+                length=task.state["length"][rows],
+                temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
+                begins=begins,
+                among=len(task.measured),
+            )
+        except InputError:
+            if len(models) == 1:
+                return [{name: np.full(len(rows), np.nan) for name in names}]
+        # The others do not share the fate of one among them.
+        return [
+            self._followed([model], names, effect, clock, rows, [begin])[0]
+            for model, begin in zip(models, begins, strict=True)
+        ]
+
     def _pressure(self, effect: Effect, clock: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """The pressure that an effect's states follow; noise passes a lag of the pressure without a lag."""
         pressure = self._task.state["pressure"][rows]
-        return without_input_noise(clock[rows], pressure) if effect.between_sensor_and_muscle else pressure
+        if not effect.between_sensor_and_muscle:
+            return pressure
+        place = int(rows[0]), len(rows)
+        if place not in self._smooth:
+            self._smooth[place] = without_input_noise(clock[rows], pressure)
+        return self._smooth[place]
 
     def _begin(self, run: _Wanted, effect: Effect, row: int, motion: float) -> dict[str, float]:
         """The states that are not at rest at the first row of a record."""
