@@ -283,9 +283,9 @@ LEFT = 'const { whatIsLeft } = await import("/js/views/compare/words.js"); retur
 
 def test_what_repeats_is_told_in_place_of_no_variable_and_beside_others(page: Page) -> None:
     open_compare(page)
-    repeats = {"text": "it repeats every 3.20 mm of length"}
+    repeats = {"text": "it repeats every 3.20 mm of length", "share": 0.38}
 
-    def left(names: list[str], what: dict[str, str] | None) -> str:
+    def left(names: list[str], what: dict[str, object] | None) -> str:
         verdict = {"unexplained_share": 0.62, "unexplained_in": names, "repeats": what}
         return str(run(page, LEFT, verdict)).replace("\u00a0", " ")
 
@@ -294,6 +294,7 @@ def test_what_repeats_is_told_in_place_of_no_variable_and_beside_others(page: Pa
     assert left([], repeats) == f"{size}: {repeats['text']}"
     assert left(["pressure"], None) == f"{size} and depends on pressure"
     assert left(["pressure"], repeats) == f"{size} and depends on pressure; {repeats['text']}"
+    assert left(["pressure"], repeats | {"share": 0.62}) == f"{size}: {repeats['text']}"
 
 
 @pytest.mark.examination("tests/frontend/test_sizing.py::test_from_the_empty_page_to_the_printed_report")

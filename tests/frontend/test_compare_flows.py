@@ -203,7 +203,7 @@ return plan({ ...diagnosis.peek(), not_tried: argument }).map(({ what }) => what
 
 
 @pytest.mark.examination(
-    "tests/identification/diagnose/test_diagnosis.py::test_a_ripple_is_an_unknown_effect_told_with_its_place_but_without_a_formula"
+    "tests/identification/diagnose/test_diagnosis.py::test_a_ripple_is_an_unknown_effect_told_with_its_period_but_without_a_formula"
 )
 def test_what_no_effect_explains_is_told_with_its_place_and_a_term_by_hand_explains_it(page: Page) -> None:
     open_compare(page)

@@ -231,7 +231,7 @@ def test_an_unknown_effect_brings_a_term_that_can_be_sent_back(client: TestClien
 
 
 @pytest.mark.examination(
-    "tests/identification/diagnose/test_diagnosis.py::test_a_ripple_is_an_unknown_effect_told_with_its_place_but_without_a_formula"
+    "tests/identification/diagnose/test_diagnosis.py::test_a_ripple_is_an_unknown_effect_told_with_its_period_but_without_a_formula"
 )
 def test_an_unknown_effect_without_a_short_formula_is_told_with_its_place(client: TestClient) -> None:
     rows = cycle_rows(ripple, noise=1.0, each=40)

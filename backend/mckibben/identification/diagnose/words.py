@@ -17,6 +17,7 @@ _REFITTED = 0.98  # error over the error before, below which the refit of the st
 _WORTH_TELLING = 0.15  # share of the residual that depends on variables, above which it is mentioned
 _DIFFERENT = 2.0  # left-out specimen over left-out groups above which the specimens differ
 _EVEN = 0.5  # probability below which an effect is only perhaps missing
+_MOST = 0.5  # share of the rest that repeats, from which the variables that it depends on are not told
 _FEW = 3  # alternatives that are listed without grouping them
 _UNKNOWN_NOISE = (
     "The noise cannot be estimated from these data: state it to know whether the error exceeds it."
@@ -234,10 +235,12 @@ def _share(probability: float) -> str:
 
 
 def where_to_look(result: Diagnosis) -> str:
-    """The ranges in which a rest without a formula is largest, one sentence; empty where nothing is left."""
+    """The ranges in which a rest without a formula is largest, one sentence; empty where nothing is left, or
+    most of it repeats.
+    """
     if result.status != "unknown_effect" or result.term is not None:
         return ""
-    if result.structure.share < _WORTH_TELLING:
+    if result.structure.share < _WORTH_TELLING or _mostly_repeats(result):
         return ""
     unit, scale = _unit_of(result)
     profiles = {profile.over: profile for profile in result.left_where}
@@ -266,13 +269,19 @@ def repeats(result: Diagnosis) -> str:
 def _rest(result: Diagnosis) -> str:
     """The variables that the last residual depends on, and what of it repeats."""
     if result.repetition is not None:
-        first = f"{_structured(result, ' of it')}; " if result.structure.share >= _WORTH_TELLING else ""
-        return f"{first}{repeats(result)}"
+        if result.structure.share < _WORTH_TELLING or _mostly_repeats(result):
+            return repeats(result)
+        return f"{_structured(result, ' of it')}; {repeats(result)}"
     if result.structure.share < _WORTH_TELLING:
         if result.term is not None:
             return f"the proposed term takes {100.0 * result.term.share:.0f} % of it"
         return "it depends on no measured variable; repeat the run to see whether it recurs"
     return _structured(result, " of it")
+
+
+def _mostly_repeats(result: Diagnosis) -> bool:
+    """Whether the repetition says more than the variables: a ripple depends on the contraction anyway."""
+    return result.repetition is not None and result.repetition.share >= _MOST
 
 
 def _structured(result: Diagnosis, of: str = "") -> str:

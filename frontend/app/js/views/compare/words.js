@@ -22,7 +22,8 @@ const listed = (names) =>
 export function whatIsLeft({ unexplained_share: share, unexplained_in: names, repeats }) {
   const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? readable(name));
   const size = `${brief(100 * share)}\u00a0% of the squared residual is above the noise`;
-  if (!where.length && repeats) return `${size}: ${repeats.text}`;
+  // A ripple depends on its coordinate anyway: where most of the rest repeats, the period says it.
+  if (repeats && (!where.length || repeats.share >= 0.5)) return `${size}: ${repeats.text}`;
   const depends = `${size} and depends on ${where.length ? listed(where) : "no measured variable"}`;
   return repeats ? `${depends}; ${repeats.text}` : depends;
 }
