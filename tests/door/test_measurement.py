@@ -51,6 +51,19 @@ def test_a_file_a_frame_and_arrays_are_the_same() -> None:
     assert files.experiment["rest_length"].value == 0.3
 
 
+@pytest.mark.parametrize(
+    ("unit", "one"), [(None, 9.80665), ("kg", 9.80665), ("g", 9.80665e-3), ("N", 1.0)]
+)
+def test_a_load_of_each_row_is_a_force(unit: str | None, one: float) -> None:
+    loads = np.tile([1.0, 2.0, 5.0, 8.0], 5)
+    pressure = np.repeat([1e5, 2e5, 3e5, 4e5, 5e5], 4)
+    length = 0.3 - 5e-8 * pressure + 1e-3 * loads
+    units = {} if unit is None else {"load": unit}
+    channels = {"pressure": pressure, "length": length, "load": loads}
+    data = mk.Measurement.from_arrays(channels, units=units, kind="isotonic", rest_length=0.3)
+    assert data.columns["force"] == pytest.approx(one * loads, rel=1e-12)
+
+
 def test_columns_say_what_heads_do_not() -> None:
     table = pd.DataFrame({"p [bar]": PRESSURE, "L [mm]": LENGTH, "Kraft": -FORCE / 1e3, "Traverse": LENGTH})
     by_name = mk.Measurement.from_frame(table, columns={"force": "-Kraft [kN]"}, ignore="Traverse")
@@ -99,6 +112,7 @@ def test_several_measurements_are_several_specimens() -> None:
         ({"pressure": PRESSURE, "length": LENGTH, "force": FORCE}, {"load": "3 m"}, ["load"]),
         ({"pressure": PRESSURE, "length": LENGTH, "force": FORCE}, {"experiment": {"zero": 1}}, ["zero"]),
         ({"temperature": [1.0, 2.0]}, {}, ["temperature"]),
+        ({"pressure": PRESSURE, "length": LENGTH, "force": FORCE, "load": FORCE}, {}, ["load", "force"]),
     ],
 )
 def test_bad_arrays_are_one_sentence(channels: dict, options: dict, words: list[str]) -> None:

@@ -41,6 +41,9 @@ if TYPE_CHECKING:
 #: What columns are: channel -> "name", "name [unit]" or "-name [unit]"; or texts "channel=name [unit]".
 Columns = Mapping[str, str] | Sequence[str]
 
+#: Channel that an array may be -> unit that its values have where none is stated.
+_ARRAY_UNITS = {**CHANNEL_UNITS, "load": "kg"}
+
 
 class Measurement(Result):
     """A measurement in SI with its experiment; from `mckibben.read`, a data frame or arrays."""
@@ -112,7 +115,8 @@ class Measurement(Result):
 
         Args:
             channels: channel (pressure, force, length, contraction, displacement, diameter, time, velocity,
-                command, temperature, direction, group) -> values, all of the same length.
+                command, temperature, direction, group) -> values, all of the same length. ``load`` is the
+                mass [kg] that hangs on the muscle in each row, its weight the force.
             units: channel -> unit, "bar"; SI where not stated. Pressures are gauge, "bar(a)" is absolute.
             name: for messages.
             kind, rest_length, load, supply, accuracy, experiment, strict: as in `from_frame`.
@@ -123,9 +127,9 @@ class Measurement(Result):
         headers: dict[str, Any] = {}
         stated = dict(units or {})
         for channel in (*channels, *stated):
-            if channel not in CHANNEL_UNITS:
+            if channel not in _ARRAY_UNITS:
                 raise InputError(
-                    f"there is no channel '{channel}'", hint=did_you_mean(channel, CHANNEL_UNITS)
+                    f"there is no channel '{channel}'", hint=did_you_mean(channel, _ARRAY_UNITS)
                 )
         rows = {channel: _length_of(channel, values) for channel, values in channels.items()}
         if len(set(rows.values())) > 1:
@@ -133,7 +137,7 @@ class Measurement(Result):
             raise InputError(f"the channels have different numbers of values: {told}")
         for channel, values in channels.items():
             plain = channel in ("direction", "group")
-            headers[channel if plain else f"{channel} [{stated.get(channel, CHANNEL_UNITS[channel])}]"] = (
+            headers[channel if plain else f"{channel} [{stated.get(channel, _ARRAY_UNITS[channel])}]"] = (
                 values
             )
         options = _options(
