@@ -128,9 +128,7 @@ class Measurement(Result):
         stated = dict(units or {})
         for channel in (*channels, *stated):
             if channel not in _ARRAY_UNITS:
-                raise InputError(
-                    f"there is no channel '{channel}'", hint=did_you_mean(channel, _ARRAY_UNITS)
-                )
+                raise InputError(f"there is no channel '{channel}'", hint=did_you_mean(channel, _ARRAY_UNITS))
         rows = {channel: _length_of(channel, values) for channel, values in channels.items()}
         if len(set(rows.values())) > 1:
             told = ", ".join(f"{channel} {count}" for channel, count in rows.items())

@@ -93,7 +93,7 @@ class Memory:
     def __init__(self, task: ComparableRows) -> None:
         self._task = task
         self._kept: dict[tuple, dict[str, np.ndarray]] = {}
-        self._smooth: dict[tuple[int, int], np.ndarray] = {}  # pressures by first row and number of rows
+        self._smooth: dict[tuple[str, int, int], np.ndarray] = {}  # by name, first row and number of rows
         # A model remembers the same with and without a late reading, so corners do not belong to its path.
         path = np.ones(len(task.records), bool) if task.corners is None else ~task.corners
         records = [np.flatnonzero(path & (task.records == label)) for label in np.unique(task.records)]
@@ -239,7 +239,7 @@ class Memory:
                 names,
                 time=clock[rows],
                 pressure=self._pressure(effect, clock, rows),
-                length=task.state["length"][rows],
+                length=self._length(effect, clock, rows),
                 temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
                 begins=begins,
                 among=len(task.measured),
@@ -258,9 +258,18 @@ class Memory:
         pressure = self._task.state["pressure"][rows]
         if not effect.between_sensor_and_muscle:
             return pressure
-        place = int(rows[0]), len(rows)
+        return self._smoothed("pressure", clock, rows)
+
+    def _length(self, effect: Effect, clock: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        """The length that an effect's states follow; friction would take its noise for reversals."""
+        if "friction" not in effect.slots:
+            return self._task.state["length"][rows]
+        return self._smoothed("length", clock, rows)
+
+    def _smoothed(self, name: str, clock: np.ndarray, rows: np.ndarray) -> np.ndarray:
+        place = name, int(rows[0]), len(rows)
         if place not in self._smooth:
-            self._smooth[place] = without_input_noise(clock[rows], pressure)
+            self._smooth[place] = without_input_noise(clock[rows], self._task.state[name][rows])
         return self._smooth[place]
 
     def _begin(self, run: _Wanted, effect: Effect, row: int, motion: float) -> dict[str, float]:

@@ -26,6 +26,7 @@ from mckibben.measurement.read.unit_words import unit_of
 
 _ALL_LINES = 100_000  # a longer text is taken as one table after its first lines
 _ALL_CHARACTERS = 30_000_000
+_LABVIEW = re.compile(r"(?i)labview measurement\b")
 _FIRST_LINES = 5000
 _LONGEST_LINE = 200_000  # characters
 _PAIR = re.compile(
@@ -109,13 +110,16 @@ def _sampled(lines: Sequence[str]) -> list[str]:
 
 
 def _name_abscissa(table: Table) -> None:
-    """What a preamble says of the first column, where its head is "X_Value": the time in seconds."""
+    """What a preamble says of the first column, where its head is "X_Value": the time in seconds.
+
+    LabVIEW writes seconds there unless it says another dimension.
+    """
     for index, column in enumerate(table.names):
         if re.fullmatch(r"(?i)x[_ ]?values?(?: #[0-9]+)?", column) and table.units[index] is None:
-            said = next(
-                ((text, where) for text, where in table.rest if re.match(r"(?i)x[_ ]dimension\W+time", text)),
-                None,
-            )
+            said = next((each for each in table.rest if re.match(r"(?i)x[_ ]dimension\W", each[0])), None)
+            if said is not None and not re.match(r"(?i)x[_ ]dimension\W+time", said[0]):
+                continue
+            said = said or next((each for each in table.rest if _LABVIEW.match(each[0])), None)
             if said is not None:
                 table.names[index], table.units[index] = f"{column} (time)", "s"
                 table.messages.append(f"'{column}' is the time in s ({said[1]}: '{said[0][:40]}')")

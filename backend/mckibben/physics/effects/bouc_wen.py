@@ -1,6 +1,6 @@
 r"""Bouc-Wen hysteresis, normalised to A = 1 and |z| <= 1, because the usual set of parameters is redundant.
 
-.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q} z, \qquad
+.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q}\left(\frac{L}{L_0}\right)^{m} z, \qquad
    \dot z = \frac{1}{\varepsilon_b L_0}\Bigl[\dot L - \beta|\dot L||z|^{n-1}z - (1-\beta)\,\dot L|z|^n\Bigr]
 
 With n = 1 and :math:`\beta = 1` it is the Dahl law; a large n is bilinear. It takes work over any path from
@@ -9,19 +9,32 @@ together, q > 0, with :math:`P_r = 3` bar.
 """
 
 from mckibben.physics import ops
+from mckibben.physics.contacts import LENGTH_POWER, PRESSURE_POWER, grip
 from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
-from mckibben.physics.presliding import pressed
 
 # |z|^n is computed as (z^2 + this)^(n/2), so that its derivatives by z and by n are finite at z = 0.
 _ROUNDING = 1e-12
 
 
-def friction(*, pressure: Value, presliding: Value, force: Value, pressure_power: Value) -> Value:
-    """F_c (P/P_r)^q z [N]."""
-    return force * pressed(pressure=pressure, power=pressure_power) * presliding
+def friction(
+    *,
+    pressure: Value,
+    length: Value,
+    muscle: Muscle,
+    presliding: Value,
+    force: Value,
+    pressure_power: Value,
+    length_power: Value,
+) -> Value:
+    """F_c (P/P_r)^q (L/L_0)^m z [N]."""
+    held = grip(
+        pressure=pressure, length=length, nominal_length=muscle.nominal_length,
+        pressure_power=pressure_power, length_power=length_power,
+    )  # fmt: skip
+    return force * held * presliding
 
 
 def rates(
@@ -44,7 +57,6 @@ def rates(
 _BOUC = Source("Wen, J. Eng. Mech. Div. ASCE 102 (1976) 249; Lin et al. 2015 for air muscles", "M")
 _RANGE = Source("1-2.5 % of the maximum force", "E")
 _WAY = Source("F_c over 15-200 kN/m for size 20: 0.1-3 mm of 300 mm", "E")
-_POWER = Source("0 friction without pressure, 2/3 Hertzian contacts, 1 rough surfaces under the gas", "M")
 _DEFINITION = Source("definition, by hand", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 
@@ -54,7 +66,7 @@ EFFECT = Effect(
     type="hysteretic",
     cause="Threads and elastomer yield gradually before they slide. A single state with a free exponent "
     "describes how sharply the friction force bends over after a reversal.",
-    equation=r"F_{h} = F_c\,(P_+/P_r)^q\,z,\quad \varepsilon_b L_0\,\dot z = "
+    equation=r"F_{h} = F_c\,(P_+/P_r)^q (L/L_0)^m\,z,\quad \varepsilon_b L_0\,\dot z = "
     r"\dot L-\beta|\dot L||z|^{n-1}z-(1-\beta)\dot L|z|^n",
     parameters=(
         Parameter(
@@ -103,12 +115,8 @@ EFFECT = Effect(
             fitted=False,
             natural=True,
         ),
-        Parameter(
-            *("pressure_power", "q", "1", 0.0, 0.0, 1.0, _POWER),
-            description="Power of the pressure with which the friction grows.",
-            fitted=False,
-            natural=True,
-        ),
+        PRESSURE_POWER,
+        LENGTH_POWER,
     ),
     slots={"friction": friction, "rates": rates},
     states=(
@@ -133,13 +141,14 @@ EFFECT = Effect(
     references=(_BOUC,),
     examples=(
         Example(
-            *("slot:friction", 2.5, 1e-12, _DEFINITION, {"force": 10.0}, {}),
-            {"presliding": 0.25, "pressure": 2e5},
+            *("slot:friction", 2.5, 1e-12, _DEFINITION, {"force": 10.0}, _SIZE_20),
+            {"presliding": 0.25, "pressure": 2e5, "length": 0.24},
         ),
         Example(
             # 2.5 N sqrt(2), but for the rounding at low pressure
-            *("slot:friction", 3.5355339, 1e-6, _DEFINITION, {"force": 10.0, "pressure_power": 0.5}, {}),
-            {"presliding": 0.25, "pressure": 6e5},
+            *("slot:friction", 3.5355339, 1e-6, _DEFINITION, {"force": 10.0, "pressure_power": 0.5}),
+            _SIZE_20,
+            {"presliding": 0.25, "pressure": 6e5, "length": 0.24},
         ),
         Example(
             "slot:rates",

@@ -2,9 +2,14 @@ r"""Dahl friction: Coulomb friction that builds up over a short travel after eac
 
 With the break-away distance :math:`x_b = \varepsilon_b L_0` and the share z of full friction
 
-.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q} z, \qquad P_r = 3\ \mathrm{bar}
+.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q}\left(\frac{L}{L_0}\right)^{m} z,
+   \qquad P_r = 3\ \mathrm{bar}
 
-.. math:: \frac{dz}{dL} = \frac{(1 - z\operatorname{sgn}\dot L)^i}{x_b}
+.. math:: \frac{dz}{dL} = \frac{(1 - \frac{z}{g}\operatorname{sgn}\dot L)^i}{x_b}, \qquad
+   g = 1 + (\sigma - 1)\,e^{-(\dot L/v_s)^2}
+
+With :math:`\sigma = F_s/F_c \neq 1` slow sliding takes another force than fast sliding (Stribeck), which is
+the LuGre law; its viscous part is an effect of its own.
 
 Dahl's stiffness is :math:`\sigma_0 = F_c/x_b` from rest, and :math:`2^i` times that after a reversal at full
 friction. His exponent i is 1 where the rest of the way is covered exponentially, larger for ductile and
@@ -12,30 +17,55 @@ smaller for brittle contacts. Where the gas presses the contacts together, q > 0
 force is exactly zero for F_c = 0. Minor loops do not close.
 """
 
+from mckibben.physics import ops
+from mckibben.physics.contacts import LENGTH_POWER, PRESSURE_POWER, grip
 from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
-from mckibben.physics.presliding import build_up, pressed
+from mckibben.physics.presliding import build_up
 
 
-def friction(*, pressure: Value, presliding: Value, force: Value, pressure_power: Value) -> Value:
-    """F_c (P/P_r)^q z [N]."""
-    return force * pressed(pressure=pressure, power=pressure_power) * presliding
+def friction(
+    *,
+    pressure: Value,
+    length: Value,
+    muscle: Muscle,
+    presliding: Value,
+    force: Value,
+    pressure_power: Value,
+    length_power: Value,
+) -> Value:
+    """F_c (P/P_r)^q (L/L_0)^m z [N]."""
+    held = grip(
+        pressure=pressure, length=length, nominal_length=muscle.nominal_length,
+        pressure_power=pressure_power, length_power=length_power,
+    )  # fmt: skip
+    return force * held * presliding
 
 
 def rates(
-    *, velocity: Value, muscle: Muscle, presliding: Value, break_strain: Value, exponent: Value
+    *,
+    velocity: Value,
+    muscle: Muscle,
+    presliding: Value,
+    break_strain: Value,
+    exponent: Value,
+    static_ratio: Value,
+    stribeck_speed: Value,
 ) -> tuple[Value]:
-    """dz/dt [1/s]: v (1 - z sgn v)^i/x_b; exactly 0 at rest."""
-    rising = build_up(rate=velocity, share=presliding, exponent=exponent)
+    """dz/dt [1/s]: v (1 - z sgn v/g)^i/x_b; exactly 0 at rest."""
+    sliding = 1.0 + (static_ratio - 1.0) * ops.exp(-((velocity / stribeck_speed) ** 2))
+    rising = build_up(rate=velocity, share=presliding / sliding, exponent=exponent)
     return (rising / (break_strain * muscle.nominal_length),)
 
 
 _DAHL = Source("Dahl, Aerospace Corp. TOR-0158(3107-18)-1 (1968); AIAA J. 14 (1976) 1675", "M")
 _RANGE = Source("1-2.5 % of the maximum force", "E")
 _WAY = Source("F_c over 15-200 kN/m for size 20: 0.1-3 mm of 300 mm", "E")
-_POWER = Source("0 friction without pressure, 2/3 Hertzian contacts, 1 rough surfaces under the gas", "M")
+_RATIO = Source("static over sliding friction of threads 0.5 (Tondu) to 1.6", "E")
+_STRIBECK = Source("Armstrong-Helouvry, Dupont & Canudas de Wit, Automatica 30 (1994) 1083: some mm/s", "M")
+_LUGRE = Source("Canudas de Wit et al., IEEE Trans. Autom. Control 40 (1995) 419", "M")
 _DEFINITION = Source("definition, by hand", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 
@@ -45,47 +75,38 @@ EFFECT = Effect(
     type="hysteretic",
     cause="Threads in contact shear elastically before they slide. After a reversal the friction therefore "
     "changes sign smoothly, over a short travel of the muscle.",
-    equation=r"F_{h} = F_c\,(P_+/P_r)^q\,z,\quad "
-    r"\dot z = \frac{\dot L\,(1-z\operatorname{sgn}\dot L)^i}{\varepsilon_b L_0}",
+    equation=r"F_{h} = F_c\,(P_+/P_r)^q (L/L_0)^m\,z,\quad "
+    r"\dot z = \frac{\dot L\,(1-\frac{z}{g}\operatorname{sgn}\dot L)^i}{\varepsilon_b L_0},\quad "
+    r"g = 1+(\sigma-1)e^{-(\dot L/v_s)^2}",
     parameters=(
         Parameter(
-            "force",
-            "F_c",
-            "N",
-            default=10.0,
-            lower=0.0,
-            upper=200.0,
-            source=_RANGE,
+            *("force", "F_c", "N", 10.0, 0.0, 200.0, _RANGE),
             description="Friction after a long travel; with a power q, that at 3 bar.",
             off=0.0,
         ),
         Parameter(
-            "break_strain",
-            r"\varepsilon_b",
-            "1",
-            default=0.002,
-            lower=1.0e-4,
-            upper=0.03,
-            source=_WAY,
+            *("break_strain", r"\varepsilon_b", "1", 0.002, 1.0e-4, 0.03, _WAY),
             description="Travel over which friction builds up, as a share of the nominal length.",
             fitted=False,
         ),
         Parameter(
-            "exponent",
-            "i",
-            "1",
-            default=1.0,
-            lower=0.5,
-            upper=3.0,
-            source=Source("Dahl (1968): 0 to 1 brittle, 1 and more ductile contacts", "M"),
+            *("exponent", "i", "1", 1.0, 0.5, 3.0),
+            Source("Dahl (1968): 0 to 1 brittle, 1 and more ductile contacts", "M"),
             description="Exponent of Dahl's law: 1 builds up exponentially, more builds up more slowly.",
             fitted=False,
         ),
+        PRESSURE_POWER,
+        LENGTH_POWER,
         Parameter(
-            *("pressure_power", "q", "1", 0.0, 0.0, 1.0, _POWER),
-            description="Power of the pressure with which the friction grows.",
+            *("static_ratio", r"\sigma", "1", 1.0, 0.3, 3.0, _RATIO),
+            description="Friction of slow sliding over that of fast sliding.",
             fitted=False,
-            natural=True,
+            off=1.0,
+        ),
+        Parameter(
+            *("stribeck_speed", "v_s", "m/s", 0.003, 2e-4, 0.1, _STRIBECK),
+            description="Speed over which slow sliding becomes fast sliding.",
+            fitted=False,
         ),
     ),
     slots={"friction": friction, "rates": rates},
@@ -110,26 +131,30 @@ EFFECT = Effect(
         Twin("pressure_hysteresis", "a pressure loop at constant length: Dahl friction shows no loop"),
     ),
     prior=Prior(0.25, "one particular form of friction before sliding"),
-    references=(_DAHL,),
+    references=(_DAHL, _LUGRE),
     examples=(
         Example(
-            *("slot:friction", -7.5, 1e-12, _DEFINITION, {"force": 10.0}, {}),
-            {"presliding": -0.75, "pressure": 2e5},
+            *("slot:friction", -7.5, 1e-12, _DEFINITION, {"force": 10.0}, _SIZE_20),
+            {"presliding": -0.75, "pressure": 2e5, "length": 0.24},
         ),
         Example(
-            # -7.5 N sqrt(2), but for the rounding at low pressure
-            *("slot:friction", -10.606602, 1e-6, _DEFINITION, {"force": 10.0, "pressure_power": 0.5}, {}),
-            {"presliding": -0.75, "pressure": 6e5},
-        ),
-        Example(
-            "slot:rates",
-            # (-0.03 - 0.03 * 0.5) m/s / 0.6 mm
-            -75.0,
-            1e-12,
-            _DEFINITION,
-            {"break_strain": 0.002},
+            # -7.5 N sqrt(2) 0.8^2, but for the rounding at low pressure
+            *("slot:friction", -6.7882251, 1e-6, _DEFINITION),
+            {"force": 10.0, "pressure_power": 0.5, "length_power": 2.0},
             _SIZE_20,
+            {"presliding": -0.75, "pressure": 6e5, "length": 0.24},
+        ),
+        Example(
+            # (-0.03 - 0.03 * 0.5) m/s / 0.6 mm
+            *("slot:rates", -75.0, 1e-12, _DEFINITION, {"break_strain": 0.002}, _SIZE_20),
             {"velocity": -0.03, "presliding": 0.5},
+        ),
+        Example(
+            # 3 mm/s (1 - 0.75/(1 + 0.5/e)) / 0.6 mm at the Stribeck speed
+            *("slot:rates", 1.8326073, 1e-7, _DEFINITION),
+            {"break_strain": 0.002, "static_ratio": 1.5, "stribeck_speed": 0.003},
+            _SIZE_20,
+            {"velocity": 0.003, "presliding": 0.75},
         ),
     ),
 )

@@ -5,7 +5,7 @@ Cell i carries the share :math:`w_i` of the force and slides after
 equal at the balance :math:`\sigma = 1`; above it the late cells carry more, below it the early ones. With the
 deflection :math:`z_i` of a cell as a share of its limit
 
-.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q}\sum_{i=1}^4 w_i z_i, \qquad
+.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q}\left(\frac{L}{L_0}\right)^{m}\sum_{i=1}^4 w_i z_i, \qquad
    w_i = \frac{\sigma^i}{\sum_k \sigma^k}, \qquad
    \dot z_i = \frac{\dot L}{x_i}\bigl[1 - s(z_i \operatorname{sgn}\dot L)\bigr]
 
@@ -14,11 +14,12 @@ elastic below 0.9, never passes the limit, and its rate has no jump. Where the g
 together, q > 0, with :math:`P_r = 3` bar.
 """
 
+from mckibben.physics.contacts import LENGTH_POWER, PRESSURE_POWER, grip
 from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
-from mckibben.physics.presliding import pressed, slide
+from mckibben.physics.presliding import slide
 
 _CELLS = 4
 
@@ -26,6 +27,8 @@ _CELLS = 4
 def friction(
     *,
     pressure: Value,
+    length: Value,
+    muscle: Muscle,
     cell_1: Value,
     cell_2: Value,
     cell_3: Value,
@@ -33,10 +36,14 @@ def friction(
     force: Value,
     balance: Value,
     pressure_power: Value,
+    length_power: Value,
 ) -> Value:
-    """F_c (P/P_r)^q times the weighted mean of the cells [N], within +-F_c (P/P_r)^q."""
+    """F_c (P/P_r)^q (L/L_0)^m times the weighted mean of the cells [N]."""
     weighted = cell_1 + balance * (cell_2 + balance * (cell_3 + balance * cell_4))
-    limit = force * pressed(pressure=pressure, power=pressure_power)
+    limit = force * grip(
+        pressure=pressure, length=length, nominal_length=muscle.nominal_length,
+        pressure_power=pressure_power, length_power=length_power,
+    )  # fmt: skip
     return limit * weighted / (1.0 + balance * (1.0 + balance * (1.0 + balance)))
 
 
@@ -62,7 +69,6 @@ def rates(
 _MINH = Source("Vo-Minh, Tjahjowidodo, Ramon & Van Brussel, IEEE/ASME Trans. Mech. 16 (2011) 177", "M")
 _RANGE = Source("1-2.5 % of the maximum force", "E")
 _WAY = Source("break-away at 0.1-3 % of the nominal length", "E")
-_POWER = Source("0 friction without pressure, 2/3 Hertzian contacts, 1 rough surfaces under the gas", "M")
 _DEFINITION = Source("definition, by hand", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 
@@ -72,7 +78,7 @@ EFFECT = Effect(
     type="hysteretic",
     cause="The crossings of the braid do not all slide at once: some slip early, some late. The friction "
     "depends on earlier reversals, so small loops close within large ones.",
-    equation=r"F_{h} = F_c\,(P_+/P_r)^q\,\frac{\sum_i \sigma^i z_i}{\sum_i \sigma^i},\quad "
+    equation=r"F_{h} = F_c\,(P_+/P_r)^q (L/L_0)^m\,\frac{\sum_i \sigma^i z_i}{\sum_i \sigma^i},\quad "
     r"\dot z_i = \frac{\dot L}{x_i}\left[1-s(z_i\operatorname{sgn}\dot L)\right],"
     r"\quad x_i = \varepsilon_b L_0\,\rho^{\,i-4}",
     parameters=(
@@ -104,12 +110,8 @@ EFFECT = Effect(
             description="Ratio of the forces of successive cells: above 1 the late ones carry more.",
             fitted=False,
         ),
-        Parameter(
-            *("pressure_power", "q", "1", 0.0, 0.0, 1.0, _POWER),
-            description="Power of the pressure with which the friction grows.",
-            fitted=False,
-            natural=True,
-        ),
+        PRESSURE_POWER,
+        LENGTH_POWER,
     ),
     slots={"friction": friction, "rates": rates},
     states=tuple(
@@ -137,32 +139,36 @@ EFFECT = Effect(
     references=(_MINH,),
     examples=(
         Example(
-            "slot:friction",
-            2.5,
-            1e-12,
-            _DEFINITION,
-            {"force": 10.0},
-            {},
-            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 2e5},
+            *("slot:friction", 2.5, 1e-12, _DEFINITION, {"force": 10.0}, _SIZE_20),
+            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 2e5, "length": 0.24},
         ),
         Example(
             # 10 N (1 + 2 0.5 - 4 0.25 - 8 0.25)/15
-            *("slot:friction", -0.6666666666666666, 1e-12, _DEFINITION, {"force": 10.0, "balance": 2.0}, {}),
-            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 2e5},
+            *(
+                "slot:friction",
+                -0.6666666666666666,
+                1e-12,
+                _DEFINITION,
+                {"force": 10.0, "balance": 2.0},
+                _SIZE_20,
+            ),
+            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 2e5, "length": 0.24},
         ),
         Example(
             # 2.5 N sqrt(2), but for the rounding at low pressure
-            *("slot:friction", 3.5355339, 1e-6, _DEFINITION, {"force": 10.0, "pressure_power": 0.5}, {}),
-            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 6e5},
+            *(
+                "slot:friction",
+                3.5355339,
+                1e-6,
+                _DEFINITION,
+                {"force": 10.0, "pressure_power": 0.5},
+                _SIZE_20,
+            ),
+            {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 6e5, "length": 0.24},
         ),
         Example(
-            "slot:rates:2",
             # 0.03 m/s / (6 mm / 2.5), elastic
-            12.5,
-            1e-12,
-            _DEFINITION,
-            {"break_strain": 0.02, "ratio": 2.5},
-            _SIZE_20,
+            *("slot:rates:2", 12.5, 1e-12, _DEFINITION, {"break_strain": 0.02, "ratio": 2.5}, _SIZE_20),
             {"velocity": 0.03},
         ),
     ),
