@@ -22,6 +22,7 @@ from tests.frontend.importing import (
     trace,
 )
 from tests.frontend.views import REFUSED, run
+from tests.measurement.read.muscle_test import isobaric
 from tests.measurement.read.open_files import WRITERS, OpenFile
 
 needs_corpus = pytest.mark.skipif(
@@ -539,6 +540,23 @@ def test_a_length_that_contradicts_the_file_is_decided_in_the_view(case: Page, p
     with case.expect_response("**/api/comparisons") as answer:
         length.press("Enter")
     assert answer.value.json()["specimens"][0]["experiment"]["rest_length"]["value"] == 0.25
+
+
+def test_a_stroke_that_was_turned_keeps_its_sign_when_the_user_says_so(case: Page) -> None:
+    """It does not stop; both answers stand there, and what is chosen is read and asked no more."""
+    r = isobaric(2e5, 3e5)
+    rows = [f"{p},{-s},{f}" for p, s, f in zip(r.pressure / 1e5, r.stroke * 1e3, r.force, strict=True)]
+    data = "\n".join(["# rest length 250 mm", "p [bar],Extension [mm],F [N]", *rows]).encode()
+    choose(case, {"name": "e.csv", "mimeType": "text/csv", "buffer": data})
+    ask = panel(case).locator(".ask.may-wait[data-about='sign of displacement']")
+    expect(ask).to_contain_text("read with its sign reversed")
+    expect(ask.get_by_role("button")).to_have_count(2)
+    expect(ask.get_by_role("button", name="Reverse the sign")).to_contain_text("proposed")
+    expect(panel(case).locator(".ask:not(.may-wait)")).to_have_count(0)
+    with read_anew(case) as answer:
+        ask.get_by_role("button", name="Keep the sign").click()
+    assert answer.value.json()["points"]["displacement"] == pytest.approx(list(-r.stroke), abs=1e-6)
+    expect(panel(case).locator("[data-about='sign of displacement']")).to_have_count(0)
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from mckibben.measurement.read.signs import SHORTENING_POSITIVE, STROKE_SIGN
 from mckibben.physics.units import convert
 
 _STRETCHED = 0.08  # of the rest length; braids of up to 22 degrees lock there, others hardly go further
-_REVERSE, _KEEP = "reverse the sign", "keep the sign"
+REVERSE, KEEP = "reverse the sign", "keep the sign"
 
 
 def physical_questions(evidence: Evidence) -> list[Question]:
@@ -36,8 +36,8 @@ def _signs(evidence: Evidence) -> list[Question]:
                 "is positive here; reverse its sign if the file counts compression as positive",
                 column_option("force", bare_name(column), sign=-1),
                 column.header,
-                _REVERSE,
-                (_REVERSE, _KEEP),
+                REVERSE,
+                (REVERSE, KEEP),
             )
         )
         force = -force
@@ -68,8 +68,8 @@ def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Arra
             f"{'shortens' if falls else 'lengthens'}, but shortening is positive here; reverse its sign",
             f"{turned}{as_length}",
             column.header,
-            _REVERSE,
-            (_REVERSE, _KEEP),
+            REVERSE,
+            (REVERSE, KEEP),
         )
     ]
 

@@ -49,6 +49,11 @@ export const assumablesOf = (p) =>
       (q.about === "unit of time" || column.unit_origin === "proposed");
   });
 
+/** A choice that leaves the sign to the readings, as an assumption does. @param {Choice} choice @returns {Choice} */
+function unsigned({ sign: _, ...choice }) {
+  return choice;
+}
+
 /** The mapping with the proposals of questions as assumptions.
  * @param {OpenQuestion[]} asked @param {Preview} p @param {Mapping} mapping @returns {Mapping} */
 export const withAssumed = (asked, p, mapping) =>
@@ -57,7 +62,7 @@ export const withAssumed = (asked, p, mapping) =>
     Object.fromEntries(asked.flatMap((q) => {
       const column = p.columns.find((one) => one.header === q.column);
       return column && q.proposed
-        ? [[column.header, { ...choiceOf(column), unit: q.proposed, assumed: true }]]
+        ? [[column.header, { ...unsigned(choiceOf(column)), unit: q.proposed, assumed: true }]]
         : [];
     })),
   );
@@ -93,6 +98,12 @@ export function answersOf(q, p) {
         header,
         Object.fromEntries(q.choices.map((one) => [one, one === header ? { channel } : null])),
       )
+    );
+  }
+  if (column && !q.stops && q.choices.includes("keep the sign")) {
+    // Turned already: both answers name the same channel, only the sign tells them apart.
+    return q.choices.map((one) =>
+      answer(one, { [column.header]: { ...choiceOf(column), sign: one === "keep the sign" ? 1 : -1 } })
     );
   }
   const alternatives = q.option.split(/ or (?=--)/).map((option) => spoken(option, p));
