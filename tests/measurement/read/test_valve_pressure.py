@@ -60,3 +60,49 @@ def test_a_pressure_beside_it_is_the_pressure() -> None:
     text = "t [s],p_valve [bar],p_muscle [bar],F [N],stroke [mm]\n"
     with pytest.raises(InputError, match="p_valve"):
         read("# rest length 300 mm\n" + text + table(TIME, MEASURED + 0.2, MEASURED, FORCE, STROKE))
+
+
+def steps(*, sensed: bool) -> str:
+    """Steps of a valve without any other command; the pressure as it was set, or as a sensor reads it."""
+    level = np.repeat([1.0, 3.0, 5.0, 2.0, 4.0], 80)
+    time = 0.01 * np.arange(len(level))
+    pressure = level.copy()
+    if sensed:
+        for row in range(1, len(level)):
+            pressure[row] = pressure[row - 1] + 0.3 * (level[row] - pressure[row - 1])
+        pressure += np.random.default_rng(5).normal(0.0, 0.008, len(level))
+    force = 100.0 * pressure + np.random.default_rng(6).normal(0.0, 2.0, len(level))
+    length = np.full(len(level), 285.0)
+    return "t_s,p_valve_bar,length_mm,force_N\n" + table(time, pressure.round(4), length, force)
+
+
+def test_a_pressure_that_scatters_as_a_sensor_does_is_read_and_said() -> None:
+    found = read(steps(sensed=True))
+    assert found.kind == "isometric"
+    said = [m for m in found.messages if "'p_valve_bar' is read as pressure" in m]
+    assert len(said) == 1
+    assert "scatter" in said[0]
+    with pytest.raises(InputError, match="p_valve"):
+        read(steps(sensed=False))
+
+
+@pytest.mark.parametrize(
+    "head", ["Command (kPa)", "command_kPa", "valve command [kPa]", "Befehl [kPa]", "Commande pression [kPa]"]
+)
+def test_a_command_in_a_unit_of_pressure_is_a_set_value(head: str) -> None:
+    rows = table(TIME, 100.0 * PRESSURE.round(0), 100.0 * MEASURED, FORCE, STROKE)
+    found = read(f"# rest length 300 mm\nt [s],{head},Muscle pressure (kPa),F [N],stroke [mm]\n{rows}")
+    np.testing.assert_allclose(found.columns["pressure"], 1e5 * MEASURED, rtol=1e-6)
+    assert (head, "it is a set value") in found.unread
+
+
+@pytest.mark.parametrize("head", ["Command (bar)", "command_bar", "set pressure [bar]"])
+def test_alone_it_is_asked_about_as_any_set_pressure(head: str) -> None:
+    with pytest.raises(InputError, match=r"not read \(it is a set value\); what is it"):
+        read(f"# rest length 300 mm\nt [s],{head},F [N],stroke [mm]\n" + table(TIME, PRESSURE, FORCE, STROKE))
+
+
+def test_a_command_that_is_a_share_stays_the_command() -> None:
+    rows = table(TIME, PRESSURE / 10.0, MEASURED, FORCE, STROKE)
+    found = read(f"# rest length 300 mm\nt [s],command,p [bar],F [N],stroke [mm]\n{rows}")
+    np.testing.assert_allclose(found.columns["command"], PRESSURE / 10.0, rtol=1e-6)

@@ -42,6 +42,8 @@ _QUALIFIERS = dict.fromkeys(
 _BRACKETED = re.compile(r"([^\[(]*)[\[(](.*)[\])]\s*")
 _NUMBERED = re.compile(r"[0-9]+(\.[0-9]+)?[A-Za-z]")
 MAX_HEADER = 120
+#: What a controller may be set to, where a command is no share of an opening.
+SET_QUANTITIES = ("a pressure", "a length", "a force")
 #: Uses of a column that are words rather than numbers.
 TEXT_COLUMNS = ("direction", "group", SLACK, SAMPLE)
 
@@ -151,6 +153,8 @@ def with_unit(
     if fits(unit, CHANNEL_UNITS[use]):
         return column._replace(use=use, unit=unit)
     measured = meaning(unit)
+    if use == "command" and measured in SET_QUANTITIES:
+        return None  # what it is set to, or the pressure at the valve: its words tell which
     share = unit == "%" and use in ("pressure", "force", "length")  # of the range of its sensor
     if measured in ("a voltage", "a current") or share or letter or use in ("direction", "group"):
         what = f"{measured}, not a {use}" if measured else f"no unit of a {use}"

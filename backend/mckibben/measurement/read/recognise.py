@@ -11,12 +11,15 @@ from typing import NamedTuple
 from mckibben.measurement.read.head_text import channel_of_letter, taken_apart, without_run
 from mckibben.measurement.read.held import proper, without_pressure
 from mckibben.measurement.read.left_out import OF_WORDS, UNKNOWN, LeftOut, Reason, by_word
+from mckibben.measurement.read.plain_head import SET_QUANTITIES
 from mckibben.measurement.read.unit_words import COUNT, DIMENSIONS, RAW_DIMENSIONS, dimension_of
 from mckibben.measurement.read.vocabulary import (
+    COMMANDED,
     LESS_WANTED,
     NO_CHANNEL,
     STATISTICS,
     channel_of_word,
+    has_word,
     other_quantity,
     words_of,
 )
@@ -94,6 +97,8 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         if reason is not None and (named or dimension):
             return Recognised(None, head.unit, None, 0, by_word(reason))
     distinct = set(named)
+    if "command" in distinct and dimension in SET_QUANTITIES and has_word(words, COMMANDED):
+        return Recognised(None, head.unit, None, 0, by_word(Reason.SET_VALUE))
     if len(distinct) > 1 and ("command" in distinct or not dimension):
         return _none(head.unit, Reason.SEVERAL, f"its name says {' and '.join(sorted(distinct))}")
     penalty = BY_WORDS + sum(LESS_WANTED.get(word, 0) for word in words)

@@ -7,11 +7,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
+from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.read.evidence import is_numeric
 from mckibben.measurement.read.head_text import taken_apart
 from mckibben.measurement.read.header import Meaning
 from mckibben.measurement.read.left_out import Reason
 from mckibben.measurement.read.plain_head import HeaderColumn
+from mckibben.measurement.read.scatter import is_sensed
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.unit_words import RAW_DIMENSIONS, dimension_of
 from mckibben.measurement.read.vocabulary import (
@@ -32,7 +34,8 @@ def with_valve_pressure(source: RawTable, meaning: Meaning) -> Meaning:
     """The meaning with a pressure that is named after the valve, where nothing else can be the pressure.
 
     It has to be the only column in a unit of pressure, and a text says that it was measured, or the command
-    is another column, of which it is no multiple. A word for a set point keeps it a command.
+    is another column, of which it is no multiple, or it scatters as the readings of a sensor do. A word for a
+    set point keeps it a command.
     """
     if any(column.use == "pressure" for column in meaning.columns) or meaning.rivals:
         return meaning
@@ -66,6 +69,11 @@ def with_valve_pressure(source: RawTable, meaning: Meaning) -> Meaning:
         why = f"{said[1]} says '{said[0].strip()}'"
     elif command is not None:
         why = f"the command is '{source.headers[command].strip()}'"
+    elif _is_sensed(source, meaning, index):
+        why = (
+            "its readings scatter from row to row, in motion as at rest, as those of a sensor do and no set "
+            "point does"
+        )
     else:
         return meaning
     column = HeaderColumn(index, header, "pressure", head.unit, head.absolute)
@@ -121,6 +129,18 @@ def _pressure_clauses(text: str) -> Iterator[str]:
         others = {other_quantity(word, "pressure") for word in words} - {None, Reason.SET_VALUE}
         if any(channel_of_word(word) == "pressure" for word in words) and not others:
             yield clause
+
+
+def _is_sensed(source: RawTable, meaning: Meaning, pressure: int) -> bool:
+    """Whether the readings of a column scatter by themselves, in step with no other column that is read."""
+    beside = [column.place for column in meaning.columns if column.use in ("force", *STROKES)]
+    try:
+        numbers = source.read([pressure, *beside], [], True).numbers
+    except InputError:
+        return False
+    values, *others = (numbers[place].astype(np.float64) for place in (pressure, *beside))
+    with np.errstate(all="ignore"):  # numbers near the largest there are
+        return is_sensed(values, others)
 
 
 def _is_multiple(source: RawTable, pressure: int, command: int) -> bool:

@@ -152,6 +152,8 @@ VALVE_WORDS = {state: frozenset(all_words(texts)) for state, texts in words.VALV
 MEASURED_WORDS = frozenset(all_words(words.MEASURED))
 #: Words of heads that name the phase of a test.
 PHASES = frozenset(all_words(words.PHASES))
+#: Words for a command that name no valve: in a unit of pressure, length or force it is a set value.
+COMMANDED = frozenset(all_words(words.COMMANDED))
 #: Words for the reference of a pressure: True = absolute.
 REFERENCE_WORDS = {
     word: reference == "absolute"

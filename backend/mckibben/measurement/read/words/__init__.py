@@ -12,11 +12,12 @@ from mckibben.measurement.read.words.channels import CHANNELS
 from mckibben.measurement.read.words.columns import COUNTERS, NO_CHANNELS, OTHERS, STATISTIC, VALUES
 from mckibben.measurement.read.words.conditions import REFERENCES, REMARKS
 from mckibben.measurement.read.words.signs import SIGNS
-from mckibben.measurement.read.words.valves import MEASURED, VALVES
+from mckibben.measurement.read.words.valves import COMMANDED, MEASURED, VALVES
 from mckibben.measurement.read.words.ways import DIRECTIONS, HOLDS, MOVES, PHASES, WAYS
 
 __all__ = [
     "CHANNELS",
+    "COMMANDED",
     "COUNTERS",
     "DIRECTIONS",
     "HOLDS",

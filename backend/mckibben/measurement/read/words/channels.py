@@ -98,8 +98,8 @@ CHANNELS = {
         "sl": "hitrost", "sk": "rýchlosť", "tr": "hız", "ko": "속도",
     },
     "command": {
-        "en": "command valve", "de": "ventil stellgröße stellgroesse stell", "fr": "vanne", "it": "valvola",
-        "es": "comando válvula", "pl": "zawór", "ru": "клапан", "tr": "valf vana",
+        "en": "command valve", "de": "ventil stellgröße stellgroesse stell befehl", "fr": "vanne",
+        "it": "valvola", "es": "comando válvula", "pl": "zawór", "ru": "клапан", "tr": "valf vana",
         "nl": "klep stuursignaal", "sv": "styrsignal", "ja": "弁開度 バルブ", "zh": "阀 阀门 阀开度",
         "cs": "ventil", "fi": "venttiili ohjaus", "hu": "szelep", "ro": "supapă", "el": "βαλβίδα",
         "uk": "клапан", "hr": "otvorenost upravljanje", "ko": "밸브", "da": "styresignal",

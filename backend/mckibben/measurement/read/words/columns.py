@@ -8,7 +8,7 @@ from mckibben.measurement.read.left_out import Reason
 OTHERS = {
     Reason.SET_VALUE: {
         "en": "set setpoint target desired demand demanded commanded cmd reference ref sp",
-        "de": "soll sollwert fuehrung führung", "fr": "consigne désirée cible",
+        "de": "soll sollwert fuehrung führung vorgabe", "fr": "consigne désirée cible",
         "it": "riferimento impostata impostato", "es": "consigna objetivo deseado",
         "pt": "alvo referência desejado", "pl": "zadane zadana", "cs": "žádaný žádaná",
         "ru": "заданное задание уставка", "tr": "hedef", "nl": "gewenst gewenste setpunt",

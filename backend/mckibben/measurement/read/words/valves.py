@@ -29,6 +29,12 @@ VALVES = {
     },
 }  # fmt: skip
 
+#: Words for a command that name no valve, by language.
+COMMANDED = {
+    "en": "command", "de": "stellgröße stellgroesse stellsignal befehl", "fr": "commande", "es": "comando",
+    "nl": "stuursignaal", "sv": "styrsignal", "da": "styresignal", "fi": "ohjaus", "hr": "upravljanje",
+}  # fmt: skip
+
 #: Words with which a text says that a pressure was measured, not set, by language.
 MEASURED = {
     "en": "measured outlet output downstream behind sensor transducer transmitter actual",
