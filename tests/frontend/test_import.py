@@ -559,6 +559,17 @@ def test_a_stroke_that_was_turned_keeps_its_sign_when_the_user_says_so(case: Pag
     expect(panel(case).locator("[data-about='sign of displacement']")).to_have_count(0)
 
 
+def test_a_proposed_stroke_that_is_confirmed_stays_turned(case: Page) -> None:
+    r = isobaric(2e5, 3e5)
+    rows = [f"{p},{-s},{f}" for p, s, f in zip(r.pressure / 1e5, r.stroke * 1e3, r.force, strict=True)]
+    data = "\n".join(["# rest length 250 mm", "p [bar],Wire [mm],F [N]", *rows]).encode()
+    choose(case, {"name": "e.csv", "mimeType": "text/csv", "buffer": data})
+    ask = panel(case).locator(".ask.may-wait[data-about=\"column 'Wire'\"]")
+    with read_anew(case) as answer:
+        ask.get_by_role("button").filter(has_text="proposed").click()
+    assert answer.value.json()["points"]["displacement"] == pytest.approx(list(r.stroke), abs=1e-6)
+
+
 @pytest.mark.parametrize(
     "made", [made for write in WRITERS if (made := write()).stops], ids=lambda m: m.about[0]
 )

@@ -106,3 +106,37 @@ def test_ways_of_the_test_are_told_by_the_turned_stroke() -> None:
     assert [m for m in found.messages if "direction read" in m] == [
         m for m in other.messages if "direction read" in m
     ]
+
+
+@pytest.mark.parametrize(
+    ("head", "way"),
+    [
+        ("Δl/l0 [-]", -1.0),
+        ("dL/L0", -1.0),
+        ("∆L/L₀ [%]", -1.0),
+        ("(L - L0)/L0 [%]", -1.0),
+        ("ε = ΔL/L0 [%]", -1.0),
+        ("ΔL/L0 [%]", 1.0),  # of what the muscle becomes shorter: the readings show it
+        ("(L0-L)/L0 [%]", 1.0),
+    ],
+)
+def test_a_change_of_length_over_the_rest_length_is_the_contraction(head: str, way: float) -> None:
+    """It was left out as "a length at rest", and nothing was left to compare."""
+    found = read_measurement(file(head, way * STROKE / (3.0 if "%" in head else 300.0)), "a.csv")
+    np.testing.assert_allclose(found.columns["contraction"], STROKE / 300.0, atol=1e-8)
+    about = [question.about for question in found.questions]
+    assert ("sign of contraction" in about) == (way < 0.0)
+
+
+@pytest.mark.parametrize("head", ["Extensometer (mm)", "Crosshead [mm]", "3 <Wire> (mm)"])
+def test_a_stroke_without_a_name_below_zero_is_proposed_with_its_sign_reversed(head: str) -> None:
+    data = file(head)
+    found = preview(data, "a.csv")
+    assert found.measurement is not None
+    assert_is_the_test(found.measurement)
+    (question,) = [q for q in found.questions if q.column == head]
+    assert "read as displacement, with its sign reversed, because of its unit" in question.text
+    assert (question.proposed, question.stops) == ("displacement", False)
+    assert next(column.sign for column in found.columns if column.header == head) == -1
+    with pytest.raises(InputError, match="is not read"):
+        read_measurement(file(head, -STROKE, "shortening positive"), "a.csv")

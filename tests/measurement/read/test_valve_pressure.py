@@ -106,3 +106,25 @@ def test_a_command_that_is_a_share_stays_the_command() -> None:
     rows = table(TIME, PRESSURE / 10.0, MEASURED, FORCE, STROKE)
     found = read(f"# rest length 300 mm\nt [s],command,p [bar],F [N],stroke [mm]\n{rows}")
     np.testing.assert_allclose(found.columns["command"], PRESSURE / 10.0, rtol=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("set_value", "reading"),
+    [
+        ("p_des [bar]", "p_act [bar]"),
+        ("Regulator setpoint (bar)", "Regulator feedback (bar)"),
+        ("ITV command [bar]", "ITV monitor [bar]"),
+        ("Vorgabe Druck [bar]", "Druck [bar]"),
+    ],
+)
+def test_what_was_desired_stands_beside_what_was_read(set_value: str, reading: str) -> None:
+    rows = table(TIME, PRESSURE, MEASURED, FORCE, STROKE)
+    found = read(f"# rest length 300 mm\nt [s],{set_value},{reading},F [N],stroke [mm]\n{rows}")
+    np.testing.assert_allclose(found.columns["pressure"], 1e5 * MEASURED, rtol=1e-6)
+    assert (set_value, "it is a set value") in found.unread
+
+
+def test_a_commanded_position_is_no_stroke() -> None:
+    rows = table(STROKE.round(-1), STROKE, MEASURED, FORCE)
+    found = read(f"# rest length 300 mm\nAxial Command (mm),Stroke (mm),p [bar],F [N]\n{rows}")
+    np.testing.assert_allclose(found.columns["displacement"], STROKE / 1e3, atol=1e-9)

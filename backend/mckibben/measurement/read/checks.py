@@ -250,10 +250,11 @@ def _proposed(evidence: Evidence) -> list[Question]:
         if column.origin == PROPOSED:
             other = "length" if channel == "displacement" else "displacement"
             name = bare_name(column)
+            turned = ", with its sign reversed," if column.sign < 0 else ""
             asked.append(
                 Question(
                     f"column '{name}'",
-                    f"{evidence.noun} '{column.header}' is read as {channel} because of its unit "
+                    f"{evidence.noun} '{column.header}' is read as {channel}{turned} because of its unit "
                     f"'{column.unit}' and its numbers; its name does not say so",
                     f"{column_option(other, name)} or {ignore_option(name)}",
                     column.header,

@@ -17,6 +17,7 @@ from mckibben.measurement.read.physical_checks import mostly_negative, runs_agai
 from mckibben.measurement.read.plain_head import HeaderColumn
 from mckibben.measurement.read.plausible import ENOUGH, is_plausible
 from mckibben.measurement.read.recognise import BY_UNIT
+from mckibben.measurement.read.signs import SHORTENING_POSITIVE, STROKE_SIGN
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.unit_words import CLOCK, dimension_of
 from mckibben.physics.errors import InputError
@@ -32,8 +33,9 @@ def with_proposed_stroke(source: RawTable, meaning: Meaning, given: Mapping[str,
     """The meaning with a stroke, where exactly one column of lengths can be it.
 
     A pulled muscle becomes longer and air shortens it: a column that follows this from zero on is a
-    displacement, one that runs the other way and stays above half of its greatest value is a length. A rest
-    length in the file, or in ``given``, has to agree.
+    displacement, one that runs the other way and stays above half of its greatest value is a length; below
+    zero it is a displacement that counts the other way. A rest length in the file, or in ``given``, has to
+    agree.
     """
     used = {column.use: column for column in meaning.columns}
     if set(used) & set(STROKES) or "pressure" not in used:
@@ -45,18 +47,22 @@ def with_proposed_stroke(source: RawTable, meaning: Meaning, given: Mapping[str,
     beside = [used[use].place for use in ("pressure", "force") if use in used]
     try:
         table = source.read([index, *beside], [], True)
-        rest = (read_conditions(source.notes, []) | dict(given)).get("nominal_length")
+        said = read_conditions(source.notes, []) | dict(given)
     except InputError:
         return meaning  # whoever reads the rows says what is wrong
     numbers = [table.numbers[place].astype(np.float64) for place in (index, *beside)]
+    values = convert(numbers[0], unit, "m")
+    sign = -1 if len(values) and mostly_negative(values) else 1
+    if sign < 0 and said.get(STROKE_SIGN) == SHORTENING_POSITIVE:
+        return meaning
     channel = _stroke_of(
-        convert(numbers[0], unit, "m"), numbers[1], numbers[2] if len(numbers) > 2 else None,
-        float(rest) if isinstance(rest, (int, float)) else None,
+        sign * values, numbers[1], numbers[2] if len(numbers) > 2 else None,
+        float(rest) if isinstance(rest := said.get("nominal_length"), (int, float)) else None,
     )  # fmt: skip
-    if channel is None:
+    if channel is None or (sign < 0 and channel == "length"):
         return meaning
     header = source.headers[index].strip() or f"column {index + 1}"
-    column = HeaderColumn(index, header, channel, unit, penalty=BY_UNIT, origin=PROPOSED)
+    column = HeaderColumn(index, header, channel, unit, penalty=BY_UNIT, sign=sign, origin=PROPOSED)
     return meaning._replace(
         columns=sorted([*meaning.columns, column], key=lambda one: one.place),
         ignored=[name for name in meaning.ignored if name != header],

@@ -30,7 +30,14 @@ _CHANGES = frozenset(("change", "delta", "anderung", "variation", "difference"))
 _ALSO_VOLTAGE = frozenset(("tension", "tensione", "tensao"))  # a voltage in other languages
 _STROKES_FROM_REST = frozenset(("displacement", "contraction", "extension"))  # "shortening from rest length"
 #: "dL", "ΔL", "delta x": how much longer or further; a d before another letter is no diameter.
-_CHANGE_OF = re.compile(r"(?:d|Δ|δ|delta|Delta)[ _]?([Llxs])(?![^\W\d_])")
+_CHANGE_OF = re.compile(r"(?:d|Δ|∆|δ|delta|Delta)[ _]?([Llxs])(?![^\W\d_])")
+#: "ΔL/L0", "(L-L0)/L0", "(L0-L)/L0": the change of length as a share of the rest length.
+_SHARE = re.compile(
+    r"(?:.*[=:\s])?(?:(?P<longer>(?:d|Δ|∆|δ|delta[ _]?|Delta[ _]?)[Ll]|\(\s*[Ll]\s*[-−–]\s*[Ll]_?[0₀o]\s*\))"
+    r"|\(\s*[Ll]_?[0₀o]\s*[-−–]\s*[Ll]\s*\))\s*/\s*[Ll]_?[0₀o]"
+)
+#: "p_des", "x_des": a letter of which the rest says that it is what was desired.
+_DESIRED = re.compile(r"[A-Za-z][0-9]?[ _]?des")
 _RAW = 3  # of LESS_WANTED: a raw column
 
 
@@ -79,6 +86,11 @@ def recognise(header: str, unit_below: str | None = None) -> Recognised:
         return _none(COUNT, Reason.COUNTS, "it holds counts of a converter, not a physical value")
     if dimension in RAW_DIMENSIONS:
         return _none(head.unit, Reason.RAW, f"'{head.unit}' is {dimension}, not a calibrated value")
+    if (share := _SHARE.fullmatch(head.name)) is not None and dimension in ("", DIMENSIONS["contraction"][0]):
+        longer = share["longer"] is not None
+        return Recognised("contraction", head.unit, None, BY_WORDS, extends=longer)
+    if _DESIRED.fullmatch(head.name) is not None and dimension in SET_QUANTITIES:
+        return Recognised(None, head.unit, None, 0, by_word(Reason.SET_VALUE))
     meant = _without_statistic(words, dimension)
     named = [channel for word in meant if (channel := channel_of_word(word)) is not None]
     if "command" in named:

@@ -116,7 +116,11 @@ export function answersOf(q, p) {
     return [
       answer("ignore", { [column.header]: null }),
       ...found.filter((one) => !one.ignores).map((one) => one),
-      ...more.map((channel) => answer(channel, { [column.header]: { channel } })),
+      ...more.map((channel) =>
+        answer(channel, {
+          [column.header]: channel === column.channel ? choiceOf(column) : { channel },
+        })
+      ),
     ];
   }
   if (column && q.choices.includes("keep the sign")) {
