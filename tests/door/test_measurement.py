@@ -51,9 +51,7 @@ def test_a_file_a_frame_and_arrays_are_the_same() -> None:
     assert files.experiment["rest_length"].value == 0.3
 
 
-@pytest.mark.parametrize(
-    ("unit", "one"), [(None, 9.80665), ("kg", 9.80665), ("g", 9.80665e-3), ("N", 1.0)]
-)
+@pytest.mark.parametrize(("unit", "one"), [(None, 9.80665), ("kg", 9.80665), ("g", 9.80665e-3), ("N", 1.0)])
 def test_a_load_of_each_row_is_a_force(unit: str | None, one: float) -> None:
     loads = np.tile([1.0, 2.0, 5.0, 8.0], 5)
     pressure = np.repeat([1e5, 2e5, 3e5, 4e5, 5e5], 4)
