@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -139,6 +140,23 @@ def test_maxwell_cells_are_sliders_behind_springs():
         turn = 400  # the shortest length
         assert cell[turn - 1] == pytest.approx(-1.0, abs=1e-3)
         assert np.max(np.abs(cell)) <= 1.0 + 1e-6
+
+
+@pytest.mark.parametrize(("effect", "strain"), [("dahl", 2e-3), ("bouc_wen", 2e-3), ("maxwell_slip", 2e-2)])
+def test_noise_of_the_length_is_no_motion_of_friction(effect, strain):
+    """Noise of a tenth of the way over which friction builds up, which is not small beside that of a row."""
+    task = comparable_rows(cycles(each=400), MUSCLE)
+    length = task.state["length"]
+    noise = 6e-5 * np.random.default_rng(0).standard_normal(len(length))
+    way = float(np.median(np.abs(np.diff(length))))
+    assert way < 5.0 * 6e-5
+    noisy = replace(task, state={**task.state, "length": length + noise})
+    model = fit_model(**{effect: {"break_strain": strain}})
+    clean, read = (Memory(each).states(model) for each in (task, noisy))
+    untimed = Memory(replace(noisy, time=None)).states(model)  # rows without time have no neighbours in time
+    for name in clean:
+        left = np.sqrt(np.mean((read[name] - clean[name]) ** 2))
+        assert left < 0.8 * np.sqrt(np.mean((untimed[name] - clean[name]) ** 2))
 
 
 def test_records_begin_at_rest():

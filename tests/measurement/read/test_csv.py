@@ -707,3 +707,31 @@ def test_a_control_character_is_found_wherever_it_is(beyond: int) -> None:
     row = lines.count(b"\n", 0, at) + 1
     with pytest.raises(InputError, match=f"row {row}: the file holds control characters"):
         read_csv(content, "a.csv")
+
+
+LVM = (
+    "LabVIEW Measurement\t\n"
+    "Separator\tTab\n"
+    "Decimal_Separator\t,\n"
+    "***End_of_Header***\t\n"
+    "\n"
+    "X_Value\tPressure (bar)\tMuscle length (mm)\tForce (N)\n"
+    "0,000000\t3,00\t300,0\t600,0\n"
+    "0,400000\t3,01\t299,0\t590,0\n"
+    "0,800000\t2,99\t298,0\t580,0\n"
+    "1,200000\t3,00\t297,0\t570,0\n"
+    "\n"
+)
+
+
+def test_the_x_values_of_labview_are_seconds() -> None:
+    found = read(LVM, "a.lvm")
+    assert found.columns["time"].tolist() == [0.0, 0.4, 0.8, 1.2]
+    assert any("'X_Value' is the time in s" in text for text in found.messages)
+
+
+@pytest.mark.parametrize(
+    "change", [("LabVIEW Measurement", "Bench 3"), ("Separator\tTab", "X_Dimension\tPosition")]
+)
+def test_the_x_values_of_others_are_not(change: tuple[str, str]) -> None:
+    assert "time" not in read(LVM.replace(*change), "a.lvm").columns

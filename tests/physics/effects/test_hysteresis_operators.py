@@ -29,7 +29,8 @@ def along(
         return {"velocity": float(speeds[min(int(t), len(speeds) - 1)])}
 
     states = run(effect, at, time, values)
-    force = effect.call("friction", {"pressure": 3e5}, {**effect.defaults, **(values or {}), **states})
+    place = {"pressure": 3e5, "length": MUSCLE.nominal_length, "muscle": MUSCLE}
+    force = effect.call("friction", place, {**effect.defaults, **(values or {}), **states})
     return np.interp(time, corners, lengths), force
 
 
@@ -237,3 +238,27 @@ def test_valve_hysteresis_is_the_play_operator(slowness: float) -> None:
     got = effect.call("opening", {"opening": commands}, {"width": width, **states})
     np.testing.assert_allclose(got, _play(commands, width), atol=1e-3 / slowness)
     assert np.abs(got - commands).max() <= 0.5 * width + 1e-3 / slowness
+
+
+@pytest.mark.parametrize("effect_id", FRICTIONS)
+def test_friction_grows_with_powers_of_pressure_and_length(effect_id: str) -> None:
+    """Three times the pressure and four fifths of the length: 3^(2/3) 0.8^2 times the force."""
+    effect = CATALOGUE[effect_id]
+    states = {state.name: 0.5 for state in effect.states}
+    values = {**effect.defaults, "pressure_power": 2.0 / 3.0, "length_power": 2.0, **states}
+    rest = MUSCLE.nominal_length
+    here, there = (
+        effect.call("friction", {"muscle": MUSCLE, "pressure": pressure, "length": length}, values)
+        for pressure, length in ((1.5e5, rest), (4.5e5, 0.8 * rest))
+    )
+    assert there / here == pytest.approx(3.0 ** (2.0 / 3.0) * 0.64, rel=1e-4)  # rounded below 10 mbar
+
+
+@pytest.mark.parametrize("ratio", [0.5, 1.6])
+def test_dahl_with_a_static_ratio_slides_as_stribeck_says(ratio: float) -> None:
+    """After a long way at one speed v the friction is F_c (1 + (ratio - 1) exp(-(v/v_s)^2))."""
+    for speed in (1e-3, 3e-3, 2e-2):
+        values = {"force": 10.0, "static_ratio": ratio, "stribeck_speed": 3e-3}
+        _, force = along("dahl", [0.3 + speed * second for second in range(20)], values)
+        expected = 10.0 * (1.0 + (ratio - 1.0) * np.exp(-((speed / 3e-3) ** 2)))
+        assert abs(force[-1]) == pytest.approx(expected, rel=1e-4)

@@ -151,7 +151,7 @@ EFFECT = Effect(
         ),
         Example(
             # 3 mm/s (1 - 0.75/(1 + 0.5/e)) / 0.6 mm at the Stribeck speed
-            *("slot:rates", 1.8326073, 1e-7, _DEFINITION),
+            *("slot:rates", 1.8326090131, 1e-7, _DEFINITION),
             {"break_strain": 0.002, "static_ratio": 1.5, "stribeck_speed": 0.003},
             _SIZE_20,
             {"velocity": 0.003, "presliding": 0.75},

@@ -88,13 +88,8 @@ EFFECT = Effect(
             off=0.0,
         ),
         Parameter(
-            "break_strain",
-            r"\varepsilon_b",
-            "1",
-            default=0.02,
-            lower=1.0e-3,
-            upper=0.1,
-            source=Source(
+            *("break_strain", r"\varepsilon_b", "1", 0.02, 1.0e-3, 0.1),
+            Source(
                 "break-away at 0.1-3 % of the nominal length; the last cells of a wide spread, later", "E"
             ),
             description="Travel until the last cell slides, as a share of the nominal length.",
