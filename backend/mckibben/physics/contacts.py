@@ -40,6 +40,7 @@ PRESSURE_POWER = Parameter(
     description="Power of the pressure with which the friction grows.",
     fitted=False,
     natural=True,
+    usual=1.0,
 )
 LENGTH_POWER = Parameter(
     *("length_power", "m", "1", 0.0, -2.0, 3.0),

@@ -52,6 +52,8 @@ class Parameter:
         fitted: whether a fit changes it by default (usually not for a second constant of the same law).
         natural: whether the bounds are limits of the definition, like 0 and 1 of a share; a fit that ends at
             one is then not a sign of an implausible value.
+        usual: the value that muscles mostly have; a diagnosis takes it where the data do not tell it.
+            None = the default.
         reference: whether it states for which muscle the other parameters hold; a search for the missing
             physics never frees it.
     """
@@ -68,11 +70,17 @@ class Parameter:
     fitted: bool = True
     natural: bool = False
     reference: bool = False
+    usual: float | None = None
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier():
             raise ValueError(f"parameter name '{self.name}' is not an identifier")
-        numbers = (self.default, self.lower, self.upper, *([] if self.off is None else [self.off]))
+        numbers = (
+            self.default,
+            self.lower,
+            self.upper,
+            *(x for x in (self.off, self.usual) if x is not None),
+        )
         if not all(math.isfinite(number) for number in numbers):
             raise ValueError(f"parameter '{self.name}': default, bounds and off value must be finite")
         if not self.lower < self.upper:

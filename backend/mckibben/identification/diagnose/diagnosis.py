@@ -350,7 +350,7 @@ def _diagnose(
         designs=tuple(designs),
         messages=(
             *([] if gauge_zero is None else [gauge_zero.message]),
-            *messages(fitter, best, fit),
+            *messages(fitter, best, fit, added),
             *predictor.assumed_history(best.fit_model),
             *turned_constants(fitter, fit_model, best),
         ),

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Collection, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 
 from mckibben.identification.diagnose.probability import log_preference, log_weight
-from mckibben.identification.diagnose.score import effective_rows
+from mckibben.identification.diagnose.score import effective_rows, score
 from mckibben.identification.diagnose.search import exchanged
+from mckibben.identification.diagnose.usual import as_usual
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.predict.predictor import Predictor
@@ -141,7 +143,12 @@ def likeliest(
         best = chosen.fitted_model
         names = [chosen.effect if name == chosen.of else name for name in names]
         others = alternatives(fitter, best, names, noise)
-    return best, others
+    value = partial(score, rows=rows, noise=fitter.noise)
+    others = [
+        replace(other, fitted_model=as_usual(fitter, other.fitted_model, {*names, other.effect}, value=value))
+        for other in others
+    ]
+    return as_usual(fitter, best, names, value=value), others
 
 
 def _worth_fitting(fitter: Fitter, less: FittedModel, others: Sequence[Effect]) -> list[Effect]:

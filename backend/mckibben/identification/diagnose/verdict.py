@@ -10,6 +10,7 @@ import numpy as np
 from mckibben.identification.diagnose.repetition import Repetition, repetition
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.twins import Alternative
+from mckibben.identification.diagnose.usual import taken_as_usual
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.fit.least_squares import FitResult
@@ -194,15 +195,18 @@ def _assumptions(best: FittedModel) -> list[str]:
     return notes
 
 
-def messages(fitter: Fitter, best: FittedModel, fit: FitResult | None) -> list[str]:
+def messages(
+    fitter: Fitter, best: FittedModel, fit: FitResult | None, added: Sequence[str] = ()
+) -> list[str]:
     """Notes for the user on assumptions, the noise, the geometry and the fit.
 
     Args:
         fitter: the fits of the search.
         best: the best model.
         fit: its parameters with standard errors.
+        added: effects that the search added.
     """
-    notes = _assumptions(best)
+    notes = [*_assumptions(best), *taken_as_usual(best, added)]
     if fitter.noise is None:
         notes.append(
             "the sweeps are too short to estimate the noise: state it, so that the search can stop there"

@@ -27,6 +27,8 @@ _LEAST_FREED = 0.03  # least first-order gain of freed constants, share of the m
 _ELSEWHERE = (0.1, 0.4)  # shares of the way to the farther bound at which a hidden constant is tried
 _NEAR_FLOOR = 1.2  # error over noise below which only effects with a clear gain of their own are tried
 
+_ByModel = WeakKeyDictionary
+
 
 class CancelledError(Exception):
     """The diagnosis was cancelled."""
@@ -50,9 +52,8 @@ class Fitter:
         known: the models fitted so far.
         off_values: effect id -> result of `acting`.
         refitted_keys: keys of the models that were fitted from a second start.
-        known_gains: results of `gains`.
+        known_gains, known_places: results of `gains` and `_placed`.
         known_columns: changes of the prediction that have been computed.
-        known_places: results of `_placed`.
     """
 
     predictor: Predictor
@@ -67,13 +68,9 @@ class Fitter:
     known: dict[tuple[frozenset[str], frozenset[str]], FittedModel] = field(default_factory=dict)
     off_values: dict[str, dict[str, float]] = field(default_factory=dict)
     refitted_keys: set[tuple[frozenset[str], frozenset[str]]] = field(default_factory=set)
-    known_gains: WeakKeyDictionary[FittedModel, dict[str, float]] = field(default_factory=WeakKeyDictionary)
-    known_columns: WeakKeyDictionary[FittedModel, dict[tuple[str, ...], np.ndarray]] = field(
-        default_factory=WeakKeyDictionary
-    )
-    known_places: WeakKeyDictionary[FittedModel, dict[str, dict[str, float]]] = field(
-        default_factory=WeakKeyDictionary
-    )
+    known_gains: _ByModel[FittedModel, dict[str, float]] = field(default_factory=_ByModel)
+    known_columns: _ByModel[FittedModel, dict[tuple[str, ...], np.ndarray]] = field(default_factory=_ByModel)
+    known_places: _ByModel[FittedModel, dict[str, dict[str, float]]] = field(default_factory=_ByModel)
 
     def fit(
         self, fit_model: FitModel, freed: frozenset[str] = frozenset(), *, again: bool = False
@@ -84,15 +81,22 @@ class Fitter:
         """
         key = frozenset(fit_model.ids), freed
         if key not in self.known or (again and key not in self.refitted_keys):
-            self.before_fit()
-            free = free_numbers(fit_model, self.geometry, freed, load=self.load)
-            free = [parameter for parameter in free if parameter.name not in self.fixed]
-            fitted_model = refitted(self.predictor, fit_model, free, freed=freed, effort=self.effort.fit)
+            fitted_model = self._fitted(fit_model, freed)
             if again:
                 self.refitted_keys.add(key)
-            if key not in self.known or fitted_model.rmse < self.known[key].rmse:
-                self.known[key] = fitted_model
+            first = self.known.get(key, fitted_model)
+            self.known[key] = min(first, fitted_model, key=lambda each: each.rmse)
         return self.known[key]
+
+    def at_constant(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
+        """The model with another value of a constant that is not free, refitted; it is not remembered."""
+        return self._fitted(fitted_model.fit_model.with_numbers([name], [value]), fitted_model.freed)
+
+    def _fitted(self, fit_model: FitModel, freed: frozenset[str]) -> FittedModel:
+        self.before_fit()
+        free = free_numbers(fit_model, self.geometry, freed, load=self.load)
+        free = [parameter for parameter in free if parameter.name not in self.fixed]
+        return refitted(self.predictor, fit_model, free, freed=freed, effort=self.effort.fit)
 
     def adding(self, fitted_model: FittedModel, effect: Effect) -> FittedModel:
         """The model with one more effect, refitted from the present values."""
@@ -243,10 +247,9 @@ class Fitter:
         """Effect -> first-order reduction of the sum of squares if it is added and all is refitted."""
         basis, unexplained = unexplained_by(fitted_model)
         gains = self.known_gains.setdefault(fitted_model, {})
-        self._try_ahead(fitted_model, [effect for effect in effects if effect.id not in gains])
-        for effect in effects:
-            if effect.id in gains:
-                continue
+        new = [effect for effect in effects if effect.id not in gains]
+        self._try_ahead(fitted_model, new)
+        for effect in new:
             gains[effect.id] = gain(self.changes(fitted_model, effect), basis, unexplained)
         return {effect.id: gains[effect.id] for effect in effects}
 
