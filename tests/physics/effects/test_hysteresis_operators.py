@@ -29,7 +29,7 @@ def along(
         return {"velocity": float(speeds[min(int(t), len(speeds) - 1)])}
 
     states = run(effect, at, time, values)
-    place = {"pressure": 3e5, "length": MUSCLE.nominal_length, "muscle": MUSCLE}
+    place = {"pressure": 3e5, "length": MUSCLE.nominal_length, "muscle": MUSCLE, "velocity": speeds[-1]}
     force = effect.call("friction", place, {**effect.defaults, **(values or {}), **states})
     return np.interp(time, corners, lengths), force
 
@@ -53,7 +53,7 @@ def _warped(effect_id: str, *, warp: float) -> np.ndarray:
             "pressure_rate": 2e5 * np.cos(1.5 * tau) * 1.5 * rate,
         }
 
-    at_rest = {"muscle": MUSCLE, "length": MUSCLE.nominal_length, "pressure": 3e5}
+    at_rest = {"muscle": MUSCLE, "length": MUSCLE.nominal_length, "pressure": 3e5, "velocity": 0.0}
     force = effect.call("friction", at_rest, effect.defaults | run(effect, path, time))
     return np.interp(np.linspace(0.0, 6.0 * np.pi, 800), time + warp * np.sin(time), force)
 
@@ -248,7 +248,9 @@ def test_friction_grows_with_powers_of_pressure_and_length(effect_id: str) -> No
     values = {**effect.defaults, "pressure_power": 2.0 / 3.0, "length_power": 2.0, **states}
     rest = MUSCLE.nominal_length
     here, there = (
-        effect.call("friction", {"muscle": MUSCLE, "pressure": pressure, "length": length}, values)
+        effect.call(
+            "friction", {"muscle": MUSCLE, "pressure": pressure, "length": length, "velocity": 0.0}, values
+        )
         for pressure, length in ((1.5e5, rest), (4.5e5, 0.8 * rest))
     )
     assert there / here == pytest.approx(3.0 ** (2.0 / 3.0) * 0.64, rel=1e-4)  # rounded below 10 mbar

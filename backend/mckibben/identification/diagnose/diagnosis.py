@@ -271,7 +271,7 @@ def _diagnose(
     lean, corrections = without_corrections(fitter, best, root, level)
     added = tuple(effect for effect in lean.fit_model.ids if effect not in start_names)
     corrected = {item.effect for item in corrections}
-    lean, exchangeable = likeliest(fitter, lean, added, level, never=corrected)
+    lean, exchangeable = likeliest(fitter, lean, added, level, root=root, never=corrected)
     path = path_to(fitter, start, root, lean, gauge_zero)
     added = tuple(step.added for step in path if step.added)
     refinements, corrections = refined(fitter, lean, searched, corrections)

@@ -10,7 +10,7 @@ import numpy as np
 
 from mckibben.identification.diagnose.probability import log_preference, log_weight
 from mckibben.identification.diagnose.score import effective_rows, score
-from mckibben.identification.diagnose.search import exchanged
+from mckibben.identification.diagnose.search import exchanged, lean
 from mckibben.identification.diagnose.usual import as_usual
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
@@ -114,6 +114,7 @@ def likeliest(
     added: Sequence[str],
     noise: float,
     *,
+    root: FittedModel,
     never: Collection[str] = (),
 ) -> tuple[FittedModel, list[Alternative]]:
     """The likeliest of the models that fit as well, and the alternatives to its effects.
@@ -125,6 +126,7 @@ def likeliest(
         best: its best model.
         added: effects that may be replaced.
         noise: of the scaled residual.
+        root: the start model, fitted.
         never: effects that only corrected another one's form, and so do not take its place.
     """
     names = list(added)
@@ -140,7 +142,7 @@ def likeliest(
         if not weights or max(weights) <= log_preference(best, rows=rows, noise=fitter.noise):
             break
         chosen = plausible[int(np.argmax(weights))]
-        best = chosen.fitted_model
+        best = lean(fitter, chosen.fitted_model, root)
         names = [chosen.effect if name == chosen.of else name for name in names]
         others = alternatives(fitter, best, names, noise)
     value = partial(score, rows=rows, noise=fitter.noise)

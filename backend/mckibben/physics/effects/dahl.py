@@ -2,14 +2,14 @@ r"""Dahl friction: Coulomb friction that builds up over a short travel after eac
 
 With the break-away distance :math:`x_b = \varepsilon_b L_0` and the share z of full friction
 
-.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q}\left(\frac{L}{L_0}\right)^{m} z,
-   \qquad P_r = 3\ \mathrm{bar}
+.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q}\left(\frac{L}{L_0}\right)^{m} g\,z,
+   \qquad P_r = 3\ \mathrm{bar}, \qquad g = 1 + (\sigma - 1)\,e^{-(\dot L/v_s)^2}
 
-.. math:: \frac{dz}{dL} = \frac{(1 - \frac{z}{g}\operatorname{sgn}\dot L)^i}{x_b}, \qquad
-   g = 1 + (\sigma - 1)\,e^{-(\dot L/v_s)^2}
+.. math:: \frac{dz}{dL} = \frac{(1 - z\operatorname{sgn}\dot L)^i}{x_b}
 
-With :math:`\sigma = F_s/F_c \neq 1` slow sliding takes another force than fast sliding (Stribeck), which is
-the LuGre law; its viscous part is an effect of its own.
+With :math:`\sigma = F_s/F_c \neq 1` slow sliding takes another force than fast sliding (Stribeck). That is
+the LuGre law but for the way of building up, which here does not grow with g; its viscous part is an effect
+of its own.
 
 Dahl's stiffness is :math:`\sigma_0 = F_c/x_b` from rest, and :math:`2^i` times that after a reversal at full
 friction. His exponent i is 1 where the rest of the way is covered exponentially, larger for ductile and
@@ -30,33 +30,29 @@ def friction(
     *,
     pressure: Value,
     length: Value,
+    velocity: Value,
     muscle: Muscle,
     presliding: Value,
     force: Value,
     pressure_power: Value,
     length_power: Value,
+    static_ratio: Value,
+    stribeck_speed: Value,
 ) -> Value:
-    """F_c (P/P_r)^q (L/L_0)^m z [N]."""
+    """F_c (P/P_r)^q (L/L_0)^m (1 + (sigma - 1) exp(-(v/v_s)^2)) z [N]."""
     held = grip(
         pressure=pressure, length=length, nominal_length=muscle.nominal_length,
         pressure_power=pressure_power, length_power=length_power,
     )  # fmt: skip
-    return force * held * presliding
+    sliding = 1.0 + (static_ratio - 1.0) * ops.exp(-((velocity / stribeck_speed) ** 2))
+    return force * held * sliding * presliding
 
 
 def rates(
-    *,
-    velocity: Value,
-    muscle: Muscle,
-    presliding: Value,
-    break_strain: Value,
-    exponent: Value,
-    static_ratio: Value,
-    stribeck_speed: Value,
+    *, velocity: Value, muscle: Muscle, presliding: Value, break_strain: Value, exponent: Value
 ) -> tuple[Value]:
-    """dz/dt [1/s]: v (1 - z sgn v/g)^i/x_b; exactly 0 at rest."""
-    sliding = 1.0 + (static_ratio - 1.0) * ops.exp(-((velocity / stribeck_speed) ** 2))
-    rising = build_up(rate=velocity, share=presliding / sliding, exponent=exponent)
+    """dz/dt [1/s]: v (1 - z sgn v)^i/x_b; exactly 0 at rest."""
+    rising = build_up(rate=velocity, share=presliding, exponent=exponent)
     return (rising / (break_strain * muscle.nominal_length),)
 
 
@@ -75,9 +71,8 @@ EFFECT = Effect(
     type="hysteretic",
     cause="Threads in contact shear elastically before they slide. After a reversal the friction therefore "
     "changes sign smoothly, over a short travel of the muscle.",
-    equation=r"F_{h} = F_c\,(P_+/P_r)^q (L/L_0)^m\,z,\quad "
-    r"\dot z = \frac{\dot L\,(1-\frac{z}{g}\operatorname{sgn}\dot L)^i}{\varepsilon_b L_0},\quad "
-    r"g = 1+(\sigma-1)e^{-(\dot L/v_s)^2}",
+    equation=r"F_{h} = F_c\,(P_+/P_r)^q (L/L_0)^m\left[1+(\sigma-1)e^{-(\dot L/v_s)^2}\right] z,\quad "
+    r"\dot z = \frac{\dot L\,(1-z\operatorname{sgn}\dot L)^i}{\varepsilon_b L_0}",
     parameters=(
         Parameter(
             *("force", "F_c", "N", 10.0, 0.0, 200.0, _RANGE),
@@ -135,14 +130,14 @@ EFFECT = Effect(
     examples=(
         Example(
             *("slot:friction", -7.5, 1e-12, _DEFINITION, {"force": 10.0}, _SIZE_20),
-            {"presliding": -0.75, "pressure": 2e5, "length": 0.24},
+            {"presliding": -0.75, "pressure": 2e5, "length": 0.24, "velocity": 0.0},
         ),
         Example(
             # -7.5 N sqrt(2) 0.8^2, but for the rounding at low pressure
             *("slot:friction", -6.7882251, 1e-6, _DEFINITION),
             {"force": 10.0, "pressure_power": 0.5, "length_power": 2.0},
             _SIZE_20,
-            {"presliding": -0.75, "pressure": 6e5, "length": 0.24},
+            {"presliding": -0.75, "pressure": 6e5, "length": 0.24, "velocity": 0.0},
         ),
         Example(
             # (-0.03 - 0.03 * 0.5) m/s / 0.6 mm
@@ -150,11 +145,11 @@ EFFECT = Effect(
             {"velocity": -0.03, "presliding": 0.5},
         ),
         Example(
-            # 3 mm/s (1 - 0.75/(1 + 0.5/e)) / 0.6 mm at the Stribeck speed
-            *("slot:rates", 1.8326090131, 1e-7, _DEFINITION),
-            {"break_strain": 0.002, "static_ratio": 1.5, "stribeck_speed": 0.003},
+            # -7.5 N (1 + 0.5/e) at the Stribeck speed
+            *("slot:friction", -8.879548, 1e-6, _DEFINITION),
+            {"force": 10.0, "static_ratio": 1.5, "stribeck_speed": 0.003},
             _SIZE_20,
-            {"velocity": 0.003, "presliding": 0.75},
+            {"presliding": -0.75, "pressure": 2e5, "length": 0.24, "velocity": -0.003},
         ),
     ),
 )
