@@ -39,6 +39,18 @@ def test_a_choked_orifice_fills_at_a_constant_rate():
     assert slope == pytest.approx(np.full(len(slope), -1e4 / 0.02 * flow), rel=1e-3)
 
 
+def test_a_laminar_tube_fills_along_a_hyperbolic_tangent():
+    """dp/dt = K (p_u^2 - p^2) has the solution p_u tanh(K p_u t + artanh(p_0/p_u))."""
+    time = np.concatenate([[0.0, 1e-5], np.linspace(1e-3, 0.1, 100)])
+    pressure = np.where(time > 0.0, 5e5, 0.0)
+    d = behind(time, pressure, time=0.02, index=1.0, critical_ratio=0.0, laminar=1.0)
+    upstream, first, usual = 601_325.0, 101_325.0, 411_325.0
+    k = 1e4 / 0.02 / (usual**2 - 401_325.0**2)
+    filled = upstream * np.tanh(k * upstream * time + np.arctanh(first / upstream))
+    assert filled[-1] > 0.95 * upstream
+    assert upstream - d[1:] == pytest.approx(filled[1:], rel=2e-3)
+
+
 def test_a_shorter_muscle_holds_more_and_follows_later():
     """Ramp through a capillary: the lag goes with V = L (b^2 - L^2)."""
     time = np.linspace(0.0, 3.0, 301)

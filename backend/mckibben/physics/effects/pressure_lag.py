@@ -4,12 +4,13 @@ With the pressure d by which the muscle is behind the sensor, its volume V(L), a
 upstream and downstream of the tube, the air flows as through a restriction of ISO 6358-1:
 
 .. math:: P_m = P - d, \qquad \dot d = \dot P - \frac{P_d}{\tau}\,\frac{V(L_0)}{V(L)}\,\frac{Q}{Q_r}, \qquad
-   Q = p_u\Bigl[1-\Bigl(\frac{r-b}{1-b}\Bigr)_+^2\Bigr]^m, \quad r = \frac{p_d}{p_u}
+   Q = p_u^{1+\lambda}\Bigl[1-\Bigl(\frac{r-b}{1-b}\Bigr)_+^2\Bigr]^m, \quad r = \frac{p_d}{p_u}
 
 :math:`Q_r` is the flow into 3 bar at a lag of :math:`P_d = 0.1` bar; below about 1 mbar the flow is linear.
-The index m is 1/2 for an orifice and 1 for a capillary. The gas that a change of volume takes is not
-counted. A negative time is a sensor behind the muscle, :math:`P_m = P + 5d,\ \dot d = \dot P - 5d/|\tau|`, to
-first order :math:`P + |\tau|\dot P`. Below 0.1 ms the muscle has the measured pressure.
+The index m is 1/2 for an orifice and 1 for a capillary; in laminar flow, :math:`Q \propto p_u^2 - p_d^2`, it
+is 1 with b = 0 and :math:`\lambda = 1`. The gas that a change of volume takes is not counted. A negative time
+is a sensor behind the muscle, :math:`P_m = P + 5d,\ \dot d = \dot P - 5d/|\tau|`, to first order
+:math:`P + |\tau|\dot P`. Below 0.1 ms the muscle has the measured pressure.
 
 Where a valve fills a simulated muscle the pressure is that in the muscle, and the effect does nothing.
 """
@@ -48,12 +49,15 @@ def rates(
     time: Value,
     index: Value,
     critical_ratio: Value,
+    laminar: Value,
 ) -> tuple[Value]:
     """dd/dt [Pa/s]: dP/dt less what flows through the tube."""
     sensor = STANDARD_ATMOSPHERE + pressure
     usual = STANDARD_ATMOSPHERE + REFERENCE_PRESSURE
     flow = _flow(usual + _USUAL, usual, index, critical_ratio)
     narrow = _USUAL * _flow(sensor, sensor - behind, index, critical_ratio) / flow
+    upstream = ops.maximum(ops.maximum(sensor, sensor - behind), _LEAST)
+    narrow = narrow * ops.exp(laminar * ops.log(upstream / (usual + _USUAL)))
     full = volume(braid=muscle.braid, length=muscle.nominal_length)
     narrow = narrow * full / ops.maximum(volume(braid=muscle.braid, length=length), _SMALLEST * full)
     followed = ops.where(ops.greater(time, _SHORTEST), narrow, _SHARPER * behind)
@@ -85,7 +89,7 @@ EFFECT = Effect(
     "muscle; or the sensor and its amplifier are slower than the muscle. The muscle then pulls with a "
     "pressure that the record shows earlier or later.",
     equation=r"P_m = P-d,\quad \dot d = \dot P-\frac{P_d}{\tau}\,\frac{V(L_0)}{V(L)}\,\frac{Q}{Q_r},\quad "
-    r"Q = p_u\left[1-\left(\frac{r-b}{1-b}\right)_+^2\right]^m",
+    r"Q = p_u^{1+\lambda}\left[1-\left(\frac{r-b}{1-b}\right)_+^2\right]^m",
     parameters=(
         Parameter(
             *("time", r"\tau", "s", 0.02, -0.5, 2.0, _TUBE),
@@ -102,6 +106,12 @@ EFFECT = Effect(
         Parameter(
             *("critical_ratio", "b", "1", 0.2, 0.0, 0.6, _RATIO),
             description="Ratio of the pressures below which the air flows at the speed of sound.",
+            fitted=False,
+            natural=True,
+        ),
+        Parameter(
+            *("laminar", r"\lambda", "1", 0.0, 0.0, 1.0, _FLOW),
+            description="Power of the upstream pressure beyond that of an orifice: 1 in laminar flow.",
             fitted=False,
             natural=True,
         ),
