@@ -98,9 +98,11 @@ def channel_noise(
     differences = sum(len(rows) - 3 for rows in sweeps if len(rows) >= SHORTEST_SWEEP)
     coordinates = [predictor.inputs[name] for name in _PLACE if name in predictor.inputs]
     if differences < _FEWEST and coordinates:
-        noise = neighbour_noise(values[rows], np.column_stack(coordinates)[rows])
-        if noise:
-            return noise, "repeats and near neighbours"
+        # Cycles that change with time, as a muscle that warms up, are smooth only beside those next to them.
+        time = [[], *([[predictor.inputs["time"]]] if "time" in predictor.inputs else [])]
+        found = [neighbour_noise(values[rows], np.column_stack([*coordinates, *each])[rows]) for each in time]
+        if any(found):
+            return min(filter(None, found)), "repeats and near neighbours"
     return noise_floor(values, sweeps), "third differences of the residual within sweeps"
 
 
