@@ -16,9 +16,7 @@ _SWINGS = 0.6  # share of sign changes of fourth differences; 0.8 of independent
 _LEAST, _MOST = 2e-4, 0.01  # of the largest value; less may be rounding, more may be set at random
 _STEPS = 3.0  # steps of the numbers; scatter below it may be their rounding
 _REPEATED = 0.1  # share of rows that repeat the one before, as a set point does between two settings
-_EVEN = (
-    0.7  # scatter of the flattest quarter over that of the steepest; an unsteady clock scatters slopes only
-)
+_EVEN = 0.7  # scatter of the flattest quarter over that of the steepest; an unsteady clock scatters slopes
 _CURVED = 0.5  # slope of the flattest quarter over that of the steepest; of one slope nothing is told
 _FOLLOWS = 0.25  # share of swings in step with another column above that by chance
 _LAGS = 3  # rows
