@@ -50,6 +50,7 @@ class StateVariable:
             state without such a value. See `mckibben.physics.sliding`.
         applied: what it equals where a muscle at rest was filled or loaded at once: "pressure", its gauge
             pressure [Pa], "stroke", its length less the rest length [m], or "" for neither.
+        lasting: of a change that no rest undoes, the parameter that says how much of it there was before.
     """
 
     name: str
@@ -61,6 +62,7 @@ class StateVariable:
     settled: bool = False
     sliding: float = 0.0
     applied: Literal["", "pressure", "stroke"] = ""
+    lasting: str = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -201,6 +203,8 @@ class Effect:
             raise ValueError(f"a parameter name occurs twice: {names}")
         if bool(self.states) != bool({"rates", "drive_rates"} & set(self.slots)):
             raise ValueError("states and a slot 'rates' or 'drive_rates' belong together")
+        if unknown := {state.lasting for state in self.states} - {"", *names}:
+            raise ValueError(f"no parameter says what lasts of a state: {sorted(unknown)}")
         declared = [*names, *(state.name for state in self.states)]
         wanted = {slot: _wanted_arguments(slot, function, declared) for slot, function in self.slots.items()}
         if unused := set(declared) - {argument for arguments in wanted.values() for argument in arguments}:

@@ -116,6 +116,16 @@ def test_a_hold_that_begins_with_its_pressure_creeps_on():
     )
 
 
+def test_what_no_rest_undoes_is_said_unless_stated():
+    predictor = QuasistaticPredictor(comparable_rows(cycles(each=40), MUSCLE))
+    (said,) = predictor.assumed_history(fit_model(bladder_elasticity={}, mullins={}))
+    assert said == (
+        "Mullins effect (run-in): the muscle is taken as new in each record; of one that had been used "
+        "before, mullins.run_in says how far"
+    )
+    assert predictor.assumed_history(fit_model(bladder_elasticity={}, mullins={"run_in": 0.1})) == ()
+
+
 def test_a_sweep_from_no_pressure_has_had_nothing_put_on():
     lines = [
         f"{0.5 * row},{4e5 * abs(1 - abs(row / 40 - 1))},{length},100"

@@ -148,7 +148,7 @@ def test_run_in_is_over_after_the_first_cycle() -> None:
 def test_virgin_curve_beyond_the_largest_contraction() -> None:
     """Softer below it, by at most the loss; at and beyond it, and from new, nothing is lost."""
     lengths = MUSCLE.nominal_length * (1.0 - np.array([-0.03, 0.0, 0.05, 0.1499, 0.15, 0.2]))
-    values = {"loss": 0.2, "strain": 0.05}
+    values = {"loss": 0.2, "strain": 0.05, "run_in": 0.0}
     factor = MULLINS.call(
         "elastomer_factor", {"muscle": MUSCLE, "length": lengths}, {**values, "largest": 0.15}
     )
@@ -157,6 +157,9 @@ def test_virgin_curve_beyond_the_largest_contraction() -> None:
     assert (np.diff(factor[1:]) >= 0.0).all()
     new = MULLINS.call("elastomer_factor", {"muscle": MUSCLE, "length": lengths}, values)
     assert np.array_equal(new, np.ones(6))
+    # One that had been contracted before is as soft as if it had been so in the record.
+    used = MULLINS.call("elastomer_factor", {"muscle": MUSCLE, "length": lengths}, values | {"run_in": 0.15})
+    assert np.array_equal(used, factor)
 
 
 def test_work_warms_the_wall_and_rest_cools_it() -> None:

@@ -138,9 +138,16 @@ class Predictor(ABC):
         return self
 
     def assumed_history(self, fit_model: FitModel) -> tuple[str, ...]:
-        """A sentence where another history than rest was assumed."""
+        """A sentence where another history than rest was assumed, and on what no rest undoes."""
         names = [name for name in dict.fromkeys(self.history(fit_model)) if name != "rest"]
-        return tuple(_ASSUMED[name] for name in names)
+        lasting = [
+            f"{effect.title}: the muscle is taken as new in each record; of one that had been used before, "
+            f"{effect.id}.{state.lasting} says how far"
+            for effect in fit_model.effects
+            for state in effect.states
+            if state.lasting and fit_model.values[effect.id][state.lasting] == 0.0
+        ]
+        return (*(_ASSUMED[name] for name in names), *lasting)
 
     def reading(self, values: np.ndarray) -> Predictor:
         """This predictor of other readings, shape (values,), at the same inputs."""

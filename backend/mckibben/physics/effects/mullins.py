@@ -5,8 +5,9 @@ With the largest contraction :math:`\varepsilon_m` the muscle has seen,
 .. math:: F_{el} \to F_{el}\left[1 - d\left(1-e^{-(\varepsilon_m-\varepsilon)/\varepsilon_c}\right)\right]
    \ (0 \le \varepsilon < \varepsilon_m), \quad \dot\varepsilon_m = \max(\varepsilon-\varepsilon_m,0)/\tau
 
-The state follows within 2 ms, so that its rate has no jump. The model has no recovery; real rubber recovers
-in hours or days.
+The state follows within 2 ms, so that its rate has no jump. A muscle that had been contracted by
+:math:`\varepsilon_r` before the record has :math:`\varepsilon_m \ge \varepsilon_r`. The model has no
+recovery; real rubber recovers in hours or days.
 """
 
 from mckibben.physics import ops
@@ -18,9 +19,11 @@ from mckibben.physics.parameter import Parameter, Source
 _FOLLOWING_TIME = 2e-3  # s
 
 
-def elastomer_factor(*, muscle: Muscle, length: Value, largest: Value, loss: Value, strain: Value) -> Value:
+def elastomer_factor(
+    *, muscle: Muscle, length: Value, largest: Value, loss: Value, strain: Value, run_in: Value
+) -> Value:
     """1 - d (1 - exp(-gap/eps_c)) [-] with the gap to the largest contraction; 1 on the virgin curve."""
-    gap = ops.positive_part(largest - ops.positive_part(muscle.contraction(length)))
+    gap = ops.positive_part(ops.maximum(largest, run_in) - ops.positive_part(muscle.contraction(length)))
     return 1.0 - loss * (1.0 - ops.exp(-gap / strain))
 
 
@@ -65,9 +68,20 @@ EFFECT = Effect(
             description="Contraction below the largest one over which the loss develops.",
             fitted=False,
         ),
+        Parameter(
+            *("run_in", r"\varepsilon_r", "1", 0.0, 0.0, 0.4, Source("0 = a new muscle", "D")),
+            description="Largest contraction that the muscle had seen before the record.",
+            fitted=False,
+            natural=True,
+            reference=True,
+        ),
     ),
     slots={"elastomer_factor": elastomer_factor, "rates": rates},
-    states=(StateVariable("largest", r"\varepsilon_m", "1", 0.1, "Largest contraction seen."),),
+    states=(
+        StateVariable(
+            "largest", r"\varepsilon_m", "1", 0.1, "Largest contraction seen in the record.", lasting="run_in"
+        ),
+    ),
     kinds=frozenset({"isobaric", "isotonic", "transient"}),
     signature=Signature(
         text="the first cycle differs from all later ones; the lost stiffness returns only beyond the "
@@ -103,6 +117,13 @@ EFFECT = Effect(
             {"loss": 0.2, "strain": 0.05},
             _SIZE_10,
             {"length": 0.08, "largest": 0.2},
+        ),
+        Example(
+            # of a muscle that had been contracted by 20 % before
+            *("slot:elastomer_factor", 0.8270670566473226, 1e-12, _BY_HAND),
+            {"loss": 0.2, "strain": 0.05, "run_in": 0.2},
+            _SIZE_10,
+            {"length": 0.09, "largest": 0.1},
         ),
     ),
 )
