@@ -9,7 +9,7 @@ table instead, whose entries are right: none may be asked about.
 
 On 26 November 2026, seed 0: alone 26 of 27 (asked while reading 4, first 20, beside an exact twin 2),
 beside an effect 45 of 46 (5, 34, 6); wanted 90 %. Not found: a rest length of a muscle that is stated by
-thread and turns, and one beside an effect. Right entries doubted, two days before: 0 of 52
+thread and turns, and one beside an effect. Right entries doubted: 0 of 56
 (``--right iso``), and 0 of 500 nulls.
 """
 
