@@ -1,6 +1,6 @@
 """Laboratories that nobody of the project has seen: their files through the command line, as a user types it.
 
-    python -m tests.benchmarks.laboratories [--set first|second|third|fourth] [--only lab02,lab06] [--keep FILE]
+    python -m tests.benchmarks.laboratories [--set third] [--only lab02,lab06] [--keep FILE]
 
 `tests/laboratories` holds them. Each is diagnosed from the ideal muscle with the arguments of its user, the
 model found is saved, and it predicts the files of the laboratory's second test. Errors are over the true
