@@ -8,14 +8,15 @@ is the model's own if it is one). It is decided where the diagnosis of all files
 effect, and none of those any more.
 
 On 25 November 2026, and again on 26 November with the effects and experiments of that day: 24 of 26 in six
-seeds of all static cases (seeds 3 to 5 were added before they were looked at); 19 more groups have no experiment of the rig. In the two misses (a pressure play beside a
-prestress) the sensor's offset is excluded as promised, but the joint search explains the prestress by other
-effects. A day before, with separations along slopes only: 8 of 11 in three seeds, 18 groups without an
-experiment. Some rivals of then are no alternatives any more (all cases of Dahl are decided at once), and a
-prestress and an offset of the force count as two truths since experiments have slack muscles: 18 of 20 of
-those are decided, and 6 of 6 of the others. Since a likelier cause is none the less another explanation, six
-more groups (a linear spring or a bladder) have no experiment of the rig; Dahl's cases have no rivals as
-before; of the 15 other groups run again, 13 are decided, with the same two misses.
+seeds of all static cases (seeds 3 to 5 were added before they were looked at); 19 more groups have no
+experiment of the rig. In the two misses (a pressure play beside a prestress) the sensor's offset is
+excluded as promised, but the joint search explains the prestress by other effects. A day before, with
+separations along slopes only: 8 of 11 in three seeds, 18 groups without an experiment. Some rivals of then
+are no alternatives any more (all cases of Dahl are decided at once), and a prestress and an offset of the
+force count as two truths since experiments have slack muscles: 18 of 20 of those are decided, and 6 of 6 of
+the others. Since a likelier cause is none the less another explanation, six more groups (a linear spring or
+a bladder) have no experiment of the rig; Dahl's cases have no rivals as before; of the 15 other groups run
+again, 13 are decided, with the same two misses.
 """
 
 from __future__ import annotations
