@@ -162,7 +162,9 @@ def fitted(page: Page, act: Callable[[], object]) -> float:
     return error(page)
 
 
+# A change of the window's size moves everything once, in the frame after it: two frames are let go by.
 WATCH = """
+for (let frame = 0; frame < 2; frame++) await new Promise(requestAnimationFrame);
 window.shifts = [];
 new PerformanceObserver((list) => {
   for (const entry of list.getEntries()) {
