@@ -191,7 +191,7 @@ def _loaded(model: FitModel, pressure: float) -> ComparableRows:
     time = np.array([0.0, _SLOW_RAMP, 2.0 * _SLOW_RAMP])
     pressures = pressure * np.array([0.3, 1.0, 0.3])
     warm = [RigRun(time, pressures, None, share * blocked) for share in _LOADS]
-    return _task(warm, model)
+    return replace(_task(warm, model), load_read=True)  # by a force sensor, whose errors are drawn as well
 
 
 def _task(runs: list[RigRun], model: FitModel) -> ComparableRows:

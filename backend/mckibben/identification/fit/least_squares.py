@@ -66,6 +66,7 @@ def least_squares_fit(
     seed: int = 0,
     tolerance: float = 1e-12,
     evaluations: int = 200,
+    secants: int = 0,
 ) -> FitResult:
     """Minimise the sum of squared residuals over the free parameters within their bounds.
 
@@ -77,6 +78,7 @@ def least_squares_fit(
         seed: of the random starts, so that a fit is repeatable.
         tolerance: relative change of the sum of squares at which the fit stops.
         evaluations: most evaluations from each start.
+        secants: see `minimise`.
 
     Standard errors assume independent residuals of equal size; they come from the exact Jacobian at the end.
     A parameter at a bound has none, nor has one that the data cannot separate from others.
@@ -88,8 +90,9 @@ def least_squares_fit(
     best = None
     for start in (first, *(lower + share * (upper - lower) for share in random)):
         minimum = minimise(
-            residual, jacobian, start, lower, upper, tolerance=tolerance, evaluations=evaluations
-        )
+            residual, jacobian, start, lower, upper, tolerance=tolerance, evaluations=evaluations,
+            secants=secants,
+        )  # fmt: skip
         if best is None or minimum.squares < best.squares * (1.0 - 1e-9):
             best = minimum
     assert best is not None  # noqa: S101 - there is always at least the first start

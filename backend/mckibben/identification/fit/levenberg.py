@@ -7,8 +7,11 @@ step that would cross it, also in the other directions, and stop where they bega
 
 over the box itself: numbers that would leave it stay at their bound, the others go on.
 
+Where derivatives are dear, some steps change J by Broyden's secant formula instead, in the scaled numbers; a
+step that disappoints, and the end of the search, ask for exact ones.
+
 Marquardt, J. SIAM 11 (1963) 431; scaling and tests of convergence as in MINPACK (More, LNM 630, 1978);
-change of the damping after Nielsen, IMM-REP-1999-05.
+change of the damping after Nielsen, IMM-REP-1999-05; Broyden, Math. Comp. 19 (1965) 577.
 """
 
 from __future__ import annotations
@@ -22,6 +25,7 @@ _FIRST_DAMPING = 1e-3  # nearly a Gauss-Newton step: the starts are usual values
 _LEAST_DAMPING = 1e-12
 _MOST_DAMPING = 1e10  # the search gives up beyond
 _ACCEPTED = 1e-4  # share of the predicted reduction from which a step is accepted
+_KEPT = 0.5  # share of the predicted reduction from which a secant is good enough
 _FLAT = 1e-30  # share of the largest column norm below which a parameter changes nothing
 
 
@@ -48,42 +52,57 @@ def minimise(
     *,
     tolerance: float,
     evaluations: int,
+    secants: int = 0,
 ) -> Minimum:
     """Minimise the sum of squared residuals from a start within bounds.
 
     Args:
         residual: numbers, shape (n,) -> residuals, shape (m,), finite.
-        jacobian: numbers -> derivatives, shape (m, n); called only where the residuals were just evaluated.
+        jacobian: numbers -> derivatives, shape (m, n); called where the residuals were just evaluated, with
+            secants also where they were evaluated last but one.
         start, lower, upper: shape (n,); a start outside is moved to the bound.
         tolerance: relative reduction of the sum of squares, predicted and achieved, at which it stops.
         evaluations: most evaluations of the residuals.
+        secants: most steps in a row without new derivatives.
     """
     x = np.clip(start, lower, upper)
     r, j = residual(x), jacobian(x)
     squares = float(r @ r)
     scale = np.linalg.norm(j, axis=0)
-    damping, growth = _FIRST_DAMPING, 2.0
+    damping, growth, old = _FIRST_DAMPING, 2.0, 0  # steps since the derivatives were new
     for _ in range(evaluations - 1):
         scale = np.maximum(scale, np.linalg.norm(j, axis=0))
-        d = _step(j, r, damping * _weights(scale) ** 2, lower - x, upper - x)
+        weights = _weights(scale) ** 2
+        d = _step(j, r, damping * weights, lower - x, upper - x)
         linear = j @ d + r
         predicted = squares - float(linear @ linear)
         if not predicted > 0.0 or damping > _MOST_DAMPING:
-            break
+            if not old:
+                break
+            j, old = jacobian(x), 0
+            continue
         new = np.clip(x + d, lower, upper)
         moved = residual(new)
         achieved = squares - float(moved @ moved)
         ratio = achieved / predicted
+        small = max(abs(achieved), predicted) <= tolerance * squares and ratio <= 2.0
         if ratio > _ACCEPTED:
+            if old < secants and ratio > _KEPT and not small:
+                j = j + np.outer(moved - linear, weights * d) / float(d @ (weights * d))
+                old += 1
+            else:
+                j, old, small = jacobian(new), 0, small and not old
             x, r, squares = new, moved, squares - achieved
-            j = jacobian(x)
             damping = max(damping * max(1.0 / 3.0, 1.0 - (2.0 * ratio - 1.0) ** 3), _LEAST_DAMPING)
             growth = 2.0
+        elif old:
+            j, old, small = jacobian(x), 0, False
         else:
             damping, growth = damping * growth, 2.0 * growth
-        small = max(abs(achieved), predicted) <= tolerance * squares and ratio <= 2.0
         if small or not squares > 0.0:
             break
+    if old:
+        j = jacobian(x)
     return Minimum(x, r, j)
 
 

@@ -14,6 +14,7 @@ from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 
 _LOST = 1e3  # misfit of a row whose prediction is not finite, over the largest value
+_SECANTS = 2  # steps of a fit in a row without new derivatives, where those are dear
 
 
 class Misfit:
@@ -48,7 +49,7 @@ class Misfit:
             predictor, fit_model = self._predictor, self.fit_model(numbers)
             self._predicted, self._slopes = None, None
             with np.errstate(all="ignore"):
-                if predictor.simulated:
+                if predictor.simulated or predictor.follows(fit_model):
                     predicted = self._predicted = predictor.within_fit(fit_model, self._free)
                 else:
                     predicted, slopes = predictor.linearised(fit_model, self._free)
@@ -63,7 +64,7 @@ class Misfit:
         """Derivatives of the misfit, shape (values, free)."""
         self.value(numbers)
         if self._slopes is None:
-            slopes = self._predictor.differences(self.fit_model(numbers), self._free, self._predicted)
+            slopes = self._predictor.slopes(self.fit_model(numbers), self._free, self._predicted)
             self._slopes = self._weighted(slopes)
         return self._slopes
 
@@ -115,4 +116,5 @@ class Misfit:
             starts=effort.starts,
             tolerance=effort.tolerance,
             evaluations=effort.evaluations,
+            secants=_SECANTS if predictor.follows(self._fit_model) else 0,
         )

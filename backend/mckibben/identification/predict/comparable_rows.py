@@ -35,6 +35,7 @@ _REAL_STEP = 0.3  # share of a usual step; smaller ones are noise at rest
 _UNRESOLVED = 0.15  # share of a usual step; a row nearer to a reversal shows neither of its sides
 _SWING = 2.0  # usual steps of a reversal; less is noise
 _FEW_NEAR = 3  # rows near a reversal; more resolve it
+_READ = 0.5  # share of the rows at which a load that is read changes
 _PRESSED = ("isometric", "isotonic")  # kinds in which the pressure moves
 _PRESCRIBED = ("isobaric", "static")  # kinds in which the length is prescribed and moves
 
@@ -58,6 +59,7 @@ class ComparableRows:
         rows: index of each row in the measurement.
         excluded: reason -> number of excluded rows.
         unknown_load: whether the load is not stated and has to be fitted.
+        load_read: whether a sensor read the load, so that it has the errors of a force sensor.
         messages: the assumptions.
         rest_length: the nominal length that the lengths are calculated with [m].
         by_rest_length: derivative of each length by it: 0 where the length itself is measured, 1 for a
@@ -84,6 +86,7 @@ class ComparableRows:
     by_rest_length: np.ndarray | float = 0.0
     corners: np.ndarray | None = None
     ordered: bool = False
+    load_read: bool = False
 
     def chosen(self, keep: np.ndarray) -> ComparableRows:
         """Only some of the rows (a mask or indices)."""
@@ -186,6 +189,9 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
         rest_length=muscle.nominal_length,
         by_rest_length=_by_rest_length(columns)[keep] if length is not None else 0.0,
         ordered=measurement.in_order,
+        load_read=bool(np.count_nonzero(np.diff(state["load"])) > _READ * count)
+        if "load" in state
+        else False,
     )
 
 

@@ -9,8 +9,11 @@ are; a prediction without noise stays as it is everywhere.
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
+from mckibben.identification.predict.comparable_rows import ComparableRows
 from mckibben.measurement.noise import CHI2_MEDIAN
 
 _REACH = 8  # rows to either side
@@ -43,6 +46,17 @@ def without_input_noise(time: np.ndarray, values: np.ndarray) -> np.ndarray:
         total[inner] += np.where(_like(taken, values), _between(time, values, reach), 0.0)
         count[inner] += taken
     return total / _like(count, values)
+
+
+def with_smooth_pressure(task: ComparableRows) -> ComparableRows:
+    """The rows with the smooth part of their pressure: the muscle has not felt the noise of its sensor."""
+    if task.time is None:
+        return task
+    pressure = np.array(task.state["pressure"])
+    for label in np.unique(task.records):
+        rows = task.records == label
+        pressure[rows] = without_input_noise(task.time[rows], pressure[rows])
+    return replace(task, state={**task.state, "pressure": pressure})
 
 
 def _between(time: np.ndarray, values: np.ndarray, reach: int) -> np.ndarray:

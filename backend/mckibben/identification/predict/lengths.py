@@ -6,19 +6,22 @@ record
 
 .. math:: L_t = \min(\max(L_{t-1}, L_l), L_s)
 
-so friction needs no measured direction, and the prediction of a sticking muscle is constant.
+so friction needs no measured direction, and the prediction of a sticking muscle is constant. With memory the
+muscle is followed row by row, see `mckibben.identification.predict.own_way`.
 """
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 
 import numpy as np
 
 from mckibben.identification.predict.evaluate import Evaluation, State
 from mckibben.identification.predict.fit_model import LOAD, FitModel
+from mckibben.identification.predict.own_way import acting_of, followed_lengths, remembered
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
+from mckibben.simulation.drive.carried import sliding
 
 _NEWTON_STEPS = 40
 _TOLERANCE = 1e-8  # m; last step of Newton's method, whose error is its square
@@ -35,8 +38,11 @@ def predicted_lengths(
     evaluation: Evaluation, fit_model: FitModel, names: Sequence[str] = ()
 ) -> LengthAndGradient:
     """Length of each row [m], and its derivatives by the named parameters, shape (rows, names)."""
+    acting = acting_of(fit_model, names)
+    if remembered(acting):
+        return followed_lengths(evaluation, acting, names)
     state = evaluation.state(fit_model)
-    if not any(map(_rubs, fit_model.effects)):
+    if not any(map(_rubs, acting.effects)):
         return _balance(evaluation, fit_model, names, state)
     branches = []
     for sign in (-1.0, 1.0):
@@ -128,24 +134,9 @@ def _load(stated: np.ndarray, fit_model: FitModel, state: State, length: np.ndar
         "direction": -state["direction"],
         "load": np.abs(stated + fit_model.load),
     }
-    guides = [effect for effect in fit_model.effects if "guide" in effect.slots]
-    values = {
-        e.id: {**fit_model.values[e.id], **_sliding(e, fit_model.values[e.id], context)} for e in guides
-    }
+    guides = [effect for effect in acting_of(fit_model).effects if "guide" in effect.slots]
+    values = {e.id: {**fit_model.values[e.id], **sliding(e, fit_model.values[e.id], context)} for e in guides}
     return stated + fit_model.load + Model(tuple(guides)).sum("guide", values, context)
-
-
-def _sliding(
-    effect: Effect, values: Mapping[str, float], context: Mapping[str, np.ndarray]
-) -> dict[str, np.ndarray]:
-    """Steady-state values of a guide's states while it slides; their rates are linear in the states."""
-    if not effect.states:
-        return {}
-    empty, full = (
-        effect.call("drive_rates", context, {**values, **dict.fromkeys((s.name for s in effect.states), z)})
-        for z in (0.0, 1.0)
-    )
-    return {s.name: low / (low - high) for s, low, high in zip(effect.states, empty, full, strict=True)}
 
 
 def _load_slope(

@@ -158,6 +158,19 @@ class Memory:
             self._kept.pop(next(iter(self._kept)))
         return found
 
+    def begins(self, fit_model: FitModel, before: Before) -> dict[int, dict[str, float]]:
+        """Row -> states that are not at rest there, where a record or a level begins."""
+        found: dict[int, dict[str, float]] = {}
+        for effect in filter(remembers, fit_model.effects):
+            past = concerning(effect, before)
+            run = _Wanted((), fit_model, (), past)
+            rest = {f"{effect.id}.{state.name}": state.initial or 0.0 for state in effect.states}
+            for rows in self._levels if past.anew else self._records:
+                motion = self._first_motion(rows) if past.slid else 0.0
+                begin = rest | self._begin(run, effect, int(rows[0]), motion)
+                found.setdefault(int(rows[0]), {}).update(begin)
+        return found
+
     def by_parameters(
         self, fit_model: FitModel, names: Sequence[str], before: Before = HISTORIES["rest"]
     ) -> dict[str, dict[str, np.ndarray]]:

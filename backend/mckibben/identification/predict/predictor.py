@@ -188,6 +188,15 @@ class Predictor(ABC):
         predicted = self.within_fit(fit_model, free)
         return predicted, self.differences(fit_model, free, predicted if self.simulated else None)
 
+    def follows(self, fit_model: FitModel) -> bool:
+        """Whether derivatives by the parameters of this model cost a multiple of a prediction."""
+        del fit_model
+        return False
+
+    def slopes(self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None) -> np.ndarray:
+        """Derivatives by the free parameters, where the prediction ``here`` is known."""
+        return self.differences(fit_model, free, here)
+
     def differences(
         self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None
     ) -> np.ndarray:

@@ -14,8 +14,10 @@ from mckibben.identification.predict.evaluate import Evaluation, sorted_effects
 from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.identification.predict.folds import folds_of, ranges_of, sweeps_of
 from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.input_noise import with_smooth_pressure
 from mckibben.identification.predict.lengths import predicted_lengths
 from mckibben.identification.predict.memory import HISTORIES, remembers
+from mckibben.identification.predict.own_way import acting_of, remembered
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.predict.sensor_dynamics import as_read, late
 from mckibben.physics.effect import Effect
@@ -81,6 +83,8 @@ class QuasistaticPredictor(Predictor):
 
     def _follow(self, task: ComparableRows) -> None:
         """Evaluate models along these rows."""
+        if task.channel == "length" and task.time is not None:
+            task = with_smooth_pressure(task)
         self.task = task
         # Rows where the motion turns belong to the path, but are not scored.
         self._counted = ~task.turning if np.any(~task.turning) else np.ones(len(task.turning), bool)
@@ -114,6 +118,8 @@ class QuasistaticPredictor(Predictor):
             return self.without_time
         if delays and self.task.channel != "force":
             return "it delays the force reading, and no force was predicted"
+        if self.kind == "isotonic" and not self.task.load_read and "force_sensor" in effect.slots:
+            return "it acts on the force reading, and no force was measured"
         if "compliance" in effect.slots and self.task.channel == "diameter":
             return "it does not change the diameter"
         return ""
@@ -227,6 +233,15 @@ class QuasistaticPredictor(Predictor):
         if "nominal_length" in names:
             gradient[:, names.index("nominal_length")] -= self.task.by_rest_length
         return length[self._counted], gradient[self._counted]
+
+    def follows(self, fit_model: FitModel) -> bool:
+        """As of the base class: the length of a muscle with memory is followed row by row."""
+        return self.task.channel == "length" and remembered(acting_of(fit_model))
+
+    def slopes(self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None) -> np.ndarray:
+        """As of the base class, exact ones."""
+        del here
+        return self.linearised(fit_model, free)[1]
 
     def _late_linearised(self, fit_model: FitModel, free: Sequence[Free]) -> tuple[np.ndarray, np.ndarray]:
         """The filter applied to the exact derivatives; finite differences by its own parameters."""

@@ -1,0 +1,87 @@
+"""Lengths of a muscle with memory that carries a load: it remembers its own way, not the measured one.
+
+A prediction is then a free run: it needs the pressure and the load alone, and noise of the measured length
+does not make friction turn round.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from mckibben.identification.predict.evaluate import Evaluation, sorted_effects
+from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.memory import remembers
+from mckibben.physics.effect import Effect
+from mckibben.physics.muscle import GEOMETRY
+from mckibben.simulation.drive.carried import carried_lengths
+from mckibben.simulation.statics.model import StaticModel
+
+_STEP = 1e-4  # relative step of a difference by a parameter
+_SHARE = 0.01  # of the range between bounds, of which a step is a share where the value is smaller
+
+
+def acting_of(fit_model: FitModel, names: Sequence[str] = ()) -> FitModel:
+    """The model with the effects that do something, or of which derivatives are wanted.
+
+    A search evaluates models with all candidates, most of them off.
+    """
+    wanted = {name.partition(".")[0] for name in names}
+    acting = [e for e in fit_model.effects if e.id in wanted or not _is_off(e, fit_model.values[e.id])]
+    if len(acting) == len(fit_model.effects):
+        return fit_model
+    values = {effect.id: fit_model.values[effect.id] for effect in acting}
+    return replace(fit_model, effects=sorted_effects(acting), values=values)
+
+
+def _is_off(effect: Effect, values: Mapping[str, float]) -> bool:
+    switches = [p for p in effect.parameters if p.off is not None]
+    return bool(switches) and all(values[p.name] == p.off for p in switches)
+
+
+def remembered(fit_model: FitModel) -> bool:
+    """Whether the muscle of a model has memory."""
+    return any(map(remembers, fit_model.effects))
+
+
+def followed_lengths(
+    evaluation: Evaluation, fit_model: FitModel, names: Sequence[str]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Length of each row [m], and its derivatives by the named parameters, shape (rows, names)."""
+    task = evaluation.task
+    models, steps = [fit_model], []
+    for name in names:
+        here, step = fit_model.number(name), _step_of(fit_model, name)
+        models.append(fit_model.with_numbers([name], [here + step]))
+        steps.append(step)
+    effects = sorted_effects(fit_model.effects)
+    clock = np.arange(len(task.measured), dtype=float) if task.time is None else task.time
+    with np.errstate(all="ignore"):
+        lengths = carried_lengths(
+            [StaticModel.of(model.muscle, effects, model.values) for model in models],
+            time=clock,
+            pressure=task.state["pressure"],
+            load=np.array([task.state["load"] + model.load for model in models]),
+            temperature=task.state["temperature"],
+            records=task.records,
+            first=np.array([task.measured + evaluation.moved(model) for model in models]),
+            begins=[evaluation.begins(model) for model in models],
+        )
+    length = lengths[0]
+    return length, ((lengths[1:] - length) / np.array(steps)[:, None]).T
+
+
+def _step_of(fit_model: FitModel, name: str) -> float:
+    """Step of a difference, away from the upper bound."""
+    here = fit_model.number(name)
+    if name in GEOMETRY:
+        return _STEP * here
+    effect_id, _, parameter = name.partition(".")
+    effect = next((e for e in fit_model.effects if e.id == effect_id), None)
+    if effect is None:  # a load
+        return _STEP * max(abs(here), 1.0)
+    declared = effect.parameter(parameter)
+    step = _STEP * max(abs(here), _SHARE * (declared.upper - declared.lower))
+    return step if here + step <= declared.upper else -step
