@@ -29,7 +29,7 @@ _FREE, _STUCK, _AT_LIMIT, _LOST = 0.0, 1.0, 2.0, 3.0  # of a row: what a small c
 _ROW, _TABLE = "float64[::1]", "float64[:,::1]"
 
 
-@njit(error_model="numpy")
+@njit(error_model="numpy", inline="always")
 def _followed(
     rates: int, given: np.ndarray, made: np.ndarray, states: np.ndarray, begin: np.ndarray, rows: np.ndarray,
     bounds: np.ndarray, k: int, step: float, before: float, length: float,
@@ -129,7 +129,7 @@ def _carried(
             other, at_other, bracketed = new, at_new, True
         if abs(at_new) <= _CLOSE * abs(slope) or moved < _CLOSE or (bracketed and abs(other - x) < _CLOSE):
             break
-    # One step of Newton's method from there.
+    # One step of Newton's method from there, with the slope that the others need as well.
     beside = new + way * _BESIDE
     at_beside = _excess(
         balance, rates, given, made, states, begin, rows, bounds, k, step, before, beside, way
