@@ -101,3 +101,31 @@ def test_a_number_that_changes_nothing_stays_and_evaluations_are_counted():
     assert found.numbers[1] == pytest.approx(0.25)
     assert found.numbers[0] == pytest.approx(np.log(3.0), rel=1e-6)
     assert len(calls) <= 20
+
+
+def test_secants_reach_the_same_minimum_with_fewer_derivatives():
+    x = np.linspace(0.0, 1.0, 60)
+    data = 2.0 * np.exp(-5.0 * x) + 0.3 * np.sin(7.0 * x + 0.4)
+    asked = []
+
+    def residual(b):
+        return b[0] * np.exp(-b[1] * x) + b[2] * np.sin(b[3] * x + b[4]) - data
+
+    def jacobian(b):
+        asked.append(b)
+        decay, angle = np.exp(-b[1] * x), b[3] * x + b[4]
+        wave = b[2] * np.cos(angle)
+        return np.column_stack([decay, -b[0] * x * decay, np.sin(angle), x * wave, wave])
+
+    start, low, high = np.array([1.0, 3.0, 0.2, 6.0, 0.0]), np.zeros(5), np.full(5, 20.0)
+    counts = []
+    for secants in (0, 2):
+        asked.clear()
+        found = minimise(
+            residual, jacobian, start, low, high, tolerance=1e-12, evaluations=200, secants=secants
+        )
+        counts.append(len(asked))
+        np.testing.assert_allclose(found.numbers, [2.0, 5.0, 0.3, 7.0, 0.4], rtol=1e-5)
+        # The derivatives at the end are exact whatever the steps were.
+        np.testing.assert_allclose(found.jacobian, jacobian(found.numbers), rtol=1e-12)
+    assert counts[1] < counts[0]

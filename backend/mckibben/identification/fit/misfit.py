@@ -14,7 +14,8 @@ from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 
 _LOST = 1e3  # misfit of a row whose prediction is not finite, over the largest value
-_SECANTS = 2  # steps of a fit in a row without new derivatives, where those are dear
+# Steps of a fit in a row without new derivatives, where those are dear, and its least tolerance.
+_SECANTS, _TOLERANCE = 2, 3e-5
 
 
 class Misfit:
@@ -49,7 +50,7 @@ class Misfit:
             predictor, fit_model = self._predictor, self.fit_model(numbers)
             self._predicted, self._slopes = None, None
             with np.errstate(all="ignore"):
-                if predictor.simulated or predictor.follows(fit_model):
+                if predictor.simulated or predictor.follows(fit_model, self._free):
                     predicted = self._predicted = predictor.within_fit(fit_model, self._free)
                 else:
                     predicted, slopes = predictor.linearised(fit_model, self._free)
@@ -109,12 +110,13 @@ class Misfit:
 
     def _after(self, predictor: Predictor, free: Sequence[Free], effort: FitEffort) -> FitResult:
         self._predictor, self._at = predictor, None
+        dear = predictor.follows(self._fit_model, free)
         return least_squares_fit(
             self.value,
             self.derivatives,
             free,
             starts=effort.starts,
-            tolerance=effort.tolerance,
+            tolerance=max(effort.tolerance, _TOLERANCE) if dear else effort.tolerance,
             evaluations=effort.evaluations,
-            secants=_SECANTS if predictor.follows(self._fit_model) else 0,
+            secants=_SECANTS if dear else 0,
         )

@@ -19,6 +19,8 @@ from mckibben.measurement.noise import CHI2_MEDIAN
 _REACH = 8  # rows to either side
 _FARTHEST = 4.0  # deviations of a point that noise explains
 _FEWEST = 12  # rows of a record; fewer are left as they are
+# Of white noise, what an average over the whole reach leaves: its row, and 8 middles with half the variance.
+_LEFT = np.sqrt(1.0 + 0.5 * _REACH) / (1.0 + _REACH)
 # Of white noise, the variance of d_k - (d_(k-1) + d_(k+1))/2 with d_k = r_k - (r_(k-1) + r_(k+1))/2.
 _OF_DIFFERENCES = 4.375
 
@@ -48,15 +50,24 @@ def without_input_noise(time: np.ndarray, values: np.ndarray) -> np.ndarray:
     return total / _like(count, values)
 
 
-def with_smooth_pressure(task: ComparableRows) -> ComparableRows:
-    """The rows with the smooth part of their pressure: the muscle has not felt the noise of its sensor."""
+def with_smooth_pressure(task: ComparableRows) -> tuple[ComparableRows, float]:
+    """The rows with the smooth part of their pressure: the muscle has not felt the noise of its sensor.
+
+    Returns:
+        the rows, and the noise of their lengths [m] by what is left of that of the pressure, which neighbours
+        share.
+    """
     if task.time is None:
-        return task
-    pressure = np.array(task.state["pressure"])
+        return task, 0.0
+    pressure, left = np.array(task.state["pressure"]), []
     for label in np.unique(task.records):
-        rows = task.records == label
-        pressure[rows] = without_input_noise(task.time[rows], pressure[rows])
-    return replace(task, state={**task.state, "pressure": pressure})
+        rows = np.flatnonzero(task.records == label)
+        smooth = without_input_noise(task.time[rows], pressure[rows])
+        if len(rows) >= _FEWEST:
+            change = float(np.std(task.measured[rows])) / max(float(np.std(smooth)), 1e-300)
+            left.append(_LEFT * change * _noise(task.time[rows], pressure[rows]))
+        pressure[rows] = smooth
+    return replace(task, state={**task.state, "pressure": pressure}), max(left, default=0.0)
 
 
 def _between(time: np.ndarray, values: np.ndarray, reach: int) -> np.ndarray:

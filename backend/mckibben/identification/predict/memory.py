@@ -101,6 +101,11 @@ class Memory:
         self._levels = [part for rows in self._records for part in np.split(rows, self._new_levels(rows))]
 
     @property
+    def starts(self) -> list[int]:
+        """First rows of records and of levels."""
+        return sorted({int(rows[0]) for rows in (*self._records, *self._levels)})
+
+    @property
     def begins_held(self) -> bool:
         """Whether a record begins with a hold under pressure, as a log of creep does and no sweep."""
         pressure = self._task.state["pressure"]

@@ -14,6 +14,7 @@ import numpy as np
 from mckibben.identification.predict.evaluate import Evaluation, sorted_effects
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.memory import remembers
+from mckibben.identification.predict.path import path_of
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.drive.carried import carried_lengths
@@ -56,19 +57,23 @@ def followed_lengths(
         here, step = fit_model.number(name), _step_of(fit_model, name)
         models.append(fit_model.with_numbers([name], [here + step]))
         steps.append(step)
-    effects = sorted_effects(fit_model.effects)
+    effects, path = sorted_effects(fit_model.effects), evaluation.path or path_of(task)
     clock = np.arange(len(task.measured), dtype=float) if task.time is None else task.time
     with np.errstate(all="ignore"):
         lengths = carried_lengths(
             [StaticModel.of(model.muscle, effects, model.values) for model in models],
-            time=clock,
-            pressure=task.state["pressure"],
-            load=np.array([task.state["load"] + model.load for model in models]),
-            temperature=task.state["temperature"],
-            records=task.records,
-            first=np.array([task.measured + evaluation.moved(model) for model in models]),
-            begins=[evaluation.begins(model) for model in models],
+            time=clock[path.rows],
+            pressure=task.state["pressure"][path.rows],
+            load=np.array([task.state["load"][path.rows] + model.load for model in models]),
+            temperature=task.state["temperature"][path.rows],
+            records=task.records[path.rows],
+            first=np.array([(task.measured + evaluation.moved(model))[path.rows] for model in models]),
+            begins=[
+                {int(path.before[row]): states for row, states in evaluation.begins(model).items()}
+                for model in models
+            ],
         )
+    lengths = path.everywhere(lengths)
     length = lengths[0]
     return length, ((lengths[1:] - length) / np.array(steps)[:, None]).T
 

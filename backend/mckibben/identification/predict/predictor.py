@@ -75,6 +75,7 @@ class Predictor(ABC):
         accuracy: channel -> standard deviation of what its sensor may be wrong by all the time [SI].
         weights: how fits allow for reading errors; None before `allowing`, and without any.
         accuracy_floor: error of the scaled residual due to `accuracy`; known after `allowing`.
+        input_floor: error of the scaled residual due to noise of inputs that neighbouring rows share.
     """
 
     kind: str
@@ -96,6 +97,7 @@ class Predictor(ABC):
     accuracy: Mapping[str, float] = MappingProxyType({})
     weights: ReadingWeights | None = None
     accuracy_floor: float = 0.0
+    input_floor: float = 0.0
 
     @abstractmethod
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
@@ -188,9 +190,9 @@ class Predictor(ABC):
         predicted = self.within_fit(fit_model, free)
         return predicted, self.differences(fit_model, free, predicted if self.simulated else None)
 
-    def follows(self, fit_model: FitModel) -> bool:
-        """Whether derivatives by the parameters of this model cost a multiple of a prediction."""
-        del fit_model
+    def follows(self, fit_model: FitModel, free: Sequence[Free]) -> bool:
+        """Whether derivatives by these parameters cost much more than a prediction, but no simulated runs."""
+        del fit_model, free
         return False
 
     def slopes(self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None) -> np.ndarray:

@@ -83,8 +83,8 @@ class QuasistaticPredictor(Predictor):
 
     def _follow(self, task: ComparableRows) -> None:
         """Evaluate models along these rows."""
-        if task.channel == "length" and task.time is not None:
-            task = with_smooth_pressure(task)
+        if task.channel == "length":
+            task, self.input_floor = with_smooth_pressure(task)
         self.task = task
         # Rows where the motion turns belong to the path, but are not scored.
         self._counted = ~task.turning if np.any(~task.turning) else np.ones(len(task.turning), bool)
@@ -234,9 +234,10 @@ class QuasistaticPredictor(Predictor):
             gradient[:, names.index("nominal_length")] -= self.task.by_rest_length
         return length[self._counted], gradient[self._counted]
 
-    def follows(self, fit_model: FitModel) -> bool:
+    def follows(self, fit_model: FitModel, free: Sequence[Free]) -> bool:
         """As of the base class: the length of a muscle with memory is followed row by row."""
-        return self.task.channel == "length" and remembered(acting_of(fit_model))
+        acting = acting_of(fit_model, [parameter.name for parameter in free])
+        return self.task.channel == "length" and remembered(acting)
 
     def slopes(self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None) -> np.ndarray:
         """As of the base class, exact ones."""

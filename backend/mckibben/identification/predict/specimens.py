@@ -89,6 +89,7 @@ class SpecimensPredictor(Predictor):
                 PredictedChannel(channel.name, channel.unit, slice(begin, begin + count), noise, scale)
             )
             begin += count
+        self.input_floor = float(np.sqrt(np.average([p.input_floor**2 for p in parts], weights=sizes)))
         self._order = np.concatenate(order)
         self._back = np.empty(len(self._order), dtype=np.intp)
         self._back[self._order] = np.arange(len(self._order))
@@ -207,6 +208,16 @@ class SpecimensPredictor(Predictor):
             values.append(predicted)
             slopes.append(gradient * np.array([_ratio(p.name, fit_model, own) for p in free]))
         return self._stacked(values), np.concatenate(slopes)[self._order]
+
+    def follows(self, fit_model: FitModel, free: Sequence[Free]) -> bool:
+        """Whether one of the specimens does."""
+        return any(each.predictor.follows(fit_model, free) for each in self._specimens)
+
+    def slopes(self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None) -> np.ndarray:
+        """Those of `linearised`, unless all specimens are simulated."""
+        if self.simulated:
+            return super().slopes(fit_model, free, here)
+        return self.linearised(fit_model, free)[1]
 
     def why_hidden(self, effect: Effect) -> str:
         """An effect shows if it shows in one of the measurements."""

@@ -84,7 +84,7 @@ def noise_of(predictor: Predictor, residual: np.ndarray, stated: float | None) -
         return float(np.hypot(value or 0.0, predictor.accuracy_floor)), _BY_ACCURACY
     if value is None:
         return None, "the sweeps are too short for an estimate"
-    return max(value, _ROUNDING * first.full_scale), how
+    return max(float(np.hypot(value, predictor.input_floor)), _ROUNDING * first.full_scale), how
 
 
 def channel_noise(
