@@ -85,9 +85,9 @@ class Memory:
     """Trajectories of the states of effects over the rows, cached for models that share them.
 
     The states follow the measured length and pressure; each record begins after one of `HISTORIES`, all with
-    the same. They depend only on
-    the parameters in the rates of their effect and on the sensors. So each effect is integrated by itself,
-    and a fit of other parameters does not integrate it again.
+    the same. They depend only on the parameters in the rates of their effect and on the sensors. So each
+    effect is integrated by itself, and a fit of other parameters does not integrate it again. Where the length
+    is predicted they follow it instead, see `mckibben.identification.predict.own_way`.
     """
 
     def __init__(self, task: ComparableRows) -> None:
