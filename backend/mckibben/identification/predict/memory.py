@@ -86,8 +86,8 @@ class Memory:
 
     The states follow the measured length and pressure; each record begins after one of `HISTORIES`, all with
     the same. They depend only on the parameters in the rates of their effect and on the sensors. So each
-    effect is integrated by itself, and a fit of other parameters does not integrate it again. Where the length
-    is predicted they follow it instead, see `mckibben.identification.predict.own_way`.
+    effect is integrated by itself, and a fit of other parameters does not integrate it again. Where lengths
+    are predicted they follow those instead, see `mckibben.identification.predict.own_way`.
     """
 
     def __init__(self, task: ComparableRows) -> None:
