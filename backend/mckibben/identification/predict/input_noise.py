@@ -18,6 +18,7 @@ from mckibben.measurement.noise import CHI2_MEDIAN
 
 _REACH = 8  # rows to either side
 _FARTHEST = 4.0  # deviations of a point that noise explains
+_ANSWERS = 0.3  # correlation from which a length answers to a pressure
 _FEWEST = 12  # rows of a record; fewer are left as they are
 # Of white noise, what an average over the whole reach leaves: its row, and 8 middles with half the variance.
 _LEFT = np.sqrt(1.0 + 0.5 * _REACH) / (1.0 + _REACH)
@@ -53,6 +54,8 @@ def without_input_noise(time: np.ndarray, values: np.ndarray) -> np.ndarray:
 def with_smooth_pressure(task: ComparableRows) -> tuple[ComparableRows, float]:
     """The rows with the smooth part of their pressure: the muscle has not felt the noise of its sensor.
 
+    Where the length answers to what would be taken away it was pressure, as steps by hand are, and stays.
+
     Returns:
         the rows, and the noise of their lengths [m] by what is left of that of the pressure, which neighbours
         share.
@@ -63,11 +66,22 @@ def with_smooth_pressure(task: ComparableRows) -> tuple[ComparableRows, float]:
     for label in np.unique(task.records):
         rows = np.flatnonzero(task.records == label)
         smooth = without_input_noise(task.time[rows], pressure[rows])
+        if _felt(
+            pressure[rows] - smooth,
+            task.measured[rows] - without_input_noise(task.time[rows], task.measured[rows]),
+        ):
+            continue
         if len(rows) >= _FEWEST:
             change = float(np.std(task.measured[rows])) / max(float(np.std(smooth)), 1e-300)
             left.append(_LEFT * change * _noise(task.time[rows], pressure[rows]))
         pressure[rows] = smooth
     return replace(task, state={**task.state, "pressure": pressure}), max(left, default=0.0)
+
+
+def _felt(pressure: np.ndarray, length: np.ndarray) -> bool:
+    """Whether what is rough in the length follows what is rough in the pressure."""
+    size = float(np.linalg.norm(pressure) * np.linalg.norm(length))
+    return abs(float(pressure @ length)) > max(_ANSWERS, 3.0 / np.sqrt(len(pressure))) * size > 0.0
 
 
 def _between(time: np.ndarray, values: np.ndarray, reach: int) -> np.ndarray:
