@@ -109,6 +109,8 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
                 return "isotonic", "pressure and stroke change slowly under a stated load"
             if _inertia_hidden(columns["time"], stroke):
                 return "isotonic", "a stated load moves so evenly that its inertia is below 1 % of its weight"
+            if _usual_step(columns["time"]) > _CLOSE:
+                return "isotonic", "a stated load, and rows too far apart to show its inertia"
         return (
             ("transient", "pressure and stroke over time") if timed else ("isotonic", "strokes at pressures")
         )
@@ -157,8 +159,7 @@ def lifts_fast(columns: Mapping[str, NDArray]) -> bool:
     stroke = next((columns[name] for name in STROKES if name in columns), None)
     if weights is None or stroke is None or not np.ptp(stroke) > 0.0:
         return False
-    steps = np.diff(columns["time"])
-    if not np.any(steps > 0.0) or float(np.median(steps[steps > 0.0])) > _CLOSE:
+    if not 0.0 < _usual_step(columns["time"]) <= _CLOSE:
         return False
     runs = np.split(np.arange(len(stroke)), starts_of_lifts(columns)[1:])
     span = float(np.ptp(stroke))
@@ -208,6 +209,11 @@ def _held_load(force: Array) -> bool:
     """Whether most rows show one force: a weight that shakes only while it is moved."""
     level = float(np.median(force))
     return bool(level > 0.0 and np.mean(np.abs(force - level) <= 0.02 * level) >= _HELD_SHARE)
+
+
+def _usual_step(time: Array) -> float:
+    steps = np.diff(time)
+    return float(np.median(steps[steps > 0.0])) if np.any(steps > 0.0) else 0.0
 
 
 def _moves_slowly(time: Array, stroke: Array) -> bool:

@@ -123,6 +123,18 @@ def test_a_weight_on_sines_of_some_seconds_is_isotonic_although_its_pressure_jum
     assert read_measurement(faster, "log.tsv").kind == "transient"
 
 
+@pytest.mark.parametrize(("step", "kind"), [(0.25, "isotonic"), (0.05, "transient")])
+def test_stairs_under_a_weight_are_isotonic_where_no_row_could_show_its_inertia(
+    step: float, kind: str
+) -> None:
+    """52 kg swing on a muscle with some hertz: four rows a second show nothing of it, twenty do."""
+    time = np.arange(0.0, 300.0, step)
+    pressure = np.interp(time % 60.0, [0.0, 29.0, 30.0, 59.0, 60.0], [1.1, 1.1, 4.2, 4.2, 1.1])
+    rows = "\n".join(f"{t:.2f},{p:.4f},{470.0 - 25.0 * p:.3f}" for t, p in zip(time, pressure, strict=True))
+    head = "# a mass of 52 kg hangs from the muscle, rest length 0.5 m\ntime_s,pressure_bar,length_mm\n"
+    assert read_measurement(f"{head}{rows}\n".encode(), "stairs.csv").kind == kind
+
+
 def test_a_weight_that_jumps_or_is_not_known_is_transient() -> None:
     jumping = read_measurement(hanging(60.0, PREAMBLES[0], jump=True), "run.tsv")
     assert jumping.kind == "transient"
