@@ -9,12 +9,14 @@ from typing import cast
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.twins import _difference, _imitates
+from mckibben.identification.diagnose.twins import _difference, _imitates, alternatives
+from mckibben.identification.fit.effort import diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.specimens import SpecimenData, SpecimensPredictor
-from tests.identification.synthetic import CATALOGUE, MUSCLE, Plain, linear_node
+from tests.identification.synthetic import CATALOGUE, MUSCLE, Plain, csv, length_under, linear_node
 
 X = np.linspace(-1.0, 1.0, 240)
 NOISE = np.random.default_rng(3).normal(size=240)
@@ -84,3 +86,32 @@ def test_two_models_are_the_same_only_where_they_are_in_each_measurement() -> No
     assert _difference(one, two, both) == pytest.approx(1.0)
     alone = Plain(np.ones(500), np.empty((500, 0)), [np.arange(500) // 20])
     assert _difference(one, two, alone) == pytest.approx(np.sqrt(0.2))
+
+
+def test_two_effects_are_another_explanation_of_one_with_a_further_constant() -> None:
+    """One load, a wall and a dead band of 0.3 bar: a factor with a threshold of its own fits them as well."""
+    draw = np.random.default_rng(5)
+    pressures = np.concatenate([np.linspace(1.5, 6.0, 60), np.linspace(6.0, 1.5, 60)])
+    rows = [
+        f"{p},{1e3 * (length_under(250.0, 1e5 * (p - 0.3), c10=0.15e6) + 1e-4 * draw.normal())}"
+        for p in pressures
+    ]
+    predictor = predictor_of(
+        csv(rows, "pressure_bar,length_mm", "kind: isotonic", "load_force: 250 N"), MUSCLE
+    )
+    names = ("effectiveness", "bladder_elasticity", "prestress", "linear_elasticity", "threshold_pressure")
+    candidates, start = tuple(CATALOGUE[name] for name in names), FitModel(MUSCLE)
+    fitter = Fitter(
+        predictor=predictor.prepared(start, candidates), geometry=(), candidates=candidates, noise=1e-4,
+        load=None, effort=diagnosis_effort(simulated=False),
+    )  # fmt: skip
+    best = fitter.fit(start.adding(CATALOGUE["effectiveness"]), frozenset({"effectiveness.threshold"}))
+    others = alternatives(fitter, best, ["effectiveness"], 1e-4)
+    pairs = [set(other.fitted_model.fit_model.ids) for other in others]
+    for wall in ("prestress", "linear_elasticity"):
+        assert {wall, "threshold_pressure"} in pairs
+    assert all("effectiveness" not in pair for pair in pairs)
+    alone = fitter.fit(start.adding(CATALOGUE["effectiveness"]))
+    assert not any(
+        len(o.fitted_model.fit_model.ids) > 1 for o in alternatives(fitter, alone, ["effectiveness"], 1e-4)
+    )

@@ -25,6 +25,7 @@ SAME = 0.5
 _IMITATED = 0.5 * SAME
 _COSINE = 0.99  # between sensitivities, above which they count as parallel
 _AS_GOOD = 1.05  # largest rmse of an exchange with parallel sensitivity, over that of the best model
+_HALVES, _SECONDS = 4, 2  # effects tried as the first of two in the place of one, and second ones of each
 _TRIED = 8  # exchanges always fitted per effect
 _PROMISE = 0.3  # first-order gain, as a share of the largest one, from which further ones are fitted
 #: Difference of -2 log likelihood below which two models count as equally likely: three standard deviations.
@@ -76,7 +77,39 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
             if difference < _IMITATED and _imitates(fitter, best, fitted_model, fitter.adding(less, effect)):
                 continue
             equivalent.append(Alternative(effect_id, effect.id, difference, fitted_model))
+        if any(name.partition(".")[0] == effect_id for name in best.freed):
+            found = {each.effect for each in equivalent if each.of == effect_id}
+            equivalent += _by_two(fitter, best, less, effect_id, found, noise)
     return equivalent
+
+
+def _by_two(
+    fitter: Fitter, best: FittedModel, less: FittedModel, of: str, found: Collection[str], noise: float
+) -> list[Alternative]:
+    """Two effects in the place of one whose further constants act as a second effect does.
+
+    Args:
+        fitter, best: as of `alternatives`.
+        less: the best model without the effect.
+        of: the effect.
+        found: effects that replace it alone.
+        noise: of the scaled residual.
+    """
+    rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
+    inside = {*best.fit_model.ids, *found}
+    others = [effect for effect in fitter.candidates if effect.id not in inside]
+    ones = [(effect, exchanged(fitter, less, effect)) for effect in _worth_fitting(fitter, less, others)]
+    pairs = []
+    for first, one in sorted(ones, key=lambda pair: pair[1].rmse)[:_HALVES]:
+        for second in fitter.promising(one, [e for e in others if e is not first])[:_SECONDS]:
+            both = fitter.adding(one, second)
+            excess = (both.mean_square - best.mean_square) / noise**2
+            lean_enough = both.implausible <= best.implausible and len(both.free) <= len(best.free) + 1
+            if lean_enough and rows * excess < UNDECIDED:
+                difference = _difference(both, best, fitter.predictor) / noise
+                pairs.append(Alternative(of, first.id, difference, both))
+                break
+    return pairs
 
 
 def _imitates(fitter: Fitter, best: FittedModel, other: FittedModel, declared: FittedModel) -> bool:
