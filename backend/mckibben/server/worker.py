@@ -24,6 +24,7 @@ from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.server.jobs import JOBS
 from mckibben.server.settings import Settings
+from mckibben.simulation.drive.carried import carrying
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Watch
 
@@ -98,6 +99,7 @@ def begin(settings: Settings, memory: int, compiled: bool) -> None:
     # ever takes longer, and goes on beside the first job.
     if compiled:
         lane_kernels.warm().join(_KERNELS_WITHIN)
+        carrying.warm().join(_KERNELS_WITHIN)
     else:
         load_readers()
     _own = _Own(studio, MeasurementStore(settings.data, quota=settings.quota), memory)

@@ -66,3 +66,12 @@ def test_steps_of_the_pressure_stay_steps():
 def test_short_and_timeless_records_are_followed_row_by_row():
     time, pressure, length = cycles(150)
     assert len(path_of(rows_of(time, pressure, length)).rows) == 150
+
+
+def test_a_load_that_changes_is_followed_and_a_constant_length_is_no_matter():
+    time = np.linspace(0.0, 50.0, 500)
+    task = rows_of(time, np.full(500, 3e5), np.full(500, 0.28))
+    task.state["load"][:] = np.repeat([50.0, 80.0, 60.0, 90.0, 70.0], 100)
+    path = path_of(task)
+    np.testing.assert_allclose(path.everywhere(task.state["load"][path.rows]), task.state["load"], atol=1e-9)
+    assert len(path.rows) < 100

@@ -1,8 +1,8 @@
 """The rows between which a muscle that carries a load is followed: many enough, and no more.
 
-A logger reads far more often than a slow motion changes. Between kept rows the pressure, and the smooth
-part of the measured length, are lines within small shares of their ranges; turns and beginnings are kept. The
-length at the rows between is that of the line.
+A logger reads far more often than a slow motion changes. Between kept rows the smooth parts of pressure, load
+and measured length are lines within small shares of their ranges; turns and beginnings are kept. The length
+at the rows between is that of the line.
 """
 
 from __future__ import annotations
@@ -15,7 +15,7 @@ import numpy as np
 from mckibben.identification.predict.comparable_rows import ComparableRows
 from mckibben.identification.predict.input_noise import without_input_noise
 
-_LINE = {"pressure": 2e-3, "length": 1e-3}  # largest distance from a line, share of the range
+_LINE = {"pressure": 2e-3, "load": 5e-3, "length": 1e-3}  # largest distance from a line, share of the range
 _MOST_BETWEEN = 8  # rows from one that is kept to the next
 _FEW = 200  # rows; of fewer all are kept
 
@@ -52,7 +52,7 @@ def path_of(task: ComparableRows, begins: Collection[int] = ()) -> Path:
         rows = np.arange(count)
     else:
         ends = {*np.flatnonzero(new).tolist(), *(np.flatnonzero(new)[1:] - 1).tolist(), *begins, count - 1}
-        courses = [_scaled(task, name) for name in _LINE]
+        courses = [_scaled(task, name) for name in _LINE if np.ptp(task.state[name]) > 0.0]
         rows = np.array(_kept(task.time, courses, ends, _turns(task.state["pressure"])))
     clock = np.arange(count, dtype=float) if task.time is None else task.time
     before = np.searchsorted(rows, np.arange(count), side="right") - 1
@@ -70,7 +70,7 @@ def _scaled(task: ComparableRows, name: str) -> np.ndarray:
     for label in np.unique(task.records):
         rows = task.records == label
         values[rows] = without_input_noise(task.time[rows], values[rows])
-    return values / max(_LINE[name] * float(np.ptp(values)), 1e-300)
+    return values / (_LINE[name] * float(np.ptp(task.state[name])))
 
 
 def _turns(pressure: np.ndarray) -> np.ndarray:
