@@ -23,7 +23,7 @@ from mckibben.identification.predict.memory import (
     remembers,
     remembers_before,
 )
-from mckibben.identification.predict.path import path_of
+from mckibben.identification.predict.path import Path, path_of
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
@@ -54,8 +54,14 @@ class Evaluation:
         self._without_derivatives = False
         # Of each direction of motion the lengths at which the last model carried the load, to begin at.
         self.balanced: dict[float, np.ndarray] = {}
-        # Rows between which the length of a muscle with memory is followed.
-        self.path = path_of(task, self._memory.starts) if task.channel == "length" else None
+        self._paths: list[Path] = []  # the one of `path` once it is known, for copies of this as well
+
+    @property
+    def path(self) -> Path:
+        """Rows between which the length of a muscle with memory is followed."""
+        if not self._paths:
+            self._paths.append(path_of(self.task, self._memory.starts))
+        return self._paths[0]
 
     def after(self, history: str) -> Evaluation:
         """The same with one of `HISTORIES` for every model."""

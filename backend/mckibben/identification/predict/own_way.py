@@ -14,7 +14,6 @@ import numpy as np
 from mckibben.identification.predict.evaluate import Evaluation, sorted_effects
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.memory import remembers
-from mckibben.identification.predict.path import path_of
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.drive.carried import carried_lengths
@@ -57,7 +56,7 @@ def followed_lengths(
         here, step = fit_model.number(name), _step_of(fit_model, name)
         models.append(fit_model.with_numbers([name], [here + step]))
         steps.append(step)
-    effects, path = sorted_effects(fit_model.effects), evaluation.path or path_of(task)
+    effects, path = sorted_effects(fit_model.effects), evaluation.path
     clock = np.arange(len(task.measured), dtype=float) if task.time is None else task.time
     with np.errstate(all="ignore"):
         lengths = carried_lengths(
