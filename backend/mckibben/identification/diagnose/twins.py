@@ -176,7 +176,7 @@ def likeliest(
             break
         chosen = plausible[int(np.argmax(weights))]
         best = lean(fitter, chosen.fitted_model, root)
-        names = [chosen.effect if name == chosen.of else name for name in names]
+        names = [name for name in best.fit_model.ids if name not in root.fit_model.ids]
         others = alternatives(fitter, best, names, noise)
     value = partial(score, rows=rows, noise=fitter.noise)
     others = [
