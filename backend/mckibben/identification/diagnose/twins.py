@@ -77,7 +77,7 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
             if difference < _IMITATED and _imitates(fitter, best, fitted_model, fitter.adding(less, effect)):
                 continue
             equivalent.append(Alternative(effect_id, effect.id, difference, fitted_model))
-        if any(name.partition(".")[0] == effect_id for name in best.freed):
+        if fitter.effort.thorough and any(name.partition(".")[0] == effect_id for name in best.freed):
             found = {each.effect for each in equivalent if each.of == effect_id}
             equivalent += _by_two(fitter, best, less, effect_id, found, noise)
     return equivalent
