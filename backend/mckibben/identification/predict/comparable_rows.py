@@ -172,6 +172,7 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
     )
     excluded["repeated rows"] = data.repeated
     turning |= unseen
+    read = "load" in state and np.count_nonzero(np.diff(state["load"])) > _READ * count
     return ComparableRows(
         kind=kind,
         channel=channel,
@@ -189,9 +190,7 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
         rest_length=muscle.nominal_length,
         by_rest_length=_by_rest_length(columns)[keep] if length is not None else 0.0,
         ordered=measurement.in_order,
-        load_read=bool(np.count_nonzero(np.diff(state["load"])) > _READ * count)
-        if "load" in state
-        else False,
+        load_read=bool(read),
     )
 
 
