@@ -73,3 +73,20 @@ def test_a_prediction_does_not_follow_the_measured_length():
         for longer in (0.0, 5e-3)
     )
     assert other.predict(model) == pytest.approx(same.predict(model), abs=1e-12)
+
+
+@pytest.mark.parametrize("answers", [False, True])
+def test_noise_of_the_pressure_is_averaged_and_said_unless_the_length_answers_to_it(answers: bool) -> None:
+    draw = np.random.default_rng(2)
+    time = np.linspace(0.0, 60.0, 301)
+    slow = np.interp(time, [0.0, 30.0, 60.0], [2e5, 5e5, 2e5])
+    read = slow + 1000.0 * draw.normal(size=len(time))
+    length = 0.29 - 1e-7 * (read if answers else slow) + 2e-5 * draw.normal(size=len(time))
+    rows = [f"{t},{p / 1e5},{1e3 * x}" for t, p, x in zip(time, read, length, strict=True)]
+    made = csv(rows, "time_s,pressure_bar,length_mm", "kind: isotonic", f"load_force: {WEIGHT} N")
+    predictor = predictor_of(made, MUSCLE)
+    told = [message for message in predictor.messages if "noise of the pressure readings" in message]
+    assert bool(told) is not answers
+    pressure = predictor.task.state["pressure"]
+    away = float(np.sqrt(np.mean((pressure - slow) ** 2)))
+    assert (away > 900.0) if answers else (away < 400.0)

@@ -18,6 +18,7 @@ from mckibben.measurement.noise import CHI2_MEDIAN
 
 _REACH = 8  # rows to either side
 _FARTHEST = 4.0  # deviations of a point that noise explains
+_TOLD = 2e-4  # of the range of the pressure; noise that is worth a word
 _ANSWERS = 0.3  # correlation from which a length answers to a pressure
 _FEWEST = 12  # rows of a record; fewer are left as they are
 # Of white noise, what an average over the whole reach leaves: its row, and 8 middles with half the variance.
@@ -75,7 +76,13 @@ def with_smooth_pressure(task: ComparableRows) -> tuple[ComparableRows, float]:
             change = float(np.std(task.measured[rows])) / max(float(np.std(smooth)), 1e-300)
             left.append(_LEFT * change * _noise(task.time[rows], pressure[rows]))
         pressure[rows] = smooth
-    return replace(task, state={**task.state, "pressure": pressure}), max(left, default=0.0)
+    taken = float(np.sqrt(np.mean((pressure - task.state["pressure"]) ** 2)))
+    messages = task.messages
+    if taken > _TOLD * float(np.ptp(pressure)):
+        told = f"noise of the pressure readings, {taken / 100.0:.2g} mbar, was averaged to predict lengths"
+        messages = (*messages, told)
+    smooth_rows = replace(task, state={**task.state, "pressure": pressure}, messages=messages)
+    return smooth_rows, max(left, default=0.0)
 
 
 def _felt(pressure: np.ndarray, length: np.ndarray) -> bool:
