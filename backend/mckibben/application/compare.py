@@ -15,7 +15,7 @@ from mckibben.application.compared_series import (
     series_of,
 )
 from mckibben.application.doubts import with_accepted
-from mckibben.application.envelope import MeasuredRange, beyond, envelope_of
+from mckibben.application.envelope import Envelope, MeasuredRange, beyond, envelope_of
 from mckibben.application.experiment_result import (
     SpecimenResult,
     absorbed_message,
@@ -26,6 +26,7 @@ from mckibben.application.measurements import UnreadColumn
 from mckibben.application.model_question import EffectDocument, ModelQuestion
 from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
 from mckibben.application.specimens import Specimens
+from mckibben.application.used_before import used_before
 from mckibben.identification.fit.comparison import (
     ChannelMisfit,
     Comparison,
@@ -197,8 +198,9 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
     ]
     validation = None
     if question.validation is not None:
-        validation, thin = _validation(question, question.validation, comparison)
+        validation, thin, remark = _validation(question, question.validation, comparison, data)
         thinned = thinned or thin
+        messages += [remark] if remark else []
     if thinned:
         messages.append(f"curves show at most {MAX_POINTS_PER_SERIES} points each; the figures use all rows")
     # A quantity that is accepted as wrong has another value only after a fit.
@@ -288,14 +290,16 @@ def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
 
 
 def _validation(
-    question: ModelQuestion, specimens: Specimens, fitted: Comparison
-) -> tuple[ValidationResult, bool]:
-    """The error of the fitted model for validation data, and whether the curves were thinned."""
+    question: ModelQuestion, specimens: Specimens, fitted: Comparison, envelope: Envelope
+) -> tuple[ValidationResult, bool, str]:
+    """The error of the fitted model for validation data, whether the curves were thinned, and a remark."""
     muscle = fitted.fit_model.muscle
     own = own_muscle(muscle, reference=specimens.reference, own=specimens.each[0].muscle)
     predictor = specimens.predictor(muscle if specimens.several else own)[0]
     model = fitted.fit_model if specimens.several else replace(fitted.fit_model, muscle=own)
+    model, remark = used_before(predictor, model, envelope)
     rows = specimens.points.measurement.rows
     validation = compared(predictor, model, rows=rows, noise=question.noise)
     series, thinned = series_of(validation, "validation")
-    return ValidationResult(validation.rmse, validation.nrmse_percent, predictor.rows_used, series), thinned
+    result = ValidationResult(validation.rmse, validation.nrmse_percent, predictor.rows_used, series)
+    return result, thinned, f"validation: {remark}" if remark else ""

@@ -11,6 +11,7 @@ from mckibben.application.experiment import SaidMeasurement, SaidModel
 from mckibben.application.measurement_files import OPTION
 from mckibben.application.model_question import ModelQuestion, question_of
 from mckibben.application.stated_noise import with_noise
+from mckibben.application.used_before import used_before
 from mckibben.documents.located import at_file
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.studio import Studio
@@ -131,4 +132,10 @@ def _of_saved(question: ModelQuestion, saved: SavedStart) -> ModelQuestion:
     ranges = {
         name: MeasuredRange(found.least, found.most, found.unit) for name, found in document.envelope.items()
     }
-    return replace(question, envelope=ranges, load_force=load, remarks=remarks)
+    model, remark = used_before(question.predictor, question.fit_model(), ranges)
+    question = replace(question, envelope=ranges, load_force=load, remarks=remarks)
+    if not remark:
+        return question
+    # What is stated of the muscle's past is part of the start model, so that fits and answers hold it.
+    start = replace(question.start, effects=model.values)
+    return replace(question, start=start, remarks=(*remarks, remark))

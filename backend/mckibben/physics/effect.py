@@ -51,6 +51,7 @@ class StateVariable:
         applied: what it equals where a muscle at rest was filled or loaded at once: "pressure", its gauge
             pressure [Pa], "stroke", its length less the rest length [m], or "" for neither.
         lasting: of a change that no rest undoes, the parameter that says how much of it there was before.
+        largest: of such a change, the measured quantity of which it is the largest value so far.
     """
 
     name: str
@@ -63,6 +64,7 @@ class StateVariable:
     sliding: float = 0.0
     applied: Literal["", "pressure", "stroke"] = ""
     lasting: str = ""
+    largest: Literal["", "contraction"] = ""
 
 
 @dataclass(frozen=True, slots=True)
@@ -205,6 +207,8 @@ class Effect:
             raise ValueError("states and a slot 'rates' or 'drive_rates' belong together")
         if unknown := {state.lasting for state in self.states} - {"", *names}:
             raise ValueError(f"no parameter says what lasts of a state: {sorted(unknown)}")
+        if halves := [state.name for state in self.states if bool(state.lasting) != bool(state.largest)]:
+            raise ValueError(f"'lasting' and 'largest' of a state belong together: {halves}")
         declared = [*names, *(state.name for state in self.states)]
         wanted = {slot: _wanted_arguments(slot, function, declared) for slot, function in self.slots.items()}
         if unused := set(declared) - {argument for arguments in wanted.values() for argument in arguments}:

@@ -79,7 +79,9 @@ EFFECT = Effect(
     slots={"elastomer_factor": elastomer_factor, "rates": rates},
     states=(
         StateVariable(
-            "largest", r"\varepsilon_m", "1", 0.1, "Largest contraction seen in the record.", lasting="run_in"
+            *("largest", r"\varepsilon_m", "1", 0.1, "Largest contraction seen in the record."),
+            lasting="run_in",
+            largest="contraction",
         ),
     ),
     kinds=frozenset({"isobaric", "isotonic", "transient"}),
