@@ -86,8 +86,9 @@ def visited(name: str) -> Line:
         saved = str(folder / "model.json")
         stated = folder / "muscle.json"
         stated.write_text(json.dumps(json.loads((home / "muscle.json").read_text())["muscle"]))
-        muscle = ("--muscle", str(stated), "--ideal")
-        found = mckibben(folder, "diagnose", *first, *muscle, *user["arguments"], "--save", saved)
+        # A drive document holds the muscle as well.
+        muscle = () if user.get("drive") else ("--muscle", str(stated), "--ideal")
+        found = mckibben(home, "diagnose", *first, *muscle, *user["arguments"], "--save", saved)
         if "refused" in found:
             line.refusal = found["refused"]
             return line
@@ -102,13 +103,15 @@ def visited(name: str) -> Line:
             for name, group in zip(verdict["effects"], groups, strict=True)
             if not any(group & ids for ids in known)
         )
-        line.start = found["path"][0]["rmse"] / truth["noise"]["first"]
-        line.after = found["path"][-1]["rmse"] / truth["noise"]["first"]
-        then = mckibben(folder, "compare", *second, "--model", saved, *user["second_arguments"])
+        # Of several channels the program tells errors over their noise.
+        noise = 1.0 if found["unit"] == "1" else truth["noise"]["first"]
+        line.start, line.after = (found["path"][place]["rmse"] / noise for place in (0, -1))
+        then = mckibben(home, "compare", *second, "--model", saved, *user["second_arguments"])
         if "refused" in then:
             line.refusal = then["refused"]
         else:
-            line.second = then["rmse"] / truth["noise"]["second"]
+            error = then["channels"].get("displacement", then)["rmse"]
+            line.second = error / truth["noise"]["second"]
         return line
 
 

@@ -11,7 +11,7 @@ _CLOSER = 0.98  # largest error over that of a new muscle with which the muscle 
 
 
 def used_before(predictor: Predictor, model: FitModel, envelope: Envelope) -> tuple[FitModel, str]:
-    """The model of a muscle that had been used as far as in earlier measurements, where data are closer to it.
+    """The model of a muscle used before, as far as in earlier measurements, where data are closer to it.
 
     Files do not say whether a muscle is the one that was measured before or a new one of the same kind.
 
@@ -47,6 +47,6 @@ def used_before(predictor: Predictor, model: FitModel, envelope: Envelope) -> tu
         predictor.unit, (1.0, f" {predictor.unit}")
     )
     return used, (
-        f"{titles}: the muscle is taken as used before, as far as in the measurements of the model ({stated}): "
-        f"error {brief(factor * after)}{unit}, as a new muscle {brief(factor * new)}{unit}"
+        f"{titles}: the muscle is taken as used before, as far as in the measurements of the model "
+        f"({stated}): error {brief(factor * after)}{unit}, as a new muscle {brief(factor * new)}{unit}"
     )

@@ -144,9 +144,9 @@ class Evaluation:
             state["length"] = state["length"] + moved
         return state | self._memory.states(fit_model, before)
 
-    def begins(self, fit_model: FitModel) -> dict[int, dict[str, float]]:
-        """Row -> states that are not at rest there, where a record or a level begins."""
-        return self._memory.begins(fit_model, HISTORIES[self.history(fit_model)])
+    def begins(self, fit_model: FitModel, history: str) -> dict[int, dict[str, float]]:
+        """Row -> states that are not at rest there, where a record or a level begins, after a history."""
+        return self._memory.begins(fit_model, HISTORIES[history])
 
     def moved(self, fit_model: FitModel) -> np.ndarray | float:
         """How much longer each length is with the nominal length of a model than with that of the rows [m].

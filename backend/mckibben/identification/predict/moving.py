@@ -26,6 +26,7 @@ from mckibben.identification.predict.moving_records import (
     stroke_of,
 )
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
+from mckibben.identification.predict.side_by_side import side_by_side
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.noise import noise_floor
 from mckibben.measurement.settled import settled
@@ -231,13 +232,18 @@ class TransientPredictor(Predictor):
             alike.setdefault(frozenset(fit_model.effects), []).append(index)
         found: dict[int, np.ndarray] = {}
         for group in alike.values():
-            of_records = [
-                self._runs([_drive_with(fit_models[index], record) for index in group], record)
-                for record in self._records
-            ]
+            of_records = self._of_records([fit_models[index] for index in group])
             for index, readings in zip(group, zip(*of_records, strict=True), strict=True):
                 found[index] = self._stacked(readings)
         return [found[index] for index in range(len(fit_models))]
+
+    def _of_records(self, models: Sequence[FitModel]) -> list[Sequence[Mapping[str, np.ndarray]]]:
+        """Of each record the readings of models with the same effects."""
+        drives = [[_drive_with(model, record) for model in models] for record in self._records]
+        # Counted here, so that it does not depend on which thread is first.
+        few = [self.commanded and self._few(*each) for each in zip(drives, self._records, strict=True)]
+        runs = list(zip(drives, self._records, few, strict=True))
+        return side_by_side(lambda run: self._runs(*run), runs)
 
     def within_fit(self, fit_model: FitModel, free: Sequence[Free]) -> np.ndarray:
         """As of the base class: the lanes beside the run make those that the derivatives need."""
@@ -301,14 +307,16 @@ class TransientPredictor(Predictor):
 
     def _side_by_side(self, models: Sequence[FitModel]) -> list[np.ndarray | None]:
         """`predict` of models that differ little from the first; None for one that runs another course."""
-        of_records = []
-        for record in self._records:
-            drives = [_drive_with(model, record) for model in models]
-            pieces = [record.pieces(drive) for drive in drives]
-            runs = readings_of_many(
-                drives, pieces, grid=record.time, together=True, few=self._few(drives, record)
-            )
-            of_records.append([_named(run) for run in runs])
+        drives = [[_drive_with(model, record) for model in models] for record in self._records]
+        few = [self._few(*each) for each in zip(drives, self._records, strict=True)]
+
+        def beside(run: tuple[list[Drive], Record, bool]) -> list[dict[str, np.ndarray]]:
+            own, record, quick = run
+            pieces = [record.pieces(drive) for drive in own]
+            runs = readings_of_many(own, pieces, grid=record.time, together=True, few=quick)
+            return [_named(readings) for readings in runs]
+
+        of_records = side_by_side(beside, list(zip(drives, self._records, few, strict=True)))
         return [
             self._stacked(readings) if all(readings) else None for readings in zip(*of_records, strict=True)
         ]
@@ -316,13 +324,13 @@ class TransientPredictor(Predictor):
     def _noises(self) -> np.ndarray:
         return np.repeat([channel.noise for channel in self.channels], len(self.rows))
 
-    def _runs(self, drives: Sequence[Drive], record: Record) -> Sequence[Mapping[str, np.ndarray]]:
+    def _runs(self, drives: Sequence[Drive], record: Record, few: bool) -> Sequence[Mapping[str, np.ndarray]]:
         """Readings of drives with the same effects; none where the values of a fit are those of no drive."""
         if not self.commanded:
             return self._motions(drives, record)
         pieces = [record.pieces(drive) for drive in drives]
         try:
-            runs = readings_of_many(drives, pieces, grid=record.time, few=self._few(drives, record))
+            runs = readings_of_many(drives, pieces, grid=record.time, few=few)
         except InputError:
             return [{} for _ in drives]
         return [_named(run) for run in runs]

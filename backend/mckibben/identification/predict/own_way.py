@@ -14,6 +14,7 @@ import numpy as np
 from mckibben.identification.predict.evaluate import Evaluation, sorted_effects
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.memory import remembers
+from mckibben.identification.predict.path import Path
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.drive.carried import carried_lengths
@@ -58,6 +59,13 @@ def followed_lengths(
         steps.append(step)
     effects, path = sorted_effects(fit_model.effects), evaluation.path
     clock = np.arange(len(task.measured), dtype=float) if task.time is None else task.time
+    # What went before is the same for all, as they differ little; a strain then counts from the rest length.
+    before = evaluation.history(fit_model)
+    begins = _at_path(path, evaluation.begins(fit_model, before))
+    begin_at = [
+        _at_path(path, evaluation.begins(model, before)) if name == "nominal_length" else begins
+        for model, name in zip(models, ("", *names), strict=True)
+    ]
     with np.errstate(all="ignore"):
         lengths = carried_lengths(
             [StaticModel.of(model.muscle, effects, model.values) for model in models],
@@ -67,14 +75,16 @@ def followed_lengths(
             temperature=task.state["temperature"][path.rows],
             records=task.records[path.rows],
             first=np.array([(task.measured + evaluation.moved(model))[path.rows] for model in models]),
-            begins=[
-                {int(path.before[row]): states for row, states in evaluation.begins(model).items()}
-                for model in models
-            ],
+            begins=begin_at,
         )
     lengths = path.everywhere(lengths)
     length = lengths[0]
     return length, ((lengths[1:] - length) / np.array(steps)[:, None]).T
+
+
+def _at_path(path: Path, begins: Mapping[int, Mapping[str, float]]) -> dict[int, Mapping[str, float]]:
+    """Number of the followed row -> what begins there, of rows."""
+    return {int(path.before[row]): states for row, states in begins.items()}
 
 
 def _step_of(fit_model: FitModel, name: str) -> float:

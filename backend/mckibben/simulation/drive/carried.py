@@ -155,6 +155,9 @@ def carried_lengths(
     rest = {f"{e.id}.{state.name}": state.initial or 0.0 for e in models[0].effects for state in e.states}
     starts = np.full((len(models), len(anew), count), np.nan)
     for model, of_model in enumerate(begins):
+        if model and of_model is begins[0]:
+            starts[model] = starts[0]
+            continue
         for place, row in enumerate(anew):
             stated = {**(rest if new[row] else {}), **of_model.get(row, {})}
             starts[model, place] = [stated.get(name, np.nan) for name in code.states]
@@ -183,9 +186,13 @@ def _rubs(effects: Sequence[Effect]) -> bool:
     return any("guide" in e.slots or "direction" in e.wanted(slot) for e in effects for slot in e.slots)
 
 
-def _constants(model: StaticModel, names: Sequence[str]) -> list[float]:
+def _constants(model: StaticModel, names: tuple[str, ...]) -> list[float]:
+    values = model.values
     numbers = [float(getattr(model.muscle, name)) for name in GEOMETRY]
-    for name in names[len(GEOMETRY) :]:
-        effect, _, parameter = name.partition(".")
-        numbers.append(model.values[effect][parameter])
-    return numbers
+    return numbers + [values[effect][parameter] for effect, parameter in _places(names)]
+
+
+@lru_cache(maxsize=256)
+def _places(names: tuple[str, ...]) -> tuple[tuple[str, str], ...]:
+    """Effect and parameter of each name after the geometry."""
+    return tuple((name.partition(".")[0], name.partition(".")[2]) for name in names[len(GEOMETRY) :])
