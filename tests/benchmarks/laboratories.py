@@ -24,6 +24,7 @@ from tests.benchmarks.diagnosis import say
 from tests.benchmarks.workers import Examined, add_keep, examined, other_code
 
 SETS = Path(__file__).parents[1] / "laboratories"
+SURE = 0.9  # probability from which an effect is told as there
 WANTED = 1.2  # largest error over the noise of a prediction that holds
 
 
@@ -33,6 +34,7 @@ class Line:
 
     Attributes:
         hidden: ids that are right answers, of each hidden effect; none for an effect that no catalogue has.
+        told: the probability told of each named effect or group, and whether it is there.
         refusal: the message, where a file was not read or nothing was diagnosed.
     """
 
@@ -46,6 +48,7 @@ class Line:
     start: float = float("nan")
     after: float = float("nan")
     second: float = float("nan")
+    told: tuple[tuple[float, bool], ...] = ()
     refusal: str = ""
 
     @property
@@ -103,6 +106,10 @@ def visited(name: str) -> Line:
             for name, group in zip(verdict["effects"], groups, strict=True)
             if not any(group & ids for ids in known)
         )
+        line.told = tuple(
+            (verdict["probabilities"][name], any(group & ids for ids in known))
+            for name, group in zip(verdict["effects"], groups, strict=True)
+        )
         # Of several channels the program tells errors over their noise.
         noise = 1.0 if found["unit"] == "1" else truth["noise"]["first"]
         line.start, line.after = (found["path"][place]["rmse"] / noise for place in (0, -1))
@@ -119,12 +126,14 @@ def summary(lines: Sequence[Line]) -> list[str]:
     """The figures of the table; what no catalogue has is counted apart."""
     known = [line for line in lines if line.hidden and all(line.hidden)]
     nothing = [line for line in lines if not line.hidden]
+    sure = [true for line in lines for probability, true in line.told if probability >= SURE]
     held = [line.second <= WANTED for line in (*known, *nothing)]
     return [
         f"read and diagnosed                  {sum(not line.refusal for line in lines)} of {len(lines)}",
         f"all hidden effects found            {sum(line.complete for line in known)} of {len(known)}",
         f"with surplus effects                {sum(bool(line.surplus) for line in known)} of {len(known)}",
         f"nothing missing: false alarms       {sum(bool(line.named) for line in nothing)} of {len(nothing)}",
+        f"told with {100.0 * SURE:.0f} % or more, and there     {sum(sure)} of {len(sure)}",
         f"second test: error <= {WANTED} x noise   {sum(held)} of {len(held)}",
     ]
 

@@ -17,6 +17,7 @@ from mckibben.identification.diagnose.gauge_zero import vented
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
 from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, model_weights
+from mckibben.identification.diagnose.progress import Progress
 from mckibben.identification.diagnose.reason import traits_of
 from mckibben.identification.diagnose.repetition import Repetition
 from mckibben.identification.diagnose.score import effective_rows
@@ -36,7 +37,7 @@ from mckibben.identification.diagnose.verdict import (
 )
 from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
-from mckibben.identification.fit.fitter import CancelledError, Fitter
+from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.fit.least_squares import FitResult, fit_report
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
@@ -48,7 +49,7 @@ from mckibben.identification.residual.profiles import Profile, profiles, variabl
 from mckibben.identification.residual.structure import ResidualStructure
 from mckibben.identification.residual.term import Term, proposed_term
 from mckibben.physics.effect import Effect
-from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.outcome import Watch
 
 #: Fewest values for a diagnosis: with fewer, many single effects fit them exactly.
 FEWEST_VALUES = 6
@@ -212,7 +213,7 @@ def _diagnose(
     reasons = {effect: _why_not(effect, predictor) for effect in absent}
     candidates = tuple(effect for effect in absent if not reasons[effect])
     not_tried = [NotTried(e.id, why, why == predictor.without_time) for e, why in reasons.items() if why]
-    progress = _Progress(watch)
+    progress = Progress(watch)
     predictor = allowing_for_errors(predictor.prepared(fit_model, candidates), fit_model)
     fitter = Fitter(
         predictor=predictor,
@@ -376,20 +377,6 @@ def _why_not(effect: Effect, predictor: Predictor) -> str:
     if effect.among_lengths and not predictor.several_lengths:
         return "it shows only among muscles of several lengths, and these are the data of one"
     return predictor.why_hidden(effect)
-
-
-class _Progress:
-    """Reports the progress of a diagnosis to a watch."""
-
-    def __init__(self, watch: Watch) -> None:
-        self._watch = watch
-        self.share, self.end = 0.0, 0.45
-
-    def count_fit(self) -> None:
-        """Count one more fitted model; cancel when the watch asks for it."""
-        self.share += 0.02 * (self.end - self.share)
-        if self._watch.ended(self.share) in (Outcome.CANCELLED, Outcome.TIMED_OUT):
-            raise CancelledError
 
 
 def _final_fit(best: FittedModel) -> FitResult | None:
