@@ -256,6 +256,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
             diagnosis.status,
             added=bool(diagnosis.added),
             doubted=any(entry.stands for entry in diagnosis.context),
+            none_likely=diagnosis.none_likely,
         ),
         effects=list(diagnosis.added),
         indistinguishable=groups_of(diagnosis),

@@ -19,6 +19,7 @@ from mckibben.identification.diagnose.probability import (
     log_weight,
     loss,
     model_weights,
+    none_likely,
 )
 from mckibben.identification.diagnose.score import score
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -144,3 +145,13 @@ def test_models_less_plausible_than_the_best_do_not_count() -> None:
     weights = model_weights([wild, best], root, rows=ROWS, noise=0.1, implausible=0)
     assert weights.share(["prestress"]) == pytest.approx(1.0)
     assert weights.share(["force_offset"]) == 0.0
+
+
+def test_no_effect_is_likely_where_each_is_less_likely_than_not() -> None:
+    likely, unlikely = (Evidence("creep", ("creep",), share, Loss(1e6, 1.0)) for share in (0.9, 0.4))
+    assert unlikely.probability < 0.5 < likely.probability
+    assert none_likely([unlikely])
+    assert none_likely([unlikely, unlikely])
+    assert not none_likely([unlikely, likely])
+    assert not none_likely([replace(unlikely, read=True)])
+    assert not none_likely([])

@@ -16,13 +16,12 @@ ERRORS = {
 }  # fmt: skip
 
 
-def model(names: str, errors: dict[str, float]) -> Any:
-    """A fitted model of these effects."""
+def model(names: str, errors: dict[str, float], freed: frozenset[str] = frozenset()) -> Any:
+    """A fitted model of these effects, some of whose further constants are free."""
     ids = tuple(sorted(names.split(), key=["wall", "friction", "zero"].index))
     effects = [SimpleNamespace(id=name) for name in ids]
-    return SimpleNamespace(
-        rmse=errors[" ".join(ids)], free=(1,), fit_model=SimpleNamespace(ids=ids, effects=effects)
-    )
+    chosen = SimpleNamespace(ids=ids, effects=effects)
+    return SimpleNamespace(rmse=errors[" ".join(ids)], free=(1,), freed=freed, fit_model=chosen)
 
 
 def fitter(errors: dict[str, float]) -> Any:
@@ -54,3 +53,33 @@ def test_no_step_raises_the_error_for_the_zero_error_of_the_gauge(
     whole = model("wall friction zero", errors)
     path = path_to(fitter(errors), model("", errors), model("zero", errors), whole, zero)
     assert [(step.added, step.fitted_model.rmse) for step in path] == steps
+
+
+@pytest.mark.parametrize(
+    ("beside", "alone", "credited"), [(1.25, 1.4, 1.25), (1.4, 1.3, 1.3), (6.0, 7.0, 5.0)]
+)
+def test_what_the_own_laws_of_the_start_model_explain_is_credited_to_no_effect(
+    beside: float, alone: float, credited: float
+) -> None:
+    """The best model has bent a law of the start model; without the added effect that does most of it."""
+    bent = frozenset({"wall.exponent"})
+    root = model("wall", {"wall": 5.0})
+    best = model("wall friction", {"wall friction": 1.1}, bent | {"friction.share"})
+    asked: list[frozenset[str]] = []
+
+    def fit(fit_model: Any, freed: frozenset[str], *, again: bool) -> Any:
+        assert again
+        asked.append(freed)
+        return model(" ".join(fit_model.ids), {"wall": alone}, freed)
+
+    def dropping(_: Any, name: str) -> Any:
+        assert name == "friction"
+        return model("wall", {"wall": beside}, bent)
+
+    fits: Any = SimpleNamespace(fit=fit, dropping=dropping, predictor=SimpleNamespace(reading_errors=()))
+    path = path_to(fits, model("wall", {"wall": 7.0}), root, best, None)
+    assert [(step.added, step.fitted_model.rmse) for step in path] == [
+        (None, 7.0), (None, credited), ("friction", 1.1),
+    ]  # fmt: skip
+    assert [step.refitted for step in path] == [False, True, False]
+    assert asked == [bent]

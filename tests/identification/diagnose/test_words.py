@@ -35,6 +35,7 @@ def result(
 ) -> Any:  # fmt: skip
     return SimpleNamespace(
         status=status,
+        none_likely=False,
         predictor=SimpleNamespace(unit=unit, channels=[SimpleNamespace(name="force" if unit == "N" else "")]),
         start=SimpleNamespace(rmse=before),
         root=SimpleNamespace(rmse=before if refitted is None else refitted, free=refitted is not None),
@@ -173,6 +174,34 @@ def test_a_verdict_in_words(sentence: str) -> None:
 )
 def test_a_status_has_a_title(status: str, added: bool, title: str) -> None:
     assert title_of(status, added=added) == title
+    # An entry that may be wrong goes before it.
+    assert title_of(status, added=added, doubted=True).startswith("An entry may be wrong")
+
+
+def test_a_verdict_in_which_no_effect_is_likely_says_so() -> None:
+    found = result("unknown_effect", 20.0, 2.0, "creep")
+    found.none_likely, found.evidence[0].probability = True, 0.31
+    assert title_of("unknown_effect", added=True, none_likely=True) == (
+        "Something is missing, and no catalogued effect is likely"
+    )
+    assert sentence_of(found, CATALOGUE) == (
+        "Missing: perhaps Creep (probability 31 %). With it the error falls from 20.0 to 2.00 N, the noise "
+        "of the data (2.00 N). That effect is less likely than not: one that is in no catalogue may act in "
+        "its place."
+    )
+
+
+def test_constants_of_the_start_model_that_were_freed_are_named() -> None:
+    found = result("missing_effects", 40.0, 2.1, "creep", refitted=30.0)
+    found.root.freed = frozenset({"viscous_damping.coefficient"})
+    freed = found.root.freed | {"viscous_damping.exponent", "viscous_damping.lengthening_ratio"}
+    own = SimpleNamespace(rmse=4.0, freed=freed)
+    found.path = (SimpleNamespace(fitted_model=own, refitted=True, correction=False), *found.path)
+    said = sentence_of(found, CATALOGUE | {"viscous_damping": BUILT_IN["viscous_damping"]})
+    assert (
+        "The model's own numbers, refitted (with exponent and lengthening ratio of Viscous damping free), "
+        "lower the error from 40.0 to 4.00 N; with it the error falls to 2.10 N"
+    ) in said
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,14 @@ from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import vented
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
-from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, model_weights
+from mckibben.identification.diagnose.probability import (
+    LIKELY,
+    Evidence,
+    ModelWeights,
+    loss,
+    model_weights,
+    none_likely,
+)
 from mckibben.identification.diagnose.progress import Progress
 from mckibben.identification.diagnose.reason import traits_of
 from mckibben.identification.diagnose.repetition import Repetition
@@ -101,6 +108,8 @@ class Diagnosis:
         evidence: of each effect of the best model.
         weights: of the models that the search visited.
         left_out: of several specimens, each predicted by the best model fitted to the others.
+        none_likely: whether the status is unknown_effect because each named effect is less likely than not,
+            and not because of what they leave.
     """
 
     predictor: Predictor
@@ -132,6 +141,7 @@ class Diagnosis:
     evidence: tuple[Evidence, ...] = ()
     weights: ModelWeights | None = None
     left_out: tuple[LeftOutSpecimen, ...] = ()
+    none_likely: bool = False
 
     def probability_of(self, effect: str) -> float:
         """Probability that an effect, or one that the data cannot tell from it, is missing."""
@@ -317,8 +327,10 @@ def _diagnose(
     status = status_of(
         start, explained, fitter.noise, added, exchangeable, unexplained, full_scale, doubted=doubted
     )
+    left = status == "unknown_effect"
+    unlikely = not left and not doubted and none_likely(support)
     term = None
-    if status == "unknown_effect" and is_force(predictor):
+    if left and is_force(predictor):
         term = proposed_term(
             best.residual, variables, folds=predictor.folds, basis=best.jacobian[:, best.inner],
             weigh=predictor.weighted,
@@ -333,7 +345,7 @@ def _diagnose(
         root=root,
         noise=fitter.noise,
         noise_how=how,
-        noise_interval=None if status == "unknown_effect" else noise_interval(best, fitter.noise, remaining),
+        noise_interval=None if left else noise_interval(best, fitter.noise, remaining),
         where=tuple(where),
         left_where=tuple(profiles(best.residual, variables, predictor.folds[0])),
         candidates=tuple(replace(one, fitted_model=shown(one.fitted_model)) for one in ranked),
@@ -341,11 +353,11 @@ def _diagnose(
         best=best,
         lean=lean,
         fit=fit,
-        status=status,
+        status="unknown_effect" if unlikely else status,
         added=added,
         alternatives=tuple(exchangeable),
         structure=remaining,
-        repetition=left_repetition(predictor, best.residual) if status == "unknown_effect" else None,
+        repetition=left_repetition(predictor, best.residual) if left else None,
         term=term,
         proposals=tuple(pairs),
         designs=tuple(designs),
@@ -362,13 +374,14 @@ def _diagnose(
         evidence=tuple(
             replace(
                 item,
-                beside_unknown=status == "unknown_effect",
+                beside_unknown=left,
                 entries_right=entries_right(context, item.group),
             )
             for item in support
         ),
         weights=weights,
         left_out=left_out_specimens(predictor, best) if isinstance(predictor, SpecimensPredictor) else (),
+        none_likely=unlikely,
     )
 
 

@@ -94,6 +94,8 @@ def _log_odds(effect: Effect) -> float:
 #: Probability below which an effect is not called missing. An effect that is called missing by mistake costs
 #: less than one that is overlooked, because the next experiment shows it.
 LIKELY = 0.3
+#: Probability below which an effect is missing only perhaps: it is less likely than not.
+EVEN = 0.5
 #: Logistic regression of "the effect is really missing" on the logarithms of its size and part, fitted by
 #: `python -m tests.benchmarks.probabilities` to half of the cases; the other half shows how well it holds.
 _CONSTANT, _BY_SIZE, _BY_PART = 1.97, 1.17, 1.14
@@ -166,3 +168,8 @@ def loss(best: FittedModel, without: FittedModel, root: FittedModel, *, noise: f
     lost = max(without.mean_square - best.mean_square, 0.0)
     explained = max(root.mean_square - best.mean_square, lost, 1e-300)
     return Loss(float(np.sqrt(lost)) / noise, float(np.sqrt(lost / explained)))
+
+
+def none_likely(evidence: Collection[Evidence]) -> bool:
+    """Whether effects are named, and each of them is less likely than not."""
+    return bool(evidence) and all(item.probability < EVEN for item in evidence)

@@ -86,6 +86,7 @@ def path_to(
         vent: zero error of the gauge, read from the vented muscle before the search.
     """
     steps = [PathStep(None, start)]
+    root = with_own_constants(fitter, root, best)
     if vent is None and root.free:
         steps.append(PathStep(None, root, refitted=True))
     fitted_model, remaining = root, [e for e in best.fit_model.effects if e.id not in set(root.fit_model.ids)]
@@ -102,6 +103,24 @@ def path_to(
     if vent is not None:
         added = _with_vent(fitter, start, root, added, vent)
     return (*steps, *added)
+
+
+def with_own_constants(fitter: Fitter, root: FittedModel, best: FittedModel) -> FittedModel:
+    """The start model with those of its further constants free that the best model has freed.
+
+    What the start model's own laws explain is credited to none of the added effects.
+    """
+    present = set(root.fit_model.ids)
+    own = {name for name in best.freed - root.freed if name.partition(".")[0] in present}
+    added = [name for name in best.fit_model.ids if name not in present]
+    if not own or not added:
+        return root
+    # From both sides: the laws may have bent only beside an effect.
+    below = best
+    for name in added:
+        below = fitter.dropping(below, name)
+    above = fitter.fit(root.fit_model, root.freed | own, again=True)
+    return min((root, above, below), key=lambda each: _shown_error(fitter, each))
 
 
 def _with_vent(

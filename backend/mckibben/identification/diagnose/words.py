@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis
+from mckibben.identification.diagnose.probability import EVEN
 from mckibben.identification.diagnose.repetition_words import repetition_text
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.verdict import Status, is_force
@@ -16,7 +17,6 @@ from mckibben.physics.effect import Effect
 _REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned
 _WORTH_TELLING = 0.15  # share of the residual that depends on variables, above which it is mentioned
 _DIFFERENT = 2.0  # left-out specimen over left-out groups above which the specimens differ
-_EVEN = 0.5  # probability below which an effect is only perhaps missing
 _MOST = 0.5  # share of the rest that repeats, from which the variables that it depends on are not told
 _FEW = 3  # alternatives that are listed without grouping them
 _UNKNOWN_NOISE = (
@@ -33,18 +33,22 @@ _TITLES: dict[Status, str] = {
 
 
 _PARTLY = "Effects are missing, and the rest is unknown"
+_NONE_LIKELY = "Something is missing, and no catalogued effect is likely"
 
 
-def title_of(status: Status, *, added: bool, doubted: bool = False) -> str:
+def title_of(status: Status, *, added: bool, doubted: bool = False, none_likely: bool = False) -> str:
     """The status as a title.
 
     Args:
         status: of the verdict.
         added: whether effects were found to be missing.
         doubted: whether an entry has to be checked first.
+        none_likely: whether each of these effects is less likely than not.
     """
     if doubted:
         return "An entry may be wrong: check it before the physics"
+    if none_likely:
+        return _NONE_LIKELY
     return _PARTLY if added and status == "unknown_effect" else _TITLES[status]
 
 
@@ -101,15 +105,19 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     text = f"Missing: {names}. With {these} {falls}"
     if result.root.free and refitted < _REFITTED * before:
         text = (
-            f"Missing: {names}. The model's own numbers, refitted, lower the error from {brief(before)} to "
-            f"{brief(refitted)} {unit}; with {these} the error falls to {brief(after)} {unit}{floor}."
+            f"Missing: {names}. The model's own numbers, refitted{_own_law(result, titles)}, lower the error "
+            f"from {brief(before)} to {brief(refitted)} {unit}; with {these} the error falls to "
+            f"{brief(after)} {unit}{floor}."
         )
-    if result.status == "unknown_effect":
+    if result.none_likely:
+        each = "That effect is" if len(result.added) == 1 else "Each of these effects is"
+        text += f" {each} less likely than not: one that is in no catalogue may act in its place."
+    elif result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {rest}. {where_to_look(result)}".rstrip()
     unexplained = highest is not None and scale * result.best.rmse > AT_FLOOR * highest
     if unexplained and result.structure.share >= _WORTH_TELLING:
         text += f" Of the rest, {_structured(result)}."
-    if result.status == "ambiguous" and result.alternatives:
+    if result.alternatives:
         pairs = []
         for added in dict.fromkeys(other.of for other in result.alternatives):
             others = [other.effect for other in result.alternatives if other.of == added]
@@ -120,6 +128,18 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
             for name, reason in applied_reasons(result, catalogue).items()
         )
     return text
+
+
+def _own_law(result: Diagnosis, titles: Mapping[str, str]) -> str:
+    """The further constants of the start model's effects that were freed, in brackets; else empty."""
+    refitted = next((step.fitted_model for step in result.path if step.refitted), None)
+    freed = [] if refitted is None else sorted(refitted.freed - result.root.freed)
+    of_effects: dict[str, list[str]] = {}
+    for name in freed:
+        effect, _, constant = name.partition(".")
+        of_effects.setdefault(effect, []).append(constant.replace("_", " "))
+    told = [f"{_joined(names)} of {titles.get(effect, effect)}" for effect, names in of_effects.items()]
+    return f" (with {_joined(told)} free)" if told else ""
 
 
 def by_mechanism(effects: Sequence[str], catalogue: Mapping[str, Effect]) -> str:
@@ -224,7 +244,7 @@ def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str], *, first:
     if evidence is not None and evidence.read:
         return f"{title} (read from the data)"
     probability = 1.0 if evidence is None else evidence.probability
-    perhaps = "perhaps " if probability < _EVEN else ""
+    perhaps = "perhaps " if probability < EVEN else ""
     figure = f"{'probability ' if first else ''}{_share(probability)}"
     return f"{perhaps}{title[:-1]}, {figure})" if title.endswith(")") else f"{perhaps}{title} ({figure})"
 
