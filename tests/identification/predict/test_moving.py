@@ -26,7 +26,7 @@ from mckibben.identification.predict.fit_model import SUPPLY, FitModel, free_num
 from mckibben.measurement.measurement import Measurement, build
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import signal_from
-from mckibben.simulation.drive.driven import driven_motion
+from mckibben.simulation.drive.driven import driven_motion, driven_motions
 from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.drive.transient import simulate
@@ -481,7 +481,28 @@ def test_motion_from_a_measured_pressure_is_that_of_the_kernel():
     own = replace(predictor._records[0].drive, model=StaticModel(MUSCLE, HIDDEN))
     columns = measurement.columns
     expected = driven_motion(own, time=GRID, pressure=columns["pressure"], stroke=columns["displacement"][0])
-    assert predictor.predict(fit_model(HIDDEN)) == pytest.approx(expected["stroke_reading"], abs=1e-12)
+    # Its steps are longer: what that changes is far below what any sensor reads.
+    assert predictor.predict(fit_model(HIDDEN)) == pytest.approx(expected["stroke_reading"], abs=1e-6)
+    for tolerance, least in ((moving._TOLERANCE, 0.0), (1e-12, 1e-12)):
+        (alone,) = driven_motions(
+            [own], time=GRID, pressure=columns["pressure"], stroke=columns["displacement"][0],
+            tolerance=tolerance,
+        )  # fmt: skip
+        assert not isinstance(alone, InputError)
+        away = np.max(np.abs(alone["stroke_reading"] - predictor.predict(fit_model(HIDDEN))))
+        assert (away <= 1e-12) if not least else (least < away < 1e-6)
+
+
+def test_a_trial_that_rings_faster_than_any_muscle_ends_early(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Its prediction is far from the measurement, so that a fit turns back."""
+    measurement = measured(drive(), command=False, conditions={"load_mass": 12.0})
+    predictor = predictor_of(measurement, MUSCLE)
+    usual = predictor.predict(fit_model(HIDDEN))
+    monkeypatch.setattr(moving, "_most_steps", lambda _: 40)
+    ended = predictor_of(measurement, MUSCLE).predict(fit_model(HIDDEN))
+    lost = predictor.measured + moving._LOST * predictor._noises()
+    assert ended == pytest.approx(lost)
+    assert not np.any(usual == lost)
 
 
 @pytest.mark.parametrize(("stretched", "expected"), [(0.0, 0.0), (1e-4, 0.0), (3e-3, -0.01)])

@@ -39,6 +39,11 @@ from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.statics.model import StaticModel
 
+# Error per step of a motion under a measured pressure: below a micrometre in all, far below what is read.
+_TOLERANCE = 1e-4
+# Most steps of a run for each row and segment, and at least: trial values may be those of a drive that rings
+# faster than any muscle, whose run would cost more than all others of a fit.
+_STEPS_EACH, _STEPS_AT_LEAST = 20, 20_000
 _LOST = 1e3  # residual after a run has stopped early, over the noise
 _READINGS = {"pressure": "pressure_reading", "displacement": "stroke_reading", "force": "force_reading"}
 # Derivatives by runs that take the same steps: relative step, fewest parameters, and the number of runs for
@@ -310,13 +315,8 @@ class TransientPredictor(Predictor):
         drives = [[_drive_with(model, record) for model in models] for record in self._records]
         few = [self._few(*each) for each in zip(drives, self._records, strict=True)]
 
-        def beside(run: tuple[list[Drive], Record, bool]) -> list[dict[str, np.ndarray]]:
-            own, record, quick = run
-            pieces = [record.pieces(drive) for drive in own]
-            runs = readings_of_many(own, pieces, grid=record.time, together=True, few=quick)
-            return [_named(readings) for readings in runs]
-
-        of_records = side_by_side(beside, list(zip(drives, self._records, few, strict=True)))
+        runs = list(zip(drives, self._records, few, strict=True))
+        of_records = side_by_side(lambda run: _readings(*run, together=True), runs)
         return [
             self._stacked(readings) if all(readings) else None for readings in zip(*of_records, strict=True)
         ]
@@ -328,12 +328,10 @@ class TransientPredictor(Predictor):
         """Readings of drives with the same effects; none where the values of a fit are those of no drive."""
         if not self.commanded:
             return self._motions(drives, record)
-        pieces = [record.pieces(drive) for drive in drives]
         try:
-            runs = readings_of_many(drives, pieces, grid=record.time, few=few)
+            return _readings(drives, record, few)
         except InputError:
             return [{} for _ in drives]
-        return [_named(run) for run in runs]
 
     def _few(self, drives: Sequence[Drive], record: Record) -> bool:
         """Whether few runs of a structure have been made; counts these."""
@@ -346,10 +344,27 @@ class TransientPredictor(Predictor):
         """Readings of drives under the measured pressure; none of one that does not follow it."""
         assert record.pressure is not None  # noqa: S101 - checked by the constructor
         try:
-            runs = driven_motions(drives, time=record.time, pressure=record.pressure, stroke=record.stroke)
+            runs = driven_motions(
+                drives,
+                time=record.time,
+                pressure=record.pressure,
+                stroke=record.stroke,
+                tolerance=_TOLERANCE,
+                max_steps=_most_steps(len(record.time)),
+            )
         except InputError:  # values of the fit that no drive can have
             return [{} for _ in drives]
         return [{} if isinstance(run, InputError) else _named(run) for run in runs]
+
+
+def _readings(
+    drives: Sequence[Drive], record: Record, few: bool, *, together: bool = False
+) -> list[dict[str, np.ndarray]]:
+    """Readings of commanded drives with the same effects, see `readings_of_many`."""
+    pieces = [record.pieces(drive) for drive in drives]
+    most = _most_steps(len(record.time) + len(pieces[0][1]))
+    runs = readings_of_many(drives, pieces, grid=record.time, together=together, few=few, max_steps=most)
+    return [_named(run) for run in runs]
 
 
 def _named(outputs: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
@@ -362,6 +377,10 @@ def _drive_with(fit_model: FitModel, record: Record) -> Drive:
     model = StaticModel.of(fit_model.muscle, Model(fit_model.effects).effects, fit_model.values)
     supply = fit_model.supply_factor * record.drive.supply_pressure
     return replace(record.drive, model=model, supply_pressure=supply)
+
+
+def _most_steps(pieces: int) -> int:
+    return max(_STEPS_AT_LEAST, _STEPS_EACH * pieces)
 
 
 def _fast(effect: Effect) -> bool:

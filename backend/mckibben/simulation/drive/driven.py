@@ -20,6 +20,7 @@ from mckibben.simulation.integrate.engine import (
     integrate,
 )
 from mckibben.simulation.integrate.many import integrate_many
+from mckibben.simulation.integrate.problem import MAX_STEPS
 from mckibben.simulation.statics.model import StaticModel
 
 TOLERANCE = 1e-6
@@ -197,10 +198,11 @@ def driven_motions(
     pressure: np.ndarray,
     stroke: float,
     tolerance: float = TOLERANCE,
+    max_steps: int = MAX_STEPS,
 ) -> list[dict[str, np.ndarray] | InputError]:
     """`driven_motion` of drives that differ in numbers only, side by side; each as it would be alone.
 
-    An error in the place of a drive that does not follow the record.
+    An error in the place of a drive that does not follow the record, or takes more than ``max_steps`` steps.
     """
     first = drives[0]
     compiled = compiled_driven(first.model.effects, motion=True)
@@ -235,6 +237,7 @@ def driven_motions(
         tolerance=tolerance,
         columns=_MOTION,
         restitution=first.restitution,
+        max_steps=max_steps,
     )
     found: list[dict[str, np.ndarray] | InputError] = []
     for number, drive in enumerate(drives):

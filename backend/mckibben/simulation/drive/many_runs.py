@@ -12,6 +12,7 @@ from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import TOLERANCE, before_of, parameters_of, skewed
 from mckibben.simulation.integrate.engine import CompiledDrive, compiled_drive, quick_drive
 from mckibben.simulation.integrate.many import ManySolutions, integrate_many
+from mckibben.simulation.integrate.problem import MAX_STEPS
 
 READINGS = ("pressure_reading", "stroke_reading", "force_reading")
 #: Boundaries of the segments of a run, shape (segments + 1,) [s], and inputs, shape (segments, inputs).
@@ -26,6 +27,7 @@ def readings_of_many(
     tolerance: float = TOLERANCE,
     together: bool = False,
     few: bool = False,
+    max_steps: int = MAX_STEPS,
 ) -> list[dict[str, np.ndarray]]:
     """Readings of each drive on a grid, by the names of `READINGS`, SI; none of a drive that has no start.
 
@@ -40,6 +42,7 @@ def readings_of_many(
         tolerance: relative error per step.
         together: see above.
         few: only some hundred runs of this structure are expected, so that it is compiled quickly.
+        max_steps: of a run, which ends there.
 
     Raises:
         InputError: a typed term among the effects cannot be compiled.
@@ -66,7 +69,7 @@ def readings_of_many(
             [starts[index] for index in group],
             np.array([parameters[index] for index in group]),
             [pieces[index] for index in group],
-            (drives[0].restitution, tolerance),
+            (drives[0].restitution, tolerance, max_steps),
             grid,
             together=together,
         )
@@ -86,12 +89,12 @@ def _integrated(
     starts: Sequence[Start],
     parameters: np.ndarray,
     pieces: Sequence[Pieces],
-    options: tuple[float, float],
+    options: tuple[float, float, int],
     grid: np.ndarray,
     *,
     together: bool,
 ) -> ManySolutions:
-    """The runs of drives with as many segments as the first one, with this restitution and tolerance."""
+    """The runs of drives with as many segments as the first one; options: restitution, tolerance, steps."""
     same = together or all(times is pieces[0][0] for times, _ in pieces)
     shared = all(inputs is pieces[0][1] for _, inputs in pieces)
     with np.errstate(all="ignore"):
@@ -105,6 +108,7 @@ def _integrated(
             inputs=pieces[0][1] if shared else np.array([inputs for _, inputs in pieces]),
             grid=grid,
             tolerance=options[1],
+            max_steps=options[2],
             columns=READINGS,
             together=together,
         )
