@@ -4450,7 +4450,7 @@ export interface components {
     };
     /** The verdict of the diagnosis. */
     Verdict: {
-      /** The verdict as a word for programs: the model is at the noise (adequate); effects bring it there (missing_effects), some of which the data cannot tell from others (ambiguous); a rest with structure stays that no catalogued effect explains, or each named effect is less likely than not (unknown_effect). */
+      /** The verdict as a word for programs: the model is at the noise (adequate); effects bring it there (missing_effects), some of which the data cannot tell from others (ambiguous); a rest with structure stays that no catalogued effect explains, or it is likelier that none of those named is missing (unknown_effect). */
       status: "adequate" | "missing_effects" | "ambiguous" | "unknown_effect";
       /** The status in words. */
       title: string;

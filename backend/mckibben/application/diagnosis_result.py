@@ -182,8 +182,8 @@ class Verdict:
     """Verdict of a diagnosis.
 
     Attributes:
-        status: adequate, missing_effects, ambiguous or unknown_effect (also where each named effect is less
-            likely than not).
+        status: adequate, missing_effects, ambiguous or unknown_effect (also where it is likelier
+            that none of the named effects is missing).
         title: the status in words.
         effects: the missing effects.
         indistinguishable: groups of effects that the data cannot distinguish.

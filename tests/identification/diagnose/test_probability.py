@@ -147,10 +147,13 @@ def test_models_less_plausible_than_the_best_do_not_count() -> None:
     assert weights.share(["force_offset"]) == 0.0
 
 
-def test_no_effect_is_likely_where_each_is_less_likely_than_not() -> None:
-    likely, unlikely = (Evidence("creep", ("creep",), share, Loss(1e6, 1.0)) for share in (0.9, 0.4))
-    assert unlikely.probability < 0.5 < likely.probability
+def test_none_is_likely_where_none_of_the_named_is_likelier_there_than_not() -> None:
+    likely, even, unlikely = (Evidence("creep", ("creep",), p, Loss(1e6, 1.0)) for p in (0.9, 0.45, 0.25))
+    assert unlikely.probability < even.probability < 0.5 < likely.probability
     assert none_likely([unlikely])
+    assert none_likely([even])
+    # One of two that each may be it is there: 1 - 0.55^2.
+    assert not none_likely([even, even])
     assert none_likely([unlikely, unlikely])
     assert not none_likely([unlikely, likely])
     assert not none_likely([replace(unlikely, read=True)])

@@ -189,6 +189,11 @@ def test_a_verdict_in_which_no_effect_is_likely_says_so() -> None:
         "of the data (2.00 N). That effect is less likely than not: one that is in no catalogue may act in "
         "its place."
     )
+    found = result("unknown_effect", 20.0, 2.0, "creep", "leak")
+    found.none_likely = True
+    assert sentence_of(found, CATALOGUE).endswith(
+        "It is likelier that none of them is missing: what is in no catalogue may act in their place."
+    )
 
 
 def test_constants_of_the_start_model_that_were_freed_are_named() -> None:

@@ -108,8 +108,8 @@ class Diagnosis:
         evidence: of each effect of the best model.
         weights: of the models that the search visited.
         left_out: of several specimens, each predicted by the best model fitted to the others.
-        none_likely: whether the status is unknown_effect because each named effect is less likely than not,
-            and not because of what they leave.
+        none_likely: whether the status is unknown_effect because none of the named effects is likely, and not
+            because of what they leave.
     """
 
     predictor: Predictor

@@ -171,5 +171,8 @@ def loss(best: FittedModel, without: FittedModel, root: FittedModel, *, noise: f
 
 
 def none_likely(evidence: Collection[Evidence]) -> bool:
-    """Whether effects are named, and each of them is less likely than not."""
-    return bool(evidence) and all(item.probability < EVEN for item in evidence)
+    """Whether effects are named, and it is likelier that none of them is missing than that one is.
+
+    Their probabilities count as independent: of two that each explain most of the error, one is missing.
+    """
+    return bool(evidence) and float(np.prod([1.0 - item.probability for item in evidence])) > 1.0 - EVEN

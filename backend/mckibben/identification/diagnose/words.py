@@ -43,7 +43,7 @@ def title_of(status: Status, *, added: bool, doubted: bool = False, none_likely:
         status: of the verdict.
         added: whether effects were found to be missing.
         doubted: whether an entry has to be checked first.
-        none_likely: whether each of these effects is less likely than not.
+        none_likely: whether it is likelier that none of these effects is missing.
     """
     if doubted:
         return "An entry may be wrong: check it before the physics"
@@ -110,8 +110,11 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
             f"{brief(after)} {unit}{floor}."
         )
     if result.none_likely:
-        each = "That effect is" if len(result.added) == 1 else "Each of these effects is"
-        text += f" {each} less likely than not: one that is in no catalogue may act in its place."
+        text += (
+            " That effect is less likely than not: one that is in no catalogue may act in its place."
+            if len(result.added) == 1
+            else " It is likelier that none of them is missing: what is in no catalogue may act in their place."
+        )
     elif result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {rest}. {where_to_look(result)}".rstrip()
     unexplained = highest is not None and scale * result.best.rmse > AT_FLOOR * highest

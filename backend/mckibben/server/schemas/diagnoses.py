@@ -213,8 +213,8 @@ class Verdict(Strict):
     status: Literal["adequate", "missing_effects", "ambiguous", "unknown_effect"] = Field(
         description="The verdict as a word for programs: the model is at the noise (adequate); effects bring "
         "it there (missing_effects), some of which the data cannot tell from others (ambiguous); a rest with "
-        "structure stays that no catalogued effect explains, or each named effect is less likely than not "
-        "(unknown_effect)."
+        "structure stays that no catalogued effect explains, or it is likelier that none of those named is "
+        "missing (unknown_effect)."
     )
     title: str = Field(description="The status in words.")
     effects: list[str] = Field(description="Ids of the missing effects.")
