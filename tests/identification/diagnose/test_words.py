@@ -192,7 +192,7 @@ def test_a_verdict_in_which_no_effect_is_likely_says_so() -> None:
     found = result("unknown_effect", 20.0, 2.0, "creep", "leak")
     found.none_likely = True
     assert sentence_of(found, CATALOGUE).endswith(
-        "It is likelier that none of them is missing: what is in no catalogue may act in their place."
+        "It is likelier that none of them is missing: one in no catalogue may act in their place."
     )
 
 

@@ -113,7 +113,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
         text += (
             " That effect is less likely than not: one that is in no catalogue may act in its place."
             if len(result.added) == 1
-            else " It is likelier that none of them is missing: what is in no catalogue may act in their place."
+            else " It is likelier that none of them is missing: one in no catalogue may act in their place."
         )
     elif result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {rest}. {where_to_look(result)}".rstrip()
