@@ -9,7 +9,7 @@ from typing import cast
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.twins import _difference, _imitates, alternatives
+from mckibben.identification.diagnose.twins import _difference, _imitates, _in_its_place, alternatives
 from mckibben.identification.fit.effort import diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
@@ -115,3 +115,34 @@ def test_two_effects_are_another_explanation_of_one_with_a_further_constant() ->
     assert not any(
         len(o.fitted_model.fit_model.ids) > 1 for o in alternatives(fitter, alone, ["effectiveness"], 1e-4)
     )
+
+
+@pytest.mark.parametrize(
+    ("guess", "again", "found"),
+    [
+        (0.5, 0.1, 0.1),  # a start beside the best model's other numbers leads on
+        (0.5, 0.9, 0.8),  # it is closer, and its fit ends no better
+        (1.0, 0.1, 0.8),  # it is farther off than where the fit ended: there is nothing to gain
+    ],
+)
+def test_an_exchange_begins_a_second_time_beside_what_the_other_effects_were(
+    guess: float, again: float, found: float
+) -> None:
+    asked: list[frozenset[str]] = []
+
+    def fit(fit_model: str, freed: frozenset[str], *, again: bool) -> SimpleNamespace:
+        assert (fit_model, again) == ("guessed", True)
+        asked.append(freed)
+        return SimpleNamespace(rmse=after)
+
+    after = again
+    fits = SimpleNamespace(
+        guessed=lambda kept, effect: SimpleNamespace(fit_model="guessed", rmse=guess), fit=fit
+    )
+    kept = SimpleNamespace(freed=frozenset({"dahl.exponent"}))
+    exchange = SimpleNamespace(rmse=0.8, freed=frozenset({"dahl.force", "creep.time"}))
+    ended = _in_its_place(
+        cast(Fitter, fits), cast(FittedModel, kept), CATALOGUE["creep"], cast(FittedModel, exchange)
+    )
+    assert ended.rmse == found
+    assert asked == ([frozenset({"dahl.exponent", "creep.time"})] if guess < 0.8 else [])

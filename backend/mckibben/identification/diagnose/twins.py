@@ -14,6 +14,7 @@ from mckibben.identification.diagnose.search import exchanged, lean
 from mckibben.identification.diagnose.usual import as_usual
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.physics.effect import Effect
@@ -66,8 +67,11 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
         others = [effect for effect in fitter.candidates if effect.id not in inside]
         replaced = next(effect for effect in best.fit_model.effects if effect.id == effect_id)
         sensitivity = fitter.changes(less, replaced)
+        kept = _unfitted(fitter, best.fit_model.without(effect_id), less)
         for effect in _worth_fitting(fitter, less, others):
             fitted_model = exchanged(fitter, less, effect)
+            if fitted_model.rmse > _AS_GOOD * best.rmse:
+                fitted_model = _in_its_place(fitter, kept, effect, fitted_model)
             difference = _difference(fitted_model, best, fitter.predictor) / noise
             cosine = _cosine(sensitivity, fitter.changes(less, effect))
             parallel = abs(cosine) > _COSINE and fitted_model.rmse <= _AS_GOOD * best.rmse
@@ -81,6 +85,30 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
             found = {each.effect for each in equivalent if each.of == effect_id}
             equivalent += _by_two(fitter, best, less, effect_id, found, noise)
     return equivalent
+
+
+def _unfitted(fitter: Fitter, fit_model: FitModel, like: FittedModel) -> FittedModel:
+    """A model as it is, with the free numbers of a fitted one."""
+    predictor = fitter.predictor
+    return replace(like, fit_model=fit_model, residual=predictor.weighted(predictor.residual(fit_model)))
+
+
+def _in_its_place(fitter: Fitter, kept: FittedModel, effect: Effect, exchange: FittedModel) -> FittedModel:
+    """An exchange from another start, if that is closer to the data than where the fit ended.
+
+    Without the dropped effect the others have taken over what they can of it, and a fit may not lead back.
+
+    Args:
+        fitter: of the search.
+        kept: the best model without the dropped effect, the others as they are in the best one.
+        effect: the one in its place.
+        exchange: the fit that began where the others had taken over.
+    """
+    start = fitter.guessed(kept, effect)
+    if start.rmse >= exchange.rmse:
+        return exchange
+    freed = kept.freed | {name for name in exchange.freed if name.startswith(f"{effect.id}.")}
+    return min(fitter.fit(start.fit_model, freed, again=True), exchange, key=lambda each: each.rmse)
 
 
 def _by_two(
