@@ -30,6 +30,8 @@ class Correction:
         before, after: error of the model without and with it, scaled as the residual.
         loss: what the model loses without it.
         kept: whether the model keeps it.
+        share: of the visited models, by weight, that hold it or one that the data cannot tell from it; 1
+            where its size alone speaks against it.
     """
 
     effect: str
@@ -37,11 +39,12 @@ class Correction:
     after: float
     loss: Loss
     kept: bool = False
+    share: float = 1.0
 
     @property
     def probability(self) -> float:
         """Probability that it is missing nevertheless."""
-        return self.loss.probability
+        return self.share * self.loss.probability
 
 
 def without_corrections(

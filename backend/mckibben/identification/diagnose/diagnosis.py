@@ -16,20 +16,13 @@ from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import vented
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
-from mckibben.identification.diagnose.probability import (
-    LIKELY,
-    Evidence,
-    ModelWeights,
-    loss,
-    model_weights,
-    none_likely,
-)
+from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, none_likely
 from mckibben.identification.diagnose.progress import Progress
 from mckibben.identification.diagnose.reason import traits_of
 from mckibben.identification.diagnose.repetition import Repetition
-from mckibben.identification.diagnose.score import effective_rows
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.steps import PathStep, SingleAddition, path_to, single_addition
+from mckibben.identification.diagnose.supported import supported
 from mckibben.identification.diagnose.turned import turned_constants
 from mckibben.identification.diagnose.twins import Alternative, likeliest, same, same_predictions
 from mckibben.identification.diagnose.verdict import (
@@ -90,7 +83,7 @@ class Diagnosis:
             comparison with each model shows.
         path: steps to the best model; each adds the effect that lowers the error most, corrections last.
         best: the best model, with the corrections that it keeps.
-        lean: the same without corrections.
+        lean: the same with those corrections only that the alternatives hold as well.
         fit: its parameters with standard errors.
         status: adequate, missing_effects, ambiguous or unknown_effect.
         added: effects of the best model that the start model does not have.
@@ -283,22 +276,21 @@ def _diagnose(
     added = tuple(effect for effect in lean.fit_model.ids if effect not in start_names)
     corrected = {item.effect for item in corrections}
     lean, exchangeable = likeliest(fitter, lean, added, level, root=root, never=corrected)
-    path = path_to(fitter, start, root, lean, gauge_zero)
+    likely = supported(fitter, lean, root, exchangeable, noise=level)
+    exchangeable = [other for other in exchangeable if other.of in {item.effect for item in likely.evidence}]
+    path = path_to(fitter, start, root, likely.firm, gauge_zero)
     added = tuple(step.added for step in path if step.added)
     refinements, corrections = refined(fitter, lean, searched, corrections)
-    path += tuple(PathStep(name, model, correction=True) for name, model in refinements)
-    best = refinements[-1][1] if refinements else lean
+    kept = (*likely.steps, *refinements)
+    path += tuple(PathStep(name, model, correction=True) for name, model in kept)
+    corrections = (*likely.corrections, *corrections)
+    best = kept[-1][1] if kept else lean
     fit = _final_fit(best)
-    rows = effective_rows(lean.residual, predictor.sweeps, predictor.folds)
-    weights = model_weights(
-        fitter.known.values(), root, rows=rows, noise=fitter.noise, implausible=lean.implausible
-    )
+    by_effect = {item.effect: item for item in likely.evidence}
     support = []
     for name in added:
-        group = (name, *(other.effect for other in exchangeable if other.of == name))
         lost = loss(lean, fitter.dropping(lean, name), root, noise=level)
-        read = name in start_names
-        support.append(Evidence(name, group, 1.0 if read else weights.share(group), lost, read=read))
+        support.append(by_effect.get(name, Evidence(name, (name,), 1.0, lost, read=True)))
     changing = [
         (effect.id, fitted_model)
         for effect, fitted_model in fitted_singles
@@ -379,7 +371,7 @@ def _diagnose(
             )
             for item in support
         ),
-        weights=weights,
+        weights=likely.weights,
         left_out=left_out_specimens(predictor, best) if isinstance(predictor, SpecimensPredictor) else (),
         none_likely=unlikely,
     )

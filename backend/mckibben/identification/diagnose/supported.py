@@ -1,0 +1,74 @@
+"""Which effects of a model are called missing, and which it only holds to predict better."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from mckibben.identification.diagnose.corrections import Correction
+from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, model_weights
+from mckibben.identification.diagnose.score import effective_rows
+from mckibben.identification.diagnose.twins import Alternative
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitter import Fitter
+
+
+@dataclass(frozen=True)
+class Supported:
+    """The effects of a model that are called missing.
+
+    Attributes:
+        firm: the model with these alone, refitted.
+        evidence: of each of them.
+        steps: the unlikely effects, the likeliest first, with the model that holds it and all before it.
+        corrections: the same effects as corrections that are kept.
+        weights: of the models that the search visited.
+    """
+
+    firm: FittedModel
+    evidence: tuple[Evidence, ...]
+    steps: tuple[tuple[str, FittedModel], ...]
+    corrections: tuple[Correction, ...]
+    weights: ModelWeights
+
+
+def supported(
+    fitter: Fitter, model: FittedModel, root: FittedModel, others: Sequence[Alternative], *, noise: float
+) -> Supported:
+    """The effects that the start model lacks, and those that are less likely than `LIKELY`.
+
+    The likeliest is always called missing: something is.
+
+    Args:
+        fitter: of the search.
+        model: the best model.
+        root: the start model, fitted.
+        others: effects that could replace its effects.
+        noise: of the scaled residual.
+    """
+    predictor = fitter.predictor
+    weights = model_weights(
+        fitter.known.values(),
+        root,
+        rows=effective_rows(model.residual, predictor.sweeps, predictor.folds),
+        noise=fitter.noise,
+        implausible=model.implausible,
+    )
+    evidence = []
+    for name in model.fit_model.ids:
+        if name not in root.fit_model.ids:
+            group = (name, *(other.effect for other in others if other.of == name))
+            lost = loss(model, fitter.dropping(model, name), root, noise=noise)
+            evidence.append(Evidence(name, group, weights.share(group), lost))
+    ordered = sorted(evidence, key=lambda item: item.probability)
+    unlikely = [item for item in ordered[:-1] if item.probability < LIKELY]
+    firm, steps, corrections = model, [], []
+    for item in unlikely:
+        without = fitter.dropping(firm, item.effect)
+        steps.insert(0, (item.effect, firm))
+        corrections.append(
+            Correction(item.effect, without.rmse, firm.rmse, item.loss, kept=True, share=item.share)
+        )
+        firm = without
+    firmly = tuple(item for item in evidence if item not in unlikely)
+    return Supported(firm, firmly, tuple(steps), tuple(corrections), weights)

@@ -1,0 +1,86 @@
+"""Which effects of the best model are called missing: not those that the visited models hardly hold."""
+
+from __future__ import annotations
+
+from types import SimpleNamespace
+from typing import cast
+
+import numpy as np
+
+from mckibben.identification.diagnose.probability import LIKELY
+from mckibben.identification.diagnose.supported import Supported, supported
+from mckibben.identification.diagnose.twins import Alternative
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitter import Fitter
+from tests.identification.diagnose.test_probability import fitted
+
+
+def asked(model: FittedModel, *others: FittedModel, alternatives: tuple[Alternative, ...] = ()) -> Supported:
+    """What of a model is called missing, among these visited ones."""
+    visited = {frozenset(each.fit_model.ids): each for each in (model, *others)}
+
+    def dropping(one: FittedModel, name: str) -> FittedModel:
+        return visited[frozenset(one.fit_model.ids) - {name}]
+
+    folds, sweeps = model.folds, [np.arange(60)]
+    fits = SimpleNamespace(
+        known=dict(enumerate(visited.values())),
+        predictor=SimpleNamespace(sweeps=sweeps, folds=folds),
+        noise=1.0,
+        dropping=dropping,
+    )
+    return supported(cast(Fitter, fits), model, visited[frozenset()], alternatives, noise=1.0)
+
+
+def test_an_effect_that_the_visited_models_hardly_hold_is_kept_and_not_called_missing() -> None:
+    creep, both = fitted(1.0, "creep"), fitted(0.995, "creep", "leak")
+    found = asked(both, creep, fitted(10.0), fitted(9.0, "leak"))
+    assert [item.effect for item in found.evidence] == ["creep"]
+    assert found.firm is creep
+    assert found.steps == (("leak", both),)
+    (correction,) = found.corrections
+    assert (correction.effect, correction.before, correction.after, correction.kept) == (
+        "leak", creep.rmse, both.rmse, True,
+    )  # fmt: skip
+    assert correction.probability < LIKELY < found.evidence[0].probability
+
+
+def test_effects_that_are_needed_are_all_called_missing() -> None:
+    both = fitted(1.0, "creep", "leak")
+    found = asked(both, fitted(5.0, "creep"), fitted(9.0, "leak"), fitted(10.0))
+    assert [item.effect for item in found.evidence] == ["creep", "leak"]
+    assert (found.firm, found.steps, found.corrections) == (both, (), ())
+
+
+def test_of_several_unlikely_effects_the_likeliest_comes_first_and_the_last_one_is_dropped_first() -> None:
+    whole = fitted(0.99, "creep", "leak", "mullins")
+    creep, with_leak = fitted(1.0, "creep"), fitted(0.992, "creep", "leak")
+    with_mullins = fitted(0.999, "creep", "mullins")
+    found = asked(whole, creep, with_leak, with_mullins, fitted(9.0, "leak", "mullins"), fitted(10.0))
+    assert [name for name, _ in found.steps] == ["leak", "mullins"]
+    assert [model for _, model in found.steps] == [with_leak, whole]
+    assert [item.effect for item in found.corrections] == ["mullins", "leak"]
+    assert found.firm is creep
+
+
+def test_the_likeliest_stays_however_unlikely_it_is() -> None:
+    """Something is missing; that no effect is likely is said of the whole."""
+    leak = fitted(9.99, "leak")
+    found = asked(leak, fitted(10.0), fitted(1.0, "creep"))
+    assert [item.effect for item in found.evidence] == ["leak"]
+    assert found.evidence[0].probability < LIKELY
+    assert not found.corrections
+
+
+def test_what_the_data_cannot_tell_from_an_effect_speaks_for_it() -> None:
+    """Most of the weight lies on models with the twin, which the group counts as its own."""
+    both, creep = fitted(2.0, "creep", "leak"), fitted(6.0, "creep")
+    better = fitted(0.5, "creep", "mullins")
+    others = (creep, better, fitted(10.0), fitted(9.0, "leak"))
+    alone = asked(both, *others)
+    assert [item.effect for item in alone.evidence] == ["creep"]
+    assert alone.corrections[0].share < 0.1
+    group = asked(both, *others, alternatives=(Alternative("leak", "mullins", 0.1, better),))
+    assert [item.effect for item in group.evidence] == ["creep", "leak"]
+    assert group.evidence[1].group == ("leak", "mullins")
+    assert group.evidence[1].share > 0.9
