@@ -60,6 +60,20 @@ def test_a_later_test_goes_on_with_the_softened_muscle(run: Run, model: str) -> 
     assert "as a new muscle" in told
 
 
+def test_a_muscle_of_ones_own_that_was_kept_with_its_fit_goes_on_as_well(run: Run, model: str) -> None:
+    """`diagnose --save-preset` keeps the ranges of its data beside the values."""
+    virgin = cycles("virgin.csv", new(), levels=(2e5, 4e5, 6e5), high=REACH, each=30)
+    code, _, err = run(
+        "diagnose", virgin, "--muscle", write("muscle.json", BRAID), "--effect", "linear_elasticity",
+        "--effect", "mullins", "--free", "mullins.strain", "--save-preset", "MY-20",
+    )  # fmt: skip
+    assert code == 0, err
+    file = cycles("later.csv", used, levels=(3e5, 5e5), high=0.12, seed=5)
+    answer = answer_of(run("compare", file, "--muscle", "MY-20:300mm", "--json"))
+    assert answer["rmse"] < 1.5  # the noise is 1 N; as a new muscle it would be some ten
+    assert any("taken as used before" in words for words in answer["messages"])
+
+
 def test_a_new_muscle_stays_new(run: Run, model: str) -> None:
     file = cycles("new.csv", new(), levels=(3e5, 5e5), high=0.14)
     answer = answer_of(run("compare", file, "--model", model, "--json"))

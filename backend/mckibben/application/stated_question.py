@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 from mckibben.application.doubts import deciding
-from mckibben.application.envelope import MeasuredRange
+from mckibben.application.envelope import Envelope, MeasuredRange
 from mckibben.application.experiment import SaidMeasurement, SaidModel
 from mckibben.application.measurement_files import OPTION
 from mckibben.application.model_question import ModelQuestion, question_of
@@ -87,6 +87,10 @@ def stated_question(
             raise InputError(f"{prefix}free {name}: the start model has no effect {effect}", hint=how)
     if saved is not None:
         question = _of_saved(question, saved)
+    elif (fit := question.start.fit) is not None:
+        question = _going_on(question, {
+            name: MeasuredRange(span.least, span.most, span.unit) for name, span in fit.envelope.items()
+        })  # fmt: skip
     try:
         decided = deciding(question, use=use, keep=keep)
     except InputError as error:
@@ -132,10 +136,14 @@ def _of_saved(question: ModelQuestion, saved: SavedStart) -> ModelQuestion:
     ranges = {
         name: MeasuredRange(found.least, found.most, found.unit) for name, found in document.envelope.items()
     }
+    return _going_on(replace(question, envelope=ranges, load_force=load, remarks=remarks), ranges)
+
+
+def _going_on(question: ModelQuestion, ranges: Envelope) -> ModelQuestion:
+    """The question of a muscle that its own measurements have changed for good, where these go on with it."""
     model, remark = used_before(question.predictor, question.fit_model(), ranges)
-    question = replace(question, envelope=ranges, load_force=load, remarks=remarks)
     if not remark:
         return question
     # What is stated of the muscle's past is part of the start model, so that fits and answers hold it.
     start = replace(question.start, effects=model.values)
-    return replace(question, start=start, remarks=(*remarks, remark))
+    return replace(question, start=start, remarks=(*question.remarks, remark))
