@@ -9,7 +9,13 @@ from typing import cast
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.twins import _difference, _imitates, _in_its_place, alternatives
+from mckibben.identification.diagnose.twins import (
+    _difference,
+    _imitates,
+    _in_its_place,
+    _with_own_law,
+    alternatives,
+)
 from mckibben.identification.fit.effort import diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
@@ -146,3 +152,23 @@ def test_an_exchange_begins_a_second_time_beside_what_the_other_effects_were(
     )
     assert ended.rmse == found
     assert asked == ([frozenset({"dahl.exponent", "creep.time"})] if guess < 0.8 else [])
+
+
+@pytest.mark.parametrize(
+    ("holdouts", "implausible", "found"),
+    [
+        ((0.9, 0.8), 0, 0.8),  # the law that predicts left-out groups best
+        ((1.1, 1.2), 0, 1.5),  # none predicts them better than the best model
+        ((0.9, 0.8), 1, 1.5),  # only with values that are out of the question
+    ],
+)
+def test_an_exchange_has_the_constants_with_which_it_predicts_better_than_the_best_model(
+    holdouts: tuple[float, ...], implausible: int, found: float
+) -> None:
+    variants = [SimpleNamespace(holdout_rmse=each, implausible=implausible) for each in holdouts]
+    best, exchange = (SimpleNamespace(holdout_rmse=each, implausible=0) for each in (1.0, 1.5))
+    fits = SimpleNamespace(freeing=lambda model, effect: variants if model is exchange else [])
+    other = _with_own_law(
+        cast(Fitter, fits), cast(FittedModel, best), CATALOGUE["creep"], cast(FittedModel, exchange)
+    )
+    assert other.holdout_rmse == found

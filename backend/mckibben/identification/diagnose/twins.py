@@ -27,6 +27,7 @@ _IMITATED = 0.5 * SAME
 _COSINE = 0.99  # between sensitivities, above which they count as parallel
 _AS_GOOD = 1.05  # largest rmse of an exchange with parallel sensitivity, over that of the best model
 _HALVES, _SECONDS = 4, 2  # effects tried as the first of two in the place of one, and second ones of each
+_NEAR = 1.5  # error over that of the best model of an exchange whose own law may bring it there
 _TRIED = 8  # exchanges always fitted per effect
 _PROMISE = 0.3  # first-order gain, as a share of the largest one, from which further ones are fitted
 #: Difference of -2 log likelihood below which two models count as equally likely: three standard deviations.
@@ -72,6 +73,8 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
             fitted_model = exchanged(fitter, less, effect)
             if fitted_model.rmse > _AS_GOOD * best.rmse:
                 fitted_model = _in_its_place(fitter, kept, effect, fitted_model)
+            if _AS_GOOD * best.rmse < fitted_model.rmse < _NEAR * best.rmse:
+                fitted_model = _with_own_law(fitter, best, effect, fitted_model)
             difference = _difference(fitted_model, best, fitter.predictor) / noise
             cosine = _cosine(sensitivity, fitter.changes(less, effect))
             parallel = abs(cosine) > _COSINE and fitted_model.rmse <= _AS_GOOD * best.rmse
@@ -109,6 +112,18 @@ def _in_its_place(fitter: Fitter, kept: FittedModel, effect: Effect, exchange: F
         return exchange
     freed = kept.freed | {name for name in exchange.freed if name.startswith(f"{effect.id}.")}
     return min(fitter.fit(start.fit_model, freed, again=True), exchange, key=lambda each: each.rmse)
+
+
+def _with_own_law(fitter: Fitter, best: FittedModel, effect: Effect, exchange: FittedModel) -> FittedModel:
+    """An exchange with further constants of the effect, if left-out groups are closer to it than to the best
+    model; the search counts constants, and so prefers a law that needs fewer.
+    """
+    rivals = [
+        other
+        for other in fitter.freeing(exchange, effect)
+        if other.holdout_rmse < best.holdout_rmse and other.implausible <= best.implausible
+    ]
+    return min(rivals, key=lambda other: other.holdout_rmse, default=exchange)
 
 
 def _by_two(
