@@ -45,6 +45,7 @@ def model_weights(
     rows: float,
     noise: float | None,
     implausible: int = 0,
+    most: int | None = None,
 ) -> ModelWeights:
     """Weights of models, one for each set of effects: the best of those that differ in freed constants.
 
@@ -55,6 +56,7 @@ def model_weights(
         noise: of the scaled residual.
         implausible: most parameters at bounds or not separable, those of the best model; models with more
             do not count, because no search would choose them.
+        most: number of effects of the best model; larger ones do not count, because they hold corrections.
     """
     start = frozenset(root.fit_model.ids)
     logarithms: dict[frozenset[str], float] = {}
@@ -64,8 +66,10 @@ def model_weights(
             continue
         if model is not root and model.implausible > implausible:
             continue
-        value = log_weight(model, rows=rows, noise=noise)
         key = present - start
+        if most is not None and len(key) > most:
+            continue
+        value = log_weight(model, rows=rows, noise=noise)
         logarithms[key] = max(value, logarithms.get(key, -np.inf))
     highest = max(logarithms.values())
     powers = {added: float(np.exp(value - highest)) for added, value in logarithms.items()}

@@ -53,6 +53,7 @@ def supported(
         rows=effective_rows(model.residual, predictor.sweeps, predictor.folds),
         noise=fitter.noise,
         implausible=model.implausible,
+        most=len(model.fit_model.ids) - len(root.fit_model.ids),
     )
     evidence = []
     for name in model.fit_model.ids:
