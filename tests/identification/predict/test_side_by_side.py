@@ -24,6 +24,15 @@ def test_a_single_item_stays_in_its_thread() -> None:
     assert side_by_side(lambda _: 1, []) == []
 
 
+def test_items_of_items_do_not_wait_for_each_other() -> None:
+    def rows(item: int) -> list[int]:
+        return side_by_side(lambda part: 10 * item + part, [1, 2, 3])
+
+    assert side_by_side(rows, [1, 2, 3, 4]) == [
+        [10 * item + part for part in (1, 2, 3)] for item in (1, 2, 3, 4)
+    ]
+
+
 def test_an_error_of_an_item_is_raised() -> None:
     def work(item: int) -> float:
         return 1.0 / item
