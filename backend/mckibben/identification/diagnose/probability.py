@@ -9,7 +9,7 @@ with the prior :math:`p_e` of each added effect and the score S of
 The weight of an effect, or of a group of effects that the data cannot tell apart, is the share of the models
 that hold it. Models of the search are never exact: an effect of a slightly wrong form lets another one in
 that repairs it, with overwhelming weight. `Loss.probability` allows for that: such corrections are small
-beside what the whole model explains.
+beside what the whole model explains. Models with more effects than the best one do not count for its effects.
 """
 
 from __future__ import annotations
