@@ -269,6 +269,13 @@ class Effect:
         """Whether the pressure in the muscle follows the measured one with it."""
         return "pressure" in self.slots and bool(self.states)
 
+    @property
+    def dry_friction(self) -> bool:
+        """Whether it is a law of the muscle's dry friction: odd, not zero however slow the motion is."""
+        slow = "friction" in self.slots and "direction" in self.wanted("friction")
+        slow = slow or any(state.sliding for state in self.states)
+        return self.family == "friction" and slow and "no_motion" in self.signature.zero_at
+
     def wanted(self, slot: str) -> tuple[str, ...]:
         """Names of the arguments that the slot's function requests."""
         return self._wanted[slot]

@@ -158,13 +158,3 @@ def test_none_is_likely_where_none_of_the_named_is_likelier_there_than_not() -> 
     assert not none_likely([unlikely, likely])
     assert not none_likely([replace(unlikely, read=True)])
     assert not none_likely([])
-
-
-def test_models_with_more_effects_than_the_best_one_do_not_count() -> None:
-    """What they hold beyond it are corrections, whose evidence would leave nothing to the effects."""
-    root, one = fitted(10.0), fitted(1.2, "coulomb_friction")
-    two = fitted(0.9, "maxwell_slip", "prestress")
-    every, simple = (model_weights([one, two], root, rows=ROWS, noise=1.0, most=most) for most in (None, 1))
-    assert every.share(["coulomb_friction"]) < 0.1
-    assert simple.share(["coulomb_friction"]) > 0.99
-    assert simple.share(["maxwell_slip"]) == 0.0

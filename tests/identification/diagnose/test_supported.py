@@ -13,6 +13,7 @@ from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from tests.identification.diagnose.test_probability import fitted
+from tests.identification.synthetic import CATALOGUE
 
 
 def asked(model: FittedModel, *others: FittedModel, alternatives: tuple[Alternative, ...] = ()) -> Supported:
@@ -28,6 +29,7 @@ def asked(model: FittedModel, *others: FittedModel, alternatives: tuple[Alternat
         predictor=SimpleNamespace(sweeps=sweeps, folds=folds),
         noise=1.0,
         dropping=dropping,
+        candidates=tuple(CATALOGUE.values()),
     )
     return supported(cast(Fitter, fits), model, visited[frozenset()], alternatives, noise=1.0)
 
@@ -84,3 +86,19 @@ def test_what_the_data_cannot_tell_from_an_effect_speaks_for_it() -> None:
     assert [item.effect for item in group.evidence] == ["creep", "leak"]
     assert group.evidence[1].group == ("leak", "mullins")
     assert group.evidence[1].share > 0.9
+
+
+def test_other_laws_of_dry_friction_speak_for_the_one_of_the_model() -> None:
+    """Two laws that repair each other weigh most; a damping instead of it would speak against it."""
+    rubs, more = fitted(1.2, "coulomb_friction", "creep"), ("maxwell_slip", "pressure_friction", "creep")
+    others = (fitted(10.0), fitted(6.0, "coulomb_friction"), fitted(6.0, "creep"))
+    found = asked(rubs, *others, fitted(0.8, *more))
+    assert {item.effect: item.share > 0.9 for item in found.evidence} == {
+        "coulomb_friction": True, "creep": True,
+    }  # fmt: skip
+    damped = asked(rubs, *others, fitted(0.8, "viscous_damping", "creep"))
+    assert [item.effect for item in damped.evidence] == ["creep"]
+    # Beside a law that the model holds itself, the weight of that one is no support.
+    both = fitted(1.2, "coulomb_friction", "dahl")
+    beside = asked(both, fitted(10.0), fitted(6.0, "coulomb_friction"), fitted(0.8, "dahl"))
+    assert [item.effect for item in beside.evidence] == ["dahl"]

@@ -9,7 +9,8 @@ with the prior :math:`p_e` of each added effect and the score S of
 The weight of an effect, or of a group of effects that the data cannot tell apart, is the share of the models
 that hold it. Models of the search are never exact: an effect of a slightly wrong form lets another one in
 that repairs it, with overwhelming weight. `Loss.probability` allows for that: such corrections are small
-beside what the whole model explains. Models with more effects than the best one do not count for its effects.
+beside what the whole model explains. The laws of dry friction share one weight: two of them that repair each
+other are no evidence against the friction of a third one.
 """
 
 from __future__ import annotations
@@ -45,7 +46,6 @@ def model_weights(
     rows: float,
     noise: float | None,
     implausible: int = 0,
-    most: int | None = None,
 ) -> ModelWeights:
     """Weights of models, one for each set of effects: the best of those that differ in freed constants.
 
@@ -56,7 +56,6 @@ def model_weights(
         noise: of the scaled residual.
         implausible: most parameters at bounds or not separable, those of the best model; models with more
             do not count, because no search would choose them.
-        most: number of effects of the best model; larger ones do not count, because they hold corrections.
     """
     start = frozenset(root.fit_model.ids)
     logarithms: dict[frozenset[str], float] = {}
@@ -66,10 +65,8 @@ def model_weights(
             continue
         if model is not root and model.implausible > implausible:
             continue
-        key = present - start
-        if most is not None and len(key) > most:
-            continue
         value = log_weight(model, rows=rows, noise=noise)
+        key = present - start
         logarithms[key] = max(value, logarithms.get(key, -np.inf))
     highest = max(logarithms.values())
     powers = {added: float(np.exp(value - highest)) for added, value in logarithms.items()}

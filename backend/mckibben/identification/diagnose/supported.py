@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import partial
 
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, model_weights
@@ -23,7 +22,7 @@ class Supported:
         evidence: of each of them.
         steps: the unlikely effects, the likeliest first, with the model that holds it and all before it.
         corrections: the same effects as corrections that are kept.
-        weights: of all models that the search visited.
+        weights: of the models that the search visited.
     """
 
     firm: FittedModel
@@ -48,21 +47,21 @@ def supported(
         noise: of the scaled residual.
     """
     predictor = fitter.predictor
-    weights_of = partial(
-        model_weights,
+    weights = model_weights(
         fitter.known.values(),
         root,
         rows=effective_rows(model.residual, predictor.sweeps, predictor.folds),
         noise=fitter.noise,
         implausible=model.implausible,
     )
-    names = [name for name in model.fit_model.ids if name not in root.fit_model.ids]
-    as_simple = weights_of(most=len(names))
+    rubbing = {effect.id for effect in (*model.fit_model.effects, *fitter.candidates) if effect.dry_friction}
     evidence = []
-    for name in names:
-        group = (name, *(other.effect for other in others if other.of == name))
-        lost = loss(model, fitter.dropping(model, name), root, noise=noise)
-        evidence.append(Evidence(name, group, as_simple.share(group), lost))
+    for name in model.fit_model.ids:
+        if name not in root.fit_model.ids:
+            group = (name, *(other.effect for other in others if other.of == name))
+            lost = loss(model, fitter.dropping(model, name), root, noise=noise)
+            laws = rubbing.difference(model.fit_model.ids) if name in rubbing else frozenset()
+            evidence.append(Evidence(name, group, weights.share({*group, *laws}), lost))
     ordered = sorted(evidence, key=lambda item: item.probability)
     unlikely = [item for item in ordered[:-1] if item.probability < LIKELY]
     firm, steps, corrections = model, [], []
@@ -74,4 +73,4 @@ def supported(
         )
         firm = without
     firmly = tuple(item for item in evidence if item not in unlikely)
-    return Supported(firm, firmly, tuple(steps), tuple(corrections), weights_of())
+    return Supported(firm, firmly, tuple(steps), tuple(corrections), weights)
