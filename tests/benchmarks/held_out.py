@@ -9,8 +9,8 @@ predict the second one differently by more than half the noise; the band over th
 
 On 26 November 2026, static cases with seeds 0 and 1: where the twins agree 97 of 105 within 1.2 x noise,
 better than the start model 110 of 110; where they part, 5 cases, the band holds 91 % of the readings
-(wanted 85-95 %). All cases with seed 0: 66 of 76, 82 of 82; where they part, 6 cases, the band holds 80 %, and
-38 % in ``triple-delay-silencer-load-pulses``: a silencer with a volume of its own, which no law of the
+(wanted 85-95 %). All cases with seed 0: 66 of 76, 82 of 82; where they part, 6 cases, the band holds 80 %,
+and 38 % in ``triple-delay-silencer-load-pulses``: a silencer with a volume of its own, which no law of the
 catalogue has.
 """
 
