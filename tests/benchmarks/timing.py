@@ -10,10 +10,10 @@ busy machine counts the same; the first run of a drive of some structure compile
 On 26 November 2026, 31 cases, nothing compiled before: median 3.5 s (wanted 6), longest 22.8 s (wanted 40:
 `unknown-inertance-pulses`, then `tube-resistance-steps` and `triple-overlap-guide-load-partial` 18); first
 effect after 0.23 s in the median, at most 1.5 s (wanted 1: 29 of 31), the best single effect after 0.26 s. On
-the same machine the program of the day before: 3.1, 42.2, 0.30 (25 of 31) and 0.41 s, and that of the evening,
-whose alternatives begin twice: 4.0, 26.7, 0.33 (27 of 31) and 0.44 s. ``--kind static``, 65
-cases of the other kinds: median 1.2 s (wanted 1.5), longest 14.4 s (`rig-isotonic`); first effect, which is
-the best single one, after 0.06 s in the median, at most 0.40 s.
+the same machine the program of the day before: 3.1, 42.2, 0.30 (25 of 31) and 0.41 s, and that of the
+evening, whose alternatives begin twice: 4.0, 26.7, 0.33 (27 of 31) and 0.44 s. ``--kind static``, 65 cases of
+the other kinds: median 1.2 s (wanted 1.5), longest 14.4 s (`rig-isotonic`); first effect, which is the best
+single one, after 0.06 s in the median, at most 0.40 s.
 """
 
 from __future__ import annotations
