@@ -141,9 +141,12 @@ def _of_saved(question: ModelQuestion, saved: SavedStart) -> ModelQuestion:
 
 def _going_on(question: ModelQuestion, ranges: Envelope) -> ModelQuestion:
     """The question of a muscle that its own measurements have changed for good, where these go on with it."""
+    start = question.start
+    if not any(state.lasting for name in start.effects for state in start.catalogue[name].states):
+        return question  # without reading the data for it
     model, remark = used_before(question.predictor, question.fit_model(), ranges)
     if not remark:
         return question
     # What is stated of the muscle's past is part of the start model, so that fits and answers hold it.
-    start = replace(question.start, effects=model.values)
-    return replace(question, start=start, remarks=(*question.remarks, remark))
+    start = replace(start, effects=model.values)
+    return replace(question, start=start, remarks=(*question.remarks, remark)).with_data_of(question)

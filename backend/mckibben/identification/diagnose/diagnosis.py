@@ -289,8 +289,10 @@ def _diagnose(
     by_effect = {item.effect: item for item in likely.evidence}
     support = []
     for name in added:
-        lost = loss(lean, fitter.dropping(lean, name), root, noise=level)
-        support.append(by_effect.get(name, Evidence(name, (name,), 1.0, lost, read=True)))
+        if name not in by_effect:  # read before the search, a part of the start model since
+            lost = loss(lean, fitter.dropping(lean, name), root, noise=level)
+            by_effect[name] = Evidence(name, (name,), 1.0, lost, read=True)
+        support.append(by_effect[name])
     changing = [
         (effect.id, fitted_model)
         for effect, fitted_model in fitted_singles
