@@ -59,7 +59,8 @@ def hidden_flow(factor: float = 0.93) -> Hidden:
 
 def hidden_silencer(rig: Setup, share: float = 1.1) -> Hidden:
     """A clogged silencer with a volume of its own."""
-    return Hidden("clogged silencer", accept("exhaust_restriction"), air={"silencer": share * rig.plant.vent})
+    right = accept("silencer", "exhaust_restriction")
+    return Hidden("clogged silencer", right, air={"silencer": share * rig.plant.vent})
 
 
 def hidden_supply(rig: Setup) -> Hidden:

@@ -167,7 +167,10 @@ def muscle_side(
     drive = {
         "supply_flow": flows["supply"],
         "mass_flow": inflow,
+        "exhaust_flow": flows["through_exhaust"],
+        "exhaust_conductance": constants["exhaust_conductance"],
         "supply_pressure": constants["supply_pressure"],
+        "ambient_pressure": constants["ambient_pressure"],
         "pressure": gauge,
         "force": force,
         "stroke": stroke,

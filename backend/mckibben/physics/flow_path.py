@@ -110,8 +110,9 @@ def flow_path(
         temperature: temperature of the gas in the muscle [K].
 
     Returns:
-        ``supply``, ``exhaust`` and ``into_muscle`` mass flow, ``opening`` after all effects, ``openings``
-        (effect id -> opening before it), both pressure ratios, and ``rates`` by state.
+        ``supply``, ``exhaust`` and ``into_muscle`` mass flow, ``through_exhaust`` without what a quick
+        exhaust dumps, ``opening`` after all effects, ``openings`` (effect id -> opening before it), both
+        pressure ratios, and ``rates`` by state.
     """
     openings: dict[str, Value] = {}
     opening = command
@@ -125,8 +126,9 @@ def flow_path(
     supply_pressure = model.chain("supply", c["supply_pressure"], values, {}, name="supply_pressure")
     fill_c = model.chain("fill_conductance", c["fill_conductance"], values, {}, name="conductance")
     exhaust_c = model.chain("exhaust_conductance", c["exhaust_conductance"], values, {}, name="conductance")
+    exhaust_sink = model.chain("exhaust_sink", ambient_pressure, values, {}, name="sink_pressure")
     rates: dict[str, Value] = {}
-    fill_source, exhaust_sink = supply_pressure, ambient_pressure
+    fill_source = supply_pressure
     if regulator:
         source = y["regulator_pressure"]
         set_point = ambient_pressure + ops.positive_part(opening) * c["regulator_range"]
@@ -162,7 +164,7 @@ def flow_path(
         conductance=venting.conductance,
         critical_ratio=venting.critical_ratio,
     )
-    into = fill - exhaust
+    into, through_exhaust = fill - exhaust, exhaust
     if tube:
         own = model.chain("tube_conductance", c["tube_conductance"], values, {}, name="conductance")
         line = Restriction(own, c["tube_ratio"])
@@ -203,6 +205,7 @@ def flow_path(
     return {
         "supply": fill,
         "exhaust": exhaust,
+        "through_exhaust": through_exhaust,
         "into_muscle": into,
         "opening": opening,
         "openings": openings,

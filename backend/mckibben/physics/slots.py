@@ -30,14 +30,18 @@ class Reading(NamedTuple):
     offset: Value
 
 
-# Inputs of rates of the drive: opening of the valve before this effect [-], mass flows [kg/s] from
-# the supply and into the muscle, pressures [Pa] (supply absolute, muscle gauge), the load's stroke and speed,
-# and the sensor readings before any effect of the reading slots.
+# Inputs of rates of the drive: opening of the valve before this effect [-], mass flows [kg/s] from the
+# supply, into the muscle and through the exhaust, whose conductance is that of the open valve [m^3/(s Pa)],
+# pressures [Pa] (supply and ambient absolute, muscle gauge), the load's stroke and speed, and the sensor
+# readings before any effect of the reading slots.
 _DRIVE = (
     "opening",
     "supply_flow",
     "mass_flow",
+    "exhaust_flow",
+    "exhaust_conductance",
     "supply_pressure",
+    "ambient_pressure",
     "pressure",
     "force",
     "stroke",
@@ -108,6 +112,7 @@ SLOTS: dict[str, Slot] = {
     "exhaust_conductance": Slot("sonic conductance of exhausting [m^3/(s Pa)]", ("conductance",), "chain"),
     "tube_conductance": Slot("sonic conductance of the tube [m^3/(s Pa)]", ("conductance",), "chain"),
     "supply": Slot("absolute supply pressure at the valve [Pa]", ("supply_pressure",), "chain"),
+    "exhaust_sink": Slot("absolute pressure behind the exhaust [Pa]", ("sink_pressure",), "chain"),
     "inertia": Slot("mass that moves with the load [kg]", ("muscle",), "sum"),
     "hung_mass": Slot("mass whose weight acts on the load besides its own [kg]", (), "sum"),
     "load_factor": Slot("multiplies mass and force of the load [-]", (), "product"),

@@ -57,6 +57,28 @@ def test_supply_droops_with_the_flow_and_comes_back() -> None:
     assert float(supply[-1]) == pytest.approx(7e5, abs=20.0)
 
 
+def test_silencer_blows_down_exponentially_while_it_is_choked() -> None:
+    """10 ml behind 1e-8 m3/(s Pa): tau = V/(C_s p0), C_s = C f/sqrt(1 - f^2), down to ambient over 0.3."""
+    effect, ambient = CATALOGUE["silencer"], 1e5
+    values = {"factor": 0.6, "volume": 1e-5}
+    around = {"exhaust_conductance": 1e-8, "ambient_pressure": ambient}
+    time = np.linspace(0.0, 0.2, 201)
+    into = gas.ANR_DENSITY * 0.75e-8 * 5e5  # so much leaves at 5 bar
+
+    def flow(t: float) -> dict[str, float]:
+        return {**around, "exhaust_flow": into if t < 0.15 else 0.0}
+
+    excess = run(effect, flow, time, values, slot="drive_rates")["excess"]
+    p0 = gas.ANR_DENSITY * gas.GAS_CONSTANT * gas.ANR_TEMPERATURE
+    tau = 1e-5 / (0.75e-8 * p0)
+    assert np.interp(0.15, time, excess) == pytest.approx(4e5, rel=2e-3), "steady: as much out as in"
+    assert np.interp(0.155, time, excess) + ambient == pytest.approx(5e5 * np.exp(-0.005 / tau), rel=5e-3)
+    sink = effect.call("exhaust_sink", {"sink_pressure": ambient}, {"factor": 0.6, "excess": excess})
+    assert np.array_equal(sink, ambient + excess)
+    without = effect.call("exhaust_sink", {"sink_pressure": ambient}, {"factor": 1.0, "excess": excess})
+    assert np.array_equal(without, np.full(201, ambient))
+
+
 def test_sensor_lag_has_gain_1_and_the_width_of_a_false_loop() -> None:
     """A ramp is read late by exactly the time constant; the other channels are read at once."""
     effect = CATALOGUE["sensor_lag"]

@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from mckibben.identification.diagnose.probability import log_preference, log_weight
-from mckibben.identification.diagnose.score import effective_rows, score
+from mckibben.identification.diagnose.score import better, effective_rows, score
 from mckibben.identification.diagnose.search import exchanged, lean
 from mckibben.identification.diagnose.usual import as_usual
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -195,7 +195,8 @@ def likeliest(
 ) -> tuple[FittedModel, list[Alternative]]:
     """The likeliest of the models that fit as well, and the alternatives to its effects.
 
-    Where an alternative has the larger weight, by prior and evidence, it takes the place of the effect.
+    Where an alternative has the larger weight, by prior and evidence, it takes the place of the effect; not
+    where it is worse as soon as both models hold the corrections.
 
     Args:
         fitter: of the search.
@@ -203,7 +204,7 @@ def likeliest(
         added: effects that may be replaced.
         noise: of the scaled residual.
         root: the start model, fitted.
-        never: effects that only corrected another one's form, and so do not take its place.
+        never: the corrections: effects that only corrected another one's form, and so do not take its place.
     """
     names = list(added)
     rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
@@ -214,11 +215,23 @@ def likeliest(
             for other in others
             if other.fitted_model.implausible <= best.implausible and other.effect not in never
         ]
-        weights = [log_preference(o.fitted_model, rows=rows, noise=fitter.noise) for o in plausible]
-        if not weights or max(weights) <= log_preference(best, rows=rows, noise=fitter.noise):
+        preference = partial(log_preference, rows=rows, noise=fitter.noise)
+        plausible.sort(key=lambda other: -preference(other.fitted_model))
+        preferred = (
+            other.fitted_model
+            for other in plausible
+            if preference(other.fitted_model) > preference(best)
+            and not better(
+                _with(fitter, best, never),
+                _with(fitter, other.fitted_model, never),
+                rows=rows,
+                noise=fitter.noise,
+            )
+        )
+        chosen = next(preferred, None)
+        if chosen is None:
             break
-        chosen = plausible[int(np.argmax(weights))]
-        best = lean(fitter, chosen.fitted_model, root)
+        best = lean(fitter, chosen, root)
         names = [name for name in best.fit_model.ids if name not in root.fit_model.ids]
         others = alternatives(fitter, best, names, noise)
     value = partial(score, rows=rows, noise=fitter.noise)
@@ -227,6 +240,14 @@ def likeliest(
         for other in others
     ]
     return as_usual(fitter, best, names, value=value), others
+
+
+def _with(fitter: Fitter, fitted_model: FittedModel, corrections: Collection[str]) -> FittedModel:
+    """The model with corrections as well, refitted; itself where there are none."""
+    for effect in fitter.candidates:
+        if effect.id in corrections and effect.id not in fitted_model.fit_model.ids:
+            fitted_model = fitter.adding(fitted_model, effect)
+    return fitted_model
 
 
 def _worth_fitting(fitter: Fitter, less: FittedModel, others: Sequence[Effect]) -> list[Effect]:

@@ -46,6 +46,7 @@ EFFECT = Effect(
         energy="dissipative",
     ),
     confused_with=(
+        Twin("silencer", "short and long ventings: air in the silencer lets the short ones begin faster"),
         Twin("flow_coefficient", "filling and venting: a restricted exhaust slows venting alone"),
         Twin("tube_resistance", "filling and venting: a tube slows both"),
         Twin("viscous_damping", "vent a rigid vessel instead of the muscle"),
