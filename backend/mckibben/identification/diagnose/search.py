@@ -132,12 +132,22 @@ def exchanged(fitter: Fitter, less: FittedModel, effect: Effect) -> FittedModel:
 
 
 def lean(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> FittedModel:
-    """The model without freed constants that no longer improve the score."""
+    """The model without freed constants that no longer improve the score.
+
+    They are fixed at their value in the start model or the effect's default, or where their definition ends:
+    between a linear and a square-root law, say, data that are near one often fit a mixture as well.
+    """
     while True:
         rows = _rows(fitter, fitted_model)
+        freed = sorted(fitted_model.freed - root.freed)
         reduced = [
-            fitter.holding(fitted_model, name, _fixed_value(name, fitted_model, root))
-            for name in sorted(fitted_model.freed - root.freed)
+            fitter.holding(fitted_model, name, _fixed_value(name, fitted_model, root)) for name in freed
+        ]
+        reduced += [
+            fitter.ending_at(fitted_model, name, value)
+            for name in freed
+            for value in _ends_of(name, fitted_model)
+            if value != _fixed_value(name, fitted_model, root)
         ]
         reduced = [other for other in reduced if other.free and other.implausible <= fitted_model.implausible]
         candidate = min(reduced, key=lambda n: score(n, rows=rows, noise=fitter.noise), default=fitted_model)
@@ -145,7 +155,7 @@ def lean(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> Fitted
             fitted_model, rows=rows, noise=fitter.noise
         ):
             return fitted_model
-        fitted_model = candidate
+        fitter.known[candidate.key] = fitted_model = candidate
 
 
 def _plausible(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> FittedModel:
@@ -171,6 +181,14 @@ def _fixed_value(name: str, fitted_model: FittedModel, root: FittedModel) -> flo
         return root.fit_model.number(name)
     effect = next(effect for effect in fitted_model.fit_model.effects if effect.id == effect_id)
     return effect.parameter(parameter).default
+
+
+def _ends_of(name: str, fitted_model: FittedModel) -> tuple[float, ...]:
+    """The bounds of a constant whose definition ends there."""
+    effect_id, _, parameter = name.partition(".")
+    effect = next((e for e in fitted_model.fit_model.effects if e.id == effect_id), None)
+    declared = None if effect is None else effect.parameter(parameter)
+    return (declared.lower, declared.upper) if declared is not None and declared.natural else ()
 
 
 def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
