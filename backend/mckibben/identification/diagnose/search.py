@@ -184,11 +184,16 @@ def _fixed_value(name: str, fitted_model: FittedModel, root: FittedModel) -> flo
 
 
 def _ends_of(name: str, fitted_model: FittedModel) -> tuple[float, ...]:
-    """The bounds of a constant whose definition ends there."""
+    """The bounds of a constant whose definition ends there; none where muscles have a usual value.
+
+    What equals that is told as unknown from the data (`mckibben.identification.diagnose.usual`).
+    """
     effect_id, _, parameter = name.partition(".")
     effect = next((e for e in fitted_model.fit_model.effects if e.id == effect_id), None)
     declared = None if effect is None else effect.parameter(parameter)
-    return (declared.lower, declared.upper) if declared is not None and declared.natural else ()
+    if declared is None or not declared.natural or declared.usual is not None:
+        return ()
+    return declared.lower, declared.upper
 
 
 def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
