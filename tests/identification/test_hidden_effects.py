@@ -8,7 +8,9 @@ from __future__ import annotations
 
 import pytest
 
-from tests.benchmarks.diagnosis import diagnosed
+from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
+from tests.benchmarks.diagnosis import diagnosed, subject_and_start
+from tests.shipped import shipped_studio
 from tests.truth.generate import case
 
 FOUND = (
@@ -17,6 +19,7 @@ FOUND = (
     "pressure-zero-isobaric",
     "force-zero-isobaric",
     "length-zero-diameter",
+    "silencer-steps",
 )
 LONG = ("coulomb-isobaric", "delay-pulses")
 TOGETHER = (
@@ -64,3 +67,27 @@ def test_nothing_is_said_to_be_missing_when_nothing_is(name: str) -> None:
 def test_what_no_catalogue_holds_is_said_to_be_unknown(name: str) -> None:
     line = diagnosed(case(name, 0))
     assert line.status == "unknown_effect", line
+
+
+def found_in(name: str, seed: int) -> Diagnosis:
+    """The whole diagnosis of a case."""
+    studio = shipped_studio()
+    predictor, start = subject_and_start(case(name, seed), studio)
+    return diagnose(predictor, start, catalogue=studio.catalogue)
+
+
+def test_a_law_between_two_pure_ones_that_fits_no_better_is_the_pure_one() -> None:
+    """The regulator refills with the root of its droop; the data fit an exponent of 0.71 as well."""
+    found = found_in("supply-droop-steps", 0)
+    assert found.added == ("supply_droop",)
+    assert found.best.fit_model.values["supply_droop"]["exponent"] == 0.5
+    assert "supply_droop.exponent" not in found.best.freed
+
+
+@pytest.mark.examination("test_a_single_hidden_effect_is_found_and_the_error_falls_to_the_noise")
+def test_an_exchange_that_is_worse_beside_the_corrections_is_not_made() -> None:
+    """Without the silencer, whose part is small, prestress fits better than the load that is hidden."""
+    found = found_in("triple-delay-silencer-load-pulses", 1)
+    assert set(found.best.fit_model.ids) >= {"valve_delay", "silencer"}
+    assert {"load_scale", "effectiveness"} & set(found.added)
+    assert found.best.rmse < 1.1 * found.noise
