@@ -29,6 +29,7 @@ _DENSE = 0.05  # s between rows
 _RARELY = 0.05  # share of the way
 _PAUSE = 5.0  # usual steps of time; longer ones are pauses
 _CLOSE = 0.1  # s between rows, at most, where inertia shows
+_FAR_APART = "a stated load, and rows too far apart to show its inertia"
 _FEWEST_STEPS = 20  # of time, in which the speed shows
 _FEWEST_IN_RUN = 5  # rows with the same load
 _MANY_EXTREMES = 200_000  # limit of the loop over extremes; longer signals are reduced to blocks
@@ -61,12 +62,13 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     1. time with a valve command: ``transient``; but where pressure, force and stroke were measured beside it
        and the stroke is held, ``isometric``: the pressure says what the valve did, and nothing moves.
     2. force, pressure and stroke: ``transient`` with time and a stated load mass, unless the force is
-       constant and the muscle moves slowly, and where stated weights are lifted fast; ``isotonic`` when
-       the force is constant, throughout or in each run, and both others vary; ``isobaric``/``isometric`` when
-       pressure/stroke is constant throughout. Otherwise the occupied 1 % steps of both ranges are counted: a
-       filled grid without time and direction is ``static`` (unless one axis is fine, >= 25 levels and 4 times
-       the other); an axis with at most half the steps of the other is the constant one; without such an axis
-       ``static``, or ``transient`` where over time the force leaves one level (2 %) in few rows only.
+       constant and the muscle moves slowly or the rows are more than 0.1 s apart, and where stated weights
+       are lifted fast; ``isotonic`` when the force is constant, throughout or in each run, and both others
+       vary; ``isobaric``/``isometric`` when pressure/stroke is constant throughout. Otherwise the occupied
+       1 % steps of both ranges are counted: a filled grid without time and direction is ``static`` (unless
+       one axis is fine, >= 25 levels and 4 times the other); an axis with at most half the steps of the
+       other is the constant one; without such an axis ``static``, or ``transient`` where over time the force
+       leaves one level (2 %) in few rows only.
     3. diameter with pressure or stroke: ``diameter``.
     4. pressure and stroke: ``isotonic`` without time, or where a stated load moves slowly; else
        ``transient``.
@@ -92,6 +94,8 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
     if force is not None and pressure is not None and stroke is not None:
         slow = timed and _moves_slowly(columns["time"], stroke)
         if timed and "load_mass" in conditions and not (slow and _constant(force)):
+            if _constant(force) and _usual_step(columns["time"]) > _CLOSE:
+                return "isotonic", _FAR_APART
             return "transient", "force, pressure and stroke over time with a load mass"
         if lifts_fast(columns):
             return "transient", "weights are lifted fast: each run has one exact force, and inertia shows"
@@ -110,7 +114,7 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
             if _inertia_hidden(columns["time"], stroke):
                 return "isotonic", "a stated load moves so evenly that its inertia is below 1 % of its weight"
             if _usual_step(columns["time"]) > _CLOSE:
-                return "isotonic", "a stated load, and rows too far apart to show its inertia"
+                return "isotonic", _FAR_APART
         return (
             ("transient", "pressure and stroke over time") if timed else ("isotonic", "strokes at pressures")
         )
