@@ -25,7 +25,7 @@ KNOWN_IDS = frozenset(  # one block of words reads better than fifty quoted line
     coulomb_friction pressure_friction contact_friction dahl bouc_wen maxwell_slip pressure_hysteresis
     viscous_damping guide_friction dead_volume heat_exchange leak valve_delay spool_lag valve_deadband
     valve_hysteresis flow_coefficient exhaust_restriction silencer tube_resistance tube_delay supply_droop
-    pressure_offset pressure_scale force_offset force_scale length_offset sensor_lag time_skew
+    pressure_offset pressure_scale force_offset force_scale length_offset sensor_lag time_skew wall_volume
     moving_mass rig_compliance load_scale custom
     """.split()  # noqa: SIM905
 )

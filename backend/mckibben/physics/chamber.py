@@ -107,7 +107,9 @@ def muscle_side(
     # Series compliance: one Newton step from the rigid rig.
     yielding = 1.0 + state.compliance * state.tension.diff(length)
     force = (1.0 - slack) * ops.positive_part(state.tension / yielding)
-    volume = state.volume + constants["fitting_volume"] + model.sum("extra_volume", values, {})
+    volume = (
+        state.volume + constants["fitting_volume"] + model.sum("extra_volume", values, {"muscle": muscle})
+    )
     balanced = with_energy_balance(structure=structure, model=model)
     temperature = pressure * volume / (states["gas_mass"] * gas.GAS_CONSTANT) if balanced else ambient
     flows = flow_path(

@@ -95,7 +95,7 @@ SLOTS: dict[str, Slot] = {
         (*_STATE, "area", "pressure_rate"),
         "concatenate",
     ),
-    "extra_volume": Slot("gas volume outside the muscle [m^3]", (), "sum"),
+    "extra_volume": Slot("gas volume besides that of the braid [m^3]", ("muscle",), "sum"),
     "heat": Slot(
         "heat flow into the gas [W]; makes the chamber obey the energy balance instead of a polytrope",
         ("muscle", "length", "diameter", "gas_temperature", "ambient_temperature"),

@@ -8,6 +8,7 @@ from scipy.integrate import solve_ivp
 
 from mckibben.physics import gas
 from mckibben.physics.catalogue import default_catalogue
+from mckibben.physics.muscle import Muscle
 from tests.physics.contract_dynamic import run
 
 CATALOGUE = default_catalogue()
@@ -55,6 +56,14 @@ def test_supply_droops_with_the_flow_and_comes_back() -> None:
     supply = effect.call("supply", {"supply_pressure": 7e5}, {**values, "drop": drop})
     assert float(supply.min()) == pytest.approx(6.8e5, rel=1e-3)
     assert float(supply[-1]) == pytest.approx(7e5, abs=20.0)
+
+
+def test_gas_at_rest_fills_the_bore_that_a_wall_leaves() -> None:
+    """pi/4 D^2 L0 of the braid less the wall is pi/4 (D - 2t)^2 L0; the wall is at most 30 % of D."""
+    muscle = Muscle(nominal_length=0.3, braid_diameter=0.02, braid_angle=0.45)
+    for thickness, bore in ((0.0, 0.02), (0.0015, 0.017), (0.006, 0.008), (0.0062, 0.008)):
+        taken = CATALOGUE["wall_volume"].call("extra_volume", {"muscle": muscle}, {"thickness": thickness})
+        assert np.pi / 4.0 * 0.02**2 * 0.3 + float(taken) == pytest.approx(np.pi / 4.0 * bore**2 * 0.3)
 
 
 def test_silencer_blows_down_exponentially_while_it_is_choked() -> None:

@@ -55,7 +55,7 @@ _FEW_TRIED = (3, 24)  # models whose compilation takes as long as that of candid
 # Slots of the air flow only; irrelevant when the pressure is measured.
 _AIR = (
     "extra_volume", "heat", "leakage", "command_delay", "opening", "fill_conductance", "exhaust_conductance",
-    "tube_conductance", "supply",
+    "tube_conductance", "supply", "exhaust_sink",
 )  # fmt: skip
 
 
