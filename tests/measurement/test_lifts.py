@@ -53,3 +53,24 @@ def test_titles_say_the_load_of_their_run() -> None:
     predictor = predictor_of(found, MUSCLE)
     assert isinstance(predictor, TransientPredictor)
     assert [each.load.mass for each in predictor.drives] == pytest.approx(MASSES)
+
+
+@pytest.mark.parametrize(("every", "kind"), [(0.05, "transient"), (0.2, "isotonic")])
+def test_stairs_under_a_load_in_a_column_are_slow_where_no_row_shows_inertia(every: float, kind: str) -> None:
+    """Quick steps with long holds: between rows 0.2 s apart a mass has come to rest."""
+    levels = np.repeat([0.0, 0.3, 0.6, 0.9, 0.6, 0.3], round(5.0 / every))
+    rows = [f"{n * every:.2f};{1.0 + 3.0 * x:.3f};{290 - 50 * x:.1f};14" for n, x in enumerate(levels)]
+    found = csv(rows, "time_s;pressure_bar;length_mm;load_kg", "rest length: 300 mm", "load: 14 kg")
+    assert found.kind == kind
+
+
+def test_a_pressure_whose_noise_reaches_far_now_and_then_is_constant() -> None:
+    """0.35 % of noise: of 700 readings one or two lie beyond 1 % to either side."""
+    draw, way = np.random.default_rng(7), np.abs(np.linspace(-1.0, 1.0, 700))
+    pressures = 2.0 + 0.007 * draw.standard_normal(700)
+    assert np.ptp(pressures) > 0.02 * np.max(pressures)
+    rows = [
+        f"{0.1 * n:.1f},{p:.4f},{270 + 30 * x:.3f},{60 * x:.2f}"
+        for n, (p, x) in enumerate(zip(pressures, way, strict=True))
+    ]
+    assert csv(rows, "time_s,pressure_bar,length_mm,force_N", "rest length: 300 mm").kind == "isobaric"

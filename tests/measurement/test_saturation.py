@@ -243,3 +243,16 @@ def test_the_tops_of_slow_swings_against_a_spring_are_not_saturated():
         assert not unusable_rows(columns | {"force": force + noise}, "static", slack=slack)
         clipped = np.minimum(force, 440.0) + noise
         assert "force saturated" in unusable_rows(columns | {"force": clipped}, "static", slack=slack)
+
+
+def test_a_hold_at_the_largest_force_under_a_steady_noisy_pressure_is_not_saturated():
+    """The noise of a pressure that is constant throughout is no change that the force should show."""
+    random = np.random.default_rng(2)
+    way = np.concatenate([np.zeros(25), TRIANGLE])
+    columns = {
+        "time": 0.08 * np.arange(len(way)),
+        "pressure": 2e5 + 600.0 * random.standard_normal(len(way)),
+        "length": 0.118 - 0.02 * way,
+        "force": 66.0 * (1.0 - 0.9 * way) + 0.12 * random.standard_normal(len(way)),
+    }
+    assert not unusable_rows(columns, "static", slack=np.zeros(len(way), bool))

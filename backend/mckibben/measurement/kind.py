@@ -20,6 +20,7 @@ STROKES = ("length", "contraction", "displacement")
 _GRAIN = 0.01  # share of the range; readings within it are the same level
 _MANY = 25  # levels from which the finer axis of a grid is a sweep rather than a map
 _JUMP = 0.02  # change of the load to the next level, share of the range
+_FEW_READINGS = 0.005  # share of the readings at either end that noise may carry farther
 _HELD_SHARE = 0.7  # of the rows, in which a hanging weight pulls with its weight alone
 _SECOND = 1.0  # s
 _SLOW = 0.2  # of the range of the stroke in a second; a ramp through it takes longer than five
@@ -181,13 +182,13 @@ def _fastest(time: Array, stroke: Array, span: float) -> float:
 
 
 def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) -> tuple[str, str]:
-    if np.any(force) and not _constant(pressure) and not _constant_stroke(stroke):
+    if np.any(force) and not _steady(pressure) and not _constant_stroke(stroke):
         if _constant(force):
             return "isotonic", "the force is constant while pressure and stroke vary"
         if runs := _constant_runs(force, pressure, stroke):
             return "isotonic", f"the force is constant in each of {runs} runs while pressure and stroke vary"
-    if _constant(pressure) != _constant_stroke(stroke):
-        if _constant(pressure):
+    if _steady(pressure) != _constant_stroke(stroke):
+        if _steady(pressure):
             return "isobaric", "the pressure is constant throughout"
         return "isometric", "the stroke is constant throughout"
     all_pressures, pressure_levels = _steps(pressure)
@@ -207,6 +208,12 @@ def _force_kind(pressure: Array, stroke: Array, force: Array, *, swept: bool) ->
 def _constant(values: Array) -> bool:
     """Whether a pressure or force is constant within 2 % of its magnitude."""
     return bool(np.ptp(values) <= 0.02 * np.max(np.abs(values)))
+
+
+def _steady(pressure: Array) -> bool:
+    """Whether nearly all readings of a pressure are within 2 % of its magnitude; noise has no limit."""
+    low, high = np.quantile(pressure, [_FEW_READINGS, 1.0 - _FEW_READINGS])
+    return bool(high - low <= 0.02 * np.max(np.abs(pressure)))
 
 
 def _held_load(force: Array) -> bool:

@@ -172,9 +172,12 @@ def _level(values: Array, noise: float) -> bool:
 
 
 def _change(values: Array, begin: int, end: int) -> float:
-    """Change of a channel in these rows without its noise, as a share of its range."""
-    fifths = [float(np.mean(part)) for part in np.array_split(values[begin:end], 5)]
-    return (max(fifths) - min(fifths)) / float(np.ptp(values))
+    """Change of a channel in these rows, as a share of its range; 0 where its noise explains it."""
+    parts = np.array_split(values[begin:end], 5)
+    fifths = [float(np.mean(part)) for part in parts]
+    change = max(fifths) - min(fifths)
+    by_chance = 5.0 * noise_of(values) / np.sqrt(len(parts[-1]) or 1.0)
+    return change / float(np.ptp(values)) if change > by_chance else 0.0
 
 
 def _runs(values: Array) -> _Runs:

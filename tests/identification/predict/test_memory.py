@@ -253,3 +253,17 @@ def test_a_trial_that_cannot_be_followed_is_lost_alone(monkeypatch: pytest.Monke
     first, second = Memory(task).together([(model, HISTORIES["rest"]) for model in models])
     np.testing.assert_array_equal(first["dahl.presliding"], alone)
     assert np.isnan(second["dahl.presliding"]).all()
+
+
+def test_noise_of_the_length_at_rest_moves_no_friction_whatever_the_kind():
+    """Two pressures in one file make it static; the muscle is held, and only its sensor is restless."""
+    draw = np.random.default_rng(4)
+    model = fit_model(dahl={"force": 30.0, "break_strain": 0.002})
+    lines = [
+        f"{0.1 * n},{p},{0.28 + 2e-5 * draw.standard_normal()},{truth(p, 0.28)}"
+        for n, p in enumerate(150 * [2e5] + 150 * [4e5])
+    ]
+    measurement = csv(lines, "time_s,pressure_Pa,length_m,force_N", "kind: static")
+    predictor = QuasistaticPredictor(comparable_rows(measurement, MUSCLE)).after(("rest",))
+    states = predictor._evaluation.state(model)["dahl.presliding"]
+    assert np.std(states) < 0.4 * 2e-5 / (0.002 * MUSCLE.nominal_length)

@@ -280,7 +280,7 @@ class Memory:
 
     def _length(self, effect: Effect, clock: np.ndarray, rows: np.ndarray) -> np.ndarray:
         """The length that an effect's states follow; friction would take its noise for reversals."""
-        if "friction" not in effect.slots or self._task.time is None or self._task.kind == "static":
+        if "friction" not in effect.slots or self._task.time is None:
             return self._task.state["length"][rows]
         return self._smoothed("length", clock, rows)
 
