@@ -35,6 +35,8 @@ class Line:
     Attributes:
         hidden: ids that are right answers, of each hidden effect; none for an effect that no catalogue has.
         told: the probability told of each named effect or group, and whether it is there.
+        wrong: the entry that its user typed wrongly; empty for none.
+        asked: the entry that is asked about first; it is then taken, as with one click.
         refusal: the message, where a file was not read or nothing was diagnosed.
     """
 
@@ -49,6 +51,8 @@ class Line:
     after: float = float("nan")
     second: float = float("nan")
     told: tuple[tuple[float, bool], ...] = ()
+    wrong: str = ""
+    asked: str = ""
     refusal: str = ""
 
     @property
@@ -91,7 +95,12 @@ def visited(name: str) -> Line:
         stated.write_text(json.dumps(json.loads((home / "muscle.json").read_text())["muscle"]))
         # A drive document holds the muscle as well.
         muscle = () if user.get("drive") else ("--muscle", str(stated), "--ideal")
-        found = mckibben(home, "diagnose", *first, *muscle, *user["arguments"], "--save", saved)
+        line.wrong = next((entry["entry"] for entry in truth.get("wrong", [])), "")
+        question = ("diagnose", *first, *muscle, *user["arguments"], "--save", saved)
+        found = mckibben(home, *question)
+        line.asked = next((e["hypothesis"] for e in found.get("context", []) if e["asked"]), "")
+        if line.asked:
+            found = mckibben(home, *question, "--use", line.asked)
         if "refused" in found:
             line.refusal = found["refused"]
             return line
@@ -126,6 +135,7 @@ def summary(lines: Sequence[Line]) -> list[str]:
     """The figures of the table; what no catalogue has is counted apart."""
     known = [line for line in lines if line.hidden and all(line.hidden)]
     nothing = [line for line in lines if not line.hidden]
+    mistaken = [line for line in lines if line.wrong]
     sure = [true for line in lines for probability, true in line.told if probability >= SURE]
     held = [line.second <= WANTED for line in (*known, *nothing)]
     return [
@@ -133,6 +143,8 @@ def summary(lines: Sequence[Line]) -> list[str]:
         f"all hidden effects found            {sum(line.complete for line in known)} of {len(known)}",
         f"with surplus effects                {sum(bool(line.surplus) for line in known)} of {len(known)}",
         f"nothing missing: false alarms       {sum(bool(line.named) for line in nothing)} of {len(nothing)}",
+        f"wrong entry asked about first       {sum(line.asked == line.wrong for line in mistaken)} of "
+        f"{len(mistaken)}, right entry {sum(bool(line.asked) for line in lines if not line.wrong)}",
         f"told with {100.0 * SURE:.0f} % or more, and there     {sum(sure)} of {len(sure)}",
         f"second test: error <= {WANTED} x noise   {sum(held)} of {len(held)}",
     ]

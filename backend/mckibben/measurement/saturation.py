@@ -34,6 +34,7 @@ _MANY_RUNS = 2000  # more runs cannot be chance
 _PUSH = 0.01  # of the largest force: more than the zero error of a good load cell
 _MOSTLY = 0.2  # share of rows below zero, above which the zero of the load cell is wrong
 _GOES_ON = 0.05  # share of the range of another channel, in a run at the largest force
+_HARDLY = 0.2  # range over the largest value, below which a channel hardly varies
 _COARSE = 0.01  # rounding step over the range, from which it may hide a change of the force
 _EXAMINED = 200  # runs examined per level; the others get the same verdict
 
@@ -172,12 +173,16 @@ def _level(values: Array, noise: float) -> bool:
 
 
 def _change(values: Array, begin: int, end: int) -> float:
-    """Change of a channel in these rows, as a share of its range; 0 where its noise explains it."""
+    """Change of a channel in these rows, as a share of its range; 0 where its noise explains it.
+
+    What varies little at all, as a pressure that is controlled, is related to its size.
+    """
     parts = np.array_split(values[begin:end], 5)
     fifths = [float(np.mean(part)) for part in parts]
     change = max(fifths) - min(fifths)
     by_chance = 5.0 * noise_of(values) / np.sqrt(len(parts[-1]) or 1.0)
-    return change / float(np.ptp(values)) if change > by_chance else 0.0
+    whole = max(float(np.ptp(values)), _HARDLY * float(np.max(np.abs(values))))
+    return change / whole if change > by_chance else 0.0
 
 
 def _runs(values: Array) -> _Runs:
