@@ -3353,6 +3353,8 @@ export interface components {
       freed?: string[];
       /** Geometry that the fit changed as well. */
       free?: string[];
+      /** What was stated for that geometry instead, SI. */
+      stated?: { [key: string]: number };
       /** Load of isotonic data that do not state it, as the fit found it [N]. */
       load_force?: number | null;
       /** Of a transient: valve, tube, supply, load, stops, with muscle and effects. */

@@ -15,7 +15,7 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.physics.catalogue import default_catalogue
 from tests.application.truths import document, muscle, specimen
 from tests.cli.conftest import Run, write
-from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, length_under, text
+from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, MUSCLE, cycle_rows, length_under, text
 from tests.truth.generate import case
 
 
@@ -380,3 +380,21 @@ def test_a_preset_id_that_cannot_be_used_is_told(run: Run) -> None:
     told = refused(run("diagnose", rubbing(), "--muscle", muscle, "--save-preset", "DMSP-20", *mine))
     assert "--save-preset DMSP-20" in told
     assert "taken by a built-in preset" in told
+
+
+def test_a_rest_length_that_data_have_corrected_is_not_typed_back_in(run: Run) -> None:
+    """Loops of a muscle of 300 mm that was typed as 330: the saved model says both, and uses its own."""
+    rows = cycle_rows(lambda **_: 0.0, noise=0.5, each=20, second=3.0)
+    data = write("loops.csv", text(rows, CYCLE_HEADER, "kind: isobaric"))
+    typed = ("--rest-length", "330 mm")
+    geometry = {"braid_diameter": MUSCLE.braid_diameter, "braid_angle": MUSCLE.braid_angle}
+    start = write("muscle.json", {"nominal_length": 0.33, **geometry})
+    found, model = saved(run, data, "--muscle", start, "--ideal", *typed, "--use", "rest_length")
+    assert model["muscle"]["nominal_length"] == pytest.approx(0.3, abs=1e-3)
+    assert model["stated"] == {"nominal_length": 0.33}
+    lengths = model["envelope"]["rest_length"]
+    assert lengths["least"] == lengths["most"] == pytest.approx(0.3, abs=1e-3)
+    again = answer_of(run("compare", data, "--model", "model.json", *typed, "--json"))
+    assert again["rmse"] == pytest.approx(found["path"][-1]["rmse"], rel=1e-3)
+    assert any("330 mm was stated" in message and "300 mm" in message for message in again["messages"])
+    assert rmse(run, data, "--model", "model.json", "--rest-length", "310 mm") > 5.0 * again["rmse"]

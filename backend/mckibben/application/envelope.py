@@ -64,9 +64,10 @@ def envelope_of(specimens: Specimens, predictor: Predictor, model: FitModel) -> 
     """
     measured = {name for one in specimens.each for name in one.points.measurement.columns}
     inputs, rest = predictor.inputs, predictor.rest_length(model)
-    values: dict[str, NDArray[np.float64]] = {
-        "rest_length": np.array([float(one.muscle.nominal_length) for one in specimens.each])
-    }
+    # A fit may have moved the rest length of a single muscle from the stated one.
+    own = float(model.muscle.nominal_length) if specimens.one_length else None
+    lengths = [float(one.muscle.nominal_length) if own is None else own for one in specimens.each]
+    values: dict[str, NDArray[np.float64]] = {"rest_length": np.array(lengths)}
     if "pressure" in measured and "pressure" in inputs:
         values["pressure"] = inputs["pressure"]
     if measured & set(STROKES):

@@ -57,6 +57,7 @@ class SaidModel:
         muscle: name of the muscle, if it was said.
         drive: the drive document.
         where: name of the drive document in origins and errors.
+        corrected: rest length that was stated for the data of a saved model, whose fit found ``length``.
     """
 
     start: Callable[[str, float | None], StartModel]
@@ -64,6 +65,7 @@ class SaidModel:
     muscle: ExperimentValue | None = None
     drive: DriveDocument | None = None
     where: str = "drive"
+    corrected: float | None = None
 
 
 @dataclass(frozen=True)
@@ -194,6 +196,14 @@ def _rest_length(one: _One, model: SaidModel, start: StartModel, *, alone: bool)
     """
     own, name = one.values.get("rest_length"), one.measurement.name
     said = model.length
+    if own is not None and said is not None and model.corrected is not None:
+        stated = float(own.value)
+        if abs(stated - model.corrected) <= _SAME_LENGTH * stated:
+            one.remarks.append(
+                f"rest length: {_shown(stated)} was stated for the data of the model, too, which showed "
+                f"{_shown(float(said.value))}: that is taken here as well"
+            )
+            return said
     if own is not None and own.origin in ("you", "suggested"):
         return own
     if own is None:

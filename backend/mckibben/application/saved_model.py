@@ -184,6 +184,9 @@ def _saved(
         "effects": result.model.effects,
         "freed": list(freed),
         "free": [name for name in of_geometry if name in GEOMETRY],
+        "stated": {
+            name: float(getattr(question.start.muscle, name)) for name in of_geometry if name in muscle
+        },
         "envelope": {
             name: {"least": found.least, "most": found.most, "unit": found.unit}
             for name, found in envelope.items()

@@ -79,13 +79,15 @@ def said_model(studio: Studio, options: ModelOptions) -> SaidModel:
     def start(named: str, rest_length: float | None) -> StartModel:
         return start_model(studio, options, named=named, rest_length=rest_length)
 
-    muscle = None
+    muscle, corrected = None, None
     if options.muscle and not is_file(options.muscle, studio):
         muscle = ExperimentValue(options.muscle.partition(":")[0], "", "you", "--muscle")
     elif options.model and not options.muscle:
-        preset = saved_model(options.model).muscle.preset
+        saved = saved_model(options.model)
+        preset, corrected = saved.muscle.preset, saved.stated.get("nominal_length")
         muscle = None if preset is None else ExperimentValue(preset, "", "you", f"--model {options.model}")
-    return SaidModel(start, _said_length(studio, options), muscle, *_drive(options))
+    length = _said_length(studio, options)
+    return SaidModel(start, length, muscle, *_drive(options), corrected=corrected)
 
 
 def muscle_length(studio: Studio, options: ModelOptions) -> float | None:

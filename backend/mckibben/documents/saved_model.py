@@ -77,6 +77,9 @@ class SavedModel(Strict):
         default_factory=list, description="Constants that the fit changed as well, as effect.parameter."
     )
     free: list[str] = Field(default_factory=list, description="Geometry that the fit changed as well.")
+    stated: dict[str, Annotated[float, Field(gt=0.0)]] = Field(
+        default_factory=dict, description="What was stated for that geometry instead, SI."
+    )
     load_force: float | None = Field(
         None, description="Load of isotonic data that do not state it, as the fit found it [N]."
     )
@@ -106,11 +109,10 @@ class SavedModel(Strict):
                     field=f"freed.{place}",
                     hint=did_you_mean(effect, self.effects) if self.effects else "remove it",
                 )
-        for place, name in enumerate(self.free):
+        places = [(f"free.{place}", name) for place, name in enumerate(self.free)]
+        for field, name in (*places, *((f"stated.{name}", name) for name in self.stated)):
             if name not in GEOMETRY:
-                raise InputError(
-                    f"'{name}' is no geometry", field=f"free.{place}", hint=did_you_mean(name, GEOMETRY)
-                )
+                raise InputError(f"'{name}' is no geometry", field=field, hint=did_you_mean(name, GEOMETRY))
         return self
 
     @model_validator(mode="after")

@@ -165,7 +165,7 @@ class StatedModel:
             if not changed:
                 return self.saved
             # What was said of the fit no longer holds.
-            for name in ("origin", "errors", "covariance"):
+            for name in ("origin", "errors", "covariance", "stated"):
                 document.pop(name, None)
             document["freed"] = [
                 name for name in document.get("freed", []) if name.partition(".")[0] in effects
@@ -201,10 +201,12 @@ class StatedModel:
         if length is not None:
             said_length = ExperimentValue(si(length, "m"), "m", "you", name)
         muscle = None if preset is None else ExperimentValue(str(preset), "", "you", name)
-        own = drive
-        if own is None and self.saved is not None:
-            own = self.saved.drive
-        return SaidModel(start, said_length, muscle, own, "drive" if drive is not None else name)
+        own, corrected = drive, None
+        if self.saved is not None:
+            own = self.saved.drive if own is None else own
+            corrected = self.saved.stated.get("nominal_length")
+        where = "drive" if drive is not None else name
+        return SaidModel(start, said_length, muscle, own, where, corrected)
 
 
 def _is_saved(content: object) -> bool:

@@ -11,6 +11,7 @@ needed are removed. Where the error is still far above the noise, two steps are 
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from functools import partial
 
 import numpy as np
@@ -144,7 +145,7 @@ def lean(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> Fitted
             fitter.holding(fitted_model, name, _fixed_value(name, fitted_model, root)) for name in freed
         ]
         reduced += [
-            fitter.ending_at(fitted_model, name, value)
+            fitter.at_constant(replace(fitted_model, freed=fitted_model.freed - {name}), name, value)
             for name in freed
             for value in _ends_of(name, fitted_model)
             if value != _fixed_value(name, fitted_model, root)

@@ -88,11 +88,6 @@ class Fitter:
             self.known[key] = min(first, fitted_model, key=lambda each: each.rmse)
         return self.known[key]
 
-    def ending_at(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
-        """The model with a freed constant fixed where its definition ends, refitted; it is not remembered."""
-        fit_model = fitted_model.fit_model.with_numbers([name], [value])
-        return self._fitted(fit_model, fitted_model.freed - {name})
-
     def at_constant(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
         """The model with another value of a constant that is not free, refitted; it is not remembered."""
         return self._fitted(fitted_model.fit_model.with_numbers([name], [value]), fitted_model.freed)
