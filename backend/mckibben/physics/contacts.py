@@ -11,11 +11,9 @@ _LEAST_STRETCH = 0.05  # share of the nominal length, far below any; the power h
 
 
 def grip(
-    *, pressure: Value, length: Value, nominal_length: Value, pressure_share: Value, length_power: Value
+    *, pressure: Value, length: Value, nominal_length: Value, pressure_power: Value, length_power: Value
 ) -> Value:
-    r"""Friction over that at 3 bar and the nominal length, :math:`(1 - s + s P_+/P_r)(L/L_0)^m` [-].
-
-    The gas presses threads together that have some friction without it, of the sleeve's own tension.
+    r"""Friction over that at 3 bar and the nominal length, :math:`(P_+/P_r)^q (L/L_0)^m` [-].
 
     Threads that lie on each other over the width w and the length of a turn touch on an area in proportion to
     :math:`L\,r\cos\theta/\sin\theta`, which goes with :math:`L^2` (m = 2); the area of Tondu and Lopez,
@@ -25,22 +23,21 @@ def grip(
     Args:
         pressure: gauge [Pa]; below the atmosphere as vented, rounded below 10 mbar.
         length, nominal_length: of the muscle [m].
-        pressure_share, length_power: s and m.
+        pressure_power, length_power: q and m.
 
     Returns:
-        1 for s = m = 0.
+        1 for q = m = 0.
 
     Source: Tondu & Lopez, IEEE Control Systems 20(2) (2000) 15, for the area.
     """
     stretch = ops.maximum(length / nominal_length, _LEAST_STRETCH)
-    held = 1.0 - pressure_share + pressure_share * pressed(pressure=pressure, power=1.0)
-    return held * ops.exp(length_power * ops.log(stretch))
+    return pressed(pressure=pressure, power=pressure_power) * ops.exp(length_power * ops.log(stretch))
 
 
-PRESSURE_SHARE = Parameter(
-    *("pressure_share", "s", "1", 0.0, 0.0, 1.0),
-    Source("0 friction without pressure, 1 surfaces pressed together by the gas alone", "D"),
-    description="Share of the friction at 3 bar that grows in proportion to the pressure.",
+PRESSURE_POWER = Parameter(
+    *("pressure_power", "q", "1", 0.0, 0.0, 1.0),
+    Source("0 friction without pressure, 2/3 Hertzian contacts, 1 rough surfaces under the gas", "M"),
+    description="Power of the pressure with which the friction grows.",
     fitted=False,
     natural=True,
     usual=1.0,

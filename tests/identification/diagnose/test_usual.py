@@ -12,7 +12,7 @@ from mckibben.physics import ideal
 from tests.identification.synthetic import CATALOGUE, MUSCLE, csv
 
 WAY = 0.9e-3  # over which the friction builds up [m]
-NOTE = "Dahl friction: the pressure share is taken as 1, as usual; these data do not tell it"
+NOTE = "Dahl friction: the pressure power is taken as 1, as usual; these data do not tell it"
 
 
 def swept(pressures: tuple[float, ...], *, power: float, seed: int = 0) -> Diagnosis:
@@ -47,13 +47,13 @@ def swept(pressures: tuple[float, ...], *, power: float, seed: int = 0) -> Diagn
         ((2.0, 4.0), 1.0, 1.0),
     ],
 )
-def test_a_growth_with_the_pressure_is_told_by_two_pressures(
+def test_a_power_of_the_pressure_is_told_by_two_pressures(
     pressures: tuple[float, ...], power: float, expected: float
 ) -> None:
     found = swept(pressures, power=power)
     assert found.added == ("dahl",)
     values = found.best.fit_model.values["dahl"]
-    assert values["pressure_share"] == pytest.approx(expected, abs=0.03)
+    assert values["pressure_power"] == pytest.approx(expected, abs=0.03)
     assert (NOTE in found.messages) is (len(pressures) == 1)
     if len(pressures) == 1:  # the force is stated for 3 bar, and at the pressure of the test it is the same
         assert values["force"] == pytest.approx(20.0 * 3.0 / 4.0, rel=0.02)

@@ -1,15 +1,15 @@
 r"""Bouc-Wen hysteresis, normalised to A = 1 and |z| <= 1, because the usual set of parameters is redundant.
 
-.. math:: F = F_c\Bigl(1-s+s\frac{P_+}{P_r}\Bigr)\left(\frac{L}{L_0}\right)^{m} z, \qquad
+.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q}\left(\frac{L}{L_0}\right)^{m} z, \qquad
    \dot z = \frac{1}{\varepsilon_b L_0}\Bigl[\dot L - \beta|\dot L||z|^{n-1}z - (1-\beta)\,\dot L|z|^n\Bigr]
 
 With n = 1 and :math:`\beta = 1` it is the Dahl law; a large n is bilinear. It takes work over any path from
 rest for :math:`\beta \ge 1/2`, which is the lower bound. Where the gas presses the threads
-together, s > 0, with :math:`P_r = 3` bar.
+together, q > 0, with :math:`P_r = 3` bar.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.contacts import LENGTH_POWER, PRESSURE_SHARE, grip
+from mckibben.physics.contacts import LENGTH_POWER, PRESSURE_POWER, grip
 from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
@@ -26,13 +26,13 @@ def friction(
     muscle: Muscle,
     presliding: Value,
     force: Value,
-    pressure_share: Value,
+    pressure_power: Value,
     length_power: Value,
 ) -> Value:
-    """F_c (1 - s + s P/P_r) (L/L_0)^m z [N]."""
+    """F_c (P/P_r)^q (L/L_0)^m z [N]."""
     held = grip(
         pressure=pressure, length=length, nominal_length=muscle.nominal_length,
-        pressure_share=pressure_share, length_power=length_power,
+        pressure_power=pressure_power, length_power=length_power,
     )  # fmt: skip
     return force * held * presliding
 
@@ -66,7 +66,7 @@ EFFECT = Effect(
     type="hysteretic",
     cause="Threads and elastomer yield gradually before they slide. A single state with a free exponent "
     "describes how sharply the friction force bends over after a reversal.",
-    equation=r"F_{h} = F_c\,(1-s+s P_+/P_r) (L/L_0)^m\,z,\quad \varepsilon_b L_0\,\dot z = "
+    equation=r"F_{h} = F_c\,(P_+/P_r)^q (L/L_0)^m\,z,\quad \varepsilon_b L_0\,\dot z = "
     r"\dot L-\beta|\dot L||z|^{n-1}z-(1-\beta)\dot L|z|^n",
     parameters=(
         Parameter(
@@ -77,7 +77,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=200.0,
             source=_RANGE,
-            description="Friction after a long travel; where it grows with the pressure, that at 3 bar.",
+            description="Friction after a long travel; with a power q, that at 3 bar.",
             off=0.0,
         ),
         Parameter(
@@ -115,7 +115,7 @@ EFFECT = Effect(
             fitted=False,
             natural=True,
         ),
-        PRESSURE_SHARE,
+        PRESSURE_POWER,
         LENGTH_POWER,
     ),
     slots={"friction": friction, "rates": rates},
@@ -146,7 +146,7 @@ EFFECT = Effect(
         ),
         Example(
             # 2.5 N sqrt(2), but for the rounding at low pressure
-            *("slot:friction", 3.75, 1e-6, _DEFINITION, {"force": 10.0, "pressure_share": 0.5}),
+            *("slot:friction", 3.5355339, 1e-6, _DEFINITION, {"force": 10.0, "pressure_power": 0.5}),
             _SIZE_20,
             {"presliding": 0.25, "pressure": 6e5, "length": 0.24},
         ),

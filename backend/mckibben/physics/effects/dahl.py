@@ -2,7 +2,7 @@ r"""Dahl friction: Coulomb friction that builds up over a short travel after eac
 
 With the break-away distance :math:`x_b = \varepsilon_b L_0` and the share z of full friction
 
-.. math:: F = F_c\Bigl(1-s+s\frac{P_+}{P_r}\Bigr)\left(\frac{L}{L_0}\right)^{m} g\,z,
+.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q}\left(\frac{L}{L_0}\right)^{m} g\,z,
    \qquad P_r = 3\ \mathrm{bar}, \qquad g = 1 + (\sigma - 1)\,e^{-(\dot L/v_s)^2}
 
 .. math:: \frac{dz}{dL} = \frac{(1 - z\operatorname{sgn}\dot L)^i}{x_b}
@@ -13,12 +13,12 @@ of its own.
 
 Dahl's stiffness is :math:`\sigma_0 = F_c/x_b` from rest, and :math:`2^i` times that after a reversal at full
 friction. His exponent i is 1 where the rest of the way is covered exponentially, larger for ductile and
-smaller for brittle contacts. Where the gas presses the contacts together, s > 0. Because z is a share, the
+smaller for brittle contacts. Where the gas presses the contacts together, q > 0. Because z is a share, the
 force is exactly zero for F_c = 0. Minor loops do not close.
 """
 
 from mckibben.physics import ops
-from mckibben.physics.contacts import LENGTH_POWER, PRESSURE_SHARE, grip
+from mckibben.physics.contacts import LENGTH_POWER, PRESSURE_POWER, grip
 from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
@@ -34,15 +34,15 @@ def friction(
     muscle: Muscle,
     presliding: Value,
     force: Value,
-    pressure_share: Value,
+    pressure_power: Value,
     length_power: Value,
     static_ratio: Value,
     stribeck_speed: Value,
 ) -> Value:
-    """F_c (1 - s + s P/P_r) (L/L_0)^m (1 + (sigma - 1) exp(-(v/v_s)^2)) z [N]."""
+    """F_c (P/P_r)^q (L/L_0)^m (1 + (sigma - 1) exp(-(v/v_s)^2)) z [N]."""
     held = grip(
         pressure=pressure, length=length, nominal_length=muscle.nominal_length,
-        pressure_share=pressure_share, length_power=length_power,
+        pressure_power=pressure_power, length_power=length_power,
     )  # fmt: skip
     sliding = 1.0 + (static_ratio - 1.0) * ops.exp(-((velocity / stribeck_speed) ** 2))
     return force * held * sliding * presliding
@@ -71,12 +71,12 @@ EFFECT = Effect(
     type="hysteretic",
     cause="Threads in contact shear elastically before they slide. After a reversal the friction therefore "
     "changes sign smoothly, over a short travel of the muscle.",
-    equation=r"F_{h} = F_c\,(1-s+s P_+/P_r) (L/L_0)^m\left[1+(\sigma-1)e^{-(\dot L/v_s)^2}\right] z,\quad "
+    equation=r"F_{h} = F_c\,(P_+/P_r)^q (L/L_0)^m\left[1+(\sigma-1)e^{-(\dot L/v_s)^2}\right] z,\quad "
     r"\dot z = \frac{\dot L\,(1-z\operatorname{sgn}\dot L)^i}{\varepsilon_b L_0}",
     parameters=(
         Parameter(
             *("force", "F_c", "N", 10.0, 0.0, 200.0, _RANGE),
-            description="Friction after a long travel; where it grows with the pressure, that at 3 bar.",
+            description="Friction after a long travel; with a power q, that at 3 bar.",
             off=0.0,
         ),
         Parameter(
@@ -90,7 +90,7 @@ EFFECT = Effect(
             description="Exponent of Dahl's law: 1 builds up exponentially, more builds up more slowly.",
             fitted=False,
         ),
-        PRESSURE_SHARE,
+        PRESSURE_POWER,
         LENGTH_POWER,
         Parameter(
             *("static_ratio", r"\sigma", "1", 1.0, 0.3, 3.0, _RATIO),
@@ -134,8 +134,8 @@ EFFECT = Effect(
         ),
         Example(
             # -7.5 N sqrt(2) 0.8^2, but for the rounding at low pressure
-            *("slot:friction", -7.2, 1e-6, _DEFINITION),
-            {"force": 10.0, "pressure_share": 0.5, "length_power": 2.0},
+            *("slot:friction", -6.7882251, 1e-6, _DEFINITION),
+            {"force": 10.0, "pressure_power": 0.5, "length_power": 2.0},
             _SIZE_20,
             {"presliding": -0.75, "pressure": 6e5, "length": 0.24, "velocity": 0.0},
         ),

@@ -5,16 +5,16 @@ Cell i carries the share :math:`w_i` of the force and slides after
 equal at the balance :math:`\sigma = 1`; above it the late cells carry more, below it the early ones. With the
 deflection :math:`z_i` of a cell as a share of its limit
 
-.. math:: F = F_c\Bigl(1-s+s\frac{P_+}{P_r}\Bigr)\left(\frac{L}{L_0}\right)^{m}\sum_{i=1}^4 w_i z_i, \qquad
+.. math:: F = F_c\left(\frac{P_+}{P_r}\right)^{q}\left(\frac{L}{L_0}\right)^{m}\sum_{i=1}^4 w_i z_i, \qquad
    w_i = \frac{\sigma^i}{\sum_k \sigma^k}, \qquad
    \dot z_i = \frac{\dot L}{x_i}\bigl[1 - s(z_i \operatorname{sgn}\dot L)\bigr]
 
 The saturation s is 0 up to 0.9 of the limit and a smooth step from there to 1 at the limit. So a cell is
 elastic below 0.9, never passes the limit, and its rate has no jump. Where the gas presses the threads
-together, s > 0, with :math:`P_r = 3` bar.
+together, q > 0, with :math:`P_r = 3` bar.
 """
 
-from mckibben.physics.contacts import LENGTH_POWER, PRESSURE_SHARE, grip
+from mckibben.physics.contacts import LENGTH_POWER, PRESSURE_POWER, grip
 from mckibben.physics.effect import Effect, Example, Prior, Signature, StateVariable, Twin
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
@@ -35,14 +35,14 @@ def friction(
     cell_4: Value,
     force: Value,
     balance: Value,
-    pressure_share: Value,
+    pressure_power: Value,
     length_power: Value,
 ) -> Value:
-    """F_c (1 - s + s P/P_r) (L/L_0)^m times the weighted mean of the cells [N]."""
+    """F_c (P/P_r)^q (L/L_0)^m times the weighted mean of the cells [N]."""
     weighted = cell_1 + balance * (cell_2 + balance * (cell_3 + balance * cell_4))
     limit = force * grip(
         pressure=pressure, length=length, nominal_length=muscle.nominal_length,
-        pressure_share=pressure_share, length_power=length_power,
+        pressure_power=pressure_power, length_power=length_power,
     )  # fmt: skip
     return limit * weighted / (1.0 + balance * (1.0 + balance * (1.0 + balance)))
 
@@ -78,13 +78,13 @@ EFFECT = Effect(
     type="hysteretic",
     cause="The crossings of the braid do not all slide at once: some slip early, some late. The friction "
     "depends on earlier reversals, so small loops close within large ones.",
-    equation=r"F_{h} = F_c\,(1-s+s P_+/P_r) (L/L_0)^m\,\frac{\sum_i \sigma^i z_i}{\sum_i \sigma^i},\quad "
+    equation=r"F_{h} = F_c\,(P_+/P_r)^q (L/L_0)^m\,\frac{\sum_i \sigma^i z_i}{\sum_i \sigma^i},\quad "
     r"\dot z_i = \frac{\dot L}{x_i}\left[1-s(z_i\operatorname{sgn}\dot L)\right],"
     r"\quad x_i = \varepsilon_b L_0\,\rho^{\,i-4}",
     parameters=(
         Parameter(
             *("force", "F_c", "N", 10.0, 0.0, 200.0, _RANGE),
-            description="Friction after a long travel; where it grows with the pressure, that at 3 bar.",
+            description="Friction after a long travel; with a power q, that at 3 bar.",
             off=0.0,
         ),
         Parameter(
@@ -105,7 +105,7 @@ EFFECT = Effect(
             description="Ratio of the forces of successive cells: above 1 the late ones carry more.",
             fitted=False,
         ),
-        PRESSURE_SHARE,
+        PRESSURE_POWER,
         LENGTH_POWER,
     ),
     slots={"friction": friction, "rates": rates},
@@ -153,10 +153,10 @@ EFFECT = Effect(
             # 2.5 N sqrt(2), but for the rounding at low pressure
             *(
                 "slot:friction",
-                3.75,
+                3.5355339,
                 1e-6,
                 _DEFINITION,
-                {"force": 10.0, "pressure_share": 0.5},
+                {"force": 10.0, "pressure_power": 0.5},
                 _SIZE_20,
             ),
             {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 6e5, "length": 0.24},
