@@ -84,10 +84,17 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
             if difference < _IMITATED and _imitates(fitter, best, fitted_model, fitter.adding(less, effect)):
                 continue
             equivalent.append(Alternative(effect_id, effect.id, difference, fitted_model))
-        if fitter.effort.thorough and any(name.partition(".")[0] == effect_id for name in best.freed):
+        if fitter.effort.thorough and _beyond_declared(best, replaced):
             found = {each.effect for each in equivalent if each.of == effect_id}
             equivalent += _by_two(fitter, best, less, effect_id, found, noise)
     return equivalent
+
+
+def _beyond_declared(best: FittedModel, effect: Effect) -> bool:
+    """Whether a fit has changed further constants of an effect, free or fixed where their definition ends."""
+    moved = (p for p in effect.parameters if not p.fitted)
+    values = best.fit_model.values[effect.id]
+    return any(f"{effect.id}.{p.name}" in best.freed or values[p.name] != p.default for p in moved)
 
 
 def _unfitted(fitter: Fitter, fit_model: FitModel, like: FittedModel) -> FittedModel:
