@@ -10,11 +10,11 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-_THICKEST = 0.3  # share of the diameter, which leaves a sixth of the volume at rest
+_THICKEST = 0.2  # share of the diameter, which leaves a third of the volume at rest
 
 
 def wall_volume(*, muscle: Muscle, thickness: Value) -> Value:
-    """-pi t (D_b - t) L_0 [m^3]; no more than a wall of 30 % of the diameter."""
+    """-pi t (D_b - t) L_0 [m^3]; no more than a wall of a fifth of the diameter."""
     wall = ops.minimum(thickness, _THICKEST * muscle.braid_diameter)
     return -ops.pi * wall * (muscle.braid_diameter - wall) * muscle.nominal_length
 
