@@ -7,13 +7,13 @@ the first effect is streamed with the error that the model has with it; the most
 *Best*: until the one that stays the best single effect is streamed. Seconds are of the processor, so that a
 busy machine counts the same; the first run of a drive of some structure compiles it, about 1 s of them.
 
-On 26 November 2026, 31 cases, nothing compiled before: median 3.5 s (wanted 6), longest 22.8 s (wanted 40:
-`unknown-inertance-pulses`, then `tube-resistance-steps` and `triple-overlap-guide-load-partial` 18); first
-effect after 0.23 s in the median, at most 1.5 s (wanted 1: 29 of 31), the best single effect after 0.26 s. On
-the same machine the program of the day before: 3.1, 42.2, 0.30 (25 of 31) and 0.41 s, and that of the
-evening, whose alternatives begin twice: 4.0, 26.7, 0.33 (27 of 31) and 0.44 s. ``--kind static``, 65 cases of
-the other kinds: median 1.2 s (wanted 1.5), longest 14.4 s (`rig-isotonic`); first effect, which is the best
-single one, after 0.06 s in the median, at most 0.40 s.
+On 26 November 2026, 31 cases on a quiet machine, equations compiled by an earlier run: median 3.3 s (wanted
+6), longest 20.7 s (wanted 40: `unknown-inertance-pulses`); first effect after 0.17 s in the median and 0.70 s
+at most (wanted 1), the best single effect after 0.23 s, at most 0.83 s. With nothing compiled before, which
+happens once for each structure on a machine (``MCKIBBEN_CACHE=off``), the first effect of the four slowest
+takes 0.4 s since those without equations of their own are streamed first (1.3 to 1.4 s before), and the best
+one up to 2.1 s. ``--kind static``, 65 cases of the other kinds: median 0.7 s (wanted 1.5), longest 14.4 s
+(`rig-isotonic`); first effect, which is the best single one, after 0.06 s in the median, at most 0.40 s.
 """
 
 from __future__ import annotations

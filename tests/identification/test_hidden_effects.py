@@ -76,6 +76,18 @@ def found_in(name: str, seed: int) -> Diagnosis:
     return diagnose(predictor, start, catalogue=studio.catalogue)
 
 
+def test_a_first_answer_is_streamed_before_slower_effects_and_each_effect_once() -> None:
+    """A plain restriction needs no equations of its own; the silencer, which fits better, follows it."""
+    studio, streamed = shipped_studio(), []
+    predictor, start = subject_and_start(case("silencer-steps", 0), studio)
+    diagnose(
+        predictor, start, catalogue=studio.catalogue, on_candidate=lambda one: streamed.append(one.effect.id)
+    )
+    assert streamed[0] == "exhaust_restriction"
+    assert "silencer" in streamed[1:]
+    assert len(set(streamed)) == len(streamed)
+
+
 def test_a_law_between_two_pure_ones_that_fits_no_better_is_the_pure_one() -> None:
     """The regulator refills with the root of its droop; the data fit an exponent of 0.71 as well."""
     found = found_in("supply-droop-steps", 0)

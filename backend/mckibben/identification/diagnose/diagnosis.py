@@ -250,7 +250,11 @@ def _diagnose(
     variables = variables_of(predictor, fit_model)
     before = traits_of(root.residual, variables)
     where = profiles(start.residual, variables, predictor.folds[0])
-    # The most promising first: whoever follows the search sees a useful answer at once.
+    # The most promising first: whoever follows the search sees a useful answer at once, and a first one while
+    # the equations of the other effects are compiled.
+    early = fitter.promising(root, [effect for effect in candidates if effect in predictor.quick])[:1]
+    for effect in early:
+        on_candidate(single_addition(fitter, root, effect, fitter.adding(root, effect), before, ()))
     promising = fitter.promising(root, candidates)[: effort.tried]
     fitted_singles, guesses = [], []
     for number, effect in enumerate(dict.fromkeys([*promising, *candidates])):
@@ -262,7 +266,8 @@ def _diagnose(
                 fitter.guess_ahead(root, [each for each in candidates if each not in promising])
             guesses.append((effect, fitter.guessed(root, effect)))
         found = fitted_singles[-1] if number < len(promising) else guesses[-1]
-        on_candidate(single_addition(fitter, root, *found, before, ()))
+        if effect not in early:
+            on_candidate(single_addition(fitter, root, *found, before, ()))
     progress.share, progress.end = 0.45, 0.85
     best = search(fitter, root, singles=[fitted_model for _, fitted_model in fitted_singles])
     fitter.noise, how = noise_of(predictor, best.residual, noise)

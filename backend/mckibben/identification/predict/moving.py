@@ -192,7 +192,7 @@ class TransientPredictor(Predictor):
         other = {"heat", "tube_conductance"} if tubeless else {"heat"}
         further = [e for e in candidates if e.id not in inside and not other & set(e.slots) and not _fast(e)]
         ready = copy(self)
-        plain = [effect for effect in further if not effect.states]
+        ready.quick = plain = tuple(effect for effect in further if not effect.states)
         ready._wide = tuple(Model((*fit_model.effects, *added)).effects for added in (plain, further))
         return ready
 

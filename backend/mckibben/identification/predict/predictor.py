@@ -76,6 +76,7 @@ class Predictor(ABC):
         weights: how fits allow for reading errors; None before `allowing`, and without any.
         accuracy_floor: error of the scaled residual due to `accuracy`; known after `allowing`.
         input_floor: error of the scaled residual due to noise of inputs that neighbouring rows share.
+        quick: candidates whose equations are compiled together, so that the best of them is known soon.
     """
 
     kind: str
@@ -98,6 +99,7 @@ class Predictor(ABC):
     weights: ReadingWeights | None = None
     accuracy_floor: float = 0.0
     input_floor: float = 0.0
+    quick: tuple[Effect, ...] = ()
 
     @abstractmethod
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
