@@ -41,6 +41,7 @@ from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.diagnosis import FEWEST_VALUES, Diagnosis
 from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
 from mckibben.identification.diagnose.next_measurement import declared
+from mckibben.identification.diagnose.search import ended
 from mckibben.identification.diagnose.steps import SingleAddition
 from mckibben.identification.diagnose.verdict import unexplained_share
 from mckibben.identification.diagnose.words import (
@@ -221,7 +222,7 @@ def _result(
             effects=question.effect_document(best.fit_model),
             drive=drive_of_model(question, best.fit_model, studio),
         ),
-        freed=sorted(best.freed),
+        freed=sorted({*best.freed, *ended(best, diagnosis.added)}),
         not_tried=list(diagnosis.not_tried),
         messages=[
             *question.opening,

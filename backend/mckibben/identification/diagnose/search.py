@@ -135,8 +135,9 @@ def exchanged(fitter: Fitter, less: FittedModel, effect: Effect) -> FittedModel:
 def lean(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> FittedModel:
     """The model without freed constants that no longer improve the score.
 
-    They are fixed at their value in the start model or the effect's default, or where their definition ends:
-    between a linear and a square-root law, say, data that are near one often fit a mixture as well.
+    They are fixed at their value in the start model or the effect's default, or of a simulation where their
+    definition ends: between a linear and a square-root law, say, data that are near one often fit a mixture
+    as well. Static maps are told apart more sharply, and inexact forms repair each other by such mixtures.
     """
     while True:
         rows = _rows(fitter, fitted_model)
@@ -147,7 +148,7 @@ def lean(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> Fitted
         reduced += [
             fitter.at_constant(replace(fitted_model, freed=fitted_model.freed - {name}), name, value)
             for name in freed
-            for value in _ends_of(name, fitted_model)
+            for value in (_ends_of(name, fitted_model) if fitter.predictor.simulated else ())
             if value != _fixed_value(name, fitted_model, root)
         ]
         reduced = [other for other in reduced if other.free and other.implausible <= fitted_model.implausible]
@@ -195,6 +196,18 @@ def _ends_of(name: str, fitted_model: FittedModel) -> tuple[float, ...]:
     if declared is None or not declared.natural or declared.usual is not None:
         return ()
     return declared.lower, declared.upper
+
+
+def ended(fitted_model: FittedModel, effects: Sequence[str]) -> list[str]:
+    """Further constants of some effects that a fit has fixed where their definition ends."""
+    found = []
+    for effect in fitted_model.fit_model.effects:
+        for p in effect.parameters if effect.id in effects else ():
+            name = f"{effect.id}.{p.name}"
+            value = fitted_model.fit_model.number(name)
+            if not p.fitted and value != p.default and value in _ends_of(name, fitted_model):
+                found.append(name)
+    return found
 
 
 def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
