@@ -1510,6 +1510,8 @@ export interface components {
       envelope?: { [key: string]: components["schemas"]["MeasuredSpan"] };
       /** Of the fitted values; null where the data cannot separate them. */
       covariance?: components["schemas"]["Covariance"] | null;
+      /** What was stated for geometry that the data corrected, SI. */
+      stated?: { [key: string]: number };
     };
     /** Covariance of the fitted values that the data determine. */
     FittedCovariance: {

@@ -398,3 +398,10 @@ def test_a_rest_length_that_data_have_corrected_is_not_typed_back_in(run: Run) -
     assert again["rmse"] == pytest.approx(found["path"][-1]["rmse"], rel=1e-3)
     assert any("330 mm was stated" in message and "300 mm" in message for message in again["messages"])
     assert rmse(run, data, "--model", "model.json", "--rest-length", "310 mm") > 5.0 * again["rmse"]
+    # A muscle kept with its fit does the same, also for a file that states the length itself.
+    kept = ("--save-preset", "mine-330", "--data", "data")
+    saved(run, data, "--muscle", start, "--ideal", *typed, "--use", "rest_length", *kept)
+    stating = write("stating.csv", text(rows, CYCLE_HEADER, "kind: isobaric\nnominal_length: 330 mm"))
+    told = answer_of(run("compare", stating, "--muscle", "mine-330", "--data", "data", "--json"))
+    assert told["rmse"] == pytest.approx(again["rmse"], rel=1e-3)
+    assert any("330 mm was stated" in message for message in told["messages"])

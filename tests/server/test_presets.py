@@ -14,7 +14,9 @@ from mckibben.resources import presets_folder
 from mckibben.server.app import create_app
 from mckibben.server.schemas.presets import PresetsAnswer
 from mckibben.server.settings import Settings
+from tests.identification.synthetic import CYCLE_HEADER, MUSCLE, cycle_rows, text
 from tests.server.conftest import URL, assert_error, post
+from tests.server.test_diagnoses import upload
 
 KINDS = ("muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs")
 MINE = json.loads((presets_folder() / "muscles" / "DMSP-20.json").read_text("utf-8")) | {"id": "mine-20"}
@@ -143,6 +145,25 @@ def test_only_muscles_can_be_saved(client: TestClient) -> None:
 def test_the_app_needs_no_user_folder_to_exist(app: FastAPI, settings: Settings) -> None:
     assert settings.user_presets is not None
     assert not settings.user_presets.exists()
+
+
+def test_a_rest_length_that_was_decided_against_the_file_stays_decided(client: TestClient) -> None:
+    """Files of a muscle of 300 mm that say 330: a kept muscle is compared with the next such file."""
+    rows = cycle_rows(lambda **_: 0.0, noise=0.5, each=20, second=3.0)
+    stating = upload(client, "stating", text(rows, CYCLE_HEADER, "kind: isobaric\nnominal_length: 330 mm"))
+    decided = {
+        "muscle": {"braid_diameter": MUSCLE.braid_diameter, "braid_angle": MUSCLE.braid_angle},
+        "effects": {},
+        "measurement": stating,
+        "experiment": {"rest_length": {"value": "300 mm", "origin": "suggested"}},
+    }
+    first = post(client, "/api/comparisons", decided).json()
+    kept = post(client, "/api/presets/muscles/fitted", decided | {"id": "bench-300"}).json()
+    assert kept["fit"]["stated"] == {"nominal_length": 0.33}
+    asked = {"muscle": {"preset": "bench-300", "nominal_length": 0.3}, "measurement": stating}
+    again = post(client, "/api/comparisons", asked).json()
+    assert again["rmse"] == pytest.approx(first["rmse"], rel=1e-6)
+    assert any("330 mm was stated" in message for message in again["messages"])
 
 
 def test_a_fitted_model_becomes_a_muscle_with_intervals(client: TestClient) -> None:

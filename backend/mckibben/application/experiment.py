@@ -188,6 +188,23 @@ def _shown(value: float) -> str:
     return f"{1e3 * value:.4g} mm"
 
 
+def _found_instead(
+    own: ExperimentValue | None, model: SaidModel, start: StartModel
+) -> ExperimentValue | None:
+    """The rest length that the data of a fitted model have shown, where the one they corrected is stated."""
+    said, corrected, fit = model.length, model.corrected, start.fit
+    if corrected is None and fit is not None:
+        corrected = fit.stated.get("nominal_length")
+    if own is None or corrected is None:
+        return None
+    if abs(float(own.value) - corrected) > _SAME_LENGTH * corrected:
+        return None
+    if said is not None or start.preset is None:
+        return said
+    length = float(start.preset.muscle.nominal_length)
+    return ExperimentValue(length, "m", "preset", f"the preset {start.preset.id}")
+
+
 def _rest_length(one: _One, model: SaidModel, start: StartModel, *, alone: bool) -> ExperimentValue:
     """The rest length of a measurement.
 
@@ -196,14 +213,13 @@ def _rest_length(one: _One, model: SaidModel, start: StartModel, *, alone: bool)
     """
     own, name = one.values.get("rest_length"), one.measurement.name
     said = model.length
-    if own is not None and said is not None and model.corrected is not None:
-        stated = float(own.value)
-        if abs(stated - model.corrected) <= _SAME_LENGTH * stated:
-            one.remarks.append(
-                f"rest length: {_shown(stated)} was stated for the data of the model, too, which showed "
-                f"{_shown(float(said.value))}: that is taken here as well"
-            )
-            return said
+    found = _found_instead(own, model, start)
+    if own is not None and found is not None:
+        one.remarks.append(
+            f"rest length: {_shown(float(own.value))} was stated for the data of the model, too, "
+            f"which showed {_shown(float(found.value))}: that is taken here as well"
+        )
+        return found
     if own is not None and own.origin in ("you", "suggested"):
         return own
     if own is None:

@@ -10,6 +10,7 @@ from typing import Any
 from mckibben.application.compare import Compared, ComparisonResult, compared_whole
 from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.application.envelope import MeasuredRange
+from mckibben.application.experiment import stated_in
 from mckibben.application.experiment_result import SpecimenResult
 from mckibben.application.model_question import ModelQuestion
 from mckibben.application.specimens import Specimen
@@ -158,6 +159,18 @@ def present_model(question: ModelQuestion, studio: Studio) -> SavedModel:
     )
 
 
+def _decided_length(question: ModelQuestion) -> dict[str, float]:
+    """The rest length that a file states, where the user has decided for another one."""
+    specimen, *others = question.specimens.each
+    taken = specimen.experiment.get("rest_length")
+    own = stated_in(specimen.points).get("rest_length")
+    if others or taken is None or own is None or own.origin != "file":
+        return {}
+    if taken.origin not in ("you", "suggested") or own.value == taken.value:
+        return {}
+    return {"nominal_length": float(own.value)}
+
+
 def _saved(
     question: ModelQuestion,
     result: DiagnosisResult | ComparisonResult,
@@ -184,9 +197,8 @@ def _saved(
         "effects": result.model.effects,
         "freed": list(freed),
         "free": [name for name in of_geometry if name in GEOMETRY],
-        "stated": {
-            name: float(getattr(question.start.muscle, name)) for name in of_geometry if name in muscle
-        },
+        "stated": _decided_length(question)
+        | {name: float(getattr(question.start.muscle, name)) for name in of_geometry if name in muscle},
         "envelope": {
             name: {"least": found.least, "most": found.most, "unit": found.unit}
             for name, found in envelope.items()

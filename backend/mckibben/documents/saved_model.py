@@ -146,6 +146,7 @@ def fit_record(saved: SavedModel) -> FitRecord | None:
             for name, span in saved.envelope.items()
         },
         covariance=saved.covariance,
+        stated=dict(saved.stated),
     )
 
 

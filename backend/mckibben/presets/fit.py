@@ -76,3 +76,6 @@ class FitRecord(PresetModel):
     covariance: Covariance | None = Field(
         default=None, description="Of the fitted values; null where the data cannot separate them."
     )
+    stated: dict[Channel, Annotated[float, Field(gt=0.0, le=1e30)]] = Field(
+        default_factory=dict, description="What was stated for geometry that the data corrected, SI."
+    )
