@@ -88,6 +88,21 @@ def test_a_number_that_one_fold_alone_knows_is_off_without_it():
     assert np.sqrt(fitted_model.fold_squares[0][0]) < 0.02
 
 
+def test_a_scale_moves_by_its_logarithm_when_a_fold_is_left_out():
+    """Fold 1 knows a little of a time and pulls it up: by its logarithm to the bound it goes 4.6 times, along
+    the slope it would go a hundred times as far as the slope holds.
+    """
+    slopes = np.array([1.0, 1.0, 0.01, 0.01])
+    residual = np.array([-0.05, -0.05, 5.0, 5.0])  # at the minimum: no slope of the whole
+    time = Free("time", 1.0, 0.01, 100.0, "s")
+    fold = [np.array([0, 0, 1, 1])]
+    fitted_model = replace(linear_node(residual, slopes[:, None], fold), free=(time,), residual=residual)
+    left_out = np.sqrt(fitted_model.fold_squares[0][0])
+    assert left_out == pytest.approx(0.05 + np.log(100.0))
+    narrow = replace(fitted_model, free=(replace(time, lower=0.5, upper=10.0),))
+    assert np.sqrt(narrow.fold_squares[0][0]) == pytest.approx(0.05 + 9.0)
+
+
 def test_standard_errors_are_those_of_the_textbook():
     fitted_model = linear_node(MEASURED, DESIGN, FOLDS)
     variance = fitted_model.residual @ fitted_model.residual / (ROWS - 3)

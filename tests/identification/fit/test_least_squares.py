@@ -81,12 +81,15 @@ def test_twins_are_said_not_to_be_told_apart():
 def test_parameter_that_does_nothing_is_named():
     x = np.linspace(0, 1, 20)
     noise = np.random.default_rng(1).normal(0, 0.01, 20)
-    result = fitted(
-        lambda b: b[0] * x + 0 * b[1] - (1.3 * x + noise), [free("a", 1, 0, 5), free("idle", 1, 0, 5)]
-    )
-    assert result.parameters[0].stderr is not None
-    assert result.parameters[1].stderr is None
-    assert "idle has no effect on the predicted values" in result.messages
+    for start in (1, 0):  # at a bound as well: nothing has driven it there
+        result = fitted(
+            lambda b: b[0] * x + 0 * b[1] - (1.3 * x + noise),
+            [free("a", 1, 0, 5), free("idle", start, 0, 5)],
+        )
+        assert result.parameters[0].stderr is not None
+        assert result.parameters[1].stderr is None
+        assert not result.parameters[1].at_bound
+        assert result.messages == ("idle has no effect on the predicted values",)
 
 
 def test_more_parameters_than_values_is_said():

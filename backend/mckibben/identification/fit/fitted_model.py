@@ -18,6 +18,7 @@ _NEAR_BOUND = 1e-6  # share of the range; nearer to a bound a parameter cannot m
 _AT_BOUND = 1e-3  # share of the range; nearer to a bound a parameter counts as being at it
 _COLLINEAR = 3e-3  # singular value of the normalised Jacobian below which parameters are not separable
 _CUTOFF = 1e-13  # share of the largest singular value below which a direction is not determined
+_DECADES = 30.0  # upper over lower bound from which a parameter is a scale, taken by its logarithm
 
 
 @dataclass(frozen=True, eq=False)
@@ -120,6 +121,8 @@ class FittedModel:
         within their bounds. For a model that is linear in its parameters the result is exact. The prior
         :math:`\Lambda`, one standard deviation of the residual over the range of a parameter, matters only
         where fold g alone determines a parameter: without fold g, the parameter then goes to its off value.
+        A scale whose plausible range spans decades moves by its logarithm: along its slope a short way would
+        become a hundred times as long, where the slope says nothing any more.
         """
         return tuple(
             np.array([self.square_without(labels == label) for label in np.unique(labels)])
@@ -140,10 +143,9 @@ class FittedModel:
         """Of the inner parameters over their ranges: Jacobian, normal matrix, bounds, prior and its pull."""
         inner = self.inner
         free = [self.free[i] for i in inner]
-        span = np.array([p.upper - p.lower for p in free])
+        span = np.array([_span(p) for p in free])
         jacobian = self.jacobian[:, inner] * span
-        here = np.array([p.start for p in free])
-        low, high = ((np.array([getattr(p, end) for p in free]) - here) / span for end in ("lower", "upper"))
+        low, high = (np.array([_way(p, getattr(p, end)) for p in free]) / span for end in ("lower", "upper"))
         prior = np.array([0.0 if p.off is None else self.mean_square for p in free])
         pull = np.array([0.0 if p.off is None else self.mean_square * (p.start - p.off) for p in free]) / span
         return jacobian, jacobian.T @ jacobian, low, high, prior, pull
@@ -157,6 +159,21 @@ class FittedModel:
     def holdout_rmse(self) -> float:
         """Root of `holdout_square`."""
         return float(np.sqrt(self.holdout_square))
+
+
+def _over_decades(p: Free) -> bool:
+    """Whether a parameter is a scale, such as a time or a way, whose plausible range spans decades."""
+    return p.off is None and p.lower > 0.0 and p.upper > _DECADES * p.lower and p.start > 0.0
+
+
+def _span(p: Free) -> float:
+    """Range of a parameter; of a scale that of its logarithm, times the scale as it is."""
+    return p.start * float(np.log(p.upper / p.lower)) if _over_decades(p) else p.upper - p.lower
+
+
+def _way(p: Free, end: float) -> float:
+    """Way from a parameter's value to a bound, in the measure of `_span`."""
+    return p.start * float(np.log(end / p.start)) if _over_decades(p) else end - p.start
 
 
 def counts(labels: np.ndarray) -> np.ndarray:

@@ -111,20 +111,23 @@ def fit_report(
         free: the free parameters with their bounds.
     """
     span = np.array([parameter.upper - parameter.lower for parameter in free])
+    reach = np.linalg.norm(jacobian, axis=0) * span
+    blind = reach <= 1e-12 * np.max(reach, initial=0.0)
+    # Where it began a parameter without effect stays, be that at a bound.
     at_bound = [
-        bool(min(x - p.lower, p.upper - x) < _AT_BOUND * s)
-        for x, p, s in zip(numbers, free, span, strict=True)
+        bool(min(x - p.lower, p.upper - x) < _AT_BOUND * s) and not idle
+        for x, p, s, idle in zip(numbers, free, span, blind, strict=True)
     ]
-    inner = np.flatnonzero(~np.array(at_bound))
+    inner = np.flatnonzero(~np.array(at_bound) & ~blind)
     errors: list[float | None] = [None] * len(free)
     correlations: list[tuple[str, str, float]] = []
     covariance = None
     messages = [f"{p.name} ends at its bound" for p, bound in zip(free, at_bound, strict=True) if bound]
     freedom = len(residuals) - len(free)
     scale = np.linalg.norm(jacobian[:, inner], axis=0)
-    blind = scale <= 1e-12 * np.max(scale * span[inner], initial=0.0) / span[inner]
-    messages += [f"{free[index].name} has no effect on the predicted values" for index in inner[blind]]
-    inner, scale = inner[~blind], scale[~blind]
+    messages += [
+        f"{p.name} has no effect on the predicted values" for p, idle in zip(free, blind, strict=True) if idle
+    ]
     if freedom <= 0:
         messages.append(f"{len(residuals)} values cannot determine {len(free)} parameters")
     elif len(inner):
