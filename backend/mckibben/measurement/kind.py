@@ -26,6 +26,7 @@ _SECOND = 1.0  # s
 _SLOW = 0.2  # of the range of the stroke in a second; a ramp through it takes longer than five
 _SWING = 0.25  # s; a weight on a muscle swings in a few tenths of a second
 _LITTLE = 0.01 * 9.80665  # m/s2, 1 % of gravity; less does not show
+_SWINGS = 0.025 * 9.80665  # m/s2; a swing of a few tenths of a second that shows has more
 _DENSE = 0.05  # s between rows
 _RARELY = 0.05  # share of the way
 _PAUSE = 5.0  # usual steps of time; longer ones are pauses
@@ -77,8 +78,8 @@ def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float 
 
     "Slowly" is by at most 20 % of the range within any second, on average between rows that are further
     apart: inertia and damping do not show. A stated load also moves slowly where its inertia is below 1 % of
-    its weight along 95 % of the way and the rows are at least 50 ms apart: nothing swings, and without a
-    damping that no file states a simulation would.
+    its weight along 95 % of the way, or below 2.5 % everywhere, and the rows are at least 50 ms apart:
+    nothing swings, and without a damping that no file states a simulation would.
 
     Raises:
         InputError: no rule applies.
@@ -255,7 +256,7 @@ def _slow_over(ahead: int, time: Array, calm: Array, step: float, span: float) -
 
 
 def _inertia_hidden(time: Array, stroke: Array) -> bool:
-    """Whether a weight accelerates by less than 1 % of gravity along nearly all of its way."""
+    """Whether a weight accelerates by less than 1 % of gravity along nearly all its way, or swings nowhere."""
     steps = np.diff(time)
     steps = steps[steps > 0.0]
     if len(steps) < _FEWEST_STEPS or not np.ptp(stroke) > 0.0:
@@ -270,7 +271,8 @@ def _inertia_hidden(time: Array, stroke: Array) -> bool:
     curved = np.abs(stroke[2 * ahead :] - 2.0 * stroke[ahead:-ahead] + stroke[: -2 * ahead])[even]
     way = np.abs(stroke[2 * ahead :] - stroke[: -2 * ahead])[even]
     quick = curved > _LITTLE * (ahead * step) ** 2
-    return len(way) >= _FEWEST_STEPS and bool(np.sum(way[quick]) < _RARELY * np.sum(way))
+    evenly = bool(np.sum(way[quick]) < _RARELY * np.sum(way))
+    return len(way) >= _FEWEST_STEPS and (evenly or bool(np.max(curved) < _SWINGS * (ahead * step) ** 2))
 
 
 def _constant_runs(force: Array, pressure: Array, stroke: Array) -> int:
