@@ -19,7 +19,8 @@ the median, alarms and upper 95 % bound:
 | noise of the inputs | 0 of 100 | 3.0 % | 10 % |
 | all | 3 of 500 | 1.5 % | |
 
-The same day, with richer laws of friction and ``--first 7000``: 0, 4, 0, 1 and 0 of 100, 5 of 500 in all. On
+The same day, with richer laws of friction and ``--first 7000``: 0, 4, 0, 1 and 0 of 100, 5 of 500 in all; a
+day later, ``--first 9000``: 0, 3, 0, 0 and 0 of 100, 3 of 500. On
 24 and 25 November, other cases: 0, 4, 0, 2 and 0 of 100. Before that, correlated 6 and noise of the inputs
 8 of 100: what neighbours in pressure and length predict was called unknown although no other curve shows it,
 and noise of the pressure a lag of the force, which averages it.

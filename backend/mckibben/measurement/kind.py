@@ -256,7 +256,7 @@ def _slow_over(ahead: int, time: Array, calm: Array, step: float, span: float) -
 
 
 def _inertia_hidden(time: Array, stroke: Array) -> bool:
-    """Whether a weight accelerates by less than 1 % of gravity along nearly all its way, or swings nowhere."""
+    """Whether a weight accelerates by less than 1 % of gravity along nearly all its way or swings nowhere."""
     steps = np.diff(time)
     steps = steps[steps > 0.0]
     if len(steps) < _FEWEST_STEPS or not np.ptp(stroke) > 0.0:
