@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.contest import entries_right
 from mckibben.identification.diagnose.probability import (
     LIKELY,
     Evidence,
     Loss,
+    entries_right,
     log_preference,
     log_weight,
     loss,
@@ -103,12 +103,17 @@ def test_beside_an_unknown_effect_what_is_named_is_less_sure() -> None:
 
 
 def test_a_wrong_entry_makes_the_effects_unlikely_that_its_correction_does_without() -> None:
-    def found(confidence: float, *effects: str, stands: bool = True) -> Any:
-        return SimpleNamespace(confidence=confidence, effects=effects, stands=stands)
+    def found(confidence: float, *effects: str, **said: bool) -> Any:
+        more: dict[str, Any] = {"stands": True, "kept": False, "entry": SimpleNamespace(prior=0.2), **said}
+        return SimpleNamespace(confidence=confidence, effects=effects, **more)
 
     assert entries_right([], ["creep"]) == 1.0
-    assert entries_right([found(0.98, "prestress", stands=False)], ["creep"]) == 1.0
-    assert entries_right([found(0.98, "prestress"), found(0.7)], ["creep"]) == pytest.approx(0.02)
+    assert entries_right([found(0.98, "prestress")], ["creep"]) == pytest.approx(0.02)
+    # One of two is wrong: odds of 49 and of 4 to 1.
+    assert entries_right([found(0.98, "prestress"), found(0.8)], ["creep"]) == pytest.approx(1.0 / 54.0)
+    # What is only as good as the effects has the odds of such a mistake; what is ruled out has none.
+    assert entries_right([found(0.98, "prestress", stands=False)], ["creep"]) == pytest.approx(1.0 / 1.2)
+    assert entries_right([found(0.98, "prestress", kept=True)], ["creep"]) == 1.0
     assert entries_right([found(0.98, "prestress")], ["force_offset", "prestress"]) == 1.0
     alone = Evidence("creep", ("creep",), 1.0, Loss(20.0, 0.9))
     doubted = replace(alone, entries_right=0.02)

@@ -8,7 +8,7 @@ than chance.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from weakref import WeakKeyDictionary
 
@@ -63,17 +63,6 @@ class WrongEntry:
     confidence: float
     stands: bool
     kept: bool = False
-
-
-def entries_right(context: Sequence[WrongEntry], group: Collection[str]) -> float:
-    """Probability that no entry is wrong whose correction explains the data without a group of effects.
-
-    Args:
-        context: the evidence about entries.
-        group: ids of the effects, which the data cannot tell apart.
-    """
-    without = [found.confidence for found in context if found.stands and not set(group) & set(found.effects)]
-    return 1.0 - max(without, default=0.0)
 
 
 @dataclass(frozen=True)

@@ -9,14 +9,21 @@ from functools import partial
 import numpy as np
 
 from mckibben.identification.diagnose.as_compared import as_compared
-from mckibben.identification.diagnose.contest import WrongEntry, contest, entries_right
+from mckibben.identification.diagnose.contest import WrongEntry, contest
 from mckibben.identification.diagnose.corrections import Correction, refined, without_corrections
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import vented
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
-from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, none_likely
+from mckibben.identification.diagnose.probability import (
+    LIKELY,
+    Evidence,
+    ModelWeights,
+    beside,
+    loss,
+    none_likely,
+)
 from mckibben.identification.diagnose.progress import Progress
 from mckibben.identification.diagnose.reason import traits_of
 from mckibben.identification.diagnose.repetition import Repetition
@@ -370,14 +377,7 @@ def _diagnose(
         context=context,
         absorbed=absorbed_by(predictor, best.fit_model),
         corrections=corrections,
-        evidence=tuple(
-            replace(
-                item,
-                beside_unknown=left,
-                entries_right=entries_right(context, item.group),
-            )
-            for item in support
-        ),
+        evidence=beside(support, context, unknown=left),
         weights=likely.weights,
         left_out=left_out_specimens(predictor, best) if isinstance(predictor, SpecimensPredictor) else (),
         none_likely=unlikely,

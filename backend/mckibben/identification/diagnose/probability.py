@@ -15,11 +15,12 @@ other are no evidence against the friction of a third one.
 
 from __future__ import annotations
 
-from collections.abc import Collection, Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 
 import numpy as np
 
+from mckibben.identification.diagnose.contest import WrongEntry
 from mckibben.identification.diagnose.score import score, score_within
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.physics.effect import Effect
@@ -169,6 +170,38 @@ def loss(best: FittedModel, without: FittedModel, root: FittedModel, *, noise: f
     lost = max(without.mean_square - best.mean_square, 0.0)
     explained = max(root.mean_square - best.mean_square, lost, 1e-300)
     return Loss(float(np.sqrt(lost)) / noise, float(np.sqrt(lost / explained)))
+
+
+def beside(
+    evidence: Iterable[Evidence], context: Sequence[WrongEntry], *, unknown: bool
+) -> tuple[Evidence, ...]:
+    """The evidence of effects beside the entries that may be wrong, and beside an unknown effect or none."""
+    return tuple(
+        replace(item, beside_unknown=unknown, entries_right=entries_right(context, item.group))
+        for item in evidence
+    )
+
+
+def entries_right(context: Sequence[WrongEntry], group: Collection[str]) -> float:
+    """Probability that no entry is wrong whose correction explains the data without a group of effects.
+
+    One of them is wrong, or none: their odds against the effects add. What only explains the data as well has
+    the odds of such a mistake at most; what the user has ruled out has none.
+
+    Args:
+        context: the evidence about entries.
+        group: ids of the effects, which the data cannot tell apart.
+    """
+    odds = 0.0
+    for found in instead_of(context, group):
+        against = found.confidence / (1.0 - found.confidence)
+        odds += against if found.stands else min(against, found.entry.prior)
+    return 1.0 / (1.0 + odds)
+
+
+def instead_of(context: Sequence[WrongEntry], group: Collection[str]) -> list[WrongEntry]:
+    """The entries whose correction explains the data without a group of effects, but for those ruled out."""
+    return [found for found in context if not found.kept and not set(group) & set(found.effects)]
 
 
 def none_likely(evidence: Collection[Evidence]) -> bool:

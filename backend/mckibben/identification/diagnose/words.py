@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis
-from mckibben.identification.diagnose.probability import EVEN
+from mckibben.identification.diagnose.probability import EVEN, instead_of
 from mckibben.identification.diagnose.repetition_words import repetition_text
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.verdict import Status, is_force
@@ -249,6 +249,9 @@ def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str], *, first:
     probability = 1.0 if evidence is None else evidence.probability
     perhaps = "perhaps " if probability < EVEN else ""
     figure = f"{'probability ' if first else ''}{_share(probability)}"
+    instead = [] if evidence is None else instead_of(result.context, evidence.group)
+    if instead:
+        figure += f", or {_joined([found.entry.title for found in instead[:_FEW]], 'or')} is wrong instead"
     return f"{perhaps}{title[:-1]}, {figure})" if title.endswith(")") else f"{perhaps}{title} ({figure})"
 
 
