@@ -253,6 +253,20 @@ def test_many_alternatives_are_grouped_by_family() -> None:
     assert by_mechanism(names[:2], BUILT_IN) == f"{BUILT_IN['creep'].title} or {BUILT_IN['mullins'].title}"
 
 
+def test_an_entry_that_explains_as_much_is_named_beside_the_effect_that_it_replaces() -> None:
+    found = result("missing_effects", 40.0, 2.0, "creep", "leak")
+    entries = (("the load", "leak"), ("the braid diameter", "leak"), ("the angle", "creep"))
+    found.context = tuple(
+        SimpleNamespace(stands=False, kept=False, effects=(beside,), entry=SimpleNamespace(title=title))
+        for title, beside in entries
+    )
+    said = sentence_of(found, CATALOGUE)
+    assert "Creep (probability 97 %, or the load or the braid diameter is wrong instead)" in said
+    assert "Leak (97 %, or the angle is wrong instead)" in said
+    found.context = tuple(SimpleNamespace(**{**vars(each), "kept": True}) for each in found.context)
+    assert "wrong" not in sentence_of(found, CATALOGUE)
+
+
 def test_an_effect_that_is_less_likely_than_not_is_only_perhaps_missing() -> None:
     found = result("missing_effects", 20.0, 2.0, "creep", "leak")
     found.evidence[1].probability = 0.3
