@@ -150,11 +150,13 @@ def test_the_app_needs_no_user_folder_to_exist(app: FastAPI, settings: Settings)
 def test_a_rest_length_that_was_decided_against_the_file_stays_decided(client: TestClient) -> None:
     """Files of a muscle of 300 mm that say 330: a kept muscle is compared with the next such file."""
     rows = cycle_rows(lambda **_: 0.0, noise=0.5, each=20, second=3.0)
-    stating = upload(client, "stating", text(rows, CYCLE_HEADER, "kind: isobaric\nnominal_length: 330 mm"))
+    said = "kind: isobaric\nnominal_length: 330 mm"
+    stating = upload(client, "stating", text(rows, CYCLE_HEADER, said))
+    other = upload(client, "other", text(rows[::2], CYCLE_HEADER, said))
     decided = {
         "muscle": {"braid_diameter": MUSCLE.braid_diameter, "braid_angle": MUSCLE.braid_angle},
         "effects": {},
-        "measurement": stating,
+        "measurements": [{"id": stating}, {"id": other}],
         "experiment": {"rest_length": {"value": "300 mm", "origin": "suggested"}},
     }
     first = post(client, "/api/comparisons", decided).json()
@@ -162,7 +164,7 @@ def test_a_rest_length_that_was_decided_against_the_file_stays_decided(client: T
     assert kept["fit"]["stated"] == {"nominal_length": 0.33}
     asked = {"muscle": {"preset": "bench-300", "nominal_length": 0.3}, "measurement": stating}
     again = post(client, "/api/comparisons", asked).json()
-    assert again["rmse"] == pytest.approx(first["rmse"], rel=1e-6)
+    assert again["rmse"] == pytest.approx(first["rmse"], rel=0.02)
     assert any("330 mm was stated" in message for message in again["messages"])
 
 

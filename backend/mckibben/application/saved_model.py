@@ -23,6 +23,7 @@ from mckibben.measurement.experiment import place_of, shown_value, title_of
 from mckibben.physics.muscle import GEOMETRY, Muscle, assumption
 from mckibben.version import __version__
 
+_DECIDED = ("you", "suggested")  # origins of a value that the user has decided for
 #: Condition of a measurement that takes precedence over the drive, and where a drive document has it.
 _CONDITIONS = (
     ("load_mass", "load", "mass"), ("load_force", "load", "force"),
@@ -160,15 +161,16 @@ def present_model(question: ModelQuestion, studio: Studio) -> SavedModel:
 
 
 def _decided_length(question: ModelQuestion) -> dict[str, float]:
-    """The rest length that a file states, where the user has decided for another one."""
-    specimen, *others = question.specimens.each
-    taken = specimen.experiment.get("rest_length")
-    own = stated_in(specimen.points).get("rest_length")
-    if others or taken is None or own is None or own.origin != "file":
-        return {}
-    if taken.origin not in ("you", "suggested") or own.value == taken.value:
-        return {}
-    return {"nominal_length": float(own.value)}
+    """The rest length that all files state, where the user has decided for another one."""
+    stated, taken = set[float](), set[float]()
+    for specimen in question.specimens.each:
+        own = stated_in(specimen.points).get("rest_length")
+        decided = specimen.experiment.get("rest_length")
+        if own is None or own.origin != "file" or decided is None or decided.origin not in _DECIDED:
+            return {}
+        stated.add(float(own.value))
+        taken.add(float(decided.value))
+    return {"nominal_length": stated.pop()} if len(stated) == len(taken) == 1 and stated != taken else {}
 
 
 def _saved(
