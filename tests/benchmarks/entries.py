@@ -43,9 +43,9 @@ class Line:
 
 def doubted(given: tuple[frozenset[str], Case]) -> Line:
     """Diagnose one case with its entries open to doubt."""
-    from mckibben.identification.diagnose.contest import shown
     from mckibben.identification.diagnose.diagnosis import diagnose
     from mckibben.identification.diagnose.entries import statements
+    from mckibben.identification.diagnose.entry_words import shown
 
     right, case = given
     studio = own_studio()

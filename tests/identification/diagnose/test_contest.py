@@ -7,9 +7,9 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.contest import sentence_of
 from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
 from mckibben.identification.diagnose.entries import OtherReading, read_otherwise, statements
+from mckibben.identification.diagnose.entry_words import sentence_of
 from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.read import read_measurement

@@ -9,9 +9,9 @@ from functools import partial
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.contest import sentence_of
 from mckibben.identification.diagnose.diagnosis import diagnose
 from mckibben.identification.diagnose.entries import statements
+from mckibben.identification.diagnose.entry_words import sentence_of
 from mckibben.identification.fit.effort import FitEffort
 from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import (
