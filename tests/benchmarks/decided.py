@@ -29,17 +29,14 @@ from tests.truth.again import played
 from tests.truth.cases import Case
 from tests.truth.generate import all_cases
 
-_BRISTLES = frozenset({"pressure_friction", "contact_friction", "dahl", "bouc_wen"})
-#: Effects that a truth is in the new experiments. Of those that are one under tension one is left, because
-#: these have slack muscles. Friction of threads under pressure builds up over a short way in `tests.truth`:
-#: the first files do not show it, small reversals do, so a law with that way and a power of the pressure is
-#: there as well as one without the way.
-_PLAYED = {
-    "tight wall": frozenset({"prestress"}),
-    "force zero": frozenset({"force_offset"}),
-    "crossing friction": _BRISTLES,
-    "contact-area friction": _BRISTLES,
-}
+#: Effects that a truth is in the new experiments: of those that are one under tension one is left, because
+#: these have slack muscles.
+_PLAYED = {"tight wall": frozenset({"prestress"}), "force zero": frozenset({"force_offset"})}
+#: Friction of threads under pressure builds up over a short way in `tests.truth`: the first files do not show
+#: it, small reversals do. So a law with that way is there as well, if its friction grows with the pressure.
+_PRESSED = {"crossing friction", "contact-area friction"}
+_BRISTLES = {"dahl", "bouc_wen"}
+_GROWS = 0.5  # least power of the pressure
 
 
 @dataclass
@@ -70,7 +67,7 @@ def decided(case: Case) -> list[Line]:
     predictor, fit_model = subject_and_start(case, studio)
     result = diagnose(predictor, fit_model, catalogue=studio.catalogue)
     lines = []
-    hidden = [_PLAYED.get(truth, ids) for truth, ids in zip(case.truths, case.hidden, strict=True)]
+    hidden = _there(case, result)
     accepted = frozenset().union(*hidden)
     for group in dict.fromkeys(design.group for design in result.designs):
         designs = [design for design in result.designs if design.group == group]
@@ -93,12 +90,28 @@ def decided(case: Case) -> list[Line]:
         except Exception as failure:  # a case that breaks is a line of the table, not its end
             line.problem = f"{type(failure).__name__}: {failure}"[:120]
             continue
-        alike = next(ids for ids in hidden if true[0] in ids)
+        place = next(number for number, ids in enumerate(hidden) if true[0] in ids)
+        alike = hidden[place] | _there(case, after)[place]
         named = [name for name in after.added if name in alike]
         line.effect = next((name for name in (*true, *named) if name in named), line.effect)
         line.named = after.added
         line.left = tuple(other.effect for other in after.alternatives if other.of == line.effect)
     return lines
+
+
+def _there(case: Case, result: Any) -> list[frozenset[str]]:
+    """The effects that each truth of a case is, as a diagnosis has fitted them."""
+    models = [result.best.fit_model, *(other.fitted_model.fit_model for other in result.alternatives)]
+    bristles = {
+        name
+        for model in models
+        for name in _BRISTLES & set(model.values)
+        if model.values[name]["pressure_power"] >= _GROWS
+    }
+    found = [_PLAYED.get(truth, ids) for truth, ids in zip(case.truths, case.hidden, strict=True)]
+    return [
+        ids | bristles if truth in _PRESSED else ids for truth, ids in zip(case.truths, found, strict=True)
+    ]
 
 
 def together(predictor: Any, case: Case, texts: Sequence[str], fit_model: Any, studio: Any) -> Any:

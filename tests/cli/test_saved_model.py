@@ -402,6 +402,17 @@ def test_a_rest_length_that_data_have_corrected_is_not_typed_back_in(run: Run) -
     kept = ("--save-preset", "mine-330", "--data", "data")
     saved(run, data, "--muscle", start, "--ideal", *typed, "--use", "rest_length", *kept)
     stating = write("stating.csv", text(rows, CYCLE_HEADER, "kind: isobaric\nnominal_length: 330 mm"))
-    told = answer_of(run("compare", stating, "--muscle", "mine-330", "--data", "data", "--json"))
+    mine = ("--muscle", "mine-330", "--data", "data")
+    told = answer_of(run("compare", stating, *mine, "--json"))
     assert told["rmse"] == pytest.approx(again["rmse"], rel=1e-3)
     assert any("330 mm was stated" in message for message in told["messages"])
+    assert rmse(run, stating, *mine, "--effect", "leak") == pytest.approx(again["rmse"], rel=1e-3)
+    # So does what is kept of it in its turn.
+    _, later = saved(run, stating, *mine, "--free", "nominal_length")
+    assert later["stated"] == {"nominal_length": 0.33}
+    # Another muscle may really have that length: then the user's word is the last one.
+    assert rmse(run, stating, *mine, "--rest-length", "330 mm") > 50.0
+    assert rmse(run, data, "--model", "model.json", *typed, "--keep", "rest_length") > 50.0
+    both = run("compare", stating, "--muscle", "mine-330:310mm", "--data", "data")
+    assert "330 mm" in refused(both)
+    assert "310 mm" in refused(both)

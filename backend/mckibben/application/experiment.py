@@ -57,7 +57,7 @@ class SaidModel:
         muscle: name of the muscle, if it was said.
         drive: the drive document.
         where: name of the drive document in origins and errors.
-        corrected: rest length that was stated for the data of a saved model, whose fit found ``length``.
+        keep_length: whether the stated rest length holds, whatever the data of the model have shown.
     """
 
     start: Callable[[str, float | None], StartModel]
@@ -65,7 +65,7 @@ class SaidModel:
     muscle: ExperimentValue | None = None
     drive: DriveDocument | None = None
     where: str = "drive"
-    corrected: float | None = None
+    keep_length: bool = False
 
 
 @dataclass(frozen=True)
@@ -158,7 +158,7 @@ def resolved(
         _tell_unused(one)
     length = float(first.values["rest_length"].value)
     if abs(float(start.muscle.nominal_length) - length) > 1e-12 * length:
-        start = replace(start, muscle=start.muscle._replace(nominal_length=length))
+        start = replace(start, muscle=start.muscle._replace(nominal_length=length), stated={})
     for one in ones:
         _add_accuracy(one)
         for name, value in drive_values(one.measurement, one.values, model.drive, start).items():
@@ -191,17 +191,20 @@ def _shown(value: float) -> str:
 def _found_instead(
     own: ExperimentValue | None, model: SaidModel, start: StartModel
 ) -> ExperimentValue | None:
-    """The rest length that the data of a fitted model have shown, where the one they corrected is stated."""
-    said, corrected, fit = model.length, model.corrected, start.fit
-    if corrected is None and fit is not None:
-        corrected = fit.stated.get("nominal_length")
-    if own is None or corrected is None:
+    """The rest length that the data of a fitted model have shown, where the one they corrected is stated.
+
+    With a saved model that is so also where the user types it again, with a preset where a file states it.
+    """
+    said, corrected = model.length, start.corrected_length
+    if own is None or corrected is None or model.keep_length:
         return None
     if abs(float(own.value) - corrected) > _SAME_LENGTH * corrected:
         return None
-    if said is not None or start.preset is None:
+    if start.stated or start.preset is None:
         return said
     length = float(start.preset.muscle.nominal_length)
+    if own.origin != "file" or (said is not None and abs(float(said.value) - length) > _SAME_LENGTH * length):
+        return None
     return ExperimentValue(length, "m", "preset", f"the preset {start.preset.id}")
 
 
@@ -217,7 +220,8 @@ def _rest_length(one: _One, model: SaidModel, start: StartModel, *, alone: bool)
     if own is not None and found is not None:
         one.remarks.append(
             f"rest length: {_shown(float(own.value))} was stated for the data of the model, too, "
-            f"which showed {_shown(float(found.value))}: that is taken here as well"
+            f"which showed {_shown(float(found.value))}: that is taken here as well; "
+            "'--keep rest_length' takes what is stated"
         )
         return found
     if own is not None and own.origin in ("you", "suggested"):

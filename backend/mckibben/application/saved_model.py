@@ -160,17 +160,24 @@ def present_model(question: ModelQuestion, studio: Studio) -> SavedModel:
     )
 
 
-def _decided_length(question: ModelQuestion) -> dict[str, float]:
-    """The rest length that all files state, where the user has decided for another one."""
+def _corrected_length(question: ModelQuestion) -> dict[str, float]:
+    """The rest length that was stated for the data if the user has decided for another one, now or before."""
+    if not question.specimens.one_length:
+        return {}
     stated, taken = set[float](), set[float]()
     for specimen in question.specimens.each:
         own = stated_in(specimen.points).get("rest_length")
         decided = specimen.experiment.get("rest_length")
-        if own is None or own.origin != "file" or decided is None or decided.origin not in _DECIDED:
-            return {}
-        stated.add(float(own.value))
-        taken.add(float(decided.value))
-    return {"nominal_length": stated.pop()} if len(stated) == len(taken) == 1 and stated != taken else {}
+        if own is not None and own.origin == "file" and decided is not None and decided.origin in _DECIDED:
+            stated.add(float(own.value))
+            taken.add(float(decided.value))
+    if len(stated) == len(taken) == 1 and stated != taken:
+        return {"nominal_length": stated.pop()}
+    start = question.start
+    before = start.corrected_length
+    shown = start.muscle if start.stated or start.preset is None else start.preset.muscle
+    same = abs(shown.nominal_length - start.muscle.nominal_length) < 1e-9
+    return {} if before is None or not same else {"nominal_length": before}
 
 
 def _saved(
@@ -199,8 +206,10 @@ def _saved(
         "effects": result.model.effects,
         "freed": list(freed),
         "free": [name for name in of_geometry if name in GEOMETRY],
-        "stated": _decided_length(question)
-        | {name: float(getattr(question.start.muscle, name)) for name in of_geometry if name in muscle},
+        "stated": {
+            name: float(getattr(question.start.muscle, name)) for name in of_geometry if name in muscle
+        }
+        | _corrected_length(question),
         "envelope": {
             name: {"least": found.least, "most": found.most, "unit": found.unit}
             for name, found in envelope.items()

@@ -79,15 +79,14 @@ def said_model(studio: Studio, options: ModelOptions) -> SaidModel:
     def start(named: str, rest_length: float | None) -> StartModel:
         return start_model(studio, options, named=named, rest_length=rest_length)
 
-    muscle, corrected = None, None
+    muscle = None
     if options.muscle and not is_file(options.muscle, studio):
         muscle = ExperimentValue(options.muscle.partition(":")[0], "", "you", "--muscle")
     elif options.model and not options.muscle:
-        saved = saved_model(options.model)
-        preset, corrected = saved.muscle.preset, saved.stated.get("nominal_length")
+        preset = saved_model(options.model).muscle.preset
         muscle = None if preset is None else ExperimentValue(preset, "", "you", f"--model {options.model}")
     length = _said_length(studio, options)
-    return SaidModel(start, length, muscle, *_drive(options), corrected=corrected)
+    return SaidModel(start, length, muscle, *_drive(options), keep_length="rest_length" in options.keep)
 
 
 def muscle_length(studio: Studio, options: ModelOptions) -> float | None:

@@ -151,13 +151,16 @@ def fit_record(saved: SavedModel) -> FitRecord | None:
 
 
 def with_record(start: StartModel, saved: SavedModel, studio: Studio) -> StartModel:
-    """A start model with how it was fitted, as long as it is the saved model, whatever its length."""
+    """A start model with how it was fitted, as long as it is the saved model, whatever its length.
+
+    What its data corrected of the geometry stays so with other effects.
+    """
     own = studio.start_model(
         stated_muscle(saved.muscle.model_copy(update={"nominal_length": start.muscle.nominal_length})),
         saved.effects,
     )
     same = (start.muscle, start.effects) == (own.muscle, own.effects)
-    return replace(start, fitted=fit_record(saved)) if same else start
+    return replace(start, fitted=fit_record(saved) if same else start.fitted, stated=dict(saved.stated))
 
 
 def read_saved_model(document: object, subject: str) -> SavedModel:

@@ -98,6 +98,7 @@ class StartModel:
         term: text of the custom term.
         assumed: fields of the muscle that an effect needs and that are not stated; they hold a typical value.
         fitted: how muscle and effects were fitted, where something else than the preset says so.
+        stated: of a saved model, what was stated for geometry that its data corrected [SI].
     """
 
     muscle: Muscle
@@ -108,6 +109,18 @@ class StartModel:
     term: str | None = None
     assumed: tuple[str, ...] = ()
     fitted: FitRecord | None = None
+    stated: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def corrected_length(self) -> float | None:
+        """The rest length that was stated for data that showed another one [m]; None without such data.
+
+        Those of a saved model or of a preset; other effects than theirs change nothing of it.
+        """
+        if self.stated or self.preset is None or self.preset.fit is None:
+            return self.stated.get("nominal_length")
+        own = self.preset.muscle._replace(nominal_length=self.muscle.nominal_length)
+        return self.preset.fit.stated.get("nominal_length") if self.muscle == own else None
 
     @property
     def fit(self) -> FitRecord | None:

@@ -189,8 +189,8 @@ class StatedModel:
             return dict(self.muscle)
         return {name: float(value) for name, value in zip(GEOMETRY, start.muscle, strict=True) if value}
 
-    def said(self, studio: Studio, drive: DriveDocument | None) -> SaidModel:
-        """Muscle, effects and drive as a question takes them."""
+    def said(self, studio: Studio, drive: DriveDocument | None, keep: Sequence[str] = ()) -> SaidModel:
+        """Muscle, effects and drive as a question takes them; ``keep``: entries that are right as stated."""
         name = self.source or _NAME
         preset, length = self.muscle.get("preset"), self.muscle.get("nominal_length")
 
@@ -201,12 +201,11 @@ class StatedModel:
         if length is not None:
             said_length = ExperimentValue(si(length, "m"), "m", "you", name)
         muscle = None if preset is None else ExperimentValue(str(preset), "", "you", name)
-        own, corrected = drive, None
+        own = drive
         if self.saved is not None:
             own = self.saved.drive if own is None else own
-            corrected = self.saved.stated.get("nominal_length")
         where = "drive" if drive is not None else name
-        return SaidModel(start, said_length, muscle, own, where, corrected)
+        return SaidModel(start, said_length, muscle, own, where, keep_length="rest_length" in keep)
 
 
 def _is_saved(content: object) -> bool:
@@ -237,7 +236,7 @@ def question_of(
         kept = frozenset(model.saved.effects) & frozenset(model.sample(studio).effects)
         saved = SavedStart(model.saved, model.source, kept)
     question = stated_question(
-        model.said(studio, drive),
+        model.said(studio, drive, names_of(keep)),
         [measurement.said for measurement in measurements],
         studio,
         saved=saved,

@@ -105,7 +105,7 @@ def test_beside_an_unknown_effect_what_is_named_is_less_sure() -> None:
 def test_a_wrong_entry_makes_the_effects_unlikely_that_its_correction_does_without() -> None:
     def found(confidence: float, *effects: str, **said: bool) -> Any:
         more: dict[str, Any] = {"stands": True, "kept": False, "entry": SimpleNamespace(prior=0.2), **said}
-        return SimpleNamespace(confidence=confidence, effects=effects, **more)
+        return SimpleNamespace(confidence=confidence, effects=effects, instead_of=("creep", "leak"), **more)
 
     assert entries_right([], ["creep"]) == 1.0
     assert entries_right([found(0.98, "prestress")], ["creep"]) == pytest.approx(0.02)
@@ -114,7 +114,9 @@ def test_a_wrong_entry_makes_the_effects_unlikely_that_its_correction_does_witho
     # What is only as good as the effects has the odds of such a mistake; what is ruled out has none.
     assert entries_right([found(0.98, "prestress", stands=False)], ["creep"]) == pytest.approx(1.0 / 1.2)
     assert entries_right([found(0.98, "prestress", kept=True)], ["creep"]) == 1.0
-    assert entries_right([found(0.98, "prestress")], ["force_offset", "prestress"]) == 1.0
+    # It says nothing of an effect that it does not do without.
+    assert entries_right([found(0.98, "dahl")], ["bouc_wen"]) == 1.0
+    assert entries_right([found(0.98, "prestress")], ["leak", "prestress"]) == 1.0
     alone = Evidence("creep", ("creep",), 1.0, Loss(20.0, 0.9))
     doubted = replace(alone, entries_right=0.02)
     assert doubted.probability == pytest.approx(0.02 * alone.probability)

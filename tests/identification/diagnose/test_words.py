@@ -255,10 +255,12 @@ def test_many_alternatives_are_grouped_by_family() -> None:
 
 def test_an_entry_that_explains_as_much_is_named_beside_the_effect_that_it_replaces() -> None:
     found = result("missing_effects", 40.0, 2.0, "creep", "leak")
-    entries = (("the load", "leak"), ("the braid diameter", "leak"), ("the angle", "creep"))
+    entries = (("the load", "creep"), ("the braid diameter", "creep"), ("the angle", "leak"))
     found.context = tuple(
-        SimpleNamespace(stands=False, kept=False, effects=(beside,), entry=SimpleNamespace(title=title))
-        for title, beside in entries
+        SimpleNamespace(
+            stands=False, kept=False, effects=(), instead_of=(lost,), entry=SimpleNamespace(title=title)
+        )
+        for title, lost in entries
     )
     said = sentence_of(found, CATALOGUE)
     assert "Creep (probability 97 %, or the load or the braid diameter is wrong instead)" in said

@@ -99,6 +99,8 @@ def test_a_scale_moves_by_its_logarithm_when_a_fold_is_left_out():
     fitted_model = replace(linear_node(residual, slopes[:, None], fold), free=(time,), residual=residual)
     left_out = np.sqrt(fitted_model.fold_squares[0][0])
     assert left_out == pytest.approx(0.05 + np.log(100.0))
+    downwards = replace(fitted_model, residual=-residual)  # no farther than the bound along the slope
+    assert np.sqrt(downwards.fold_squares[0][0]) == pytest.approx(0.05 + 0.99)
     narrow = replace(fitted_model, free=(replace(time, lower=0.5, upper=10.0),))
     assert np.sqrt(narrow.fold_squares[0][0]) == pytest.approx(0.05 + 9.0)
 

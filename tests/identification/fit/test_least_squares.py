@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
-from mckibben.identification.fit.least_squares import least_squares_fit
+from mckibben.identification.fit.least_squares import fit_report, least_squares_fit
 from mckibben.identification.predict.free import Free
 
 # NIST StRD Misra1a: y = b1 (1 - exp(-b2 x)), certified values and standard deviations.
@@ -81,15 +83,24 @@ def test_twins_are_said_not_to_be_told_apart():
 def test_parameter_that_does_nothing_is_named():
     x = np.linspace(0, 1, 20)
     noise = np.random.default_rng(1).normal(0, 0.01, 20)
-    for start in (1, 0):  # at a bound as well: nothing has driven it there
+    for start in (1, 0):  # also at the bound where it is off
         result = fitted(
             lambda b: b[0] * x + 0 * b[1] - (1.3 * x + noise),
-            [free("a", 1, 0, 5), free("idle", start, 0, 5)],
+            [free("a", 1, 0, 5), replace(free("idle", start, 0, 5), off=0.0)],
         )
         assert result.parameters[0].stderr is not None
         assert result.parameters[1].stderr is None
         assert not result.parameters[1].at_bound
         assert result.messages == ("idle has no effect on the predicted values",)
+
+
+def test_a_law_that_is_flat_at_the_bound_where_the_data_drive_it_is_at_its_bound():
+    """A softness of 0, say: the slope there is 0, and that is no parameter without effect."""
+    slopes_there = np.column_stack([np.linspace(0, 1, 20), np.zeros(20)])
+    ended = [free("a", 1.3, 0, 5), free("flat", 0.0, 0, 5)]
+    result = fit_report(np.array([1.3, 0.0]), slopes_there, np.full(20, 0.1), ended)
+    assert [parameter.at_bound for parameter in result.parameters] == [False, True]
+    assert result.messages == ("flat ends at its bound",)
 
 
 def test_more_parameters_than_values_is_said():

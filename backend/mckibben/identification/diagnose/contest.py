@@ -47,9 +47,10 @@ class WrongEntry:
         noise: of the changed data.
         scale: factor between errors of the changed and of the stated data.
         effects: effects that are missing with it.
+        instead_of: effects of the best model that it does without, none of their family in their place.
         confidence: probability against the best model without it, from score and prior.
         stands: whether it explains the data better by more than chance, so that it is asked about first.
-        kept: whether it would stand, but the user has ruled it out.
+        kept: whether the user has ruled it out.
     """
 
     entry: StatedEntry
@@ -60,6 +61,7 @@ class WrongEntry:
     noise: float | None
     scale: float
     effects: tuple[str, ...]
+    instead_of: tuple[str, ...]
     confidence: float
     stands: bool
     kept: bool = False
@@ -140,6 +142,7 @@ def contest(
             trials[trials.index(trial)] = _lighter(trial)
     if trials:
         noise = _lowest_noise(noise, trials, best)
+        best = _at_its_best(fitter, trials[:_SEARCHED], best, added, rows, noise)
         here = score(best, rows=rows, noise=noise)
         trials.sort(key=lambda trial: trial.score(rows, noise))
     found = [
@@ -148,10 +151,45 @@ def contest(
         if (entry := _evidence(trial, first, root, best, rows=rows, noise=noise, here=here)) is not None
     ]
     found = [
-        replace(each, stands=False, kept=each.stands) if each.entry.hypothesis in statements.kept else each
+        replace(each, stands=False, kept=True) if each.entry.hypothesis in statements.kept else each
         for each in found
     ]
     return tuple(sorted(found, key=lambda each: (not each.stands, not each.kept)))
+
+
+def _at_its_best(
+    fitter: Fitter,
+    trials: Sequence[_Trial],
+    best: FittedModel,
+    added: Sequence[str],
+    rows: float,
+    noise: float | None,
+) -> FittedModel:
+    """The best model with the entries as stated, where what a trial has found serves them as well.
+
+    A trial searches anew, and may find better laws than the first search did: that says nothing against the
+    entry. So its effects are tried with the entries as stated, beside one of those that it does without.
+    """
+    known = {effect.id: effect for effect in fitter.candidates}
+    models = [best]
+    for trial in trials:
+        found = trial.best
+        if trial.entry.free is None or trial.score(rows, noise) >= score(best, rows=rows, noise=noise):
+            continue
+        as_stated = replace(
+            found.fit_model,
+            muscle=best.fit_model.muscle,
+            load=best.fit_model.load,
+            supply_factor=best.fit_model.supply_factor,
+        )
+        stated = fitter.fit(as_stated, found.freed)
+        models += [
+            fitter.adding(stated, known[name])
+            for name in added
+            if name in known and name not in found.fit_model.ids
+        ]
+    models = [model for model in models if model is best or model.implausible <= best.implausible]
+    return min(models, key=lambda model: score(model, rows=rows, noise=noise))
 
 
 def _ahead_of_singles(trials: Sequence[_Trial], fitter: Fitter, first: FitModel) -> list[_Trial]:
@@ -293,6 +331,21 @@ def _searched(trial: _Trial) -> _Trial:
     return replace(trial, best=best if one <= two else trial.best)
 
 
+def _done_without(best: FittedModel, model: FittedModel) -> tuple[str, ...]:
+    """Effects of the best model that another one does without, and without one of their family instead."""
+    inside = {effect.id for effect in model.fit_model.effects}
+    families = [e.family for e in model.fit_model.effects if e.id not in set(best.fit_model.ids)]
+    lost = []
+    for effect in best.fit_model.effects:
+        if effect.id in inside:
+            continue
+        if effect.family in families:
+            families.remove(effect.family)
+        else:
+            lost.append(effect.id)
+    return tuple(lost)
+
+
 def _evidence(
     trial: _Trial,
     first: FitModel,
@@ -348,6 +401,7 @@ def _evidence(
         noise=None if noise is None else noise * trial.scale,
         scale=trial.scale,
         effects=effects,
+        instead_of=_done_without(best, model),
         confidence=confidence,
         stands=stands,
     )

@@ -186,7 +186,8 @@ def entries_right(context: Sequence[WrongEntry], group: Collection[str]) -> floa
     """Probability that no entry is wrong whose correction explains the data without a group of effects.
 
     One of them is wrong, or none: their odds against the effects add. What only explains the data as well has
-    the odds of such a mistake at most; what the user has ruled out has none.
+    the odds of such a mistake, the same against a common effect as against a rare one; what the user has
+    ruled out has none.
 
     Args:
         context: the evidence about entries.
@@ -201,11 +202,17 @@ def entries_right(context: Sequence[WrongEntry], group: Collection[str]) -> floa
 
 def instead_of(context: Sequence[WrongEntry], group: Collection[str]) -> list[WrongEntry]:
     """The entries whose correction explains the data without a group of effects, but for those ruled out."""
-    return [found for found in context if not found.kept and not set(group) & set(found.effects)]
+    return [
+        found
+        for found in context
+        if not found.kept and set(group) & set(found.instead_of) and not set(group) & set(found.effects)
+    ]
 
 
 def none_likely(evidence: Collection[Evidence]) -> bool:
     """Whether effects are named, and it is likelier that none of them is missing than that one is.
+
+    With the entries as stated: a wrong one is asked about or named, and is no reason to look for new physics.
 
     Their probabilities count as independent: of two that each explain most of the error, one is missing.
     """

@@ -251,7 +251,8 @@ def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str], *, first:
     figure = f"{'probability ' if first else ''}{_share(probability)}"
     instead = [] if evidence is None else instead_of(result.context, evidence.group)
     if instead:
-        figure += f", or {_joined([found.entry.title for found in instead[:_FEW]], 'or')} is wrong instead"
+        entries = list(dict.fromkeys(found.entry.title for found in instead))
+        figure += f", or {_joined(entries[:_FEW], 'or')} is wrong instead"
     return f"{perhaps}{title[:-1]}, {figure})" if title.endswith(")") else f"{perhaps}{title} ({figure})"
 
 

@@ -121,8 +121,8 @@ class FittedModel:
         within their bounds. For a model that is linear in its parameters the result is exact. The prior
         :math:`\Lambda`, one standard deviation of the residual over the range of a parameter, matters only
         where fold g alone determines a parameter: without fold g, the parameter then goes to its off value.
-        A scale whose plausible range spans decades moves by its logarithm: along its slope a short way would
-        become a hundred times as long, where the slope says nothing any more.
+        A scale whose plausible range spans decades grows by its logarithm at most: along its slope a short
+        way would become a hundred times as long, where the slope says nothing any more.
         """
         return tuple(
             np.array([self.square_without(labels == label) for label in np.unique(labels)])
@@ -172,8 +172,8 @@ def _span(p: Free) -> float:
 
 
 def _way(p: Free, end: float) -> float:
-    """Way from a parameter's value to a bound, in the measure of `_span`."""
-    return p.start * float(np.log(end / p.start)) if _over_decades(p) else end - p.start
+    """Way from a parameter's value to a bound; of a scale upwards by its logarithm, which is shorter."""
+    return p.start * float(np.log(end / p.start)) if _over_decades(p) and end > p.start else end - p.start
 
 
 def counts(labels: np.ndarray) -> np.ndarray:

@@ -113,11 +113,16 @@ def fit_report(
     span = np.array([parameter.upper - parameter.lower for parameter in free])
     reach = np.linalg.norm(jacobian, axis=0) * span
     blind = reach <= 1e-12 * np.max(reach, initial=0.0)
-    # Where it began a parameter without effect stays, be that at a bound.
-    at_bound = [
-        bool(min(x - p.lower, p.upper - x) < _AT_BOUND * s) and not idle
-        for x, p, s, idle in zip(numbers, free, span, blind, strict=True)
-    ]
+    ended = np.array([
+        min(x - p.lower, p.upper - x) < _AT_BOUND * s for x, p, s in zip(numbers, free, span, strict=True)
+    ])  # fmt: skip
+    # A law may be flat at a bound to which the data have driven it; where it is off it is none.
+    off = np.array([
+        p.off is not None and abs(x - p.off) < _AT_BOUND * s
+        for x, p, s in zip(numbers, free, span, strict=True)
+    ])  # fmt: skip
+    at_bound = (ended & ~(blind & off)).tolist()
+    blind &= ~np.array(at_bound)
     inner = np.flatnonzero(~np.array(at_bound) & ~blind)
     errors: list[float | None] = [None] * len(free)
     correlations: list[tuple[str, str, float]] = []

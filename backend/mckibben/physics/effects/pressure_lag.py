@@ -7,8 +7,8 @@ downstream of the tube, the air flows as through a restriction of ISO 6358-1:
    Q = p_u^{1+\lambda}\Bigl[1-\Bigl(\frac{r-b}{1-b}\Bigr)_+^2\Bigr]^m, \quad r = \frac{p_d}{p_u}
 
 Of the volume behind the tube a share :math:`\phi` is fixed, :math:`V_t = \phi V(L_0) + (1-\phi) V(L)`; all of
-it where a filter makes the lag. :math:`Q_r` is the flow into 3 bar at a lag of :math:`P_d = 0.1` bar; below
-about 1 mbar the flow is linear. The index m is 1/2 for an orifice and 1 for a capillary; in laminar flow,
+it is about a filter. :math:`Q_r` is the flow into 3 bar at a lag of :math:`P_d = 0.1` bar; below about 1 mbar
+the flow is linear. The index m is 1/2 for an orifice and 1 for a capillary; in laminar flow,
 :math:`Q \propto p_u^2 - p_d^2`, it is 1 with b = 0 and :math:`\lambda = 1`. The gas that a change of volume
 takes is not counted. A negative time is a sensor behind the muscle, :math:`P_m = P + 5d,\ \dot d = \dot P
 - 5d/|\tau|`, to first order :math:`P + |\tau|\dot P`. Below 0.1 ms, and where a valve fills the muscle,
@@ -116,7 +116,7 @@ EFFECT = Effect(
         ),
         _of_flow(
             *("fixed_share", r"\phi", "1", 0.0, 0.0, 1.0),
-            Source("0 the muscle alone; 1 a filter, whose lag is the same at every length", "D"),
+            Source("0 the muscle alone; 1 the same at every length: to first order a filter", "D"),
             description="Share of the filled volume at rest that is not the muscle's.",
         ),
     ),

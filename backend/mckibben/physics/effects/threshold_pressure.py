@@ -7,9 +7,10 @@ lumped: force and gas work balance only while the pressure stays above the thres
 A bladder that touches at one place before another widens the contact over a range :math:`s P_{th}` of
 pressures; the loss is then :math:`P_{th}(1-e^{-P/(sP_{th})})`, at most P, which is sharp for s = 0.
 
-A wider braid asks more of the bladder, as it does of a balloon: the threshold grows by G for each time that
-the braid's diameter grows by that at rest, :math:`P_{th} + G\,(D/D_0-1)`. A tube of neo-Hookean rubber needs
-:math:`\mu H/r\,[1-(r_i/r)^4]`, which is nearly that from 1.1 to 1.6 times its radius.
+A wider braid asks more of the bladder, as a balloon does: the threshold grows by G for each time that the
+braid's diameter grows by that at rest, :math:`P_{th} + G\,(D/D_0-1)`. A thin tube of neo-Hookean rubber that
+keeps its length needs :math:`\mu H/r_i\,[1-(r_i/r)^4]`; one that shortens with the braid comes within 15 % of
+a straight line from 1.1 to 1.6 times its radius.
 """
 
 from mckibben.physics import braid, ops
@@ -24,9 +25,11 @@ _SHARP = 1e-3  # least softness, where exp() is 0 above a thousandth of the thre
 def pressure(
     *, muscle: Muscle, pressure: Value, length: Value, threshold: Value, softness: Value, growth: Value
 ) -> Value:
-    """max(P - P_d (1 - exp(-P/(s P_d))), 0) [Pa], P_d = P_th + G (D/D0 - 1); without a threshold P itself."""
+    """max(P - P_d (1 - exp(-P/(s P_d))), 0) [Pa], P_d = P_th + G (D/D0 - 1); without either P itself."""
     wider = braid.diameter(braid=muscle.braid, length=length) / muscle.braid_diameter - 1.0
-    here = ops.positive_part(threshold + growth * wider)
+    wanted = threshold + growth * wider
+    # Not the positive part, whose slope is 0 where the effect is off and fits begin.
+    here = ops.where(ops.greater(0.0, wanted), 0.0 * wanted, wanted)
     above = ops.positive_part(pressure)
     span = ops.maximum(softness, _SHARP) * ops.maximum(here, 1.0)
     # Written as P minus a loss, so that a threshold of 0 leaves negative gauge pressures unchanged.
@@ -34,7 +37,7 @@ def pressure(
 
 
 _TUBE = Source("E H (r_b - r_i)/r_i^2 of latex, 1 N/mm², 1 mm, 5 to 6 mm", "D")
-_BALLOON = Source("mu H/r (1 - (r_i/r)^4) of rubber, 0.2 to 1 N/mm², 1 to 2 mm, radius 5 to 15 mm", "D")
+_BALLOON = Source("mu H/r_i (1 - (r_i/r)^4) of rubber, 0.2 to 1 N/mm², 1 to 2 mm, radius 5 to 15 mm", "D")
 _CLOSED_FORM = Source("(P - P_th) A0 (2/sin^2 theta0 - 3), A0 (...) = 643.85527 mm^2", "D")
 _SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
 

@@ -103,6 +103,7 @@ def said_model(body: ModelRequest, studio: Studio) -> SaidModel:
         if muscle is None or muscle.preset is None
         else ExperimentValue(muscle.preset, "", "you", f"{where}.preset"),
         drive=document,
+        keep_length="rest_length" in body.keep,
     )
 
 
