@@ -127,6 +127,21 @@ def test_each_measurement_states_its_own(client: TestClient) -> None:
     assert answer["assumptions"] == []
 
 
+def test_what_all_files_say_at_different_places_is_common(client: TestClient) -> None:
+    rows = "pressure_bar,length_mm,force_N\n" + "".join(
+        f"{p},{length},{100.0 * p - (300 - length)}\n" for p in (2, 4, 6) for length in range(250, 301, 5)
+    )
+    said = "# rest length: 300 mm\n"
+    ids = [
+        put(client, text, name) for name, text in (("a.csv", said + rows), ("b.csv", f"# b\n{said}{rows}"))
+    ]
+    told = compare(client, muscle={"preset": "DMSP-20"}, measurements=[{"id": one} for one in ids])
+    found = told["experiment"]["rest_length"]
+    assert (found["value"], found["origin"], found["where"]) == (0.3, "file", "each file")
+    places = [one["experiment"]["rest_length"]["where"] for one in told["specimens"]]
+    assert places[0] != places[1]
+
+
 def test_every_door_takes_the_rest_length_of_the_file(client: TestClient) -> None:
     answer = compare(client, muscle={"preset": "DMSP-20"}, measurement=put(client, specimen(0.25)))
     assert answer["geometry"]["nominal_length"] == 0.25

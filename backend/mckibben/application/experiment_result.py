@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -39,9 +39,16 @@ class SpecimenResult:
 
 
 def common_experiment(question: ModelQuestion) -> Experiment:
-    """The values in which all measurements agree."""
+    """The values in which all measurements agree, wherever each states them."""
     first, *others = (specimen.experiment for specimen in question.specimens.each)
-    return {name: value for name, value in first.items() if all(other.get(name) == value for other in others)}
+    common = {}
+    for name, value in first.items():
+        each = [value, *(other[name] for other in others if name in other)]
+        if len({replace(one, where="") for one in each}) == 1 and len(each) == len(others) + 1:
+            common[name] = (
+                value if len({one.where for one in each}) == 1 else replace(value, where="each file")
+            )
+    return common
 
 
 def specimen_results(
