@@ -65,7 +65,7 @@ class Slot:
 SLOTS: dict[str, Slot] = {
     "pressure": Slot(
         "gauge pressure at the muscle to the pressure that drives the braid [Pa]",
-        ("muscle", "pressure", "length"),
+        ("muscle", "pressure"),
         "chain",
     ),
     "braid": Slot(

@@ -6,38 +6,25 @@ lumped: force and gas work balance only while the pressure stays above the thres
 
 A bladder that touches at one place before another widens the contact over a range :math:`s P_{th}` of
 pressures; the loss is then :math:`P_{th}(1-e^{-P/(sP_{th})})`, at most P, which is sharp for s = 0.
-
-A wider braid asks more of the bladder, as a balloon does: the threshold grows by G for each time that the
-braid's diameter grows by that at rest, :math:`P_{th} + G\,(D/D_0-1)`. A thin tube of neo-Hookean rubber that
-keeps its length needs :math:`\mu H/r_i\,[1-(r_i/r)^4]`; one that shortens with the braid comes within 15 % of
-a straight line from 1.1 to 1.6 times its radius.
 """
 
-from mckibben.physics import braid, ops
+from mckibben.physics import ops
 from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
-from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
 _SHARP = 1e-3  # least softness, where exp() is 0 above a thousandth of the threshold
 
 
-def pressure(
-    *, muscle: Muscle, pressure: Value, length: Value, threshold: Value, softness: Value, growth: Value
-) -> Value:
-    """max(P - P_d (1 - exp(-P/(s P_d))), 0) [Pa], P_d = P_th + G (D/D0 - 1); without either P itself."""
-    wider = braid.diameter(braid=muscle.braid, length=length) / muscle.braid_diameter - 1.0
-    wanted = threshold + growth * wider
-    # Not the positive part, whose slope is 0 where the effect is off and fits begin.
-    here = ops.where(ops.greater(0.0, wanted), 0.0 * wanted, wanted)
+def pressure(*, pressure: Value, threshold: Value, softness: Value) -> Value:
+    """max(P - P_th (1 - exp(-P/(s P_th))), 0) [Pa]; without a threshold P itself."""
     above = ops.positive_part(pressure)
-    span = ops.maximum(softness, _SHARP) * ops.maximum(here, 1.0)
+    span = ops.maximum(softness, _SHARP) * ops.maximum(threshold, 1.0)
     # Written as P minus a loss, so that a threshold of 0 leaves negative gauge pressures unchanged.
-    return pressure - ops.minimum(here * (1.0 - ops.exp(-above / span)), above)
+    return pressure - ops.minimum(threshold * (1.0 - ops.exp(-above / span)), above)
 
 
 _TUBE = Source("E H (r_b - r_i)/r_i^2 of latex, 1 N/mm², 1 mm, 5 to 6 mm", "D")
-_BALLOON = Source("mu H/r_i (1 - (r_i/r)^4) of rubber, 0.2 to 1 N/mm², 1 to 2 mm, radius 5 to 15 mm", "D")
 _CLOSED_FORM = Source("(P - P_th) A0 (2/sin^2 theta0 - 3), A0 (...) = 643.85527 mm^2", "D")
 _SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
 
@@ -47,8 +34,7 @@ EFFECT = Effect(
     type="static",
     cause="The bladder is narrower than the braid and must first be inflated until it touches it. Below that "
     "pressure there is no force, and above it the effective pressure is lower by this amount.",
-    equation=r"P_{eff} = \max\left(P-P_d\left(1-e^{-P/(sP_d)}\right),\,0\right),\quad "
-    r"P_d = P_{th}+G\left(D/D_0-1\right)",
+    equation=r"P_{eff} = \max\left(P-P_{th}\left(1-e^{-P/(sP_{th})}\right),\,0\right)",
     parameters=(
         Parameter(
             "threshold",
@@ -66,12 +52,6 @@ EFFECT = Effect(
             description="Range of pressures over which contact is made, as a share of the threshold.",
             fitted=False,
             natural=True,
-        ),
-        Parameter(
-            *("growth", "G", "Pa", 0.0, 0.0, 4.0e5, _BALLOON),
-            description="How much the threshold grows when the braid gets as much wider as it is at rest.",
-            fitted=False,
-            off=0.0,
         ),
     ),
     slots={"pressure": pressure},
@@ -106,12 +86,6 @@ EFFECT = Effect(
             {"threshold": 4e4},
             _SIZE_10,
             {"length": 0.1, "pressure": 6e5},
-        ),
-        Example(
-            # At 0.24 m D/D0 is sqrt(1 - (0.8 cos 25 deg)^2)/sin 25 deg = 1.6296035: 4e4 + 2e4 * 0.6296035
-            *("slot:pressure", 547407.93, 1e-8, _CLOSED_FORM, {"threshold": 4e4, "growth": 2e4}),
-            {**_SIZE_10, "nominal_length": 0.3},
-            {"length": 0.24, "pressure": 6e5},
         ),
         Example(
             "force",
