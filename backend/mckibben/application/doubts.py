@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 from mckibben.application.model_question import ModelQuestion
 from mckibben.application.specimens import Specimens
-from mckibben.identification.diagnose.contest import WrongEntry
 from mckibben.identification.diagnose.entries import (
     OtherReading,
     StatedEntry,
@@ -16,6 +15,7 @@ from mckibben.identification.diagnose.entries import (
     statements,
 )
 from mckibben.identification.diagnose.entry_words import sentence_of
+from mckibben.identification.diagnose.wrong_entry import WrongEntry
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.experiment import Experiment, ExperimentValue

@@ -17,6 +17,7 @@ import numpy as np
 from mckibben.identification.diagnose.entries import StatedEntry, Statements, predicted_scale
 from mckibben.identification.diagnose.score import AT_FLOOR, LEAST_SCORE, better, effective_rows, score
 from mckibben.identification.diagnose.search import search
+from mckibben.identification.diagnose.wrong_entry import WrongEntry, done_without
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.predict.fit_model import FitModel, held_beside
@@ -32,39 +33,6 @@ _SURE = LEAST_SCORE  # advantage in score from which an entry stands
 _AS_GOOD = 1.05  # error over that of the best model up to which an entry explains the data as well
 _NEAR = 1.5  # error over the noise up to which the effects may have reached it; it is an estimate
 _MUCH = 0.5  # share of the excess over the noise that an entry above the noise must explain
-
-
-@dataclass(frozen=True)
-class WrongEntry:
-    """A changed entry that explains the data better than, or as well as, effects.
-
-    Attributes:
-        entry: what is changed.
-        value: the value that explains the data, SI; None for a way of reading.
-        stderr: its standard error; None without one.
-        explains: share of the start model's mean square over the noise that it explains by itself.
-        best: the best model with it; errors in the units of the changed data.
-        noise: of the changed data.
-        scale: factor between errors of the changed and of the stated data.
-        effects: effects that are missing with it.
-        instead_of: effects of the best model that it does without, none of their family in their place.
-        confidence: probability against the best model without it, from score and prior.
-        stands: whether it explains the data better by more than chance, so that it is asked about first.
-        kept: whether the user has ruled it out.
-    """
-
-    entry: StatedEntry
-    value: float | None
-    stderr: float | None
-    explains: float
-    best: FittedModel
-    noise: float | None
-    scale: float
-    effects: tuple[str, ...]
-    instead_of: tuple[str, ...]
-    confidence: float
-    stands: bool
-    kept: bool = False
 
 
 @dataclass(frozen=True)
@@ -331,21 +299,6 @@ def _searched(trial: _Trial) -> _Trial:
     return replace(trial, best=best if one <= two else trial.best)
 
 
-def _done_without(best: FittedModel, model: FittedModel) -> tuple[str, ...]:
-    """Effects of the best model that another one does without, and without one of their family instead."""
-    inside = {effect.id for effect in model.fit_model.effects}
-    families = [e.family for e in model.fit_model.effects if e.id not in set(best.fit_model.ids)]
-    lost = []
-    for effect in best.fit_model.effects:
-        if effect.id in inside:
-            continue
-        if effect.family in families:
-            families.remove(effect.family)
-        else:
-            lost.append(effect.id)
-    return tuple(lost)
-
-
 def _evidence(
     trial: _Trial,
     first: FitModel,
@@ -401,7 +354,7 @@ def _evidence(
         noise=None if noise is None else noise * trial.scale,
         scale=trial.scale,
         effects=effects,
-        instead_of=_done_without(best, model),
+        instead_of=done_without(best, model),
         confidence=confidence,
         stands=stands,
     )

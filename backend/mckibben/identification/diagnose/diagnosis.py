@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from mckibben.identification.diagnose.as_compared import as_compared
-from mckibben.identification.diagnose.contest import WrongEntry, contest
+from mckibben.identification.diagnose.contest import contest
 from mckibben.identification.diagnose.corrections import Correction, refined, without_corrections
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
@@ -42,6 +42,7 @@ from mckibben.identification.diagnose.verdict import (
     noise_interval,
     status_of,
 )
+from mckibben.identification.diagnose.wrong_entry import WrongEntry
 from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter

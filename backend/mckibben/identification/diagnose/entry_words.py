@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import numpy as np
 
-from mckibben.identification.diagnose.contest import WrongEntry
+from mckibben.identification.diagnose.wrong_entry import WrongEntry
 
 
 def shown(value: float, unit: str) -> str:

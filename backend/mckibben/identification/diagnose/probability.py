@@ -20,8 +20,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.identification.diagnose.contest import WrongEntry
 from mckibben.identification.diagnose.score import score, score_within
+from mckibben.identification.diagnose.wrong_entry import WrongEntry
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.physics.effect import Effect
 
