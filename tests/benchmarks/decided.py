@@ -10,9 +10,9 @@ effect, and none of those any more.
 On 27 November 2026, six seeds of all static cases: 21 of 23; for 23 more groups no experiment of the rig is
 said to separate them. In the two misses (a pressure play beside a prestress) the sensor's offset is excluded
 as promised, but the joint search explains the prestress by other effects. In the night before it was 25 of
-35: where the friction of threads in `tests.truth` builds up over a short way that small reversals show, a law
-with that way and a power of the pressure counted as a wrong one (`_PLAYED`). On 25 November, without such
-laws among the rivals, 24 of 26.
+35, with eight misses among twelve groups that are none any more: the friction of threads in `tests.truth`
+builds up over a short way that small reversals show, and a law with that way and a power of the pressure
+counted as a wrong one (`_PRESSED`). On 25 November, without such laws among the rivals, 24 of 26.
 """
 
 from __future__ import annotations

@@ -139,8 +139,8 @@ def test_a_wall_that_no_rubber_fits_is_asked_about() -> None:
 def test_what_a_trial_has_found_serves_the_entries_as_stated_as_well() -> None:
     """A wall, and forces that are 9 % too large: 4.5 % of the diameter, or the sensor.
 
-    The best model has missed the wall, the trial with another diameter has found it: that says nothing against
-    the diameter.
+    The best model has missed the wall, the trial with another diameter has found it: that says nothing
+    against the diameter.
     """
     random = np.random.default_rng(5)
     rows = [
