@@ -9,6 +9,7 @@ is in no catalogue, it is added and refitted: *taken* is the share of the excess
 
 On 26 November 2026, three seeds: single 200 of 201, at most 1.15 x noise 192 of 201, pairs and triples 47 of
 48, false alarms 0 of 21, not in the catalogue and flagged 21 of 21, surplus 9 of 270, 1.6 s in the median.
+A day later, static cases alone: 135 of 135, 131 of 135, 30 of 30, 0 of 15, 15 of 15, 3 of 180, 0.7 s.
 """
 
 from __future__ import annotations
