@@ -43,11 +43,9 @@ def common_experiment(question: ModelQuestion) -> Experiment:
     first, *others = (specimen.experiment for specimen in question.specimens.each)
     common = {}
     for name, value in first.items():
-        each = [value, *(other[name] for other in others if name in other)]
-        if len({replace(one, where="") for one in each}) == 1 and len(each) == len(others) + 1:
-            common[name] = (
-                value if len({one.where for one in each}) == 1 else replace(value, where="each file")
-            )
+        each = [value, *(other.get(name) for other in others)]
+        if all(one is not None and replace(one, where=value.where) == value for one in each):
+            common[name] = value if all(one == value for one in each) else replace(value, where="each file")
     return common
 
 

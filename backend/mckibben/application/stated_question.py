@@ -73,6 +73,7 @@ def stated_question(
             for name in saved.document.freed
             if name not in constants and name.partition(".")[0] in saved.effects
         )
+    model = replace(model, keep_length="rest_length" in keep)
     try:
         question = question_of(model, measurements, studio, free=geometry, freed=constants, strict=strict)
     except InputError as error:

@@ -86,7 +86,7 @@ def said_model(studio: Studio, options: ModelOptions) -> SaidModel:
         preset = saved_model(options.model).muscle.preset
         muscle = None if preset is None else ExperimentValue(preset, "", "you", f"--model {options.model}")
     length = _said_length(studio, options)
-    return SaidModel(start, length, muscle, *_drive(options), keep_length="rest_length" in options.keep)
+    return SaidModel(start, length, muscle, *_drive(options))
 
 
 def muscle_length(studio: Studio, options: ModelOptions) -> float | None:

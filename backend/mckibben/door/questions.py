@@ -189,8 +189,8 @@ class StatedModel:
             return dict(self.muscle)
         return {name: float(value) for name, value in zip(GEOMETRY, start.muscle, strict=True) if value}
 
-    def said(self, studio: Studio, drive: DriveDocument | None, keep: Sequence[str] = ()) -> SaidModel:
-        """Muscle, effects and drive as a question takes them; ``keep``: entries that are right as stated."""
+    def said(self, studio: Studio, drive: DriveDocument | None) -> SaidModel:
+        """Muscle, effects and drive as a question takes them."""
         name = self.source or _NAME
         preset, length = self.muscle.get("preset"), self.muscle.get("nominal_length")
 
@@ -205,7 +205,7 @@ class StatedModel:
         if self.saved is not None:
             own = self.saved.drive if own is None else own
         where = "drive" if drive is not None else name
-        return SaidModel(start, said_length, muscle, own, where, keep_length="rest_length" in keep)
+        return SaidModel(start, said_length, muscle, own, where)
 
 
 def _is_saved(content: object) -> bool:
@@ -236,7 +236,7 @@ def question_of(
         kept = frozenset(model.saved.effects) & frozenset(model.sample(studio).effects)
         saved = SavedStart(model.saved, model.source, kept)
     question = stated_question(
-        model.said(studio, drive, names_of(keep)),
+        model.said(studio, drive),
         [measurement.said for measurement in measurements],
         studio,
         saved=saved,
