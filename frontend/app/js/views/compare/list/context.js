@@ -180,6 +180,7 @@ export function contextBlock(result) {
 export function contextLine() {
   const result = diagnosis.value;
   const kept = result?.context.filter((entry) => entry.kept) ?? [];
+  const alike = result?.context.filter((entry) => !entry.kept && !entry.asked) ?? [];
   const told = result?.assumptions ?? answer.value?.assumptions ?? [];
   const assumed = told.length ? told : Object.entries(answer.value?.experiment ?? {})
     .flatMap(([field, one]) =>
@@ -188,16 +189,21 @@ export function contextLine() {
   return h(
     "p",
     { class: "context-line", title: assumed.join("\n") },
-    icon(kept.length || assumed.length ? "info" : "check"),
+    icon(kept.length || assumed.length || alike.length ? "info" : "check"),
     h(
       "span",
       null,
+      alike.length
+        ? `Or an entry is wrong: ${alike.map((entry) => capitalized(entry.sentence)).join("; or: ")}. `
+        : "",
       kept.length
         ? `Kept as you said: ${kept.map(subject).join(", ")}.`
         : assumed.length
         ? `Assumed: ${
           assumed.map((text) => text.replace(/^assuming /, "").replace(/: --.*$/, "")).join("; ")
         }`
+        : alike.length
+        ? ""
         : result
         ? "No entry is in doubt: muscle, lengths, units, signs."
         : "Entries are checked with the effects.",
