@@ -46,11 +46,6 @@ ALSO_NAMES = {
     "dead_volume": "the field of a curves request",
 }
 
-MODULE_LINES = 400  # a module ends where its subject ends; this is a reason to look for two subjects
-EFFECT_LINES = 170
-# Files that are one thing and longer all the same: path -> why.
-LONGER: dict[str, str] = {}
-
 # Working papers that lie beside a developer's checkout; a reader of the project does not have them.
 WORKING_PAPERS = (
     "architecture.md",
@@ -132,21 +127,6 @@ def test_no_file_of_the_page_names_an_effect() -> None:
     assert not found, "the page shows what /api/effects declares; it must know no effect:\n" + "\n".join(
         found
     )
-
-
-def test_modules_are_short() -> None:
-    files = [*python_files(PACKAGE), *sorted(FRONTEND.rglob("*.js"))]
-    lines = {file: len(text_of(file).splitlines()) for file in files}
-    limits = {file: EFFECT_LINES if file in EFFECTS else MODULE_LINES for file in files}
-    too_long = {
-        name(file): f"{lines[file]} lines, at most {limits[file]}"
-        for file in files
-        if lines[file] > limits[file]
-    }
-    assert {path: too_long[path] for path in too_long.keys() - LONGER.keys()} == {}, (
-        "split, or say why in LONGER"
-    )
-    assert LONGER.keys() - too_long.keys() == set(), "no longer needed in LONGER"
 
 
 def test_nothing_refers_to_papers_a_reader_does_not_have() -> None:

@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from mckibben.server.schemas.curves import CurvesAnswer
+from mckibben.application.curves import CurvesResult
 from tests.benchmarks.paper import equations, table
 from tests.benchmarks.paper_figures import figures
 
@@ -35,7 +35,7 @@ def test_every_equation_and_figure_has_a_row() -> None:
 @pytest.mark.parametrize("place", PLACES)
 def test_every_place_exists(place: str) -> None:
     if place.startswith("POST /api/curves "):
-        found: Any = CurvesAnswer
+        found: Any = CurvesResult
         for name in place.removeprefix("POST /api/curves ").split("."):
             found = _class_of(found.model_fields[name].annotation)
     elif place.startswith("mckibben."):

@@ -12,6 +12,7 @@ import pytest
 from deno import find_deno_bin
 
 from tests.pyright_environment import pyright_environment
+from tests.server import typescript
 
 ROOT = Path(__file__).parents[1]
 FRONTEND = ROOT / "frontend"
@@ -66,6 +67,7 @@ def test_layers(tmp_path: Path) -> None:
 
 
 def test_javascript_types(tmp_path: Path) -> None:
+    typescript.write()
     modules = sorted(str(file) for file in (FRONTEND / "app" / "js").rglob("*.js"))
     check([find_deno_bin(), "check", "--no-remote", "--no-npm", *DENO_CONFIG, *modules], tmp_path)
 

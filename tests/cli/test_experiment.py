@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mckibben.server.schemas.comparisons import ComparisonAnswer
-from mckibben.server.schemas.diagnoses import DiagnosisAnswer
+from mckibben.application.compare import ComparisonResult
+from mckibben.application.diagnosis_result import DiagnosisResult
 from tests.application.truths import document, plateaus, specimen
 from tests.cli.conftest import Run, result_of
+from tests.server.answers import valid
 
 
 @pytest.fixture
@@ -77,7 +78,7 @@ def test_the_default_length_of_a_preset_is_not_said(run: Run, files: dict[str, s
 def test_an_answer_begins_with_what_it_assumes(run: Run, files: dict[str, str]) -> None:
     code, out, err = run("diagnose", "silent.csv", "--muscle", "DMSP-20", "--ideal", "--json")
     assert code == 0, err
-    answer = DiagnosisAnswer.model_validate(result_of(out))
+    answer = valid(DiagnosisResult, result_of(out))
     assert answer.messages[0] == (
         "assuming a rest length of 300 mm, the preset's: --rest-length says otherwise"
     )
@@ -104,7 +105,7 @@ def test_strict_refuses_what_would_be_assumed(run: Run, files: dict[str, str]) -
     accuracy = ("--accuracy", "steel rule, force load cell, pressure 10 mbar")
     code, out, err = run("compare", "p.csv", "--muscle", "m.json", "--strict", *accuracy, "--json")
     assert code == 0, err
-    told = ComparisonAnswer.model_validate(result_of(out)).experiment
+    told = valid(ComparisonResult, result_of(out)).experiment
     assert {name: told[name].origin for name in told if name.startswith("accuracy_")} == dict.fromkeys(
         ("accuracy_length", "accuracy_force", "accuracy_pressure"), "you"
     )

@@ -9,12 +9,13 @@ from typing import Any
 import pytest
 
 from mckibben.application.keep import keep
+from mckibben.application.size import SizingResult
 from mckibben.documents.saved_model import read_saved_model
 from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
-from mckibben.server.schemas.sizing_answer import SizingAnswer
 from tests.application.test_keep import MODEL
 from tests.cli.conftest import Run, result_of, write
+from tests.server.answers import valid
 from tests.server.test_sizings import IMPOSSIBLE, TASK
 
 
@@ -23,7 +24,7 @@ def test_a_task_gives_one_json_object_and_its_drive_runs(run: Run) -> None:
     assert code == 0
     assert out.count("\n") == 1
     answer = result_of(out)
-    SizingAnswer.model_validate(answer)
+    valid(SizingResult, answer)
     best = answer["proposals"][0]
     code, out, _ = run("simulate", write("drive.json", best["drive"]), "--json")
     assert code == 0

@@ -5,9 +5,10 @@ from __future__ import annotations
 import pytest
 from fastapi.testclient import TestClient
 
+from mckibben.application.compare import ComparisonResult
 from mckibben.application.compared_series import MAX_POINTS_PER_SERIES
-from mckibben.server.schemas.comparisons import ComparisonAnswer
 from tests.identification.synthetic import CYCLE_HEADER, cycle_rows, text
+from tests.server.answers import valid
 from tests.server.conftest import CSV, assert_error, post
 
 IDEAL = {
@@ -24,7 +25,7 @@ def compare(client: TestClient, muscle: dict, measurement: str, **options: objec
     """A checked answer."""
     response = post(client, "/api/comparisons", {"muscle": muscle, "measurement": measurement, **options})
     assert response.status_code == 200, response.text
-    ComparisonAnswer.model_validate_json(response.content)
+    valid(ComparisonResult, response.content)
     return response.json()
 
 
@@ -226,7 +227,7 @@ def test_validation_is_judged_by_and_not_fitted_to(shared_client: TestClient, ru
     used = [{"id": rubbing, "use": "fit"}, {"id": judge, "use": "validation"}]
     body = {"muscle": IDEAL, "measurements": used, "effects": {"coulomb_friction": {}}, "fit": True}
     response = post(shared_client, "/api/comparisons", body)
-    ComparisonAnswer.model_validate_json(response.content)
+    valid(ComparisonResult, response.content)
     answer = response.json()
     assert answer["parameters"]["coulomb_friction"]["force"]["value"] == pytest.approx(15.0, abs=0.3)
     assert answer["rows_used"] + sum(answer["excluded"].values()) == 480

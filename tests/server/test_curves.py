@@ -10,7 +10,8 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.server.schemas.curves import CurvesAnswer
+from mckibben.application.curves import CurvesResult
+from tests.server.answers import valid
 from tests.server.conftest import post
 
 PAPER = {"braid_diameter": "10 mm", "braid_angle": "25 deg", "nominal_length": "100 mm"}
@@ -21,7 +22,7 @@ def curves(client: TestClient, muscle: dict, **options: object) -> dict:
     """A checked answer."""
     response = post(client, "/api/curves", {"muscle": muscle, **options})
     assert response.status_code == 200, response.text
-    CurvesAnswer.model_validate_json(response.content)
+    valid(CurvesResult, response.content)
     return response.json()
 
 

@@ -12,14 +12,16 @@ from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
 from mckibben.application.diagnose import prepare
+from mckibben.application.diagnosis_result import CandidateResult, DiagnosisResult
 from mckibben.physics.errors import InputError
 from mckibben.server.app import create_app
 from mckibben.server.long_work import events
 from mckibben.server.questions.models import model_question
-from mckibben.server.schemas.diagnoses import Candidate, DiagnosisAnswer, DiagnosisRequest
+from mckibben.server.schemas.diagnoses import DiagnosisRequest
 from mckibben.server.settings import Settings
 from mckibben.simulation.outcome import Outcome, Watch
 from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text
+from tests.server.answers import valid
 from tests.server.conftest import URL, assert_error, post, run_async
 from tests.server.test_simulations import events_of
 from tests.server.typescript import published
@@ -83,7 +85,7 @@ def diagnose(client: TestClient, **options: Any) -> dict[str, Any]:
     """A checked answer."""
     response = post(client, PATH, {"muscle": BRAID, **options})
     assert response.status_code == 200, response.text
-    DiagnosisAnswer.model_validate_json(response.content)
+    valid(DiagnosisResult, response.content)
     return response.json()
 
 
@@ -410,11 +412,11 @@ def test_a_stream_tells_progress_candidates_and_the_answer(
     assert max(shares) <= 1.0
     told = [data["found"] for _, data in found[:-1] if data.get("found")]
     for candidate in told:
-        Candidate.model_validate(candidate)
+        valid(CandidateResult, candidate)
     assert {c["effect"] for c in told} == {c["effect"] for c in answer["candidates"]}
     name, done = found[-1]
     assert name == "done"
-    DiagnosisAnswer.model_validate(done)
+    valid(DiagnosisResult, done)
     assert done["verdict"]["effects"] == answer["verdict"]["effects"]
 
 
@@ -550,7 +552,7 @@ def test_the_published_description_has_all_of_it() -> None:
     document = published()
     operation = document["paths"][PATH]["post"]
     assert "text/event-stream" in operation["responses"]["200"]["content"]
-    assert set(document["components"]["schemas"]["DiagnosisAnswer"]["properties"]) == PROMISED
+    assert set(document["components"]["schemas"]["DiagnosisResult"]["properties"]) == PROMISED
     values = document["components"]["schemas"]["Verdict"]["properties"]["status"]["enum"]
     assert set(values) == STATUS
 

@@ -12,12 +12,13 @@ from mckibben.physics.errors import InputError
 from mckibben.server.app import create_app
 from mckibben.server.schemas.effects import EffectsAnswer
 from mckibben.server.settings import Settings
+from tests.server.answers import valid
 from tests.server.conftest import URL, assert_error, post
 
 
 def test_every_effect_file_is_listed_as_declared(shared_client: TestClient) -> None:
     response = shared_client.get("/api/effects")
-    EffectsAnswer.model_validate_json(response.content)
+    valid(EffectsAnswer, response.content)
     body = response.json()
     files = {path.stem for path in BUILT_IN_FOLDER.glob("*.py") if not path.stem.startswith("_")}
     assert {effect["id"] for effect in body["effects"]} == files

@@ -10,13 +10,14 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
+from mckibben.application.compare import ComparisonResult
+from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.experiment_form import ExperimentForms
+from mckibben.application.measurements import PreviewResult
 from mckibben.measurement.experiment import FIELDS
-from mckibben.server.schemas.comparisons import ComparisonAnswer
-from mckibben.server.schemas.diagnoses import DiagnosisAnswer
-from mckibben.server.schemas.experiments import ExperimentAnswer
-from mckibben.server.schemas.measurements import PreviewAnswer
 from tests.application.truths import document, plateaus, specimen
 from tests.measurement.read.open_files import WRITERS, OpenFile
+from tests.server.answers import valid
 from tests.server.conftest import assert_error
 
 #: What a file asks about its experiment -> field of the form.
@@ -34,7 +35,7 @@ def preview(client: TestClient, data: bytes, name: str = "a.csv", **query: str) 
     """The fields of the experiment of a preview, by name."""
     response = client.post("/api/measurements/preview", params={"name": name, **query}, content=data)
     assert response.status_code == 200, response.text
-    PreviewAnswer.model_validate_json(response.content)
+    valid(PreviewResult, response.content)
     return {field["field"]: field for field in response.json()["experiment"]}
 
 
@@ -42,7 +43,7 @@ def compare(client: TestClient, **body: Any) -> dict[str, Any]:
     """A comparison."""
     response = client.post("/api/comparisons", json={"effects": {}, **body})
     assert response.status_code == 200, response.text
-    ComparisonAnswer.model_validate_json(response.content)
+    valid(ComparisonResult, response.content)
     return response.json()
 
 
@@ -170,7 +171,7 @@ def test_a_contradiction_is_refused_and_decided(client: TestClient, path: str) -
         assert word in error["message"]
     body["measurements"][0]["experiment"] = {"rest_length": "250 mm"}
     asked = client.post("/api/experiments", json=body)
-    ExperimentAnswer.model_validate_json(asked.content)
+    valid(ExperimentForms, asked.content)
     assert asked.json()["problem"] is None
     assert client.post("/api/comparisons", json=body).status_code == 200
 
@@ -289,7 +290,7 @@ def test_a_diagnosis_tells_what_the_accuracy_took_up(client: TestClient) -> None
         "accuracy": "length 1 mm, force 0.1 %, pressure 2 mbar",
     }
     response = client.post("/api/diagnoses", json=body)
-    answer = DiagnosisAnswer.model_validate_json(response.content)
+    answer = valid(DiagnosisResult, response.content)
     assert answer.verdict.status == "adequate"
     absorbed = {each.of: each for each in answer.absorbed}
     assert len(absorbed) == len(errors)

@@ -7,7 +7,8 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.server.schemas.inverse import InverseAnswer
+from mckibben.application.inverse import InverseFinding
+from tests.server.answers import valid
 from tests.server.conftest import post
 
 DMSP = {"preset": "DMSP-20"}
@@ -17,7 +18,7 @@ def ask(client: TestClient, question: str, **given: object) -> dict:
     """A checked answer."""
     response = post(client, "/api/inverse", {"muscle": DMSP, "question": question, **given})
     assert response.status_code == 200, response.text
-    InverseAnswer.model_validate_json(response.content)
+    valid(InverseFinding, response.content)
     return response.json()
 
 

@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.server.schemas.linearisations import LinearisationAnswer
+from mckibben.application.linear_result import LinearResult
+from tests.server.answers import valid
 from tests.server.conftest import assert_error, post
 from tests.simulation.linear.drives import DOCUMENTS
 
@@ -19,7 +20,7 @@ BODY: dict[str, Any] = {"drive": DOCUMENTS["regulator"], "amplitudes": [0.05]}
 def test_an_answer_keeps_to_its_schema(shared_client: TestClient) -> None:
     body = {**BODY, "at": {"pressure": "2.5 bar"}, "design": {"overshoot": "5 %", "settling": "1 s"}}
     answer = post(shared_client, PATH, body).json()
-    LinearisationAnswer.model_validate(answer)
+    valid(LinearResult, answer)
     assert answer["point"]["pressure"] == pytest.approx(2.5e5)
     assert answer["point"]["command"] == pytest.approx(2.5 / 6.0, rel=1e-6)
     (model,) = answer["models"]

@@ -10,12 +10,13 @@ import pytest
 from fastapi.testclient import TestClient
 from httpx2 import Response
 
+from mckibben.application.measurements import MeasurementDetails, MeasurementSummary, PreviewResult
 from mckibben.measurement.measurement import build
 from mckibben.measurement.points import Points, joined
 from mckibben.measurement.store import clean_name
 from mckibben.server.app import create_app
-from mckibben.server.schemas.measurements import MeasurementAnswer, MeasurementDetail, PreviewAnswer
 from mckibben.server.settings import Settings
+from tests.server.answers import valid
 from tests.server.conftest import CSV, URL, assert_error
 
 ID = hashlib.sha256(CSV).hexdigest()
@@ -33,7 +34,7 @@ def upload(
 def test_a_file_is_understood_and_said_back(client: TestClient) -> None:
     response = upload(client)
     assert response.status_code == 200, response.text
-    MeasurementAnswer.model_validate_json(response.content)
+    valid(MeasurementSummary, response.content)
     body = response.json()
     assert body["id"] == ID
     assert (body["name"], body["kind"], body["kind_detected"], body["rows"]) == (
@@ -51,7 +52,7 @@ def test_a_file_is_understood_and_said_back(client: TestClient) -> None:
 def test_it_is_read_back_in_si(client: TestClient) -> None:
     sent = upload(client).json()
     response = client.get(f"/api/measurements/{ID}")
-    MeasurementDetail.model_validate_json(response.content)
+    valid(MeasurementDetails, response.content)
     body = response.json()
     assert {name: body[name] for name in sent} == sent
     assert body["columns"]["length"][:3] == pytest.approx([0.28, 0.29, 0.3])
@@ -177,7 +178,7 @@ def preview(client: TestClient, content: bytes, **query: str) -> Response:
 
 def test_a_preview_says_what_the_file_is_and_keeps_nothing(client: TestClient, settings: Settings) -> None:
     response = preview(client, CSV)
-    PreviewAnswer.model_validate_json(response.content)
+    valid(PreviewResult, response.content)
     body = response.json()
     assert [column["channel"] for column in body["columns"]] == ["pressure", "length", "force"]
     assert body["sample"][0] == ["1", "280", "128.0"]
@@ -195,7 +196,7 @@ def test_a_preview_leads_to_the_mapping_that_is_sent(client: TestClient) -> None
     assert body["skipped"] == [{"reason": "not a number", "rows": 1, "first": "row 12, column 'length_mm'"}]
     mapping = '{"columns": {"kanal1": {"channel": "pressure", "unit": "bar"}}, "bad_rows": "%s"}'
     body = preview(client, content, mapping=mapping % "refuse").json()
-    PreviewAnswer.model_validate(body)
+    valid(PreviewResult, body)
     assert body["only_bad_rows"]
     assert "row 12" in body["problem"]["message"]
     skip = mapping % "skip"

@@ -9,14 +9,14 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.mysteries import matched
+from mckibben.application.compare import ComparisonResult
+from mckibben.application.mysteries import MysterySummary, Reveal, matched
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.custom import CUSTOM
 from mckibben.presets import MysteryPreset, PresetLibrary
 from mckibben.presets.reading import BadDocumentError, parse
 from mckibben.resources import presets_folder
-from mckibben.server.schemas.comparisons import ComparisonAnswer
-from mckibben.server.schemas.mysteries import Mystery, RevealAnswer
+from tests.server.answers import valid
 from tests.server.conftest import assert_error, post
 from tests.truth import mysteries as generator
 from tests.truth.generate import case
@@ -38,7 +38,7 @@ def listed(shared_client: TestClient) -> dict[str, dict[str, Any]]:
     response = shared_client.get("/api/mysteries")
     assert response.status_code == 200
     for item in response.json():
-        Mystery.model_validate(item)
+        valid(MysterySummary, item)
     return {item["id"]: item for item in response.json()}
 
 
@@ -46,7 +46,7 @@ def reveal(client: TestClient, mystery: str, *effects: str) -> dict[str, Any]:
     """A checked answer."""
     response = post(client, f"/api/mysteries/{mystery}/reveal", {"effects": effects})
     assert response.status_code == 200, response.text
-    RevealAnswer.model_validate_json(response.content)
+    valid(Reveal, response.content)
     return response.json()
 
 
@@ -103,7 +103,7 @@ def test_a_mystery_can_be_compared(
 ) -> None:
     response = post(shared_client, "/api/comparisons", request(listed[identity]))
     assert response.status_code == 200, response.text
-    answer = ComparisonAnswer.model_validate_json(response.content)
+    answer = valid(ComparisonResult, response.content)
     assert answer.kind == listed[identity]["kind"]
     assert answer.rmse is not None
     told = CASES[identity]

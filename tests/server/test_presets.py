@@ -15,6 +15,7 @@ from mckibben.server.app import create_app
 from mckibben.server.schemas.presets import PresetsAnswer
 from mckibben.server.settings import Settings
 from tests.identification.synthetic import CYCLE_HEADER, MUSCLE, cycle_rows, text
+from tests.server.answers import valid
 from tests.server.conftest import URL, assert_error, post
 from tests.server.test_diagnoses import upload
 
@@ -26,7 +27,7 @@ MINE = json.loads((presets_folder() / "muscles" / "DMSP-20.json").read_text("utf
 def test_every_kind_is_listed_as_declared(shared_client: TestClient, kind: str) -> None:
     response = shared_client.get(f"/api/presets/{kind}")
     assert response.status_code == 200
-    PresetsAnswer.model_validate_json(response.content)
+    valid(PresetsAnswer, response.content)
     body = response.json()
     assert body["kind"] == kind
     assert body["presets"]

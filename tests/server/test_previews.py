@@ -9,7 +9,8 @@ import numpy as np
 from fastapi.testclient import TestClient
 from openpyxl import Workbook
 
-from mckibben.server.schemas.measurements import PreviewAnswer
+from mckibben.application.measurements import PreviewResult
+from tests.server.answers import valid
 from tests.server.conftest import assert_error
 
 PREAMBLE = ["Prüfprotoll;Zwick", "Probe;DMSP-20", "", "Nr.;Druck;Hub;Kraft", ";bar;mm;N"]
@@ -20,7 +21,7 @@ def preview(client: TestClient, content: bytes, name: str, **mapping: object) ->
     query = {"name": name, **({"mapping": json.dumps(mapping)} if mapping else {})}
     response = client.post("/api/measurements/preview", params=query, content=content)
     assert response.status_code == 200, response.text
-    PreviewAnswer.model_validate_json(response.content)
+    valid(PreviewResult, response.content)
     return response.json()
 
 

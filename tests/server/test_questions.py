@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.server.schemas.measurements import MeasurementAnswer, PreviewAnswer
+from mckibben.application.measurements import MeasurementSummary, PreviewResult
 from tests.measurement.read.open_files import WRITERS, OpenFile
 from tests.measurement.read.sealed_files import three_heads
+from tests.server.answers import valid
 from tests.server.conftest import assert_error
 
 
@@ -31,7 +32,7 @@ def test_a_preview_lists_the_questions(client: TestClient, writer: Callable[[], 
     query = {"name": file.name}
     response = client.post("/api/measurements/preview", params=query, content=file.data)
     body = response.json()
-    PreviewAnswer.model_validate_json(response.content)
+    valid(PreviewResult, response.content)
     assert sorted(question["about"] for question in body["questions"]) == sorted(file.about)
     put = client.put("/api/measurements", params=query, content=file.data)
     if file.stops:
@@ -42,7 +43,7 @@ def test_a_preview_lists_the_questions(client: TestClient, writer: Callable[[], 
     query["mapping"] = mapping_of(file)
     put = client.put("/api/measurements", params=query, content=file.data)
     assert put.status_code == 200, put.text
-    MeasurementAnswer.model_validate_json(put.content)
+    valid(MeasurementSummary, put.content)
     assert file.channel is not None
     channel, values = file.channel
     columns = client.get(f"/api/measurements/{put.json()['id']}").json()["columns"]

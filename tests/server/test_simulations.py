@@ -17,16 +17,16 @@ import pytest
 from fastapi import Request
 from fastapi.testclient import TestClient
 
-from mckibben.application.simulate import SimulationQuestion, simulate
+from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
+from mckibben.facts.timing import TIMING as FIGURES
 from mckibben.server.long_work import events, finished
-from mckibben.server.schemas.simulations import SimulationAnswer
 from mckibben.simulation.integrate.engine import kernel
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.timing.of_run import ChokedInterval, choked_intervals, grid_of
-from mckibben.simulation.timing.table import FIGURES
 from tests.running_server import RunningServer
+from tests.server.answers import valid
 from tests.server.conftest import assert_error, post, run_async
 
 PATH = "/api/simulations"
@@ -82,7 +82,7 @@ def lift(shared_client: TestClient) -> dict[str, Any]:
 
 
 def test_the_answer_is_the_declared_one(lift: dict[str, Any]) -> None:
-    SimulationAnswer.model_validate(lift)
+    valid(SimulationResult, lift)
     assert set(lift) >= PROMISED
     assert lift["outcome"] == "completed"
     assert lift["message"] is None
@@ -157,7 +157,7 @@ def test_a_preset_runs_by_its_id(shared_client: TestClient) -> None:
 
 def test_a_controlled_run_tells_how_it_follows(shared_client: TestClient) -> None:
     answer = post(shared_client, PATH, {"drive": CONTROLLED, "points": 201}).json()
-    SimulationAnswer.model_validate(answer)
+    valid(SimulationResult, answer)
     assert answer["tracking"]["rms"] < 0.015
     assert max(answer["reference"]) == pytest.approx(0.02)
     assert answer["notes"]["command"].startswith("not used")
@@ -208,7 +208,7 @@ def test_a_stream_ends_with_the_answer(shared_client: TestClient) -> None:
     assert found[-1][0] == "done"
     shares = [data["share"] for name, data in found if name == "progress"]
     assert shares == sorted(shares)
-    SimulationAnswer.model_validate(found[-1][1])
+    valid(SimulationResult, found[-1][1])
 
 
 def test_an_error_inside_a_stream_is_an_event(shared_client: TestClient) -> None:

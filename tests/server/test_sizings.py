@@ -8,7 +8,8 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.server.schemas.sizing_answer import SizingAnswer
+from mckibben.application.size import SizingResult
+from tests.server.answers import valid
 from tests.server.conftest import assert_error, post
 from tests.server.test_simulations import events_of
 
@@ -38,7 +39,7 @@ def test_a_task_gives_ranked_proposals(shared_client: TestClient) -> None:
     response = post(shared_client, PATH, TASK)
     assert response.status_code == 200, response.text
     answer = response.json()
-    SizingAnswer.model_validate(answer)
+    valid(SizingResult, answer)
     assert answer["proposals"]
     assert answer["combinations"] > 2000
     for proposal in answer["proposals"]:
@@ -60,7 +61,7 @@ def test_no_proposal_is_an_answer(shared_client: TestClient) -> None:
     response = post(shared_client, PATH, IMPOSSIBLE)
     assert response.status_code == 200
     answer = response.json()
-    SizingAnswer.model_validate(answer)
+    valid(SizingResult, answer)
     assert answer["proposals"] == []
     assert {item["binding"] for item in answer["rejected"]} == {"force", "suspended_mass"}
 
@@ -76,7 +77,7 @@ def test_a_stream_ends_with_the_answer(shared_client: TestClient, task: dict[str
     shares = [data["share"] for _, data in progress]
     assert shares == sorted(shares)
     assert last == "done"
-    SizingAnswer.model_validate(answer)
+    valid(SizingResult, answer)
 
 
 @pytest.mark.parametrize(

@@ -9,14 +9,14 @@ import pytest
 from fastapi.testclient import TestClient
 
 from mckibben.application import study_file
-from mckibben.application.study import prepare, study_question
+from mckibben.application.study import StudyResult, prepare, study_question
 from mckibben.application.study_store import StudyStore
 from mckibben.documents.study_files import read_study
 from mckibben.server.app import create_app
-from mckibben.server.schemas.studies import StudyAnswer
 from mckibben.server.settings import Settings
 from mckibben.simulation.outcome import Watch
 from tests.application.test_study import STUDY
+from tests.server.answers import valid
 from tests.server.conftest import assert_error, post
 from tests.server.test_simulations import events_of
 from tests.shipped import shipped_studio
@@ -28,7 +28,7 @@ def test_a_study_answers_with_all_its_runs(shared_client: TestClient) -> None:
     response = post(shared_client, PATH, STUDY)
     assert response.status_code == 200, response.text
     answer = response.json()
-    StudyAnswer.model_validate(answer)
+    valid(StudyResult, answer)
     assert answer["outcomes"] == {"completed": 20}
     assert answer["table"]["run"] == list(range(20))
     mean = answer["summary"][1]["mean"]
@@ -51,7 +51,7 @@ def test_every_method_answers_in_the_declared_form(shared_client: TestClient) ->
         study = STUDY | {"method": method, "quantities": quantities, "goals": goals, "limits": limits}
         response = post(shared_client, PATH, study)
         assert response.status_code == 200, response.text
-        StudyAnswer.model_validate(response.json())
+        valid(StudyResult, response.json())
 
 
 def test_the_runs_come_as_events(shared_client: TestClient) -> None:

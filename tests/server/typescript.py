@@ -1,17 +1,15 @@
-"""Write ``openapi.json`` and ``api.d.ts`` of `frontend/types` from the server's own description.
+"""Write ``openapi.json`` and ``api.d.ts`` into `frontend/types`, from the server's own description.
 
-    python -m tests.server.typescript           writes both
-    python -m tests.server.typescript --check   exit 1 when they are out of date, writes nothing
+    python -m tests.server.typescript
 
-The frontend's JavaScript is checked against ``api.d.ts``; a field renamed on the server is an error there.
+Neither is in git. The frontend's JavaScript is checked against ``api.d.ts``; a field renamed in a result is
+an error there.
 """
 
 from __future__ import annotations
 
-import argparse
 import json
 import re
-import sys
 from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
@@ -30,14 +28,14 @@ Schema = dict[str, Any]
 
 @cache
 def published() -> Schema:
-    """The committed OpenAPI document, which a test of ``test_openapi.py`` holds to be that of the server."""
-    return json.loads((FOLDER / "openapi.json").read_text("utf-8"))
+    """The OpenAPI document of a server with the settings as installed."""
+    return json.loads(json.dumps(create_app().openapi()))
 
 
 @cache
 def generated_files() -> dict[str, str]:
     """File name -> text, the same on every machine."""
-    document = create_app().openapi()
+    document = published()
     return {
         "openapi.json": json.dumps(document, indent=2, sort_keys=True, ensure_ascii=False) + "\n",
         "api.d.ts": typescript(document),
@@ -156,28 +154,12 @@ def _key(name: str) -> str:
     return name if re.fullmatch(r"[A-Za-z_$][\w$]*", name) else json.dumps(name)
 
 
-def stale_files() -> list[str]:
-    """Names of the files that differ from what would be written."""
-    return [
-        name
-        for name, text in generated_files().items()
-        if not (FOLDER / name).is_file() or (FOLDER / name).read_text("utf-8") != text
-    ]
-
-
-def main() -> int:
-    """Write or check."""
-    parser = argparse.ArgumentParser(description="Write openapi.json and api.d.ts.")
-    parser.add_argument("--check", action="store_true", help="only say whether they are up to date")
-    if parser.parse_args().check:
-        stale = stale_files()
-        if stale:
-            sys.stderr.write(f"out of date: {', '.join(stale)}; run: {COMMAND}\n")
-        return 1 if stale else 0
+def write() -> None:
+    """Write both files."""
+    FOLDER.mkdir(exist_ok=True)
     for name, text in generated_files().items():
         (FOLDER / name).write_text(text, "utf-8", newline="\n")
-    return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    write()

@@ -9,15 +9,16 @@ import pytest
 
 from mckibben.application.drive_of_design import drive_document
 from mckibben.application.simulate import SimulationQuestion, simulate
+from mckibben.application.size import SizingResult
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
-from mckibben.server.schemas.sizing_answer import SizingAnswer
 from mckibben.simulation.drive.transient import parameters_of
 from mckibben.simulation.integrate.engine import compiled_drive
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.sizing import size
+from tests.server.answers import valid
 from tests.sizing.conftest import LIFT, sized, understood
 
 PAIR: dict[str, Any] = {
@@ -84,7 +85,7 @@ def test_the_document_means_the_numbers_that_were_simulated(studio: Studio, name
 @pytest.mark.parametrize("name", TASKS)
 def test_proposals_keep_every_limit(studio: Studio, name: str) -> None:
     answer = answer_of(TASKS[name], studio)
-    SizingAnswer.model_validate(answer)
+    valid(SizingResult, answer)
     for proposal in answer["proposals"]:
         assert min(proposal["margins"].values()) >= -1e-9
         assert proposal["margins"][proposal["binding"]] == min(proposal["margins"].values())

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
+from mckibben.facts.result import result_class
 from mckibben.identification.diagnose.atlas import TEMPERATURE, SignaturePicture, pictures, stand_ins
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.physics.errors import InputError, did_you_mean
@@ -33,27 +34,24 @@ class AtlasQuestion:
     pressure: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Signatures:
-    """The pictures of an effect; SI.
-
-    Attributes:
-        effect: its id.
-        values: all its parameters.
-        pictures: one for each kind of test in which it shows.
-        hidden: kinds that it names, but whose prediction does not contain it.
-        acts_on: effects that had to be in both models, because it only changes what they do.
-        temperature: of the tests.
-        pressure: largest gauge pressure of the tests.
-    """
+    """The pictures of an effect; SI."""
 
     effect: str
+    """Id of the effect."""
     values: dict[str, float]
+    """All its parameters in SI."""
     pictures: list[SignaturePicture]
+    """One for each kind of test that shows it."""
     hidden: list[str]
+    """Kinds it names, but whose prediction does not contain it."""
     acts_on: list[str]
+    """Effects that had to be in both models, because it only changes what they do."""
     temperature: float
+    """Temperature of the tests [K]."""
     pressure: float
+    """Largest gauge pressure of the tests [Pa]."""
 
 
 def signatures(question: AtlasQuestion, studio: Studio) -> Signatures:

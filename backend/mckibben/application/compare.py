@@ -27,6 +27,7 @@ from mckibben.application.model_question import EffectDocument, ModelQuestion
 from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
 from mckibben.application.specimens import Specimens
 from mckibben.application.used_before import used_before
+from mckibben.facts.result import Number, result_class
 from mckibben.identification.fit.comparison import (
     ChannelMisfit,
     Comparison,
@@ -58,92 +59,104 @@ _TELLING = 0.05  # share of the error from which a variable is mentioned
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ModelDocument:
     """A model in the form of a request."""
 
     effects: EffectDocument
+    """Effect id -> its parameters, SI."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ValidationResult:
     """The error of the model for measurements that it was not fitted to."""
 
-    rmse: float
-    nrmse_percent: float
+    rmse: Number
+    """Root mean square of the residual."""
+    nrmse_percent: Number
+    """RMSE over the largest measured magnitude."""
     rows_used: int
+    """Number of compared rows."""
     series: list[ComparedSeries]
+    """The points, curve by curve."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ComparisonResult:
-    """The model's error, where it fails, and the points; SI.
-
-    Attributes:
-        kind: of the measurement.
-        rows, rows_used: number of rows, and of compared rows.
-        excluded: reason -> number of rows that are not compared.
-        predicted: names of the predicted channels.
-        unit: of the error; "1" if it is scaled by the noise of each channel.
-        rmse: root mean square of the residual.
-        nrmse_percent, full_scale: rmse over the largest measured magnitude; this magnitude.
-        holdout_rmse: with whole groups left out of the fit; None with one group.
-        fitted: number of fitted values; with 0 ``holdout_rmse`` equals ``rmse``.
-        noise_floor, noise_how: noise of the data, None when it cannot be estimated; how it was obtained.
-        residual_mean: mean of the residual over its scale.
-        channels: each channel where there are several.
-        parameters, correlations: of the model; of its fit.
-        geometry: of the muscle, fitted where it was freed.
-        where, heat_map, whiteness, cross, loops, sentences: where the model fails, in figures and words.
-        parts: what the squared residual is made of; the shares add up to 1.
-        series: the points, at most 400 per curve.
-        validation: the error for other data.
-        model: effects and values in the form of a request.
-        messages, flags: notes on the data; on the muscle.
-        rmse_beyond_accuracy: rmse of what the accuracy of the readings does not explain.
-        experiment: values of the experiment in which all measurements agree.
-        assumptions: what nobody said and was assumed; they also begin the messages.
-        specimens: each measurement.
-        absorbed: errors of readings within the accuracy.
-        unread: columns of the files that nothing is read from, and why.
-    """
+    """The model's error, where it fails, and the points; SI."""
 
     kind: str
+    """Measurement kind."""
     rows: int
+    """Number of rows of the measurements."""
     rows_used: int
+    """Number of compared rows."""
     excluded: dict[str, int]
+    """Reason for leaving rows out -> number of rows."""
     predicted: str
+    """The predicted channel, or several."""
     unit: str
-    rmse: float
-    nrmse_percent: float
-    full_scale: float
+    """SI unit of the error; "1" = relative to the noise of each channel."""
+    rmse: Number
+    """Root mean square of the residual."""
+    nrmse_percent: Number
+    """RMSE over the largest measured magnitude."""
+    full_scale: Number
+    """The largest measured magnitude."""
     holdout_rmse: float | None
+    """With whole groups left out of the fit; None with one group."""
     fitted: int
+    """Number of fitted values; with 0 no group was left out of anything."""
     noise_floor: float | None
+    """Noise of the data, if it can be estimated."""
     noise_how: str
-    residual_mean: float
+    """How the noise was estimated."""
+    residual_mean: Number
+    """Mean of the residual over its scale."""
     channels: dict[str, ChannelMisfit]
+    """Error of each channel when there are several."""
     parameters: ParameterTable
+    """Effect -> parameter -> value."""
     correlations: list[Correlation]
+    """Correlations of the fitted parameters."""
     geometry: GeometrySummary
+    """Geometry of the muscle, fitted where it was free."""
     where: list[Profile]
+    """The residual over each variable that it may depend on."""
     heat_map: ResidualMap | None
+    """The residual over two variables; None where there are too few points."""
     parts: list[ResidualPart]
+    """What the squared residual is made of; the shares add up to 1."""
     whiteness: Whiteness
+    """Autocorrelation and runs of the residual: that is, whether it looks like noise."""
     cross: list[CrossCorrelation]
+    """Correlation of the residual with the input that drove the test, of rows with times."""
     loops: list[ResidualLoop]
+    """Loops of the force residual, with the energy that the model misses."""
     sentences: list[str]
+    """Where the model fails, as sentences."""
     series: list[ComparedSeries]
+    """The points, curve by curve."""
     validation: ValidationResult | None
+    """The error on measurements not used for the fit; None without them."""
     model: ModelDocument
+    """Effects and values in the form of a request."""
     messages: list[str]
+    """Remarks on the data."""
     flags: list[Notice]
-    rmse_beyond_accuracy: float
+    """Remarks on the muscle."""
+    rmse_beyond_accuracy: Number
+    """RMSE of what the accuracy of the readings does not explain; a diagnosis counts with it."""
     experiment: Experiment
+    """Values of the experiment in which all measurements agree, each with its origin."""
     assumptions: list[str]
+    """What nobody said and was assumed; the messages begin with it too."""
     specimens: list[SpecimenResult]
+    """Each measurement, with its own experiment."""
     absorbed: list[AbsorbedError]
+    """Errors of readings within the accuracy, which a fit allows for."""
     unread: list[UnreadColumn]
+    """Columns of the files that nothing is read from, and why."""
 
 
 @dataclass(frozen=True, slots=True)

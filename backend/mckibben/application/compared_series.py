@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.result import Series, result_class
 from mckibben.identification.fit.comparison import Comparison
 
 MAX_POINTS_PER_SERIES = 400
@@ -17,35 +18,38 @@ _CONSTANT = 0.03  # share of its mean; a quantity that changes by less is consta
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ComparedSeries:
-    """One curve, e.g. all points of one pressure; SI, shape (points,).
-
-    Attributes:
-        label: in words, e.g. "3 bar".
-        channel, unit: the predicted channel and its SI unit.
-        use: "fit" or "validation".
-        pressure: of the series, if it is constant.
-        x_pressure: pressure of each point.
-        velocity: dL/dt; NaN where not known.
-        direction: sign of dL/dt; NaN where not known.
-        residual: measured minus predicted.
-    """
+    """One curve, e.g. all points of one pressure; SI, shape (points,)."""
 
     label: str
+    """Name of the curve."""
     channel: str
+    """The predicted channel."""
     unit: str
-    use: str
+    """SI unit of measured, predicted and residual."""
+    use: Literal["fit", "validation"]
+    """Used for the fit, or only for validation."""
     pressure: float | None
-    time: Array | None
-    contraction: Array
-    length: Array
-    x_pressure: Array
-    velocity: Array
-    direction: Array
-    measured: Array
-    predicted: Array
-    residual: Array
+    """Pressure of the series [Pa], when it has one."""
+    time: Series | None
+    """Time of each point [s]."""
+    contraction: Series
+    """Contraction of each point [-]."""
+    length: Series
+    """Length of each point [m]."""
+    x_pressure: Series
+    """Pressure of each point [Pa]."""
+    velocity: Series
+    """dL/dt of each point [m/s]."""
+    direction: Series
+    """-1 shortening, 1 lengthening, 0 at rest or unknown."""
+    measured: Series
+    """Measured."""
+    predicted: Series
+    """Predicted."""
+    residual: Series
+    """Measured minus predicted."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +109,7 @@ def rows_of(comparison: Comparison) -> dict[str, NDArray[Any]]:
     }
 
 
-def series_of(comparison: Comparison, use: str) -> tuple[list[ComparedSeries], bool]:
+def series_of(comparison: Comparison, use: Literal["fit", "validation"]) -> tuple[list[ComparedSeries], bool]:
     """One curve per channel and group of rows, thinned for the screen; and whether any was thinned."""
     predictor, known = comparison.predictor, _inputs_of(comparison)
     place = np.arange(len(predictor.measured))

@@ -17,9 +17,10 @@ from mckibben.application.muscle_summary import (
     start_notices,
 )
 from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
-from mckibben.application.prediction_interval import Interval, force_interval
+from mckibben.application.prediction_interval import ForceInterval, force_interval
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
+from mckibben.facts.result import FiniteSeries, Rows, Series, result_class
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
 from mckibben.simulation.statics.characteristics import (
@@ -80,105 +81,114 @@ class CurvesQuestion:
     further_stiffness: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class CurveLimits(MakerLimits):
-    """Limits of the muscle, SI.
-
-    Attributes:
-        ideal_max_contraction: contraction at which the ideal force is zero.
-        braid_lock_force: ideal force of the fully stretched braid, per pressure.
-    """
+    """Limits of the muscle, SI."""
 
     ideal_max_contraction: float
-    braid_lock_force: Array
+    """Contraction at which the ideal force is zero [-]."""
+    braid_lock_force: Series
+    """Ideal force of the fully stretched braid [N], per pressure."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class HysteresisLoop:
     """Distance of the branches of filling and venting at the load, at each pressure of the curves; SI.
 
     It is that of a slow loop far from its ends, where friction has built up after the reversal. NaN where the
     load cannot be held.
-
-    Attributes:
-        pressure: gauge pressures [Pa].
-        stroke: distance in length at equal pressure [m].
-        share: the same as a share of the nominal length [-].
-        pressure_width: distance in pressure at equal length [Pa].
     """
 
-    pressure: Array
-    stroke: Array
-    share: Array
-    pressure_width: Array
+    pressure: FiniteSeries
+    """Gauge pressures of the curves [Pa]."""
+    stroke: Series
+    """Distance of the branches in length [m], at equal pressure."""
+    share: Series
+    """The same as a share of the nominal length [-]."""
+    pressure_width: Series
+    """Distance of the branches in pressure [Pa], at equal length."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class OverPressure:
-    """Position at the load, force and diameters at the fixed length over the pressure.
+    """Position at the load, force and diameters at the fixed length over the pressure."""
 
-    Attributes:
-        diameter_at_fixed_length, outer_diameter_at_fixed_length: of braid and wall [m]; None without it.
-        loop: width of the loop of the two branches; None without a load.
-    """
-
-    pressure: Array
+    pressure: FiniteSeries
+    """Gauge pressure [Pa]."""
     load: float | None
+    """The load [N]."""
     filling: PressureBranch | None
+    """While shortening; None without a load."""
     venting: PressureBranch | None
+    """While lengthening; None without a load."""
     fixed_length: float | None
+    """The fixed length [m]."""
     force_at_fixed_length: ForceBranches | None
-    diameter_at_fixed_length: Array | None
-    outer_diameter_at_fixed_length: Array | None
+    """Force over pressure; None without a fixed length."""
+    diameter_at_fixed_length: Series | None
+    """Braid diameter [m]; None without a fixed length."""
+    outer_diameter_at_fixed_length: Series | None
+    """Outer diameter of the wall [m]; None without a fixed length."""
     loop: HysteresisLoop | None
+    """Width of the loop of the two branches; None without a load."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class EffectSettings:
     """Effect id -> parameter -> value, SI."""
 
     effects: Mapping[str, Mapping[str, float]]
+    """Effect id -> parameter -> value in SI."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class CurvesResult:
-    """Force, stiffness, volume and diameter over the length, SI.
+    """Force, stiffness, volume and diameter over the length, SI."""
 
-    Attributes:
-        pressure: gauge pressures of the rows, shape (P,).
-        length, contraction: of the columns, shape (N,).
-        force, stiffness, stiffness_closed: shape (P, N).
-        stiffness_from_force: of the ideal muscle that pulls with this force at this length,
-            6 L F/(3 L² - b²), equation (20) of the source paper; None unless asked for.
-        stiffness_secant: of the straight line from the length without force, F/(L - L_min), equation (25);
-            None unless asked for.
-        braid_angle, volume, diameter, outer_diameter: shape (N,); at the highest pressure if the pressure
-            stretches the braid.
-        interval: where new readings of the force are expected, of a model that was fitted; else None.
-        model: the effects with all their values.
-        over_pressure: None without load and fixed length.
+    pressure: FiniteSeries
+    """Gauge pressures of the rows [Pa], shape (P,)."""
+    length: FiniteSeries
+    """Lengths of the columns [m], shape (N,)."""
+    contraction: FiniteSeries
+    """Contractions of the columns [-], shape (N,)."""
+    braid_angle: Series
+    """Braid angle [rad], shape (N,)."""
+    force: Rows
+    """Tension [N]; 0 where the muscle would have to push, unless unclipped, shape (P, N)."""
+    stiffness: Rows
+    """dF/dL at constant pressure [N/m], shape (P, N)."""
+    stiffness_closed: Rows
+    """dF/dL at constant gas mass [N/m], shape (P, N)."""
+    stiffness_from_force: Rows | None
+    """Stiffness of the ideal muscle with this force at this length [N/m], 6 L F/(3 L² - b²); None unless
+    asked for, and where it has no value.
     """
-
-    pressure: Array
-    length: Array
-    contraction: Array
-    braid_angle: Array
-    force: Array
-    stiffness: Array
-    stiffness_closed: Array
-    stiffness_from_force: Array | None
-    stiffness_secant: Array | None
-    volume: Array
-    diameter: Array
-    outer_diameter: Array
-    interval: Interval | None
+    stiffness_secant: Rows | None
+    """Stiffness of the straight line from the length without force [N/m], F/(L - L_min); None unless asked
+    for.
+    """
+    volume: Series
+    """Enclosed volume at the highest pressure [m3], shape (N,)."""
+    diameter: Series
+    """Braid diameter at the highest pressure [m], shape (N,)."""
+    outer_diameter: Series
+    """Outer diameter of the wall [m], at constant wall volume, shape (N,)."""
+    interval: ForceInterval | None
+    """Where new readings of the force are expected; None where the model was not fitted."""
     limits: CurveLimits
+    """Limits of the muscle."""
     characteristics: list[Characteristics]
+    """Figures of the muscle at each pressure."""
     geometry: GeometrySummary
+    """Geometry of the muscle at rest, in all forms."""
     model: EffectSettings
+    """The effects used, with all their values."""
     over_pressure: OverPressure | None
+    """None without load and fixed length."""
     operating_points: list[OperatingPoint]
+    """The state at each pressure; empty without a load."""
     flags: list[Notice]
+    """Remarks on the answer."""
 
 
 def pressures_of(values: Sequence[str | float], where: str) -> tuple[float, ...]:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
+from typing import Literal
 
 import numpy as np
 
@@ -43,6 +44,7 @@ from mckibben.identification.diagnose.diagnosis import diagnose as search_effect
 from mckibben.identification.diagnose.next_measurement import declared
 from mckibben.identification.diagnose.search import ended
 from mckibben.identification.diagnose.steps import SingleAddition
+from mckibben.identification.diagnose.swept_rows import Coordinate
 from mckibben.identification.diagnose.verdict import unexplained_share
 from mckibben.identification.diagnose.words import (
     applied_reasons,
@@ -71,6 +73,7 @@ from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Watch
 
 _MOST_ROWS = 3000  # of a diagnosis; longer measurements are reduced
+_UNITS: dict[Coordinate, Literal["m", "Pa", "s"]] = {"length": "m", "pressure": "Pa", "time": "s"}
 _CURVE = 200  # points of the curve of a proposed term
 
 #: A diagnosis that takes longer is stopped [s].
@@ -297,7 +300,7 @@ def _repetition(diagnosis: Diagnosis) -> RepetitionResult | None:
         return None
     return RepetitionResult(
         over=found.over,
-        unit={"length": "m", "pressure": "Pa", "time": "s"}[found.over],
+        unit=_UNITS[found.over],
         period=found.period,
         share=found.share,
         amplitude=found.amplitude,

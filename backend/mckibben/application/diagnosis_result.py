@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
-from typing import ClassVar, Literal
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,7 +16,9 @@ from mckibben.application.measurements import UnreadColumn
 from mckibben.application.model_question import EffectDocument
 from mckibben.application.muscle_summary import GeometrySummary
 from mckibben.application.next_experiment import ExperimentProposal, NextExperiment
+from mckibben.facts.result import Series, result_class
 from mckibben.identification.diagnose.diagnosis import NotTried
+from mckibben.identification.diagnose.swept_rows import Coordinate
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.identification.fit.comparison import ChannelMisfit, Correlation, ParameterTable, ParameterValue
 from mckibben.identification.fit.least_squares import FittedCovariance
@@ -28,16 +29,19 @@ from mckibben.measurement.experiment import Experiment
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Baseline:
     """The start model as given: error, error in percent of full scale, hold-out error."""
 
     rmse: float
+    """Root mean square of the residual."""
     nrmse_percent: float | None
+    """RMSE over the largest measured magnitude."""
     holdout_rmse: float
+    """RMSE with whole groups left out of the fit."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class NoiseFloor:
     """Noise of the data, None when it cannot be estimated, and how it was obtained.
 
@@ -46,45 +50,50 @@ class NoiseFloor:
     """
 
     rmse: float | None
+    """The error; None where it cannot be estimated."""
     how: str
+    """How it was estimated."""
     interval: list[float] | None
-
-
-@dataclass(frozen=True, slots=True)
-class CandidateResult:
-    """The start model with one more effect, all parameters refitted.
-
-    Attributes:
-        effect, title, equation: id, name and LaTeX of the effect.
-        gain_percent: relative reduction of the error.
-        score_change: change of the score; negative is better.
-        twins: candidates that the data cannot distinguish from it.
-        why: reasons for and against it.
-        freed: further constants that were freed.
-        next_measurement: measurement that would separate it from its first twin.
-        model: in the form of a request.
-        probability: that it, or one of its twins in the best model, is missing; None while the search runs.
+    """From the scatter of neighbouring readings to all that no variable explains; None where a structure
+    remains.
     """
 
-    JSON_KEYS: ClassVar = {"score_change": ("score_change", "delta_bic")}  # the old name, for one version
+
+@result_class
+class CandidateResult:
+    """The start model with one more effect, all parameters refitted."""
 
     effect: str
+    """Its id."""
     title: str
+    """Its name."""
     rmse: float
+    """Root mean square of the residual with it."""
     holdout_rmse: float
+    """RMSE with whole groups left out of the fit."""
     gain_percent: float
+    """By how much it lowers the error of the start model."""
     score_change: float
+    """Change of the score of the search; negative is better."""
     parameters: dict[str, ParameterValue]
+    """Effect -> parameter -> value."""
     twins: list[str]
+    """Candidates that these data cannot distinguish from it."""
     why: str
+    """What speaks for and against it."""
     equation: str
+    """LaTeX."""
     freed: list[str]
+    """Constants of other effects that were fitted with it, as effect.parameter."""
     next_measurement: str | None
+    """Experiment that separates it from its first twin."""
     model: ModelDocument
+    """The model with it."""
     probability: float | None = None
+    """That it, or one of its twins in the best model, is missing; None while the search runs."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class CorrectionResult:
     """An effect that lowers the error, but not by more than an inexact form of another effect explains.
 
@@ -92,13 +101,18 @@ class CorrectionResult:
     """
 
     effect: str
+    """Its id."""
     rmse_before: float
+    """Error without it."""
     rmse_after: float
+    """Error with it."""
     probability: float
+    """That it is missing nevertheless."""
     kept: bool
+    """Whether the model keeps it, because it predicts better with it."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class PathPoint:
     """The error after each addition; the first is the start model as given, then its own numbers refitted.
 
@@ -107,133 +121,151 @@ class PathPoint:
     """
 
     added: str | None
+    """The added effect; None in the steps of the start model."""
     refitted: bool
+    """The start model with its own numbers fitted, before any effect."""
     correction: bool
+    """The added effect is kept, but not called missing."""
     rmse: float
+    """Root mean square of the residual."""
     holdout_rmse: float
+    """RMSE with whole groups left out of the fit."""
     model: ModelDocument
+    """The model after the step."""
     freed: list[str]
+    """Constants fitted as well, as effect.parameter."""
     fitted: int
+    """Number of fitted values; with 0 no group was left out of anything."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class SamePeriod:
     """A period over another coordinate that the data cannot tell from the repetition; SI."""
 
-    over: str
+    over: Coordinate
+    """The coordinate."""
     period: float
+    """In m, Pa or s."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class RepetitionResult:
-    """A periodic part of the unexplained residual, SI.
+    """A periodic part of the unexplained residual, SI."""
 
-    Attributes:
-        over, unit: coordinate, ``length``, ``pressure`` or ``time``, and its unit.
-        period: in it.
-        share: explained part of the mean square.
-        amplitude: of the predicted channel, in its unit, at the mean pressure where it grows.
-        grows_with_pressure: whether its amplitude is in proportion to the pressure.
-        false_alarm: chance that noise does as well somewhere among all periods tried.
-        left_out_share: share explained of sweeps that it was not fitted to.
-        parts, shown, parts_are: number of records or sweeps, of those that the others predict, which it is.
-        also: periods over other coordinates that the data cannot tell from it.
-        text: all of it in words.
-    """
-
-    over: str
-    unit: str
+    over: Coordinate
+    """What it repeats over."""
+    unit: Literal["m", "Pa", "s"]
+    """Unit of the period."""
     period: float
+    """The period."""
     share: float
+    """Share of the mean square of the residual that it explains."""
     amplitude: float
+    """Of the predicted channel, in its unit; at the mean pressure where it grows with it."""
     grows_with_pressure: bool
+    """Whether its amplitude is in proportion to the pressure."""
     false_alarm: float
+    """Chance that noise does as well somewhere among all periods tried; below 1e-4."""
     left_out_share: float
+    """The share that it explains of sweeps it was not fitted to."""
     parts: int
+    """Number of records, or of sweeps."""
     shown: int
+    """Number of those that a fit to the others explains."""
     parts_are: Literal["records", "sweeps"]
+    """What the parts are."""
     also: list[SamePeriod]
+    """Periods over other coordinates that the data cannot tell from it."""
     text: str
+    """All of it in words."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class TermCurve:
     """A proposed term and the residual that it describes, over one variable."""
 
     x: str
-    values: Array
-    term: Array
-    residual: Array
+    """The variable."""
+    values: Series
+    """Its values, SI."""
+    term: Series
+    """The term there, SI."""
+    residual: Series
+    """The residual that it is to explain, SI."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class TermProposal:
     """A formula for the unexplained residual; share: explained part of its mean square."""
 
     formula: str
+    """The formula, as a custom effect takes it."""
     coefficients: dict[str, float]
+    """Its constants, SI."""
     share: float
+    """Share of the residual's mean square that it removes."""
     model: ModelDocument
+    """The model with the term."""
     curve: TermCurve
+    """The term and the residual."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Verdict:
-    """Verdict of a diagnosis.
-
-    Attributes:
-        status: adequate, missing_effects, ambiguous or unknown_effect (also where it is likelier
-            that none of the named effects is missing).
-        title: the status in words.
-        effects: the missing effects.
-        indistinguishable: groups of effects that the data cannot distinguish.
-        probabilities: effect -> probability that it, or one of its group, is missing; a group shares one.
-        applied: effect of the model with a group -> why this one of its group.
-        corrections: effects that lower the error but are not called missing; the model keeps some of them.
-        unexplained_share, unexplained_in: what is left to explain of the residual, and the variables it
-            depends on; of an unknown effect at least all above the noise.
-        repeats: what of it is periodic.
-        proposed_term: a short formula for it that halves the error of the groups left out.
-        where_to_look: without a formula, the ranges of these variables with the largest error.
-        next_measurement: recommended next measurement.
-        experiments: for each pair of effects that the data cannot distinguish.
-        next_experiments: for each group of them that an experiment of the rig splits, the best one, and
-            one for the pairs that it leaves; the group that is split best comes first.
-        sentence: the verdict in one to four sentences.
-    """
+    """Verdict of a diagnosis."""
 
     status: Status
-    title: str
-    effects: list[str]
-    indistinguishable: list[list[str]]
-    probabilities: dict[str, float]
-    applied: dict[str, str]
-    corrections: list[CorrectionResult]
-    unexplained_share: float
-    unexplained_in: list[str]
-    repeats: RepetitionResult | None
-    proposed_term: TermProposal | None
-    where_to_look: str | None
-    next_measurement: str | None
-    experiments: list[ExperimentProposal]
-    next_experiments: list[NextExperiment]
-    sentence: str
-
-
-@dataclass(frozen=True, slots=True)
-class DiagnosedModel:
-    """The best model of a diagnosis, in the form of a request.
-
-    Attributes:
-        muscle: fitted geometry; of muscles of several lengths without one: it is that of each measurement.
-        effects: with all their values.
-        drive: of a transient, the drive document of the first measurement, muscle and effects inside; None
-            where there is no drive.
+    """The verdict as a word for programs: the model is at the noise (adequate); effects bring it there
+    (missing_effects), some of which the data cannot tell from others (ambiguous); a rest with structure
+    stays that no catalogued effect explains, or it is likelier that none of those named is missing
+    (unknown_effect).
     """
+    title: str
+    """The status in words."""
+    effects: list[str]
+    """Ids of the missing effects."""
+    indistinguishable: list[list[str]]
+    """Groups of effects that the data cannot distinguish."""
+    probabilities: dict[str, float]
+    """Effect -> probability that it, or one of its group, is missing; a group shares one."""
+    applied: dict[str, str]
+    """Effect of the model that data cannot tell from others -> why this one was taken."""
+    corrections: list[CorrectionResult]
+    """Effects that lower the error but are not called missing; the model keeps some of them."""
+    unexplained_share: float
+    """Share of the residual that is left to explain, 0 to 1."""
+    unexplained_in: list[str]
+    """Variables that this part depends on."""
+    repeats: RepetitionResult | None
+    """What of it is periodic; None where nothing is beyond doubt, or no effect is unknown."""
+    proposed_term: TermProposal | None
+    """A short formula for it that halves the error of the groups left out."""
+    where_to_look: str | None
+    """Without a formula: the ranges in which the unexplained error is largest."""
+    next_measurement: str | None
+    """Recommended next measurement; None where none is needed."""
+    experiments: list[ExperimentProposal]
+    """For each pair of effects that the data cannot distinguish."""
+    next_experiments: list[NextExperiment]
+    """For each group of effects that an experiment of this rig splits the best one, and a second one for the
+    pairs that it leaves together; the group that is split best comes first.
+    """
+    sentence: str
+    """The verdict in one to four sentences."""
+
+
+@result_class
+class DiagnosedModel:
+    """The best model of a diagnosis, in the form of a request."""
 
     muscle: dict[str, float]
+    """Fitted geometry, SI; of muscles of several lengths without one: it is that of each measurement."""
     effects: EffectDocument
+    """Effect id -> all its values, SI."""
     drive: Mapping[str, object] | None = None
+    """Of a transient, the drive document of the first measurement, muscle and effects inside; left out where
+    there is no drive.
+    """
 
     def to_document(self) -> dict[str, object]:
         """The keys of an answer; without a drive where there is none."""
@@ -241,55 +273,67 @@ class DiagnosedModel:
         return known if self.drive is None else {**known, "drive": dict(self.drive)}
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class DiagnosisResult:
-    """The missing effects of a model, with the evidence; SI.
-
-    Attributes:
-        kind, predicted, unit: as in a comparison.
-        rows, rows_used: number of rows, and of those used.
-        excluded: reason -> number of rows that are not used.
-        where: the start model's residual over each variable.
-        candidates: single additions, the best first.
-        path: steps to the best model; each adds the effect that lowers the error most.
-        parameters, correlations, geometry, model, freed: of the best model.
-        not_tried: effects that were not candidates, with the reason.
-        messages: notes for the user.
-        experiment: values of the experiment in which all measurements agree.
-        assumptions: what nobody said and was assumed; they also begin messages and verdict.
-        specimens: each measurement, with the error of the best model on it.
-        context: entries that may be wrong instead, the most convincing first.
-        absorbed: errors of readings within the accuracy.
-        envelope: quantity -> range in which the model was measured.
-        covariance: of the fitted values; None where the data cannot separate them.
-        unread: columns of the files that nothing is read from, and why.
-    """
+    """The missing effects of a model, with the evidence; SI."""
 
     rows: int
+    """Number of rows of the measurements."""
     rows_used: int
+    """Number of rows used."""
     excluded: dict[str, int]
+    """Reason for leaving rows out -> number of rows."""
     kind: str
+    """Measurement kind."""
     predicted: str
+    """The predicted channel, or several."""
     unit: str
+    """SI unit of the errors; "1" = relative to the noise of each channel."""
     baseline: Baseline
+    """Error of the start model as given."""
     noise_floor: NoiseFloor
+    """The error due to noise."""
     channels: dict[str, ChannelMisfit]
+    """Error of each channel when there are several."""
     where: list[Profile]
+    """The residual of the start model over each variable."""
     candidates: list[CandidateResult]
+    """The start model with one more effect, the best first."""
     path: list[PathPoint]
+    """Steps to the best model; each adds the effect that lowers the error most."""
     verdict: Verdict
+    """The verdict."""
     parameters: ParameterTable
+    """Effect -> parameter -> value, of the best model."""
     correlations: list[Correlation]
+    """Correlations of the fitted parameters of the best model."""
     geometry: GeometrySummary
+    """Geometry of the muscle of the best model."""
     model: DiagnosedModel
+    """Muscle and effects; of a transient also 'drive': the drive document with both inside, which a
+    comparison takes.
+    """
     freed: list[str]
+    """Constants that the best model fitted as well, as effect.parameter."""
     not_tried: list[NotTried]
+    """Effects of the catalogue that were not tried, with the reason."""
     messages: list[str]
+    """Remarks on the data and the search."""
     experiment: Experiment
+    """Values of the experiment in which all measurements agree, each with its origin."""
     assumptions: list[str]
+    """What nobody said and was assumed; the messages begin with it too."""
     specimens: list[SpecimenResult]
+    """Each measurement, with the error of the best model on it."""
     absorbed: list[AbsorbedError]
+    """Errors of readings within the accuracy, which a fit allows for."""
     context: list[DoubtfulEntry]
+    """Entries that may be wrong instead, the most convincing first."""
     envelope: dict[str, MeasuredRange]
+    """Quantity -> range of the data: rest_length, pressure, contraction, speed, temperature, load, mass,
+    supply, as far as they were measured or stated.
+    """
     covariance: FittedCovariance | None
+    """Of the fitted values of the best model; None where the data cannot separate them."""
     unread: list[UnreadColumn]
+    """Columns of the files that nothing is read from, and why."""

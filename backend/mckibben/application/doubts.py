@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from mckibben.application.model_question import ModelQuestion
 from mckibben.application.specimens import Specimens
+from mckibben.facts.result import result_class
 from mckibben.identification.diagnose.entries import (
     OtherReading,
     StatedEntry,
@@ -23,39 +24,36 @@ from mckibben.measurement.experiment import Experiment, ExperimentValue
 _EXPERIMENT_FIELDS = {"muscle.nominal_length": "rest_length", "load": "load"}
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class DoubtfulEntry:
-    """A statement that may be wrong, with the evidence.
-
-    Attributes:
-        hypothesis: id, as in ``use`` and ``keep``.
-        field: what it is about: a field of the muscle, or a channel.
-        stated: the stated value [SI]; None for a way of reading.
-        value: the value that explains the data [SI], or the other way of reading in words.
-        stderr: standard error of a value [SI].
-        unit: SI unit of a value.
-        explains: share of the start model's mean square above the noise that it explains by itself.
-        rmse_after: error of the best model with it, in the unit of the diagnosis.
-        confidence: probability against the best model without it.
-        effects: effects that are missing with it.
-        asked: whether it is to be answered before anything else.
-        kept: whether it would be asked about, but the user has ruled it out.
-        sentence: all of it in words.
-    """
+    """A statement that may be wrong, with the evidence."""
 
     hypothesis: str
+    """Id, for 'use' and 'keep'."""
     field: str
+    """What it is about: a field of the muscle, or a channel."""
     stated: float | None
+    """Stated value, SI; None for a way of reading."""
     value: float | str | None
+    """The value that explains the data, SI, or the other way of reading in words."""
     stderr: float | None
+    """Standard error of the value; None where there is none."""
     unit: str
+    """SI unit of stated, value and stderr."""
     explains: float
+    """Share of the start model's mean square above the noise that it explains by itself."""
     rmse_after: float
+    """Error of the best model with it, in the unit of the diagnosis."""
     confidence: float
+    """Probability against the best model without it."""
     effects: list[str]
+    """Effects that are missing with it."""
     asked: bool
+    """Whether it is to be answered before anything else."""
     kept: bool
+    """Whether it would be asked about, but the user has ruled it out."""
     sentence: str
+    """The evidence, as a sentence."""
 
 
 def deciding(question: ModelQuestion, *, use: Sequence[str] = (), keep: Sequence[str] = ()) -> ModelQuestion:

@@ -7,7 +7,7 @@ from dataclasses import replace
 import numpy as np
 
 from mckibben.application.envelope import MeasuredRange, range_of
-from mckibben.application.prediction_interval import Interval, position_interval
+from mckibben.application.prediction_interval import PositionInterval, position_interval
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.parts import Drive
@@ -35,7 +35,7 @@ def run_drive(annotated: AnnotatedDrive, grid: Grid, watch: Watch | None = None,
 
 def measured_interval(
     annotated: AnnotatedDrive, grid: Grid, run: Run, watch: Watch, engine: str = "auto"
-) -> Interval | None:
+) -> PositionInterval | None:
     """The interval of the position at the rows; None too where a run with other values ends early."""
     rows = grid.rows
     if annotated.start.fit is None or run.outcome is not Outcome.COMPLETED:

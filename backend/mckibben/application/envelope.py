@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from math import isfinite
 
 import numpy as np
@@ -11,6 +10,7 @@ from numpy.typing import NDArray
 
 from mckibben.application.muscle_summary import Notice
 from mckibben.application.specimens import Specimen, Specimens
+from mckibben.facts.result import result_class
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.measurement import STROKES
@@ -38,13 +38,16 @@ _UNITS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class MeasuredRange:
     """The range of a quantity in the data of a model, SI; pressures are gauge."""
 
     least: float
+    """Smallest value."""
     most: float
+    """Largest value."""
     unit: str
+    """SI unit; pressures are gauge."""
 
 
 #: Quantity (rest_length, pressure, contraction, speed, temperature, load, mass, supply) -> its range. A

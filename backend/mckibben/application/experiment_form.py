@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
-from dataclasses import dataclass
 from math import pi
 
 import numpy as np
@@ -14,6 +13,7 @@ from mckibben.application.form_field import FormField
 from mckibben.application.measurements import UnreadableFile
 from mckibben.application.model_question import ModelQuestion
 from mckibben.documents.studio import Studio
+from mckibben.facts.result import result_class
 from mckibben.measurement.accuracy import default_accuracy
 from mckibben.measurement.experiment import (
     ACCURACY,
@@ -33,23 +33,30 @@ _REST_ROWS = 5  # fewest rows at rest from which a zero is proposed
 _AT_REST = 0.03e5  # Pa
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class StatedExperiment:
     """The experiment of one measurement as a form."""
 
     id: str
+    """Id as in the request."""
     name: str
+    """Name of the file or preset."""
     kind: str
+    """Measurement kind."""
     experiment: list[FormField]
+    """Its fields."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ExperimentForms:
     """The forms of all measurements, what would be assumed, and what stands in the way."""
 
     measurements: list[StatedExperiment]
+    """One entry per measurement of the request."""
     assumptions: list[str]
+    """What a diagnosis would assume, in the words with which it begins."""
     problem: UnreadableFile | None
+    """A conflict, or a missing value without which the diagnosis is refused."""
 
 
 def preview_form(preview: Preview, studio: Studio, muscle: str | None) -> list[FormField]:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
 from mckibben.application.model_question import ModelQuestion
+from mckibben.facts.result import result_class
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict import Predictor
@@ -15,27 +16,24 @@ from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.measurement.experiment import Experiment
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class SpecimenResult:
-    """One measurement of a question.
-
-    Attributes:
-        file: its name.
-        rows_used: rows that are scored.
-        rmse: error of the model on it, over the scale of the predictor.
-        holdout_rmse: the same with whole groups left out of the fit; None where that is not known.
-        experiment: its values with their origins.
-        left_out_rmse: error of the model fitted to the other specimens alone; None for a single one.
-        left_out_percent: the same in percent of the largest magnitude measured on it.
-    """
+    """One measurement of a question."""
 
     file: str
+    """Name of the file or preset."""
     rows_used: int
+    """Number of rows used."""
     rmse: float | None
+    """Error of the model on it; of the best model in a diagnosis."""
     holdout_rmse: float | None
+    """The same with whole groups left out of the fit; None where that is not known."""
     experiment: Experiment
+    """Values of its experiment, each with its origin."""
     left_out_rmse: float | None = None
+    """Of a diagnosis of several: error of the model fitted to the other specimens alone."""
     left_out_percent: float | None = None
+    """The same in percent of the largest magnitude measured on it."""
 
 
 def common_experiment(question: ModelQuestion) -> Experiment:

@@ -4,15 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import ClassVar, assert_never
+from typing import ClassVar, Literal, assert_never
 
 from mckibben.application.muscle_summary import Notice, limit_notices, start_notices
 from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
+from mckibben.facts.result import result_class
 from mckibben.physics.errors import InputError
 from mckibben.simulation.statics import inverse
 from mckibben.simulation.statics.model import StaticModel
+
+QuestionName = Literal["pressure", "contraction", "working_range", "stroke_pressure"]
 
 _LONGEST_STROKE = 0.95  # largest stroke accepted, share of the nominal length
 _SHORTEST = 0.05  # shortest length accepted, share of the nominal length
@@ -31,7 +34,7 @@ class MuscleCondition:
 class PressureForForce:
     """Which pressure gives this force [N] at this length [m] or contraction? Exactly one of them is given."""
 
-    NAME: ClassVar = "pressure"
+    NAME: ClassVar[QuestionName] = "pressure"
 
     condition: MuscleCondition
     force: float
@@ -43,7 +46,7 @@ class PressureForForce:
 class ContractionForForce:
     """How far is the muscle contracted at this force [N] and gauge pressure [Pa]?"""
 
-    NAME: ClassVar = "contraction"
+    NAME: ClassVar[QuestionName] = "contraction"
 
     condition: MuscleCondition
     force: float
@@ -54,7 +57,7 @@ class ContractionForForce:
 class WorkingRange:
     """Which stroke from the preload [N] without pressure to the load [N] at the highest pressure [Pa]?"""
 
-    NAME: ClassVar = "working_range"
+    NAME: ClassVar[QuestionName] = "working_range"
 
     condition: MuscleCondition
     load: float
@@ -66,7 +69,7 @@ class WorkingRange:
 class PressureForStroke:
     """Which pressure lifts this load [N] by this stroke [m] from the nominal length?"""
 
-    NAME: ClassVar = "stroke_pressure"
+    NAME: ClassVar[QuestionName] = "stroke_pressure"
 
     condition: MuscleCondition
     load: float
@@ -76,22 +79,20 @@ class PressureForStroke:
 InverseQuestion = PressureForForce | ContractionForForce | WorkingRange | PressureForStroke
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class InverseFinding:
-    """The answer to an inverse question.
+    """The answer to an inverse question."""
 
-    Attributes:
-        question: name of the question.
-        value: the answer; NaN without a solution, with a flag that gives the reason.
-        unit: its SI unit.
-        details: further figures, SI.
-    """
-
-    question: str
+    question: QuestionName
+    """The question that was asked."""
     value: float | None
+    """The answer; NaN without a solution, with a flag that gives the reason."""
     unit: str
+    """SI unit of the value."""
     details: Mapping[str, float | None]
+    """Further figures in SI."""
     flags: list[Notice]
+    """Remarks on the answer."""
 
 
 def answer(question: InverseQuestion, studio: Studio) -> InverseFinding:

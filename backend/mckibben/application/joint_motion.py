@@ -2,45 +2,45 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 
+from mckibben.facts.result import Series, result_class
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.simulation.drive.transient import Run
 
 Array = np.ndarray
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class JointMotion:
-    """The pulley of an antagonist pair, and its second muscle.
+    """The pulley of an antagonist pair, and its second muscle."""
 
-    Attributes:
-        angle: from the middle [rad]; positive in the direction of the first muscle.
-        torque: of both muscles [N m].
-        stiffness: at constant pressures [N m/rad].
-        counter_force, counter_pressure: of the second muscle [N], [Pa].
-        counter_command: of its valve or regulator, before dead times.
-        counter_mass_flow, counter_supply_flow, counter_exhaust_flow: of the second muscle [kg/s].
-        counter_diameter: of its braid [m].
-        angle_reference, stiffness_reference: set points [rad], [N m/rad]; None without.
-        stiffness_error: root mean square of stiffness minus set point [N m/rad]; None without one.
-    """
-
-    angle: Array
-    torque: Array
-    stiffness: Array
-    counter_force: Array
-    counter_pressure: Array
-    counter_command: Array
-    counter_mass_flow: Array
-    counter_supply_flow: Array
-    counter_exhaust_flow: Array
-    counter_diameter: Array
-    angle_reference: Array | None
-    stiffness_reference: Array | None
+    angle: Series
+    """Pulley angle from the middle [rad], positive as the first muscle pulls."""
+    torque: Series
+    """Torque of both muscles on the pulley [N*m]."""
+    stiffness: Series
+    """Stiffness of the joint at constant pressures [N*m/rad]."""
+    counter_force: Series
+    """Tension of the second muscle [N]."""
+    counter_pressure: Series
+    """Pressure in the second muscle [Pa]."""
+    counter_command: Series
+    """Command of the second valve or regulator [-]."""
+    counter_mass_flow: Series
+    """Mass flow into the second muscle [kg/s]."""
+    counter_supply_flow: Series
+    """Mass flow from the supply to the second muscle [kg/s]."""
+    counter_exhaust_flow: Series
+    """Mass flow from the second muscle to the atmosphere [kg/s]."""
+    counter_diameter: Series
+    """Braid diameter of the second muscle at mid-span [m]."""
+    angle_reference: Series | None
+    """Set point of the angle [rad]; None without a controller."""
+    stiffness_reference: Series | None
+    """Set point of the stiffness [N*m/rad]; None where the stiffness is not controlled."""
     stiffness_error: float | None
+    """Root mean square of stiffness minus set point over the rows [N*m/rad]; None without one."""
 
 
 def joint_of(run: Run, rows: Array) -> JointMotion | None:

@@ -1,7 +1,6 @@
 """Results as JSON text: dataclasses by the names of their fields, documents, numpy arrays, enums.
 
-A dataclass may declare ``JSON_KEYS``, field -> keys, for a key that cannot be the name of a field ("from"),
-or for an older name of a field that is kept for one version.
+A dataclass may declare ``JSON_KEYS``, field -> key, for a key that cannot be the name of a field ("from").
 """
 
 from __future__ import annotations
@@ -23,9 +22,9 @@ _AT_ONCE = 500_000  # numbers of an array; one call for more would hold the inte
 @cache
 def _keys(kind: type) -> tuple[tuple[str, str], ...]:
     """Key and field of each entry of a dataclass."""
-    renamed: Mapping[str, tuple[str, ...]] = getattr(kind, "JSON_KEYS", {})
+    renamed: Mapping[str, str] = getattr(kind, "JSON_KEYS", {})
     names = [field.name for field in fields(kind)]  # type: ignore
-    return tuple((key, name) for name in names for key in renamed.get(name, (name,)))
+    return tuple((renamed.get(name, name), name) for name in names)
 
 
 @cache

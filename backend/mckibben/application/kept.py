@@ -3,53 +3,52 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass
+from typing import Literal, cast
 
 from mckibben.documents.studio import Studio
+from mckibben.facts.result import result_class
 from mckibben.measurement.store import KeptFile, MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.presets.own import OwnPreset, OwnPresets
 
+KeptKind = Literal[
+    "files", "muscles", "valves", "tubes", "fittings", "measurements", "curves", "designs", "drives", "tasks"
+]  # fmt: skip
+
 #: The kind of an item that is a measurement file; presets have the kind of their folder.
-FILES = "files"
+FILES: KeptKind = "files"
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class KeptItem:
-    """A measurement file or a preset of the user.
+    """A measurement file or a preset of the user."""
 
-    Attributes:
-        kind: "files", or the kind of preset.
-        id: of the measurement or preset.
-        name: for people: file name or title.
-        size: on the disk [bytes].
-        changed: when it was stored, renamed or deleted [s since 1970].
-        corrected: whether it is a measurement that is read with corrections of the user.
-    """
-
-    kind: str
+    kind: KeptKind
+    """'files' for a measurement file, else the kind of preset."""
     id: str
+    """Id of the measurement or preset."""
     name: str
+    """File name or title."""
     size: int
+    """Bytes on the disk."""
     changed: float
+    """When it was stored, renamed or deleted, in seconds since 1970."""
     corrected: bool = False
+    """Whether it is a measurement that is read with corrections of the user."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class KeptData:
-    """All that is kept.
-
-    Attributes:
-        items: the measurements and presets, the last one first.
-        deleted: those that can be restored, the last one first.
-        size: of all measurements on the disk, with deleted ones [bytes].
-        quota: most that they may take [bytes].
-    """
+    """All that is kept."""
 
     items: list[KeptItem]
+    """Measurements and presets, the last one first."""
     deleted: list[KeptItem]
+    """Those that can be restored, the last one first."""
     size: int
+    """Bytes of all measurements on the disk, with deleted ones."""
     quota: int
+    """Bytes that they may take at most."""
 
 
 def kept(studio: Studio, store: MeasurementStore) -> KeptData:
@@ -60,7 +59,7 @@ def kept(studio: Studio, store: MeasurementStore) -> KeptData:
         store: of the measurements.
     """
     own = OwnPresets(studio.library)
-    kinds = studio.library.kinds
+    kinds = cast(tuple[KeptKind, ...], studio.library.kinds)
     presets = [_of_preset(kind, preset) for kind in kinds for preset in own.own(kind)]
     restorable = [_of_preset(kind, preset) for kind in kinds for preset in own.deleted(kind)]
     return KeptData(
@@ -125,7 +124,7 @@ def _of_file(file: KeptFile) -> KeptItem:
     return KeptItem(FILES, file.id, file.name, file.size, file.changed, file.corrected)
 
 
-def _of_preset(kind: str, preset: OwnPreset) -> KeptItem:
+def _of_preset(kind: KeptKind, preset: OwnPreset) -> KeptItem:
     return KeptItem(kind, preset.id, preset.title, preset.size, preset.changed)
 
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.facts.result import FiniteRows, FiniteSeries, Series, result_class
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.linear.design import Design
 from mckibben.simulation.linear.equations import COMMAND, READING, Port
@@ -23,210 +23,249 @@ from mckibben.simulation.linear.response import (
     static_gain,
 )
 from mckibben.simulation.linear.sweep import DescribingPoint
-from mckibben.simulation.linear.trials import StepFigures, Trial
+from mckibben.simulation.linear.trials import StepFigures, Trial, TrialName
 
 Array = np.ndarray
 
 _ROWS = 600  # of the run of a controller
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class NamedValue:
     """A state, input or output: name, SI unit, what it is, and its value at the operating point."""
 
     name: str
+    """Name."""
     unit: str
+    """SI unit."""
     text: str
+    """What it is."""
     value: float
+    """Value at the operating point, in its unit; states of gas absolute."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class PointResult:
-    """The operating point, SI; pressures gauge.
-
-    Attributes:
-        on_stop: whether the load rests on an end stop there.
-        command: that holds it [-].
-        load_force: external force on the load.
-    """
+    """The operating point, SI; pressures gauge."""
 
     position: float
+    """Position of the load [m]."""
     contraction: float
+    """Contraction ratio of the [-] (first) muscle."""
     pressure: float
+    """Gauge pressure in the [Pa] (first) muscle."""
     counter_pressure: float | None
+    """Gauge pressure in the second muscle of a pair [Pa]."""
     command: float
+    """Command that holds the load there [-]."""
     force: float
+    """Tension of the [N] (first) muscle."""
     load_force: float
+    """External force on the load [N]."""
     supply_pressure: float
+    """Gauge pressure of the supply [Pa]."""
     on_stop: bool
+    """Whether the load rests on an end stop."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Zero:
     """A zero of the channel [rad/s]."""
 
     real: float
+    """Real part [rad/s]."""
     imaginary: float
+    """Imaginary part [rad/s]."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ModelResult:
-    """A linear model and the response of the chosen channel.
-
-    Attributes:
-        name, text: what it is a model of.
-        primary: whether loop and design use it.
-        pressure: gauge pressure at which it was linearised [Pa].
-        dead_time: of the command [s]; in ``gain`` and ``phase``, not in the matrices.
-        a, b, c, d: matrices of deviations in SI.
-        poles, zeros: of the model, of the channel.
-        static_gain: of the channel; None where it integrates.
-        bandwidth: -3 dB [Hz]; ``bandwidth_note`` says why there is none.
-        gain, phase: over ``frequency`` of the result [rad].
-    """
+    """A linear model and the response of the chosen channel."""
 
     name: str
+    """Name."""
     text: str
+    """What it is a model of."""
     primary: bool
+    """Whether loop and design use it."""
     pressure: float
+    """Gauge pressure at which it was linearised [Pa]."""
     dead_time: float
+    """Dead time of the command [s]; in gain and phase, not in the matrices."""
     states: list[NamedValue]
+    """States, in the order of the matrices."""
     inputs: list[NamedValue]
+    """Inputs, in the order of the matrices."""
     outputs: list[NamedValue]
-    a: Array
-    b: Array
-    c: Array
-    d: Array
+    """Outputs, in the order of the matrices."""
+    a: FiniteRows
+    """A, one list for each row."""
+    b: FiniteRows
+    """B, one list for each row."""
+    c: FiniteRows
+    """C, one list for each row."""
+    d: FiniteRows
+    """D, one list for each row."""
     poles: list[Pole]
+    """Poles, slowest first."""
     zeros: list[Zero]
+    """Zeros of the channel that hide no pole."""
     static_gain: float | None
+    """Gain at 0 Hz in the units of output per input; None where the channel integrates."""
     bandwidth: float | None
+    """Frequency at which the gain has fallen by 3 dB [Hz]."""
     bandwidth_note: str | None
-    gain: Array
-    phase: Array
+    """Why there is no bandwidth."""
+    gain: Series
+    """Gain over `frequency`, in the units of output per input."""
+    phase: Series
+    """Phase over `frequency` [rad], with the dead time."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ControllerResult:
-    """Gains of a position controller, SI, and as a drive document states them.
-
-    Attributes:
-        document: for the part ``controller`` of a drive document, without its reference.
-    """
+    """Gains of a position controller, SI, and as a drive document states them."""
 
     kp: float
+    """Proportional gain [1/m]."""
     ki: float
+    """Integral gain [1/(m*s)]."""
     kd: float
+    """Derivative gain [s/m]."""
     feed_forward: float
+    """Command per reference [1/m]."""
     derivative_filter: float
+    """Filter time of the derivative [s]."""
     sample_time: float
+    """Sample time [s]."""
     output_min: float
+    """Lowest command [-]."""
     output_max: float
+    """Highest command [-]."""
     document: dict[str, str]
+    """The part `controller` of a drive document, without its reference."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class LoopResult:
-    """The open and the closed loop of a controller with the primary model.
-
-    Attributes:
-        frequency: [Hz], up to half the sampling frequency.
-        gain, phase: of the open loop [rad].
-        closed_gain: from the reference to the position.
-    """
+    """The open and the closed loop of a controller with the primary model."""
 
     controller: ControllerResult
+    """The controller of the drive."""
     margins: Margins
-    frequency: Array
-    gain: Array
-    phase: Array
-    closed_gain: Array
+    """Stability and margins."""
+    frequency: FiniteSeries
+    """Frequencies up to half the sampling frequency [Hz]."""
+    gain: Series
+    """Gain of the open loop [-]."""
+    phase: Series
+    """Phase of the open loop [rad]."""
+    closed_gain: Series
+    """Gain from the reference to the position [-]."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class TrialResult:
-    """A controller, the figures of its steps on the nonlinear drive, its margins, and the run.
+    """A controller, the figures of its steps on the nonlinear drive, its margins, and the run."""
 
-    Attributes:
-        name: "own", "rule" or "refined".
-        reference, position: of the load [m]; the step begins at ``begins`` [s] and ends at ``returns``.
-    """
-
-    name: str
+    name: TrialName
+    """Where the controller comes from."""
     controller: ControllerResult
+    """Its gains."""
     figures: StepFigures
+    """Figures of its steps."""
     margins: Margins
+    """Margins of its loop."""
     begins: float
+    """When the step begins [s]."""
     returns: float
-    time: Array
-    reference: Array
-    position: Array
-    command: Array
+    """When the step back begins [s]."""
+    time: FiniteSeries
+    """Instants of the run [s]."""
+    reference: Series
+    """Reference [m]."""
+    position: Series
+    """Position of the load [m]."""
+    command: Series
+    """Command [-]."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class VariationResult:
     """The refined controller with another mass and supply, as factors."""
 
     mass: float
+    """Factor of the mass [-]."""
     supply: float
+    """Factor of the supply pressure [-]."""
     figures: StepFigures
+    """Figures of its steps."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class GoalsResult:
     """Goals of a design; the height of the step [m] is that of its runs."""
 
     overshoot: float
+    """Largest overshoot [-]."""
     settling: float
+    """Latest settling time [s]."""
     step: float
+    """Height of the step [m]."""
     unsaturated: bool
+    """Whether the command must never reach its limits."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class DesignResult:
     """A designed controller; see `mckibben.simulation.linear.design.Design`."""
 
     goals: GoalsResult
+    """Goals, with the height of the step."""
     rule: str
+    """Name and source of the rule."""
     ultimate_gain: float | None
+    """Gain at which a proportional loop oscillates [1/m]."""
     ultimate_period: float | None
+    """Period of that oscillation [s]."""
     trials: list[TrialResult]
+    """Own controller if there is one, rule, refined."""
     robust: list[VariationResult]
+    """Mass and supply 20 % lower and higher."""
     evaluations: int
+    """Runs of the nonlinear drive."""
     remarks: list[str]
+    """What to know about the design."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class LinearResult:
-    """The linear view of a drive, SI, angles in rad.
-
-    Attributes:
-        point: where it was linearised.
-        smooth: whether nothing sticks or switches there in a way that the motion shows.
-        lost: what the linear models do not contain.
-        dead_band: commands between which nothing reacts.
-        input, output: the channel of responses, poles and zeros.
-        frequency: [Hz], of ``models``.
-        models: one, or several where something sticks or switches.
-        describing: the nonlinear drive under sines.
-        loop: with the drive's controller; None without one.
-        design: None unless it was asked for.
-        notes: remarks, as sentences.
-    """
+    """The linear view of a drive, SI, angles in rad."""
 
     point: PointResult
+    """Where it was linearised."""
     smooth: bool
+    """Whether nothing sticks or switches there in a way the motion shows: there is one model."""
     lost: list[str]
+    """What the linear models do not contain."""
     dead_band: list[float] | None
+    """Commands between which nothing reacts [-]."""
     input: NamedValue
+    """Input of the chosen channel."""
     output: NamedValue
-    frequency: Array
+    """Output of the chosen channel."""
+    frequency: FiniteSeries
+    """Frequencies of the models' gain and phase [Hz]."""
     models: list[ModelResult]
+    """One model, or several where something sticks or switches: each names its case."""
     describing: list[DescribingPoint]
+    """The nonlinear drive under sines."""
     loop: LoopResult | None
+    """Loop of the drive's controller; None without one."""
     design: DesignResult | None
+    """The designed controller; None unless asked for."""
     notes: list[str]
+    """Remarks, as sentences."""
 
     @property
     def primary(self) -> ModelResult:

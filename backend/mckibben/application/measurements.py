@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass, field, fields
-
-from numpy.typing import NDArray
+from dataclasses import field, fields
 
 from mckibben.application.form_field import FormField
+from mckibben.facts.result import Column, Number, Series, result_class
 from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement, StatedValue
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
@@ -22,125 +21,159 @@ _USUAL_UNITS = {
 }  # fmt: skip
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ChannelSummary:
     """A channel: its name, column and unit in the file, SI unit, extremes in SI."""
 
     name: str
+    """Name of the channel."""
     column: str
+    """Header of the file."""
     unit: str
+    """Unit in the file."""
     si_unit: str
-    minimum: float
-    maximum: float
+    """SI unit of minimum, maximum and the columns."""
+    minimum: Number
+    """Smallest value, SI."""
+    maximum: Number
+    """Largest value, SI."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class SweepSummary:
     """Sweeps: their signal, number of sweeps and cycles, held rows, speeds."""
 
     signal: str | None
+    """The channel that defines the sweeps."""
     sweeps: int
+    """Number of sweeps."""
     cycles: int
+    """Number of cycles."""
     held_rows: int
-    speeds: list[float]
+    """Rows in which nothing moves."""
+    speeds: list[Number]
+    """Mean speed of each level, ascending, in the SI unit of the signal per second; empty without time."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class UnreadColumn:
     """A column that nothing is read from, and why."""
 
     column: str
+    """Header of the file."""
     why: str
+    """Why nothing is read from it."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class StatedCondition:
     """A condition of the test in SI or text: who says it, ``file`` or ``you``, and where in the file."""
 
     key: str
+    """Name of the condition."""
     value: float | str
+    """In SI, or a text."""
     origin: str
+    """file or you; assumed: a unit that was taken as proposed."""
     where: str
+    """Line or cell of the file; empty for the user's own."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class OpenQuestion:
     """What a file leaves open: see :class:`mckibben.measurement.question.Question`."""
 
     about: str
+    """What it is about."""
     text: str
+    """The question."""
     option: str
+    """What answers it, in the words of the command line and of a mapping."""
     column: str | None
+    """The column concerned."""
     proposed: str | None
+    """The likeliest answer."""
     choices: list[str]
+    """Possible answers."""
     stops: bool
+    """Without an answer the file is not read."""
 
 
-@dataclass(frozen=True)
+@result_class
 class MeasurementSummary:
-    """A measurement as it was read.
-
-    Attributes:
-        id: SHA-256 of the content.
-        kind: of the measurement.
-        kind_detected, kind_reason: whether the kind was detected, and the reason.
-        rows, usable_rows: number of rows read, and of comparable rows.
-        excluded, skipped: reason -> number of rows that cannot be compared, and that could not be read.
-        ignored: columns that are not used.
-        conditions: of the test, SI.
-        missing: conditions that a comparison needs and the file does not state.
-        groups: number of groups of rows.
-        messages: the assumptions.
-        unread: columns that nothing is read from, and why.
-        stated: the conditions with their origin.
-        questions: what the file leaves open.
-    """
+    """A measurement as it was read."""
 
     id: str
+    """SHA-256 of the file's content (and of the mapping, if there is one)."""
     name: str
+    """Name of the file."""
     kind: str
+    """isobaric, isometric, isotonic, diameter, transient or static."""
     kind_detected: bool
+    """Detected from the data, not stated in the file."""
     kind_reason: str
+    """Why this kind was detected; empty when it was stated."""
     rows: int
+    """Number of rows that were read."""
     usable_rows: int
+    """Rows with a usable measurement."""
     excluded: dict[str, int]
+    """Reason why rows are not usable -> number of rows."""
     skipped: dict[str, int]
+    """Reason why rows could not be read -> number of rows."""
     channels: list[ChannelSummary]
+    """The used columns."""
     ignored: list[str]
+    """Columns that are not used."""
     conditions: Mapping[str, float | str]
+    """Conditions of the test, SI."""
     missing: list[MissingCondition]
+    """Conditions that a comparison needs and the file does not state."""
     groups: int
+    """Number of sweeps or cycles of the rows."""
     segments: SweepSummary
+    """How the rows are divided into sweeps."""
     messages: list[str]
+    """Remarks on the file."""
     unread: list[UnreadColumn]
+    """All columns that nothing is read from, and why."""
     stated: list[StatedCondition]
+    """The conditions with their origin."""
     questions: list[OpenQuestion]
+    """What the file leaves open."""
 
 
-@dataclass(frozen=True)
+@result_class
 class MeasurementDetails(MeasurementSummary):
     """A measurement with its columns in SI."""
 
-    columns: dict[str, NDArray] = field(default_factory=dict)
+    columns: dict[str, Column] = field(default_factory=dict)
+    """Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those with a usable
+    measurement, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, +1 lengthening, 0 at rest.
+    """
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class TableOption:
     """A sheet, group or struct that ``sheet`` of a correction picks, and whether it is among those read."""
 
     name: str
+    """Its name."""
     is_read: bool
+    """It is read now, alone or with others of the same columns."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class RawRow:
     """A row of a file as it stands in it: its number from 1, its cells."""
 
     row: int
+    """Its number in the file, from 1."""
     cells: list[str]
+    """Its cells as written."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class RawTable:
     """First rows of a file, rows of names and units; ``head_moves``: a correction may name another head.
 
@@ -148,88 +181,113 @@ class RawTable:
     """
 
     rows: list[RawRow]
+    """The rows, in the order of the file."""
     head: int | None
+    """The row of the column names."""
     units: int | None
+    """The row of the units, where they stand apart."""
     head_moves: bool
+    """'head' of a mapping may name another row."""
     also: list[int]
+    """Cells, from 0, that hold the same columns again beside the first ones."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class SkippedSummary:
     """Rows that could not be read: reason, number, the first one."""
 
     reason: str
+    """Why they cannot be read."""
     rows: int
+    """Number of these rows."""
     first: str
+    """Where the first of them is."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class UnreadableFile:
     """Why a file cannot be read as a measurement."""
 
     code: str
+    """Machine-readable kind."""
     message: str
+    """What is wrong, for people."""
     field: str | None
+    """Path of the field in the request."""
     hint: str | None
+    """What would be right."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ChannelOption:
     """A possible channel of a column, its SI unit, and the units offered by a form."""
 
     name: str
+    """Name of the channel."""
     si_unit: str
+    """Its SI unit."""
     units: list[str]
+    """Usual units; others are accepted too."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class PreviewResult:
-    """Preview of a file.
-
-    Attributes:
-        columns: interpretation of each column.
-        sample: first rows as in the file.
-        rows, valid_rows, skipped: of the table.
-        kind, kind_detected, kind_reason: as in a summary; kind is None for a file that cannot be read.
-        conditions, missing: stated conditions of the test, and missing ones.
-        measurement: the measurement, or None.
-        problem: why the file cannot be read, or None.
-        only_bad_rows: whether the file can be read without the bad rows.
-        channel_choices, kind_choices: options for corrections by the user.
-        questions, unread, stated: as in a summary, also for a file that cannot be read yet.
-        experiment: fields of the experiment that matter for this kind of test, with values or questions.
-        table_choices: names of the sheets, groups or structs that could be meant, where that is open.
-        tables: sheets, groups or structs that the user may pick, and whether each is read.
-        raw: the first rows as they stand in the file, or None.
-        points: channel -> values in SI at evenly chosen rows, for a picture.
-    """
+    """Preview of a file."""
 
     name: str
+    """Name of the file."""
     format: str
+    """csv, json, xlsx, mat, hdf5 or tdms."""
     columns: list[PreviewColumn]
+    """All columns of the file, in its order."""
     sample: list[list[str]]
+    """The first rows as written in the file, up to 8."""
     rows: int
+    """Rows below the header."""
     valid_rows: int
+    """Rows that can be read."""
     skipped: list[SkippedSummary]
+    """Rows that cannot be read, by reason."""
     kind: str | None
+    """The kind; None while the file cannot be used."""
     kind_detected: bool
+    """Detected from the data, not stated in the file."""
     kind_reason: str
+    """Why this kind was detected; empty when it was stated."""
     conditions: Mapping[str, float | str]
+    """Conditions in the file or in the mapping, SI."""
     missing: list[MissingCondition]
+    """Conditions to ask for."""
     measurement: MeasurementSummary | None
+    """As it would be stored, without the skipped rows; None while the file cannot be used."""
     problem: UnreadableFile | None
+    """The error with which PUT would refuse the file."""
     only_bad_rows: bool
+    """The only problem are bad rows: the mapping {'bad_rows': 'skip'} leaves them out."""
     messages: list[str]
+    """Assumptions made."""
     channel_choices: list[ChannelOption]
+    """Channels to which a column can be mapped."""
     kind_choices: list[str]
+    """Kinds that a mapping may state."""
     questions: list[OpenQuestion]
+    """What the file leaves open; 'problem' refuses it while one of them stops the reading."""
     unread: list[UnreadColumn]
+    """All columns that nothing is read from, and why."""
     stated: list[StatedCondition]
+    """The conditions with their origin."""
     table_choices: list[str]
+    """Sheets, groups or structs that could be meant; 'sheet' of a mapping picks one."""
     tables: list[TableOption]
+    """All sheets, groups or structs that 'sheet' of a mapping picks; empty where none are."""
     raw: RawTable | None
-    points: dict[str, NDArray]
+    """The first rows as they stand in the file; None where the format has no rows."""
+    points: dict[str, Series]
+    """Channel -> SI values of evenly chosen rows, for a picture, also while questions are open."""
     experiment: list[FormField]
+    """Every field of the experiment that matters for this kind of test; those 'unanswered' are asked before
+    the first diagnosis.
+    """
 
 
 def summary_of(measurement: Measurement) -> MeasurementSummary:

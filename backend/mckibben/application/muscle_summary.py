@@ -3,70 +3,73 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.value_names import value_names
+from mckibben.facts.result import result_class
 from mckibben.physics.muscle import Muscle, assumption
 from mckibben.simulation.statics.limits import LimitFlag
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Notice:
-    """Something the user should know about a result.
-
-    Attributes:
-        code: kind of notice, e.g. "over_force_limit", "unverified", "assumed".
-        message: in words.
-        field: the input that it refers to, e.g. "muscle.preset".
-    """
+    """Something the user should know about a result."""
 
     code: str
+    """Kind of notice, e.g. "over_force_limit", "unverified", "assumed"."""
     message: str
+    """Explanation for the user."""
     field: str | None = None
+    """The input that it refers to, e.g. "muscle.preset"."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class MakerLimits:
-    """Limits stated by the maker, SI, pressures gauge; None where not known."""
+    """Limits stated by the maker; None where not known."""
 
     max_pressure: float | None
+    """Highest gauge pressure [Pa]."""
     max_force: float | None
+    """Highest force [N]."""
     max_contraction: float | None
+    """Highest contraction [-]."""
     max_pretension: float | None
+    """Highest stretch beyond the nominal length [-]."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Lattice:
     """The braid as a lattice of rhombi: side [m], number along and around the muscle."""
 
     side: float
+    """Side of one rhombus [m]."""
     along: float
+    """Rhombi along the muscle [-]."""
     around: float
+    """Rhombi around the muscle [-]."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class GeometrySummary:
-    """Geometry of the muscle at rest.
-
-    Attributes:
-        braid_diameter: of the braid (mid-wall) at the braid angle [m].
-        braid_angle: between thread and axis [rad].
-        nominal_length: at rest [m].
-        inside_diameter: bore [m].
-        wall_thickness: [m]; 0 when it is not known.
-        thread_length, turns: of one thread [m], [-].
-        rhombus: the lattice, if the muscle was stated in this form.
-    """
+    """Geometry of the muscle at rest."""
 
     braid_diameter: float
+    """Diameter of the braid at the braid angle [m]."""
     braid_angle: float
+    """Angle between thread and axis [rad]."""
     nominal_length: float
+    """Length at rest [m]."""
     inside_diameter: float
+    """Bore [m]."""
     wall_thickness: float
+    """Wall of the bladder [m]; 0 when not stated."""
     thread_length: float
+    """Length of one thread [m]."""
     turns: float
+    """Turns of one thread [-]."""
     rhombus: Lattice | None
+    """The lattice, when the muscle was stated in this form."""
 
 
 def geometry_of(start: StartModel, muscle: Muscle | None = None) -> GeometrySummary:

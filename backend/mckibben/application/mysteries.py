@@ -3,44 +3,59 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from typing import cast
 
 from mckibben.documents.json_document import JsonDocument
+from mckibben.facts.result import result_class
 from mckibben.presets import MysteryPreset, PresetLibrary
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class MysterySummary:
     """A mystery without its answer: story, kind, start model, id of its measurement."""
 
     id: str
+    """Its id."""
     title: str
+    """Its name."""
     story: str
+    """The situation, as an engineer would describe it."""
     kind: str
+    """Measurement kind."""
     muscle: JsonDocument
+    """In the form of a comparison request."""
     drive: JsonDocument | None
-    effects: Mapping[str, Mapping[str, float]]
+    """In the form of a comparison request; None if not needed."""
+    effects: Mapping[str, Mapping[str, float | str]]
+    """The start model."""
     measurement: str
+    """Id of the measurement for comparisons and diagnoses."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class HiddenTruth:
     """A hidden effect: its name, its action, and the ids of the effects accepted as the answer."""
 
     title: str
+    """What is hidden, in a few words."""
     what: str
+    """What it does, and how it shows in the data."""
     effects: tuple[str, ...]
+    """Effect ids accepted as right answers."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Reveal:
     """The hidden effects, which of them were named, wrongly named effects, and the explanation."""
 
     hidden: list[HiddenTruth]
+    """The hidden effects; none if the start model explains the data."""
     found: list[bool]
+    """For each hidden effect: whether the user named it."""
     surplus: list[str]
+    """Effects of the user that are neither hidden nor of the start model."""
     text: str
+    """The solution in words."""
 
 
 def mysteries(library: PresetLibrary) -> list[MysterySummary]:

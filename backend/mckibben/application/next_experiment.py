@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mckibben.facts.result import Integers, Series, result_class
 from mckibben.identification.diagnose.design import APART, DesignedExperiment
 from mckibben.identification.diagnose.diagnosis import Diagnosis
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment
@@ -30,65 +29,64 @@ _TOLD = 4  # most pairs that the words name
 NO_EXPERIMENT = "no two effects have to be told apart, or no experiment of this rig would do it"
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ExperimentProposal:
-    """An experiment that separates two similar effects.
-
-    Attributes:
-        pair: the effects, that of the model first.
-        declared: what the catalogue says about the pair.
-        protocol: the simulated experiment of this rig that separates them best.
-        separation: expected difference in standard deviations of one reading, after both models adapted.
-        minutes: how long it takes; None without a protocol.
-        matters: whether the two models as they are predict different results for this rig.
-        differs_in, difference: the simulated experiment where they differ most, and by how much [sigma].
-    """
+    """An experiment that separates two similar effects."""
 
     pair: list[str]
+    """The effects, that of the model first."""
     declared: str
+    """What separates them according to the catalogue; empty without an entry."""
     protocol: str
+    """How to do it, in words; empty where none of the known experiments separates them."""
     separation: float
+    """Expected difference in standard deviations of one reading, after both models adapted."""
     minutes: float | None
+    """How long it takes; None without a protocol."""
     matters: bool
+    """Whether the two models predict different results for this rig."""
     differs_in: str
+    """Simulated experiment where the models as they are differ most."""
     difference: float
+    """By how many standard deviations of one reading."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class PairSeparation:
     """By how many standard deviations of one reading an experiment tells two effects apart."""
 
     pair: list[str]
+    """Ids of the two effects."""
     separation: float
+    """The number of standard deviations."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class SetPoints:
     """Values of one set point, in its SI unit."""
 
     unit: str
-    values: NDArray[np.float64]
+    """The SI unit."""
+    values: Series
+    """One value per row."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class NextExperiment:
-    """The experiment that splits a group of indistinguishable effects best.
-
-    Attributes:
-        group: the effects, that of the model first.
-        protocol: what to do.
-        minutes: how long it takes, with 30 s to set up each run.
-        separations: of each simulated pair.
-        run: number of the run of each set point; time starts anew in each.
-        set_points: time, and what the rig prescribes, linear between the rows.
-    """
+    """The experiment that splits a group of indistinguishable effects best."""
 
     group: list[str]
+    """The effects, that of the model first."""
     protocol: str
+    """How to do it, in words."""
     minutes: float
+    """How long it takes, with 30 s to set up each run."""
     separations: list[PairSeparation]
-    run: NDArray[np.int64]
+    """How well it tells each pair of the group apart."""
+    run: Integers
+    """Number of the run of each set point; time starts anew in each."""
     set_points: dict[str, SetPoints]
+    """Time, and what the rig prescribes, linear between the rows."""
 
 
 def proposal(pair: SeparatingExperiment) -> ExperimentProposal:

@@ -2,36 +2,34 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 from mckibben.documents.studio import Studio
+from mckibben.facts.result import result_class
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets.order_code import order_code
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class CodePart:
     """A part of an order code as it is written, and what it means."""
 
     text: str
+    """As it stands in the code."""
     meaning: str
+    """What it means."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class OrderedMuscle:
-    """What an order code says.
-
-    Attributes:
-        code: as it was given.
-        preset: id of its muscle preset.
-        nominal_length: [m].
-        parts: what each part of it means.
-    """
+    """What an order code says."""
 
     code: str
+    """As it was given."""
     preset: str
+    """Id of the muscle preset of its series and diameter."""
     nominal_length: float
+    """Length that it states [m]."""
     parts: tuple[CodePart, ...]
+    """Its parts, and what each means."""
 
 
 def ordered_muscle(text: str, studio: Studio) -> OrderedMuscle:

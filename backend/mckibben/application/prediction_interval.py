@@ -11,11 +11,12 @@ that of a new reading, where the model was measured; beyond that it is only a lo
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import replace
 from statistics import NormalDist
 
 import numpy as np
 
+from mckibben.facts.result import Rows, Series, result_class
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.presets.fit import FitRecord
 from mckibben.simulation.drive.parts import Drive
@@ -30,23 +31,33 @@ _STEP = 0.5  # of the differences, in standard deviations
 _POSITIONS = ("length", "displacement")  # predicted channels that are positions
 
 
-@dataclass(frozen=True, slots=True)
-class Interval:
-    """Where new readings are expected; SI.
+@result_class
+class ForceInterval:
+    """Where new readings of the force are expected, where the model was measured; wider elsewhere."""
 
-    Attributes:
-        low, high: ends, with the shape of the prediction; NaN where there is none.
-        share: of the readings that lie between them.
-    """
+    low: Rows
+    """Lower ends [N], shape (P, N)."""
+    high: Rows
+    """Upper ends [N], shape (P, N)."""
+    share: float = SHARE
+    """Share of the readings between them [-]."""
 
-    low: Array
-    high: Array
-    share: float
+
+@result_class
+class PositionInterval:
+    """Where new readings of the position are expected, where the model was measured; wider elsewhere."""
+
+    low: Series
+    """Lower ends [m], shape (N,)."""
+    high: Series
+    """Upper ends [m], shape (N,)."""
+    share: float = SHARE
+    """Share of the readings between them [-]."""
 
 
 def force_interval(
     fit: FitRecord | None, model: StaticModel, curves: Curves, curves_of: Callable[[StaticModel], Curves]
-) -> Interval | None:
+) -> ForceInterval | None:
     """The interval of the force of curves; None where the model was not fitted, or its errors are not known.
 
     Args:
@@ -64,14 +75,14 @@ def force_interval(
     else:
         return None
     variance = _variance(fit, curves.force.shape, model, lambda moved: curves_of(moved).force)
-    interval = _interval(curves.force, left**2 + variance)
+    low, high = _ends(curves.force, left**2 + variance)
     # A slack muscle has no tension, whatever was fitted.
-    return replace(interval, low=np.where(curves.force > 0.0, np.maximum(interval.low, 0.0), interval.low))
+    return ForceInterval(np.where(curves.force > 0.0, np.maximum(low, 0.0), low), high)
 
 
 def position_interval(
     fit: FitRecord | None, drive: Drive, position: Array, position_of: Callable[[Drive], Array]
-) -> Interval | None:
+) -> PositionInterval | None:
     """The interval of the position of a drive's load; None as in `force_interval`.
 
     An error of the force counts as an unknown constant force on the load; it has none where the load's force
@@ -100,7 +111,7 @@ def position_interval(
     variance = _variance(
         fit, position.shape, drive.model, lambda moved: position_of(replace(drive, model=moved))
     )
-    return _interval(position, left**2 + variance)
+    return PositionInterval(*_ends(position, left**2 + variance))
 
 
 def _variance(
@@ -141,6 +152,7 @@ def _moved(model: StaticModel, name: str, change: float) -> tuple[StaticModel, f
     return StaticModel.of(muscle, model.effects, values), value
 
 
-def _interval(value: Array, variance: Array) -> Interval:
+def _ends(value: Array, variance: Array) -> tuple[Array, Array]:
+    """Lower and upper end."""
     half = _DEVIATIONS * np.sqrt(variance)
-    return Interval(value - half, value + half, SHARE)
+    return value - half, value + half

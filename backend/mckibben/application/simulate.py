@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -26,12 +27,13 @@ from mckibben.application.operating_limits import (
     temperature_notices,
     valve_notices,
 )
-from mckibben.application.prediction_interval import Interval
+from mckibben.application.prediction_interval import PositionInterval
 from mckibben.documents.drive_reading import AnnotatedDrive
+from mckibben.facts.result import Booleans, FiniteSeries, Series, result_class
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
 from mckibben.simulation.drive.transient import Run
-from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.timing.of_run import (
     ChokedInterval,
@@ -73,101 +75,126 @@ class SimulationQuestion:
     engine: str = "auto"
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class SensorReadings:
     """Readings of the sensors: gauge pressure [Pa], force [N], position of the load [m]."""
 
-    pressure: Array
-    force: Array
-    position: Array
+    pressure: Series
+    """Gauge pressure [Pa]."""
+    force: Series
+    """Force [N]."""
+    position: Series
+    """Position of the load [m]."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class StartPosition:
     """Position of the load [m] and contraction of the muscle [-] at t = 0, and why the run starts there."""
 
     position: float
+    """Position of the load at t = 0 [m]."""
     contraction: float
+    """Contraction of the muscle at t = 0 [-]."""
     reason: str
+    """Why the run starts there, as a sentence."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class DriveBounds(MakerLimits):
     """Limits stated by the maker, and positions of the load at the end stops; SI."""
 
     position_min: float
+    """Lower stop as a position of the load [m]."""
     position_max: float
+    """Upper stop as a position of the load [m]."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class SimulationResult:
-    """Columns over time, SI; pressures gauge, positions positive = muscle shorter.
+    """Columns over time, SI; pressures gauge, positions positive = muscle shorter."""
 
-    Attributes:
-        time: of the rows; fewer than requested if the run ended early.
-        command: before dead times.
-        opening: after all effects.
-        reference: set point of the controller, None without one.
-        tube_pressure, regulator_pressure: None without such a part.
-        load_force: external force on the load.
-        contact: whether the load rests on an end stop.
-        slack: whether the muscle hangs slack: its length is then not that between the fittings.
-        start: where the run starts and why.
-        gas: how the air in the muscle is modelled.
-        readings: None if no effect changes the readings.
-        joint: of an antagonist pair.
-        interval: where new readings of the position are expected, of a model that was fitted; else None.
-        choked: intervals of choked flow in the whole run.
-        tracking: of a controlled run.
-        outcome: how the run ended.
-        message: what to do if it did not complete.
-        wall_ms: computing time of the integration.
-        engine, steps: integrator and number of its steps.
-        notes: path in the document or result -> note.
-        model: effects with their values.
-    """
-
-    time: Array
-    position: Array
-    velocity: Array
-    acceleration: Array
-    pressure: Array
-    force: Array
-    mass_flow: Array
-    command: Array
-    opening: Array
-    reference: Array | None
-    supply_flow: Array
-    exhaust_flow: Array
-    tube_pressure: Array | None
-    regulator_pressure: Array | None
-    volume: Array
-    diameter: Array
-    length: Array
-    contraction: Array
-    load_force: Array
-    temperature: Array
-    contact: Array
-    slack: Array
+    time: FiniteSeries
+    """Instants of the rows [s]; fewer than requested if the run ended early."""
+    position: Series
+    """Stroke of the load [m]."""
+    velocity: Series
+    """Velocity of the load [m/s], positive towards shorter."""
+    acceleration: Series
+    """Acceleration of the load [m/s^2], positive towards shorter."""
+    pressure: Series
+    """Pressure in the muscle [Pa]."""
+    force: Series
+    """Tension of the muscle [N]."""
+    mass_flow: Series
+    """Mass flow into the muscle [kg/s]."""
+    command: Series
+    """Command before dead times [-]."""
+    opening: Series
+    """Opening of the valve after all effects [-]."""
+    reference: Series | None
+    """Set point of the controller [m], None without one."""
+    supply_flow: Series
+    """Mass flow from the supply [kg/s]."""
+    exhaust_flow: Series
+    """Mass flow to the atmosphere [kg/s]."""
+    tube_pressure: Series | None
+    """Pressure in the tube [Pa], if there is one."""
+    regulator_pressure: Series | None
+    """Set point of the regulator after its lag [Pa], if there is one."""
+    volume: Series
+    """Gas volume of the muscle with all dead volumes [m^3]."""
+    diameter: Series
+    """Braid diameter at mid-span [m]."""
+    length: Series
+    """Length of the muscle [m]."""
+    contraction: Series
+    """Contraction ratio of the muscle [-]."""
+    load_force: Series
+    """External force on the load [N]."""
+    temperature: Series
+    """Temperature of the gas in the muscle [K]."""
+    contact: Booleans
+    """Whether the load rests on an end stop."""
+    slack: Booleans
+    """Whether the muscle hangs slack: it is then longer than its fittings are apart."""
     start: StartPosition
+    """Where the load is at t = 0, and why there."""
     gas: str
+    """How the air in the muscle is modelled."""
     readings: SensorReadings | None
+    """None if no effect changes the sensor readings."""
     joint: JointMotion | None
-    interval: Interval | None
+    """Joint of an antagonist pair."""
+    interval: PositionInterval | None
+    """Where new readings of the position are expected; None where the model was not fitted."""
     choked: list[ChokedInterval]
+    """Choked intervals of the whole run, whatever rows are requested."""
     timing: TimingTable
+    """Times, speeds and air of the first fill and the exhaust after it."""
     tracking: Tracking | None
-    outcome: str
+    """Tracking figures of a controlled run."""
+    outcome: OutcomeName
+    """How the run ended; only a completed one has all rows."""
     message: str | None
+    """Advice if the run did not complete."""
     wall_ms: float
-    engine: str
+    """Computing time of the integration in ms."""
+    engine: Literal["rodas", "lsoda"]
+    """The integrator used."""
     steps: int
+    """Steps of the integrator."""
     flags: list[Notice]
+    """Remarks on the run."""
     notes: dict[str, str]
+    """Field -> remark, including those of timing and tracking."""
     limits: DriveBounds
+    """Limits stated by the maker, and the end stops."""
     geometry: GeometrySummary
+    """Geometry of the muscle at rest, in all forms."""
     model: EffectSettings
+    """The effects used, with all their values."""
     duration: float
+    """Duration of the whole run [s]."""
 
 
 def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]:
@@ -209,7 +236,7 @@ def simulate(question: SimulationQuestion, watch: Watch | None = None) -> Simula
 
 
 def result_of(
-    annotated: AnnotatedDrive, grid: Grid, run: Run, interval: Interval | None = None
+    annotated: AnnotatedDrive, grid: Grid, run: Run, interval: PositionInterval | None = None
 ) -> SimulationResult:
     """The complete result of a run."""
     drive, out, states = run.drive, run.outputs, run.states

@@ -14,10 +14,12 @@ from mckibben.application.task_reading import catalogue_of, task_of
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
-from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.facts.result import Number, result_class
+from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.sizing import PartsCatalogue, Proposal, Rejection, Sizing, Task
 from mckibben.sizing import size as search_designs
 from mckibben.sizing.ranking import joint_front, why_first
+from mckibben.sizing.statics import LimitName
 from mckibben.sizing.trial import Trial
 
 _MESSAGES = {
@@ -43,153 +45,168 @@ class SizingQuestion:
     catalogue: PartsCatalogue
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ProposedDrive:
-    """A drive that fulfils the task; SI, gauge pressures.
-
-    Attributes:
-        muscle, valve, tube: ids of the presets.
-        nominal_length: of each muscle.
-        parallel: number of parallel muscles (on each side of a pair).
-        muscles: total number of muscles.
-        tube_length: 0 without a tube.
-        pulley_radius: of a pair.
-        pressure: of the supply at the valve.
-        time, time_down: of the stroke and the return stroke; None if it does not end within the run.
-        contraction: at the end of the stroke.
-        force_reserve: least excess of the static force over the load, as a share of the load.
-        needed_pressure: pressure that carries the load at the end of the stroke.
-        pressure_start, pressure_end: in the muscle when the load leaves its stop, and on arrival.
-        air_volume_anr: air of all muscles per cycle.
-        air_cost, air_cost_year: of a cycle and of a year, in the currency of the task.
-        impact_energy, end_speed: of the whole load at the end stop.
-        max_speed: during the stroke.
-        peak_force: largest tension of a muscle.
-        stiffness, stiffness_closed: of the load at the end of the stroke, valve open and closed.
-        installed_length: with end fittings.
-        diameter: outside, at the end of the stroke.
-        life: load cycles, an estimate.
-        probability, probability_error, specimens: that a real drive fulfils the task; its standard error;
-            number of simulated specimens.
-        margins: limit -> unused share of it.
-        binding: the limit with the least margin.
-        reservations: what costs it rank: margins below 5 %, an impact above the stated limit.
-        reason: reason of its rank.
-        front: whether no other proposal and no explored drive is better in every respect.
-        notes: notes for the builder.
-        unverified: unverified values in use, by preset.
-        drive: drive document of one of the muscles.
-    """
+    """A drive that fulfils the task; SI, gauge pressures."""
 
     muscle: str
+    """Id of the preset."""
     nominal_length: float
+    """Nominal length of each muscle [m]."""
     parallel: int
+    """Number of parallel muscles (on each side of a pair)."""
     muscles: int
+    """Number of all muscles of the drive."""
     valve: str
+    """Id of the preset; one for all parallel muscles, one on each side of a pair."""
     tube: str | None
+    """Id of the preset; one tube from the valve to each muscle."""
     tube_length: float
+    """Length of the tube [m]; 0 without one."""
     pulley_radius: float | None
+    """Pulley radius of a pair [m]."""
     pressure: float
-    time: float | None
+    """Gauge pressure of the supply at the valve [Pa], set by a regulator."""
+    time: float
+    """Time for the stroke to the end stop [s]."""
     time_down: float | None
+    """Time for the return [s]; None if not reached in the simulated time."""
     contraction: float
+    """Contraction ratio at the end of the stroke [-]."""
     force_reserve: float
-    needed_pressure: float
+    """Least share by which the static force exceeds the load [-]."""
+    needed_pressure: Number
+    """Pressure that just carries the load at the end of the stroke [Pa]."""
     pressure_start: float
+    """Pressure in the muscle when the load leaves its stop [Pa]."""
     pressure_end: float
+    """Pressure in the muscle on arrival [Pa]."""
     air_volume_anr: float
+    """Air of all muscles per cycle at ANR [m^3]."""
     air_cost: float
+    """Cost of the air of a cycle, in the currency of the task."""
     air_cost_year: float
+    """Cost of the air of a year, in the currency of the task."""
     impact_energy: float
+    """Kinetic energy of the whole load at the end stop [J]."""
     end_speed: float
+    """Speed of the load there [m/s]."""
     max_speed: float
+    """Largest speed of the load [m/s]."""
     peak_force: float
+    """Largest tension of a muscle [N]."""
     stiffness: float
+    """Stiffness at the load at the end of the stroke [N/m], valve open."""
     stiffness_closed: float
+    """The same with the valve closed [N/m]."""
     installed_length: float
+    """Nominal length and end fittings [m]."""
     diameter: float
+    """Outside diameter at the end of the stroke [m]."""
     life: float
+    """Load cycles [-]; an estimate, not verified."""
     probability: float | None
+    """Probability that a built drive fulfils the task [-]; None without specimens."""
     probability_error: float | None
+    """Its standard error [-]."""
     specimens: int
-    margins: dict[str, float]
-    binding: str
+    """Number of specimens simulated for it."""
+    margins: dict[LimitName, float]
+    """Limit -> margin as a share of the limit; limits that are not set are left out."""
+    binding: LimitName
+    """The limit with the least margin."""
     reservations: list[str]
+    """What costs it rank: margins below 5 %, an impact above limits.max_impact_energy."""
     reason: str
+    """Explanation of its rank."""
     front: bool
+    """Whether no other proposal and no explored drive is better in every respect."""
     notes: list[str]
+    """Remarks for building it."""
     unverified: list[str]
+    """Unverified figures it depends on, by preset."""
     drive: DriveDocument
+    """Drive document for /api/simulations, of one of the muscles."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class RejectedParts:
-    """Parts that do not fulfil the task; valve and tube None = any.
-
-    Attributes:
-        why: the reason, with values.
-        binding: the limit that would need the least relative change.
-        would_work_if: changes that would help, the smallest first.
-        combinations: number of combinations of these parts.
-    """
+    """Parts that do not fulfil the task; valve and tube None = any."""
 
     muscle: str
+    """Id of the preset."""
     parallel: int
+    """Number of parallel muscles."""
     valve: str | None
+    """None = with any valve."""
     tube: str | None
+    """None = with any tube."""
     why: str
-    binding: str
+    """The reason, with figures."""
+    binding: LimitName
+    """The limit that must move by the least share when no other moves."""
     would_work_if: str
+    """What would help, least change first."""
     combinations: int
+    """Number of combinations this entry covers."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ExploredDrive:
     """A simulated design that fulfils the task; approximate values, SI, for a plot of the alternatives."""
 
     muscle: str
+    """Id of the preset."""
     nominal_length: float
+    """Nominal length of each muscle [m]."""
     parallel: int
+    """Number of parallel muscles."""
     valve: str
+    """Id of the preset."""
     tube: str | None
+    """Id of the preset; None without a tube."""
     pressure: float
-    time: float | None
+    """Gauge pressure of the supply [Pa]."""
+    time: float
+    """Time for the stroke [s]."""
     air_volume_anr: float
+    """Air per cycle at ANR [m^3]."""
     force_reserve: float
+    """Share by which the static force exceeds the load [-]."""
     stiffness: float
+    """Stiffness at the load [N/m], valve open."""
     front: bool
+    """On the Pareto front of the explored designs."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class SizingResult:
-    """The proposals, the best first, and all rejected parts with reasons.
-
-    Attributes:
-        proposals: empty if no drive fulfils the task.
-        ranking: why the first proposal comes before the second; None for less than two.
-        rejected: the nearest to the task first.
-        explored: one design for each choice of parts that fulfils the task.
-        combinations: number of combinations of parts.
-        pruned: number of those rejected by static calculations.
-        simulated: number of simulated designs.
-        specimens: number of simulations for probabilities.
-        outcome: how the search ended.
-        message: what to do if it did not complete.
-        wall_ms: computing time of the whole search.
-    """
+    """The proposals, the best first, and all rejected parts with reasons."""
 
     proposals: list[ProposedDrive]
+    """Best first; empty if no candidate fulfils the task."""
     ranking: str | None
+    """Why the first proposal comes before the second; None for less than two."""
     rejected: list[RejectedParts]
+    """The nearest to the task first."""
     explored: list[ExploredDrive]
+    """The best design of each choice of parts that fulfils the task."""
     combinations: int
+    """Combinations of muscle, length, number, pressure, valve and tube within the limits."""
     pruned: int
+    """Number of them ruled out in closed form."""
     simulated: int
+    """Number of transient runs, without those of specimens."""
     specimens: int
-    outcome: str
+    """Number of transient runs for probabilities."""
+    outcome: OutcomeName
+    """How the search ended; only a completed one has tried everything."""
     message: str | None
+    """Advice if the search did not complete."""
     flags: list[Notice]
+    """Remarks on the task."""
     wall_ms: float
+    """Computing time of the search in ms."""
 
 
 @dataclass(frozen=True)
@@ -274,7 +291,7 @@ def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
         tube_length=0.0 if tube is None else tube.length,
         pulley_radius=group.duty.pulley_radius,
         pressure=design.pressure,
-        time=figures.time,
+        time=trial.time,
         time_down=figures.time_down,
         contraction=design.contraction,
         force_reserve=trial.force_reserve,
@@ -369,7 +386,7 @@ def _explored(trial: Trial, front: bool) -> ExploredDrive:
         valve=group.valve.id,
         tube=group.tube.id or None,
         pressure=trial.design.pressure,
-        time=trial.figures.time,
+        time=trial.time,
         air_volume_anr=trial.air,
         force_reserve=trial.force_reserve,
         stiffness=float(trial.rest.stiffness[0]),

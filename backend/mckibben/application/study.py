@@ -7,7 +7,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Protocol
+from typing import Literal, Protocol
 
 import numpy as np
 import orjson
@@ -17,15 +17,16 @@ from mckibben.application.study_variables import goals_of, limits_of, plan_of, v
 from mckibben.documents.studio import Studio
 from mckibben.documents.study import MOST_RUNS, StudyDocument
 from mckibben.documents.study_fields import StudyField
+from mckibben.facts.result import result_class
 from mckibben.physics.errors import fields_inside
-from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.studies.drive_figures import figures_named
 from mckibben.studies.optimise import FigureGoal, FigureLimit, front
 from mckibben.studies.plan import Plan, RobustPlan
 from mckibben.studies.run import Workers, in_threads, run_plan
 from mckibben.studies.sensitivity import MorrisPlan, Sensitivity, SobolPlan
 from mckibben.studies.statistics import (
-    Correlation,
+    FigureCorrelation,
     FigureSummary,
     Probability,
     correlations,
@@ -78,70 +79,78 @@ class StudyQuestion:
         return self.subject.with_point(self.variables, self.fields, run)
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class StudyColumn:
     """A column of the table: "quantity" or "figure", its SI unit; None for texts and plain numbers."""
 
     name: str
-    kind: str
+    """Key in the table: the path of the quantity or figure."""
+    kind: Literal["quantity", "figure"]
+    """Whether it was varied or watched."""
     unit: str | None
+    """SI unit; None for texts and plain numbers."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class RobustDesign:
     """A design of a robust study: values of its quantities, and the probability of keeping each limit."""
 
     design: int
+    """Its number in the plan."""
     values: dict[str, float | str]
+    """Quantity -> value."""
     probabilities: list[Probability]
+    """Of each limit, then of all."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class StudyResult:
-    """All runs of a study, and what they show; SI.
-
-    Attributes:
-        method: its name.
-        columns: quantities and figures of the table.
-        table: column -> values, one for each run that was made; also run, outcome and message.
-        outcomes: outcome -> number of runs.
-        summary: each figure over all runs that have it.
-        correlations: rank correlations; of random runs alone.
-        sensitivity: of Sobol's and Morris' methods.
-        front: numbers of the runs on the Pareto front, of one goal the best run; empty without goals.
-        probabilities: of keeping the limits; of random runs alone with intervals.
-        designs: of a robust study, the most probable to keep all limits first.
-        runs, planned: number of runs that were made, and that the study asks for.
-        kept: how many of them were made before, by a study that was interrupted or asked before.
-        goals: figures of the goals.
-        seed: of the random numbers; None without.
-        outcome: "completed", or how the study ended early.
-        message: what that means.
-        remarks: runs that failed, figures that are missing.
-        wall_ms: computing time.
-    """
+    """All runs of a study, and what they show; SI."""
 
     title: str
+    """Title of the study."""
     method: str
+    """Name of the method."""
     columns: list[StudyColumn]
-    table: dict[str, list[object]]
+    """Quantities and figures of the table."""
+    table: dict[str, list[float | str | None]]
+    """Column -> values, one for each run that was made; also run, outcome and message. None where a figure
+    does not exist; the message says why.
+    """
     outcomes: dict[str, int]
+    """How runs ended -> number of runs."""
     summary: list[FigureSummary]
-    correlations: list[Correlation]
+    """Each figure over all runs that have it."""
+    correlations: list[FigureCorrelation]
+    """Rank correlations; of random runs alone."""
     sensitivity: list[Sensitivity]
+    """Of the methods sobol and morris."""
     front: list[int]
+    """Numbers of the runs on the Pareto front; of one goal the best run; empty without goals."""
     probabilities: list[Probability]
+    """Of keeping the limits; of random runs alone with intervals."""
     designs: list[RobustDesign]
+    """Of a robust study, the most probable to keep all first."""
     runs: int
+    """Runs that were made."""
     planned: int
+    """Runs of the plan."""
     kept: int
+    """How many of them were made before, by a study that was interrupted or asked before."""
     goals: list[str]
+    """Figures of the goals."""
     confidence: float
+    """Confidence level of all intervals."""
     seed: int | None
-    outcome: str
+    """Seed of the random numbers; None without."""
+    outcome: OutcomeName
+    """"completed", or how the study ended early."""
     message: str | None
+    """Advice if the study did not complete."""
     remarks: list[str]
+    """Runs that failed, figures that are missing."""
     wall_ms: float
+    """Computing time in ms."""
 
 
 def study_question(document: StudyDocument, studio: Studio, most_runs: int = MOST_RUNS) -> StudyQuestion:

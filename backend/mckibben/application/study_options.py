@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 from mckibben.application.study_file import has_parquet
 from mckibben.application.study_subject import subject_of
@@ -12,41 +11,37 @@ from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.study import Subject
 from mckibben.documents.study_fields import stated_paths
+from mckibben.facts.result import result_class
 from mckibben.physics.errors import InputError
 from mckibben.studies.table import Figure
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class OpenQuantity:
-    """A quantity that a study can vary.
-
-    Attributes:
-        path: in the document of the subject.
-        unit: SI unit.
-        value: its present value in SI; None where only the document says what its number means.
-    """
+    """A quantity that a study can vary."""
 
     path: str
+    """Path in the document of the subject."""
     unit: str
+    """SI unit."""
     value: float | None
+    """Present value in SI; None for a plain gain, whose unit the document does not state."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class StudyOptions:
-    """What a study of a subject can vary and watch.
+    """What a study of a subject can vary and watch."""
 
-    Attributes:
-        kind: "drive" or "task".
-        quantities, figures: in the order of the document and of the timing table.
-        document: of the subject, complete: its effects with their values are stated.
-        parquet: whether tables can be written as Parquet here.
-    """
-
-    kind: str
+    kind: Literal["drive", "task"]
+    """What the subject is."""
     quantities: list[OpenQuantity]
+    """Quantities, in the order of the document."""
     figures: list[Figure]
+    """Figures."""
     document: dict[str, Any]
+    """The document of the subject with the effects of its presets stated."""
     parquet: bool
+    """Whether the server can write tables as Parquet."""
 
 
 def study_options(subject: Subject, studio: Studio) -> StudyOptions:

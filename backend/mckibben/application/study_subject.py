@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from pydantic import BaseModel
@@ -51,7 +51,7 @@ class StudySubject:
         chunk: runs that a worker gets at a time.
     """
 
-    kind: str
+    kind: Literal["drive", "task"]
     content: Mapping[str, Any]
     figures: Mapping[str, str]
     chunk: int

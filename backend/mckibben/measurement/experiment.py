@@ -24,6 +24,7 @@ from math import pi
 from types import MappingProxyType
 from typing import Literal
 
+from mckibben.facts.result import result_class
 from mckibben.measurement.accuracy import CHANNELS as ACCURACIES
 from mckibben.measurement.accuracy import SENSORS, read_accuracy
 from mckibben.measurement.kind import STROKES
@@ -34,21 +35,20 @@ Origin = Literal["file", "you", "preset", "suggested", "assumed"]
 ORIGINS: tuple[Origin, ...] = ("file", "you", "preset", "suggested", "assumed")
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ExperimentValue:
-    """One value of an experiment.
-
-    Attributes:
-        value: SI number or text.
-        unit: SI unit, "" of a text.
-        origin: who says it.
-        where: line or cell of the file, option or field of the request, preset; "" where there is no place.
-    """
+    """One value of an experiment."""
 
     value: float | str
+    """In SI, or a text."""
     unit: str
+    """SI unit; "" of a text, "1" of a share."""
     origin: Origin
+    """The file, the user (you), a preset that was chosen, a proposal that the user took over (suggested), or
+    nobody (assumed).
+    """
     where: str = ""
+    """Line or cell of the file, option or field of the request, preset; "" where there is no place."""
 
 
 #: Field -> value; fields that nobody stated and that have no sensible value are missing.

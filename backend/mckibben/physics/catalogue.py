@@ -5,11 +5,11 @@ from __future__ import annotations
 import importlib.machinery
 import importlib.util
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from types import CodeType
 
+from mckibben.facts.result import result_class
 from mckibben.physics.custom import CUSTOM
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean, error_text
@@ -18,12 +18,14 @@ BUILT_IN_FOLDER = Path(__file__).parent / "effects"
 _LONGEST_NAME = 64  # characters, as in a request
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class EffectProblem:
     """A file that could not be loaded as an effect, and why."""
 
     file: str
+    """Name of the file."""
     message: str
+    """Why it was not loaded."""
 
 
 class EffectCatalogue(Mapping[str, Effect]):

@@ -11,6 +11,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
+from mckibben.facts.result import result_class
 from mckibben.physics.errors import InputError, error_text
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
@@ -67,28 +68,27 @@ class StateVariable:
     largest: Literal["", "contraction"] = ""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Signature:
     """How the effect shows in the residual (measured minus ideal force), in words and as checkable claims.
 
     For an effect with states in the muscle the claims hold for a run from rest: "even" and "odd" refer to the
     mirrored motion (of length, or of pressure if that drives it). An effect of the drive alone changes no
     force at a given length and pressure, so it claims no parity, power or zeros.
-
-    Attributes:
-        text: the signature in words, one sentence.
-        direction: parity of the contribution when the motion reverses: "even", "odd" or None (neither).
-        pressure_power: n if the contribution to the force goes with P^n at constant length, else None.
-        zero_at: states (of `ZERO_STATES`) where the contribution to the force is exactly zero.
-        energy: "conservative" (a closed loop returns its work), "dissipative" (a loop never gains work),
-            "lumped" (a correction without an energy) or "reading" (changes what is read, not the muscle).
     """
 
     text: str
+    """The signature in words, one sentence."""
     direction: Literal["even", "odd"] | None
+    """Parity of the contribution when the motion reverses: "even", "odd" or None (neither)."""
     pressure_power: float | None
+    """n if the contribution to the force goes with P^n at constant length, else None."""
     zero_at: tuple[str, ...]
+    """States (of `ZERO_STATES`) where the contribution to the force is exactly zero."""
     energy: Literal["conservative", "dissipative", "lumped", "reading"]
+    """"conservative" (a closed loop returns its work), "dissipative" (a loop never gains work), "lumped" (a
+    correction without an energy) or "reading" (changes what is read, not the muscle).
+    """
 
 
 @dataclass(frozen=True, slots=True)

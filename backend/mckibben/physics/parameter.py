@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from mckibben.facts.result import result_class
+
 GRADES = {
     "S": "read in the cited source",
     "S2": "read second-hand",
@@ -17,12 +19,16 @@ GRADES = {
 UNVERIFIED_GRADES = frozenset({"M", "E"})
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Source:
     """Source of a figure, and its grade (a key of `GRADES`)."""
 
     text: str
+    """Short source."""
     grade: str
+    """S read in the source, S2 second-hand, C computed, D derived here, M general knowledge and E estimate
+    (both unverified), user.
+    """
 
     def __post_init__(self) -> None:
         if self.grade not in GRADES:

@@ -12,8 +12,9 @@ from collections.abc import Hashable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, NamedTuple, cast
+from typing import Any, cast
 
+from mckibben.facts.result import result_class
 from mckibben.folder import locked
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.presets.quantity import Finding
@@ -26,13 +27,18 @@ USER_ID = re.compile(r"[A-Za-z0-9][A-Za-z0-9-]{0,63}")
 Signature = tuple[tuple[str, int, int, int], ...]
 
 
-class LibraryProblem(NamedTuple):
-    """A preset file that was not loaded: file, field inside it, what is wrong, what would be right."""
+@result_class
+class LibraryProblem:
+    """A preset file that was not loaded."""
 
     file: str
+    """The file."""
     field: str | None
+    """Path of the field inside it."""
     message: str
+    """What is wrong."""
     hint: str | None = None
+    """What would be right."""
 
 
 @dataclass

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from mckibben.facts.result import result_class
 from mckibben.physics.errors import InputError
 
 MOST_TITLE, MOST_NOTES, MOST_DOCUMENT = 200, 100_000, 900_000  # characters
@@ -49,46 +50,42 @@ class StoredStudy:
     content: bytes
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ProjectSummary:
-    """A project in a list; instants are seconds since 1970 (UTC).
-
-    Attributes:
-        id: its id.
-        title, notes: by the user.
-        version: number of its last revision; it grows with each change.
-        created, changed: instants.
-        deleted: instant; None for a project that is not in the bin.
-        files: number of measurements.
-        size: characters and bytes of the last document, of the measurements and of the study tables.
-    """
+    """A project in a list; instants are seconds since 1970 (UTC)."""
 
     id: str
+    """Its id."""
     title: str
+    """Title, in one line, at most 200 characters."""
     notes: str
+    """Notes of the user, plain text."""
     version: int
+    """Number of its last revision; it grows with each change."""
     created: float
+    """Instant, seconds since 1970 (UTC)."""
     changed: float
+    """Instant of the last change, seconds since 1970 (UTC)."""
     deleted: float | None
+    """Instant when it was deleted; None = it is not in the bin."""
     files: int
+    """Number of measurements kept with it."""
     size: int
+    """Characters and bytes of the last document, of the measurements and of the study tables."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Revision:
-    """A saved state in the history of a project.
-
-    Attributes:
-        version: its number.
-        saved: instant.
-        label: what was done, in words.
-        automatic: whether it was saved without being asked for.
-    """
+    """A saved state in the history of a project."""
 
     version: int
+    """Its number."""
     saved: float
+    """Instant, seconds since 1970 (UTC)."""
     label: str
+    """What was done, in words, for the history."""
     automatic: bool
+    """Whether it was saved without being asked for."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,23 +4,15 @@ from __future__ import annotations
 
 from mckibben.physics.catalogue import EffectCatalogue
 from mckibben.physics.effect import Effect
-from mckibben.physics.parameter import Parameter, Source
-from mckibben.server.schemas.common import SourceText
-from mckibben.server.schemas.effects import (
-    EffectAnswer,
-    EffectParameter,
-    EffectsAnswer,
-    FileProblem,
-    Signature,
-    Twin,
-)
+from mckibben.physics.parameter import Parameter
+from mckibben.server.schemas.effects import EffectAnswer, EffectParameter, EffectsAnswer, Twin
 
 
 def effects_answer(catalogue: EffectCatalogue) -> EffectsAnswer:
     """Every effect with its declarations, and the effect files that could not be loaded."""
     return EffectsAnswer(
         effects=[_effect(effect) for effect in catalogue.values()],
-        problems=[FileProblem(file=problem.file, message=problem.message) for problem in catalogue.problems],
+        problems=list(catalogue.problems),
     )
 
 
@@ -28,10 +20,6 @@ def _mathml(latex: str) -> str:
     from latex2mathml.converter import convert  # 0.05 s import, only when the catalogue is requested
 
     return convert(latex)
-
-
-def _source(source: Source) -> SourceText:
-    return SourceText(text=source.text, grade=source.grade)
 
 
 def _parameter(parameter: Parameter) -> EffectParameter:
@@ -46,12 +34,11 @@ def _parameter(parameter: Parameter) -> EffectParameter:
         off=parameter.off,
         fitted=parameter.fitted,
         description=parameter.description,
-        source=_source(parameter.source),
+        source=parameter.source,
     )
 
 
 def _effect(effect: Effect) -> EffectAnswer:
-    signature = effect.signature
     return EffectAnswer(
         id=effect.id,
         title=effect.title,
@@ -62,16 +49,10 @@ def _effect(effect: Effect) -> EffectAnswer:
         equation_mathml=_mathml(effect.equation),
         parameters=[_parameter(parameter) for parameter in effect.parameters],
         kinds=sorted(effect.kinds),
-        signature=Signature(
-            text=signature.text,
-            direction=signature.direction,
-            pressure_power=signature.pressure_power,
-            zero_at=list(signature.zero_at),
-            energy=signature.energy,
-        ),
+        signature=effect.signature,
         confused_with=[
             Twin(effect=twin.effect, separated_by=twin.separated_by) for twin in effect.confused_with
         ],
-        references=[_source(source) for source in effect.references],
+        references=list(effect.references),
         slots=list(effect.slots),
     )

@@ -6,10 +6,15 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from enum import Enum
+from typing import Literal, cast
 
 # A run that takes longer has a stiff or chattering drive, or is longer than a user waits for.
 TIME_LIMIT = 10.0  # s
 _PROGRESS_EVERY = 0.1  # s
+
+
+#: Short names of the outcomes, for programs.
+OutcomeName = Literal["completed", "stuck", "diverged", "timed_out", "cancelled"]
 
 
 class Outcome(Enum):
@@ -31,9 +36,9 @@ class Outcome(Enum):
     CANCELLED = "The run was cancelled."
 
     @property
-    def label(self) -> str:
+    def label(self) -> OutcomeName:
         """Short name for programs."""
-        return self.name.lower()
+        return cast(OutcomeName, self.name.lower())
 
 
 @dataclass

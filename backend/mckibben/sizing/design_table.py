@@ -8,10 +8,11 @@ from functools import cached_property
 import numpy as np
 
 from mckibben.sizing.catalogue import MusclePart
-from mckibben.sizing.statics import Rest, at_rest, contraction_limit, margins
+from mckibben.sizing.statics import LimitName, Rest, at_rest, contraction_limit, margins
 from mckibben.sizing.task import Duty, Task
 
 Array = np.ndarray
+
 
 _LENGTHS, _PRESSURES = 12, 8
 _LOWEST_SHARE = 0.3  # of the pressure available
@@ -33,7 +34,7 @@ class Sheet:
     duty: Duty
     task: Task
     rest: Rest
-    margins: dict[str, Array]
+    margins: dict[LimitName, Array]
 
     @cached_property
     def lacking(self) -> Array:
@@ -100,9 +101,9 @@ class Shortfall:
         remedies: limit -> position of the best design that violates only it, and the share it is missed by.
     """
 
-    binding: str
+    binding: LimitName
     best: int | None
-    remedies: dict[str, tuple[int, float]]
+    remedies: dict[LimitName, tuple[int, float]]
 
 
 def shortfall(sheet: Sheet, parallel: int) -> Shortfall:
@@ -112,7 +113,7 @@ def shortfall(sheet: Sheet, parallel: int) -> Shortfall:
     task come first; if none of them helps alone, it is a limit of the muscle itself.
     """
     designs = sheet.of(parallel)
-    remedies: dict[str, tuple[int, float]] = {}
+    remedies: dict[LimitName, tuple[int, float]] = {}
     for name, margin in sheet.margins.items():
         alone = designs[(sheet.lacking[designs] == 1) & (margin[designs] < -_HAIR)]
         if len(alone):

@@ -18,6 +18,7 @@ from mckibben.sizing.reasons import (
     valve_text,
     why_at_rest,
 )
+from mckibben.sizing.statics import LimitName
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial
 
@@ -37,7 +38,7 @@ class Rejection:
     muscle: str
     parallel: int
     why: str
-    binding: str
+    binding: LimitName
     would_work_if: str
     valve: str | None = None
     tube: str | None = None

@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, fields
 from operator import attrgetter
+from typing import Literal
 
 import numpy as np
 
@@ -19,6 +20,12 @@ from mckibben.sizing.catalogue import MusclePart
 from mckibben.sizing.task import STATIONS, Duty, Task
 
 Array = np.ndarray
+
+#: A limit of a task that a design may fail.
+LimitName = Literal[
+    "length", "pressure", "contraction", "force", "force_limit", "diameter", "stiffness", "life",
+    "temperature", "time", "time_down", "cycle_time", "suspended_mass", "valve_pressure",
+]  # fmt: skip
 
 # Life of a fluidic muscle, "100 000 to 10 million load cycles depending on load": general knowledge.
 _LONGEST_LIFE, _LIFE_DECADES = 1e7, 2.0
@@ -168,7 +175,7 @@ def at_rest(
     )
 
 
-def margins(rest: Rest, part: MusclePart, task: Task) -> dict[str, Array]:
+def margins(rest: Rest, part: MusclePart, task: Task) -> dict[LimitName, Array]:
     """Margin to each limit as a share of it, negative where it is violated; shape (designs,) each."""
     limits = task.limits
     most = contraction_limit(part, task)

@@ -14,7 +14,7 @@ from mckibben.sizing.catalogue import Design, alike_designs
 from mckibben.sizing.prepared import Figures
 from mckibben.sizing.side_by_side import Case
 from mckibben.sizing.spread import weak
-from mckibben.sizing.statics import AMPLE, Rest, at_rest, margins
+from mckibben.sizing.statics import AMPLE, LimitName, Rest, at_rest, margins
 from mckibben.sizing.task import Task
 
 _HAIR = 1e-9  # a margin is kept down to this far below zero: rounding
@@ -31,7 +31,7 @@ class AtRest(NamedTuple):
     """Statics of a design, and its margin to each limit at rest."""
 
     rest: Rest
-    margins: dict[str, float]
+    margins: dict[LimitName, float]
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,14 +45,25 @@ class Trial:
     design: Design
     rest: Rest
     figures: Figures
-    margins: dict[str, float]
+    margins: dict[LimitName, float]
     task: Task
     weak: Figures | None = None
 
     @property
-    def binding(self) -> str:
+    def binding(self) -> LimitName:
         """The limit with the least margin."""
         return min(self.margins, key=lambda name: self.margins[name])
+
+    @property
+    def time(self) -> float:
+        """Time of the stroke [s], of a trial that keeps its limits.
+
+        Raises:
+            LookupError: the load does not arrive.
+        """
+        if self.figures.time is None:
+            raise LookupError("the load does not arrive")
+        return self.figures.time
 
     @property
     def keeps_limits(self) -> bool:
@@ -145,7 +156,7 @@ def rests_of(designs: Sequence[Design], task: Task) -> list[AtRest]:
     return [found[index] for index in range(len(designs))]
 
 
-def at_rest_of(rest: Rest, limits: Mapping[str, np.ndarray], index: int) -> AtRest:
+def at_rest_of(rest: Rest, limits: Mapping[LimitName, np.ndarray], index: int) -> AtRest:
     """The statics of one of the designs."""
     return AtRest(rest.only(index), {name: float(margin[index]) for name, margin in limits.items()})
 
@@ -164,10 +175,10 @@ def judged(design: Design, figures: Figures, task: Task, known: AtRest | None = 
     return Trial(design, rest, figures, kept, task)
 
 
-def times_over(figures: Figures, task: Task) -> dict[str, float]:
+def times_over(figures: Figures, task: Task) -> dict[LimitName, float]:
     """Times taken as shares of the times required; infinite where an end is not reached."""
     up, down = figures.time, figures.time_down
-    ratios: dict[str, float] = {}
+    ratios: dict[LimitName, float] = {}
     if task.time is not None:
         ratios["time"] = inf if up is None else up / task.time
     if task.time_down is not None:

@@ -6,10 +6,10 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mckibben.facts.timing import TIMING
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.simulation.drive.transient import Run
 from mckibben.simulation.timing.of_run import timing_of, trace_of, tracking_of
-from mckibben.simulation.timing.table import FIGURE_UNITS
 from mckibben.simulation.timing.trace import Trace
 from mckibben.studies.table import Figure
 
@@ -20,9 +20,9 @@ _PICKS = {"largest": np.max, "smallest": np.min, "last": lambda column: column[-
 #: Path -> SI unit: the timing table, tracking of a reference, and extremes and last values of columns.
 DRIVE_FIGURES: dict[str, str] = {
     **{
-        f"timing.{phase}.{name}": unit
+        f"timing.{phase}.{figure.name}": figure.unit
         for phase in ("extend", "retract")
-        for name, unit in FIGURE_UNITS.items()
+        for figure in TIMING.values()
     },
     **{f"tracking.{name}": unit for name, unit in _TRACKING.items()},
     **{f"{pick}.{name}": unit for pick in _PICKS for name, unit in _COLUMNS.items()},

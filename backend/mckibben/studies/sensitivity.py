@@ -15,6 +15,7 @@ from typing import Any
 
 import numpy as np
 
+from mckibben.facts.result import result_class
 from mckibben.studies.plan import FixedPlan
 from mckibben.studies.table import StudyTable
 from mckibben.studies.variable import Variable, points_of
@@ -24,7 +25,7 @@ _RESAMPLES = 200  # of the bootstrap for intervals: their half widths are then k
 _LEAST_BLOCKS = 8  # fewer give no interval worth the name
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Influence:
     """Influence of a quantity on a figure; half widths of confidence intervals follow each estimate.
 
@@ -35,25 +36,41 @@ class Influence:
     """
 
     figure: str
+    """Path of the figure."""
     quantity: str
+    """Name of the quantity."""
     first: float | None = None
+    """Sobol: share of the variance due to the quantity alone."""
     first_error: float | None = None
+    """Its error."""
     total: float | None = None
+    """Sobol: share of the variance with all its interactions."""
     total_error: float | None = None
+    """Its error."""
     mean: float | None = None
+    """Morris: mean elementary effect, in the unit of the figure."""
     mean_size: float | None = None
+    """Morris: mean magnitude of the effects, in the unit of the figure."""
     mean_size_error: float | None = None
+    """Its error."""
     deviation: float | None = None
+    """Morris: standard deviation of the effects, in the unit of the figure; large where the influence is not
+    linear or depends on other quantities.
+    """
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Sensitivity:
     """Influences on a figure, and from how many of the planned blocks they follow; empty with too few."""
 
     figure: str
+    """Path of the figure."""
     influences: tuple[Influence, ...]
+    """Of each quantity; empty with too few runs."""
     blocks: int
+    """Blocks of runs used; one with a failed run is left out."""
     planned_blocks: int
+    """Blocks of runs in the plan."""
 
 
 @dataclass(frozen=True, eq=False)

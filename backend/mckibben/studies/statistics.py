@@ -6,10 +6,10 @@ Intervals hold for independent runs, that is Monte Carlo studies; others have no
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.facts.result import Number, result_class
 from mckibben.studies.optimise import FigureLimit, keeps
 from mckibben.studies.table import StudyTable
 
@@ -17,62 +17,66 @@ Array = np.ndarray
 PERCENTILES = (1.0, 5.0, 25.0, 50.0, 75.0, 95.0, 99.0)
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Estimate:
     """A value with the ends of its confidence interval; None where the runs do not give them."""
 
-    value: float
+    value: Number
+    """The value."""
     low: float | None = None
+    """Lower end; None where the runs do not give one."""
     high: float | None = None
+    """Upper end; None where the runs do not give one."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class FigureSummary:
-    """A figure over all runs that have it; SI.
-
-    Attributes:
-        figure, unit: which.
-        count, missing: number of runs with and without it.
-        mean, deviation: with intervals for independent runs; that of the deviation holds for a normal
-            distribution.
-        least, most: extremes.
-        percentiles: percent -> value, with intervals free of the distribution.
-    """
+    """A figure over all runs that have it; SI."""
 
     figure: str
+    """Path of the figure."""
     unit: str
+    """Its SI unit."""
     count: int
+    """Runs that have it."""
     missing: int
+    """Runs that lack it."""
     mean: Estimate | None
+    """Mean, in the unit of the figure."""
     deviation: Estimate | None
+    """Standard deviation, in the unit of the figure."""
     least: float | None
+    """Smallest value, in the unit of the figure."""
     most: float | None
+    """Largest value, in the unit of the figure."""
     percentiles: dict[str, Estimate]
+    """Percent, 1 to 99 -> percentile, in the unit of the figure; its interval holds for any distribution."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Probability:
-    """Share of the runs that keep limits, with the exact interval of Clopper and Pearson.
-
-    Attributes:
-        what: the figure of the limit, or "all".
-        kept, runs: numbers of runs; a run that failed or lacks the figure does not keep the limit.
-        probability: with its interval; no interval for runs that are not independent.
-    """
+    """Share of the runs that keep limits, with the exact interval of Clopper and Pearson."""
 
     what: str
+    """The figure of the limit, or 'all'."""
     kept: int
+    """Runs that keep it."""
     runs: int
+    """All runs."""
     probability: Estimate
+    """kept / runs, with the interval of Clopper and Pearson."""
 
 
-@dataclass(frozen=True, slots=True)
-class Correlation:
+@result_class
+class FigureCorrelation:
     """Spearman's rank correlation of a quantity and a figure; None where one of them does not vary."""
 
     figure: str
+    """Path of the figure."""
     quantity: str
+    """Name of the quantity."""
     rank_correlation: float | None
+    """-1 to 1; None where one of them does not vary."""
 
 
 def summaries(table: StudyTable, confidence: float, independent: bool) -> list[FigureSummary]:
@@ -156,7 +160,7 @@ def probabilities(
     return [*each, probability("all", keeps(table, limits), confidence, independent)]
 
 
-def correlations(table: StudyTable) -> list[Correlation]:
+def correlations(table: StudyTable) -> list[FigureCorrelation]:
     """Rank correlations of every quantity with every figure."""
     from scipy.stats import rankdata
 
@@ -169,5 +173,5 @@ def correlations(table: StudyTable) -> list[Correlation]:
             coefficient = None
             if not variable.choices and len(x) > 2 and np.ptp(x) > 0.0 and np.ptp(y) > 0.0:
                 coefficient = float(np.corrcoef(rankdata(x), rankdata(y))[0, 1])
-            found.append(Correlation(figure.path, variable.name, coefficient))
+            found.append(FigureCorrelation(figure.path, variable.name, coefficient))
     return found

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.facts.result import result_class
 from mckibben.studies.variable import Variable
 
 Array = np.ndarray
@@ -32,12 +33,14 @@ class Row:
 Evaluate = Callable[[Array], Sequence[Row]]
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Figure:
     """A watched figure: its path and SI unit."""
 
     path: str
+    """Path of the figure."""
     unit: str
+    """SI unit."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -90,9 +93,9 @@ class StudyTable:
         place = [figure.path for figure in self.figures].index(path)
         return np.where(self.completed, self.values[:, place], np.nan)
 
-    def columns(self) -> dict[str, list[object]]:
+    def columns(self) -> dict[str, list[float | str | None]]:
         """The columns by name: run, quantities, figures, outcome, message; None for a missing figure."""
-        columns: dict[str, list[object]] = {"run": self.runs.tolist()}
+        columns: dict[str, list[float | str | None]] = {"run": self.runs.tolist()}
         for index, variable in enumerate(self.variables):
             columns[variable.name] = [variable.shown(value) for value in self.points[:, index].tolist()]
         for index, figure in enumerate(self.figures):

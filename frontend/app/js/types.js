@@ -14,16 +14,17 @@
  *   references?: string[], verified: boolean, origin: string, data_columns?: Record<string, Column>,
  *   nominal_length?: PresetValue, excluded?: S["Exclusion"][], slack?: number[],
  *   source?: string, grade?: string, note?: string, document?: Partial<Design>}} Preset */
-/** @typedef {S["FileProblem"] & Partial<S["PresetProblem"]>} Problem */
+/** @typedef {S["EffectProblem"] & Partial<S["LibraryProblem"]>} Problem */
 /** @typedef {S["EffectParameter"]} Parameter */
 /** @typedef {S["EffectAnswer"]} Effect */
 /** @typedef {S["ExportFormat"]} ExportFormat */
-/** @typedef {S["CurvesAnswer"]} Curves */
-/** @typedef {S["InverseAnswer"]} Answer */
-/** @typedef {S["OrderCodeAnswer"]} OrderCode */
-/** @typedef {S["ComparisonAnswer"]} Comparison */
-/** @typedef {S["SimulationAnswer"]} Run */
-/** @typedef {S["MeasurementDetail"]} Measured */
+/** @typedef {S["CurvesResult"]} Curves */
+/** @typedef {S["InverseFinding"]} Answer */
+/** @typedef {S["OrderedMuscle"]} OrderCode */
+/** @typedef {S["ComparisonResult"]} Comparison */
+/** @typedef {S["SimulationResult"]} Run */
+/** @typedef {S["MeasurementDetails"]} Measured */
+/** A figure of a phase in the timing table. @typedef {keyof S["PhaseFigures"]} PhaseFigure */
 
 /** @typedef {"braid" | "thread" | "rhombus"} Form */
 /** @typedef {{preset: string | null, form: Form, values: Record<string, number>}} Muscle */

@@ -9,8 +9,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from mckibben.facts.timing import TIMING as FIGURES
 from mckibben.simulation.command.segments import Segments, phases
-from mckibben.simulation.timing.table import FIGURES, PhaseFigures, TimingTable, timing
+from mckibben.simulation.timing.table import PhaseFigures, TimingTable, timing
 from mckibben.simulation.timing.trace import Impact, Trace
 from mckibben.simulation.timing.tracking import tracking
 

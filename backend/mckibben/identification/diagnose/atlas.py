@@ -10,11 +10,11 @@ loads, a map at rest approached from both sides, the diameter over the contracti
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from mckibben.facts.result import FiniteSeries, Number, result_class
 from mckibben.identification.diagnose.protocol import RigRun, experiment_of
 from mckibben.identification.predict.comparable_rows import GRAVITY, ComparableRows
 from mckibben.identification.predict.fit_model import FitModel
@@ -47,42 +47,40 @@ _READINGS = {
 }
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class SignatureCurve:
-    """The residual of one run, in the order of its motion.
+    """The residual of one run, in the order of its motion."""
 
-    Attributes:
-        level: what the rig held: pressure [Pa], length [m] or load [N]; NaN for a drive in motion.
-        x, y: the variable that moved and the residual, in the units of the picture.
-    """
-
-    level: float
-    x: NDArray[np.float64]
-    y: NDArray[np.float64]
+    level: Number
+    """What the rig held, in Pa, m or N: pressure, length or load; NaN for a drive in motion."""
+    x: FiniteSeries
+    """What moved."""
+    y: FiniteSeries
+    """The residual: with the effect minus without it."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class SignaturePicture:
-    """What an effect leaves in one kind of test.
-
-    Attributes:
-        kind: of the test.
-        quantity, unit: what is predicted, SI.
-        x, x_unit: what moves, SI.
-        held, held_unit: what the rig holds in each run, SI; "" for a drive in motion.
-        curves: one for each run.
-        rms: of the residual over all runs.
-    """
+    """What an effect leaves in one kind of test."""
 
     kind: Kind
+    """Kind of the test."""
     quantity: str
+    """What is predicted: force, length, diameter, stroke or pressure."""
     unit: str
+    """Its SI unit."""
     x: str
+    """What moves: contraction, pressure or time."""
     x_unit: str
+    """Its SI unit."""
     held: str
+    """What the rig holds in each run; empty in a drive."""
     held_unit: str
+    """Its SI unit."""
     curves: tuple[SignatureCurve, ...]
+    """One for each run."""
     rms: float
+    """Root mean square of the residual."""
 
 
 def pictures(

@@ -8,6 +8,7 @@ from functools import partial
 
 import numpy as np
 
+from mckibben.facts.result import result_class
 from mckibben.identification.diagnose.as_compared import as_compared
 from mckibben.identification.diagnose.contest import contest
 from mckibben.identification.diagnose.corrections import Correction, refined, without_corrections
@@ -64,13 +65,16 @@ FEWEST_VALUES = 6
 _DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 
 
-@dataclass(frozen=True)
+@result_class
 class NotTried:
     """An effect that was not a candidate, and why; ``needs_time``: the time of each row would make it one."""
 
     effect: str
+    """Its id."""
     why: str
+    """The reason."""
     needs_time: bool = False
+    """Whether the time of each row would make it a candidate."""
 
 
 @dataclass(frozen=True)

@@ -20,7 +20,7 @@ from math import exp, lgamma, log
 import numpy as np
 
 from mckibben.identification.diagnose.score import effective_rows
-from mckibben.identification.diagnose.swept_rows import COORDINATES, SweptRows
+from mckibben.identification.diagnose.swept_rows import COORDINATES, Coordinate, SweptRows
 
 _FALSE_ALARM = 1e-4  # chance of noise, over all periods tried, below which a repetition is told
 _SHARE = 0.2  # least share of the rest
@@ -59,7 +59,7 @@ class Repetition:
         also: the same repetition over other coordinates, which these data cannot tell from it.
     """
 
-    over: str
+    over: Coordinate
     period: float
     share: float
     amplitude: float
@@ -69,7 +69,7 @@ class Repetition:
     parts: int
     shown: int
     of_sweeps: bool = False
-    also: tuple[tuple[str, float], ...] = ()
+    also: tuple[tuple[Coordinate, float], ...] = ()
 
 
 def repetition(
@@ -110,7 +110,7 @@ class _Scan:
     ``cycles``: most cycles in the range, which is also the number of independent frequencies.
     """
 
-    over: str
+    over: Coordinate
     grows: bool
     growth: np.ndarray
     x: np.ndarray
@@ -120,7 +120,7 @@ class _Scan:
     shares: np.ndarray
 
 
-def _scans(rows: SweptRows, name: str) -> Iterator[_Scan]:
+def _scans(rows: SweptRows, name: Coordinate) -> Iterator[_Scan]:
     """The scans of one coordinate; of constant amplitude, and of one that grows with the pressure."""
     x = rows.inputs[name]
     in_time = name == "time"
@@ -147,7 +147,7 @@ def _scans(rows: SweptRows, name: str) -> Iterator[_Scan]:
         yield _Scan(name, grows, growth, x, span, cycles, frequencies[kept], power[kept] / square)
 
 
-def _growths(rows: SweptRows, name: str) -> Iterator[tuple[bool, np.ndarray]]:
+def _growths(rows: SweptRows, name: Coordinate) -> Iterator[tuple[bool, np.ndarray]]:
     yield False, np.ones(len(rows.left))
     pressure = rows.inputs.get("pressure")
     if pressure is not None and name != "pressure" and np.min(pressure) >= 0.0:
@@ -257,7 +257,7 @@ def _weights(columns: np.ndarray, left: np.ndarray, labels: np.ndarray, inside: 
     return result
 
 
-def _ways(rows: SweptRows, over: str) -> Iterator[np.ndarray]:
+def _ways(rows: SweptRows, over: Coordinate) -> Iterator[np.ndarray]:
     """Halves of the rows: every other sweep, every other pair of them, every other record.
 
     A single sweep, and the sweeps of a record in time, have no others: they are cut in two.

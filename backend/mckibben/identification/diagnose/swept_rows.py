@@ -5,11 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Literal
 
 import numpy as np
 
 FEWEST_ROWS = 60
-COORDINATES = ("length", "pressure", "time")
+#: What a residual may repeat over.
+Coordinate = Literal["length", "pressure", "time"]
+COORDINATES: tuple[Coordinate, ...] = ("length", "pressure", "time")
 _DEGREE, _ROWS_PER_DEGREE = 4, 12  # of the polynomial of a sweep
 _MOST_ROWS = 6000  # more are thinned
 

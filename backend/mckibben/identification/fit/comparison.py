@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from mckibben.facts.result import result_class
 from mckibben.identification.fit.effort import final_effort
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.least_squares import FitResult
@@ -89,46 +90,50 @@ class Comparison:
         return channel_misfits(self.predictor, self.residual)
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ParameterValue:
-    """A parameter as used or fitted.
-
-    Attributes:
-        value: SI.
-        stderr: standard error; None when it was not fitted or is not determined.
-        unit: SI unit.
-        at_bound: whether the fit ended at a bound.
-        fitted: whether the fit was free to change it.
-    """
+    """A parameter as used or fitted."""
 
     value: float
+    """Value in SI."""
     stderr: float | None
+    """Standard error; None when not fitted or not determined."""
     unit: str
+    """SI unit."""
     at_bound: bool
+    """The fit stopped at a bound."""
     fitted: bool
+    """Whether the fit could change it."""
 
 
 #: Effect id -> name -> value; "geometry" holds what belongs to no effect.
 ParameterTable = dict[str, dict[str, ParameterValue]]
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ChannelMisfit:
     """Error of one of several predicted channels, SI."""
 
     rmse: float
+    """Root mean square of the residual."""
     unit: str
+    """SI unit of the figures."""
     noise_floor: float
+    """Noise of the channel."""
     full_scale: float
+    """The largest measured magnitude."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Correlation:
     """How strongly two fitted parameters are correlated."""
 
     a: str
+    """First parameter, as effect.parameter."""
     b: str
+    """Second parameter, as effect.parameter."""
     value: float
+    """Coefficient of correlation, -1 to 1."""
 
 
 def correlations_of(fit: FitResult | None) -> list[Correlation]:

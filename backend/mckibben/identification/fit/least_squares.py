@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.facts.result import result_class
 from mckibben.identification.fit.levenberg import minimise
 from mckibben.identification.predict.free import Free
 
@@ -26,17 +27,14 @@ class Fitted:
     at_bound: bool
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class FittedCovariance:
-    """Covariance of the fitted parameters that the data determine.
-
-    Attributes:
-        names: of the parameters; one at a bound is none of them.
-        matrix: products of their SI units, shape (names, names).
-    """
+    """Covariance of the fitted parameters that the data determine."""
 
     names: list[str]
+    """effect.parameter, or a dimension of the muscle."""
     matrix: list[list[float]]
+    """Products of their SI units, one row per name, shape (names, names)."""
 
 
 @dataclass(frozen=True, slots=True)

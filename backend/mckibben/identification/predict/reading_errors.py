@@ -31,6 +31,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.facts.result import result_class
+
 _NOTHING = 1e-9  # singular value below which a reading error changes nothing
 
 
@@ -56,25 +58,24 @@ class ReadingError:
     deviation: bool = False
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class AbsorbedError:
-    """The estimated error of a reading.
-
-    Attributes:
-        channel, of, unit: as in `ReadingError`.
-        value: estimate, measured minus true [SI].
-        stderr: its standard error, at most the accuracy.
-        accuracy: standard deviation that was stated or assumed.
-        rms: change of the predicted channel on its rows, over the scale of the residual.
-    """
+    """The estimated error of a reading."""
 
     channel: str
+    """The channel."""
     of: str
+    """What it belongs to."""
     value: float
+    """Estimated error of the reading, SI."""
     stderr: float
+    """Its standard error, at most the accuracy."""
     accuracy: float
+    """Stated or assumed standard deviation, SI."""
     unit: str
+    """SI unit of value, stderr and accuracy."""
     rms: float
+    """Change of the predicted channel on its rows, over the scale of the residual."""
 
 
 @dataclass(frozen=True, eq=False)

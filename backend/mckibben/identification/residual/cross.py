@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
+
+from mckibben.facts.result import Integers, Series, result_class
 
 _LAGS = 25  # rows, both ways
 _LEAST = 4  # lengths of the lags that a sweep has at least
@@ -15,25 +16,22 @@ _VARIES = 0.03  # of its largest value; an input that changes by less within the
 INPUTS = ("command", "pressure", "load", "contraction")
 
 
-@dataclass(frozen=True)
+@result_class
 class CrossCorrelation:
-    """Of one channel.
-
-    Attributes:
-        channel: the predicted channel.
-        input: name of the input.
-        lags: number of rows by which the residual comes after the input; negative: before.
-        correlation: at each lag, -1 to 1.
-        band: half-width of the 95 % band of a residual that does not depend on the input.
-        outside: share of the lags outside the band; an independent residual has 0.05.
-    """
+    """Of one channel."""
 
     channel: str
+    """The predicted channel."""
     input: str
-    lags: np.ndarray
-    correlation: np.ndarray
+    """Name of the input."""
+    lags: Integers
+    """Rows by which the residual comes after the input; negative: before."""
+    correlation: Series
+    """At each lag, -1 to 1."""
     band: float
+    """Half-width of the 95 % band of a residual independent of the input."""
     outside: float
+    """Share of the lags outside the band; an independent residual has 0.05."""
 
 
 def cross_correlation(

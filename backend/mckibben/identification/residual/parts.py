@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+
+from mckibben.facts.result import result_class
 
 Array = NDArray[np.float64]
 
@@ -16,17 +17,14 @@ _MOST_LEVELS = 12  # different values of a variable that are levels rather than 
 ORDER = ("contraction", "displacement", "pressure", "command", "direction")
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ResidualPart:
-    """A part of a squared residual.
-
-    Attributes:
-        of: 'offset', a variable of `ORDER`, 'together' (of these variables) or 'rest'.
-        share: of the sum of squares, 0 to 1.
-    """
+    """A part of a squared residual."""
 
     of: str
+    """'offset', a variable, 'together' (several variables) or 'rest': what follows none."""
     share: float
+    """0 to 1; each part has only what the ones before it left."""
 
 
 def residual_parts(residual: Array, variables: Mapping[str, Array]) -> list[ResidualPart]:

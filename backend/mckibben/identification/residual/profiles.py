@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
+from mckibben.facts.result import IntegerRows, Integers, Rows, Series, result_class
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 
@@ -29,26 +29,26 @@ SHOWN: Mapping[str, tuple[str, float, str, int]] = {
 }
 
 
-@dataclass(frozen=True)
+@result_class
 class Profile:
-    """The residual over one variable.
-
-    Attributes:
-        over: name of the variable.
-        share_explained: share of the mean square that the bin means of other folds predict.
-        worst: the range with the largest error, in words.
-        rmse: root mean square in that range.
-        edges, mean, rms, count: of each bin; bins of equal count, ``edges`` one longer, SI.
-    """
+    """The residual over one variable."""
 
     over: str
+    """The variable."""
     share_explained: float
+    """Share of the mean square that the bin means of other folds predict."""
     worst: str
+    """The range with the largest error."""
     rmse: float
-    edges: np.ndarray
-    mean: np.ndarray
-    rms: np.ndarray
-    count: np.ndarray
+    """Error in that range."""
+    edges: Series
+    """Boundaries of the ranges, SI; one more than ranges."""
+    mean: Series
+    """Mean residual of each range, SI."""
+    rms: Series
+    """Root mean square of the residual of each range, SI."""
+    count: Integers
+    """Number of points of each range."""
 
 
 def variables_of(
@@ -118,17 +118,24 @@ def _range(name: str, low: float, high: float) -> str:
     return f"{words} {text} {unit}".replace(" -", " −").strip()
 
 
-@dataclass(frozen=True)
+@result_class
 class ResidualMap:
     """Mean and rms of the residual over two variables, shape (y bins, x bins); NaN without rows."""
 
     x: str
+    """The variable of the columns."""
     y: str
-    x_edges: np.ndarray
-    y_edges: np.ndarray
-    mean: np.ndarray
-    rms: np.ndarray
-    count: np.ndarray
+    """The variable of the rows."""
+    x_edges: Series
+    """Boundaries of the columns, SI; one more than columns."""
+    y_edges: Series
+    """Boundaries of the rows, SI; one more than rows."""
+    mean: Rows
+    """Mean residual of each cell, SI."""
+    rms: Rows
+    """Root mean square of the residual of each cell, SI."""
+    count: IntegerRows
+    """Number of points of each cell."""
 
 
 def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualMap | None:
@@ -158,23 +165,20 @@ def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Resid
     )
 
 
-@dataclass(frozen=True)
+@result_class
 class Whiteness:
-    """Whether a residual looks like noise.
+    """Whether a residual looks like noise."""
 
-    Attributes:
-        autocorrelation: at the lags 1, 2, ... within sweeps.
-        band: half-width of the 95 % band of noise around 0.
-        outside: share of the lags outside the band; noise has 0.05.
-        runs: number of runs of one sign, over the number that noise would have.
-        white: at most 15 % of the lags are outside and the runs are within 3 standard deviations.
-    """
-
-    autocorrelation: np.ndarray
+    autocorrelation: Series
+    """Autocorrelation of the residual at the lags 1, 2, ... within sweeps."""
     band: float
+    """Half-width of the 95 % band of noise."""
     outside: float
+    """Share of the lags outside the band; noise has 0.05."""
     runs: float
+    """Number of runs of one sign over that expected of noise."""
     white: bool
+    """Few lags are outside the band, and the number of runs is that of noise."""
 
 
 def whiteness(residual: np.ndarray, sweeps: Sequence[np.ndarray]) -> Whiteness:
@@ -198,13 +202,16 @@ def whiteness(residual: np.ndarray, sweeps: Sequence[np.ndarray]) -> Whiteness:
     return Whiteness(np.array(rho), float(band), outside, runs, bool(outside <= 0.15 and steady))
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ResidualLoop:
     """A group that returns to its start: area of its force residual [J] and range of its length [m]."""
 
     group: int
+    """Number of the sweep or cycle."""
     area: float
+    """Positive [J]: the model lacks friction."""
     span: float
+    """Travel between the reversals [m]."""
 
 
 def loops(force: np.ndarray, length: np.ndarray, groups: np.ndarray) -> list[ResidualLoop]:

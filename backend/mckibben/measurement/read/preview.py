@@ -8,6 +8,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.result import result_class
 from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement, StatedValue
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.assemble import (
@@ -32,7 +33,7 @@ from mckibben.physics.errors import InputError
 _POINTS = 400  # most values of a channel in the picture of a preview
 
 
-@dataclass(frozen=True)
+@result_class
 class PreviewColumn:
     """One column of the file; ``channel`` None = not used, ``unit`` None = SI; ``why``: what is wrong.
 
@@ -43,29 +44,47 @@ class PreviewColumn:
     """
 
     header: str
+    """Header of the file; the key of a mapping."""
     channel: str | None
+    """The guessed or chosen channel; None = not used."""
     unit: str | None
+    """The guessed, given or chosen unit; None = not used."""
     unit_given: bool
+    """The unit is stated in the header or was chosen, not guessed."""
     absolute: bool | None
+    """An absolute pressure; None = not stated, gauge is assumed."""
     minimum: float | None
+    """Smallest value of the channel, SI."""
     maximum: float | None
+    """Largest value of the channel, SI."""
     why: str | None
+    """Why the column cannot be used as its header states."""
     unit_origin: str | None = None
+    """Who says the unit: file, you, proposed from the range, or assumed; None = not used."""
     unit_where: str | None = None
+    """Where the unit stands, apart from the header."""
     sign: int = 1
+    """-1: the file counts it the other way."""
     unread: str | None = None
+    """Why nothing is read from the column; None = it is used."""
     place: int | None = None
+    """Its cell in the rows of 'raw', from 0; None = it stands in none."""
 
 
-@dataclass(frozen=True)
+@result_class
 class MissingCondition:
     """A condition that the kind needs and the file does not say; one of ``alternatives`` does as well."""
 
     key: str
+    """Name of the condition."""
     unit: str
+    """Its SI unit."""
     why: str
+    """What it is needed for."""
     example: str
+    """An example value."""
     alternatives: tuple[str, ...] = ()
+    """Conditions that replace it."""
 
 
 @dataclass(frozen=True)

@@ -6,8 +6,9 @@ from collections.abc import Callable
 from math import pi
 
 from mckibben.application.simulate import SimulationResult
+from mckibben.facts.timing import PRESSURE_FIGURES
 from mckibben.report.summary.parts import Summary, Table, figure
-from mckibben.simulation.timing.table import PRESSURE_FIGURES, PhaseFigures
+from mckibben.simulation.timing.table import PhaseFigures
 
 # Name of a figure, its field in the timing table, factor and unit.
 _SHOWN: tuple[tuple[str, Callable[[PhaseFigures], float | None], str, float, str], ...] = (

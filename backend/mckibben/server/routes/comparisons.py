@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request
 
+from mckibben.application.compare import ComparisonResult
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import whole
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.comparisons import ComparisonAnswer, ComparisonRequest
+from mckibben.server.schemas.comparisons import ComparisonRequest
 
 router = APIRouter(prefix="/api/comparisons", tags=["comparisons"], route_class=StrictRoute)
 
 
 @router.post(
     "",
-    response_model=ComparisonAnswer,
+    response_model=ComparisonResult,
     responses=errors(400, 404, 413, 415, 422, 429),
     openapi_extra=request_examples.worked("comparison"),
 )

@@ -5,21 +5,21 @@ from __future__ import annotations
 from fastapi import APIRouter, Request
 from fastapi.concurrency import run_in_threadpool
 
-from mckibben.application.curves import curves
+from mckibben.application.curves import CurvesResult, curves
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import contained, whole
 from mckibben.server.questions.curves import curves_question
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.curves import CurvesAnswer, CurvesRequest
+from mckibben.server.schemas.curves import CurvesRequest
 
 router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRoute)
 
 
 @router.post(
     "",
-    response_model=CurvesAnswer,
+    response_model=CurvesResult,
     responses=errors(400, 413, 415, 422, 429),
     openapi_extra=request_examples.worked("curves"),
 )

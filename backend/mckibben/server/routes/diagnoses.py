@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
+from mckibben.application.diagnosis_result import DiagnosisResult
 from mckibben.server import request_examples
 from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import answered
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.diagnoses import DiagnosisAnswer, DiagnosisEvents, DiagnosisRequest
+from mckibben.server.schemas.diagnoses import DiagnosisEvents, DiagnosisRequest
 
 router = APIRouter(prefix="/api/diagnoses", tags=["diagnoses"], route_class=StrictRoute)
 
 
 @router.post(
     "",
-    response_model=DiagnosisAnswer,
+    response_model=DiagnosisResult,
     responses={**errors(400, 404, 413, 415, 422, 429), **DiagnosisEvents},
     openapi_extra=request_examples.worked("diagnosis"),
 )

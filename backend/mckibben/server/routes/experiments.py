@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request
 
+from mckibben.application.experiment_form import ExperimentForms
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import whole
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.diagnoses import DiagnosisRequest
-from mckibben.server.schemas.experiments import ExperimentAnswer
 
 router = APIRouter(prefix="/api/experiments", tags=["experiments"], route_class=StrictRoute)
 
 
 @router.post(
     "",
-    response_model=ExperimentAnswer,
+    response_model=ExperimentForms,
     responses=errors(400, 404, 413, 415, 422, 429),
     openapi_extra=request_examples.worked("experiments"),
 )

@@ -4,19 +4,20 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request
 
+from mckibben.application.inverse import InverseFinding
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import contained, whole
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.inverse import InverseAnswer, InverseRequest
+from mckibben.server.schemas.inverse import InverseRequest
 
 router = APIRouter(prefix="/api/inverse", tags=["inverse"], route_class=StrictRoute)
 
 
 @router.post(
     "",
-    response_model=InverseAnswer,
+    response_model=InverseFinding,
     responses=errors(400, 413, 415, 422, 429),
     openapi_extra=request_examples.worked_each("questions"),
 )

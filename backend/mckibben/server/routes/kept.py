@@ -7,11 +7,12 @@ from typing import Annotated
 from fastapi import APIRouter, Path
 
 from mckibben.application import kept
+from mckibben.application.kept import KeptData, KeptKind
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.kept import KeptAnswer, KeptKind, RenameRequest
+from mckibben.server.schemas.kept import RenameRequest
 
 router = APIRouter(prefix="/api/kept", tags=["kept"], route_class=StrictRoute)
 
@@ -27,7 +28,7 @@ Identity = Annotated[
 
 
 # In worker threads, all of them: they read and write files.
-@router.get("", response_model=KeptAnswer, responses=errors())
+@router.get("", response_model=KeptData, responses=errors())
 def list_kept(studio: StudioDep, store: StoreDep) -> JsonAnswer:
     """Measurements and presets of the user, those that can be restored, and what they take."""
     return JsonAnswer(kept.kept(studio, store))
@@ -35,7 +36,7 @@ def list_kept(studio: StudioDep, store: StoreDep) -> JsonAnswer:
 
 @router.patch(
     "/{kind}/{identity}",
-    response_model=KeptAnswer,
+    response_model=KeptData,
     responses=errors(400, 404, 409, 413, 415, 422),
     openapi_extra=request_examples.worked("rename"),
 )
@@ -47,14 +48,14 @@ def rename_kept(
     return JsonAnswer(kept.kept(studio, store))
 
 
-@router.delete("/{kind}/{identity}", response_model=KeptAnswer, responses=errors(404, 409, 422))
+@router.delete("/{kind}/{identity}", response_model=KeptData, responses=errors(404, 409, 422))
 def delete_kept(kind: Kind, identity: Identity, studio: StudioDep, store: StoreDep) -> JsonAnswer:
     """Delete a measurement or preset; for 30 days it can be restored, unless its room is needed."""
     kept.delete(studio, store, kind=kind, identity=identity)
     return JsonAnswer(kept.kept(studio, store))
 
 
-@router.post("/{kind}/{identity}/restore", response_model=KeptAnswer, responses=errors(404, 409, 422))
+@router.post("/{kind}/{identity}/restore", response_model=KeptData, responses=errors(404, 409, 422))
 def restore_kept(kind: Kind, identity: Identity, studio: StudioDep, store: StoreDep) -> JsonAnswer:
     """Bring a deleted measurement or preset back. The answer is what is kept now."""
     kept.restore(studio, store, kind=kind, identity=identity)

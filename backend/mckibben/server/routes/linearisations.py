@@ -4,12 +4,13 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
+from mckibben.application.linear_result import LinearResult
 from mckibben.server import request_examples
 from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import answered, contained
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.linearisations import LinearisationAnswer, LinearisationRequest
+from mckibben.server.schemas.linearisations import LinearisationRequest
 from mckibben.server.schemas.simulations import SimulationEvents
 
 router = APIRouter(prefix="/api/linearisations", tags=["linearisations"], route_class=StrictRoute)
@@ -17,7 +18,7 @@ router = APIRouter(prefix="/api/linearisations", tags=["linearisations"], route_
 
 @router.post(
     "",
-    response_model=LinearisationAnswer,
+    response_model=LinearResult,
     responses={**errors(400, 413, 415, 422, 429), **SimulationEvents},
     openapi_extra=request_examples.worked("linearisation"),
 )

@@ -7,6 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Path, Query, Request
 from starlette.exceptions import HTTPException
 
+from mckibben.application.measurements import MeasurementDetails, MeasurementSummary, PreviewResult
 from mckibben.measurement.read import Correction, read_correction
 from mckibben.measurement.read.correction import MAX_LENGTH
 from mckibben.measurement.store import MAX_NAME
@@ -15,7 +16,6 @@ from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import BeforeWork, StoreDep, StudioDep
 from mckibben.server.long_work import whole
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.measurements import MeasurementAnswer, MeasurementDetail, PreviewAnswer
 from mckibben.server.short_jobs import FileRequest
 
 router = APIRouter(prefix="/api/measurements", tags=["measurements"], route_class=StrictRoute)
@@ -80,7 +80,7 @@ _Muscle = Annotated[
 @router.put(
     "",
     dependencies=[BeforeWork],
-    response_model=MeasurementAnswer,
+    response_model=MeasurementSummary,
     responses=errors(400, 409, 413, 415, 422, 429),
     openapi_extra=_BODY,
 )
@@ -99,7 +99,7 @@ async def upload_measurement(
 @router.post(
     "/preview",
     dependencies=[BeforeWork],
-    response_model=PreviewAnswer,
+    response_model=PreviewResult,
     responses=errors(400, 413, 415, 422, 429),
     openapi_extra=_BODY,
 )
@@ -127,7 +127,7 @@ async def _file(request: Request, mapping: str | None) -> tuple[bytes, Correctio
     return await request.body(), correction
 
 
-@router.get("/{measurement_id}", response_model=MeasurementDetail, responses=errors(404, 422, 429))
+@router.get("/{measurement_id}", response_model=MeasurementDetails, responses=errors(404, 422, 429))
 async def read_measurement(
     measurement_id: Identity, request: Request, studio: StudioDep, store: StoreDep
 ) -> JsonAnswer:

@@ -6,18 +6,18 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path
 
-from mckibben.application.mysteries import mysteries, reveal
+from mckibben.application.mysteries import MysterySummary, Reveal, mysteries, reveal
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import BeforeWork, StudioDep
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.mysteries import Mystery, RevealAnswer, RevealRequest
+from mckibben.server.schemas.mysteries import RevealRequest
 
 router = APIRouter(prefix="/api/mysteries", tags=["mysteries"], route_class=StrictRoute)
 
 
 # In worker threads: the library reads the user's folder.
-@router.get("", response_model=list[Mystery], responses=errors(), dependencies=[BeforeWork])
+@router.get("", response_model=list[MysterySummary], responses=errors(), dependencies=[BeforeWork])
 def list_mysteries(studio: StudioDep) -> JsonAnswer:
     """Every mystery with its story and start model; comparisons accept its measurement by id."""
     return JsonAnswer(mysteries(studio.library))
@@ -25,7 +25,7 @@ def list_mysteries(studio: StudioDep) -> JsonAnswer:
 
 @router.post(
     "/{mystery_id}/reveal",
-    response_model=RevealAnswer,
+    response_model=Reveal,
     responses=errors(400, 404, 413, 415, 422),
     openapi_extra=request_examples.worked("reveal"),
 )

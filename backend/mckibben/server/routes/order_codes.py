@@ -6,17 +6,16 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path
 
-from mckibben.application.order_code import ordered_muscle
+from mckibben.application.order_code import OrderedMuscle, ordered_muscle
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.order_codes import OrderCodeAnswer
 
 router = APIRouter(prefix="/api/order-codes", tags=["presets"], route_class=StrictRoute)
 
 
 # In a worker thread: the library reads the user's folder.
-@router.get("/{code:path}", response_model=OrderCodeAnswer, responses=errors(404, 422))
+@router.get("/{code:path}", response_model=OrderedMuscle, responses=errors(404, 422))
 def read_order_code(
     code: Annotated[str, Path(max_length=100, description="As ordered.", examples=["DMSP-20-300N-RM-CM"])],
     studio: StudioDep,

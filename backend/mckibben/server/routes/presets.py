@@ -37,7 +37,7 @@ def list_presets(kind: Kind, studio: StudioDep) -> JsonAnswer:
         {
             "kind": kind,
             "presets": [preset.public() for preset in studio.library.list(kind)],
-            "problems": [problem._asdict() for problem in studio.library.problems(kind)],
+            "problems": studio.library.problems(kind),
         }
     )
 

@@ -28,7 +28,6 @@ from mckibben.server.schemas.projects import (
     ProjectAnswer,
     ProjectChange,
     ProjectCopy,
-    ProjectInfo,
     ProjectsAnswer,
     ProjectState,
 )
@@ -129,7 +128,7 @@ def save_project(
 
 @router.patch(
     "/{project_id}",
-    response_model=ProjectInfo,
+    response_model=ProjectSummary,
     responses=errors(400, 404, 409, 413, 415, 422),
     openapi_extra=request_examples.worked("project_change"),
 )
@@ -153,7 +152,7 @@ def copy_project(project_id: Id, body: ProjectCopy, projects: ProjectsDep) -> Js
     return JsonAnswer(_answer(projects.duplicate(project_id, title=body.title)), status_code=201)
 
 
-@router.delete("/{project_id}", response_model=ProjectInfo, responses=errors(404, 409, 422))
+@router.delete("/{project_id}", response_model=ProjectSummary, responses=errors(404, 409, 422))
 def delete_project(
     project_id: Id,
     projects: ProjectsDep,
@@ -163,7 +162,7 @@ def delete_project(
     return JsonAnswer(_info(projects.erase(project_id) if erase else projects.delete(project_id)))
 
 
-@router.post("/{project_id}/restore", response_model=ProjectInfo, responses=errors(404, 409, 422))
+@router.post("/{project_id}/restore", response_model=ProjectSummary, responses=errors(404, 409, 422))
 def restore_project(project_id: Id, projects: ProjectsDep) -> JsonAnswer:
     """Take a project out of the bin."""
     return JsonAnswer(_info(projects.restore(project_id)))

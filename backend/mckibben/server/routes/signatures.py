@@ -4,20 +4,20 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from mckibben.application.atlas import AtlasQuestion, signatures
+from mckibben.application.atlas import AtlasQuestion, Signatures, signatures
 from mckibben.documents.convert import stated_muscle
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.signatures import SignatureAnswer, SignatureRequest
+from mckibben.server.schemas.signatures import SignatureRequest
 
 router = APIRouter(prefix="/api/signatures", tags=["effects"], route_class=StrictRoute)
 
 
 @router.post(
     "",
-    response_model=SignatureAnswer,
+    response_model=Signatures,
     responses=errors(400, 413, 415, 422),
     openapi_extra=request_examples.worked("signatures"),
 )

@@ -7,6 +7,7 @@ from typing import Any
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import HTMLResponse
 
+from mckibben.application.size import SizingResult
 from mckibben.documents.task import SizingTask
 from mckibben.server import request_examples
 from mckibben.server.answer import StrictRoute
@@ -15,7 +16,6 @@ from mckibben.server.long_work import answered, whole
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.reports import ReportAnswer
 from mckibben.server.schemas.simulations import SimulationEvents
-from mckibben.server.schemas.sizing_answer import SizingAnswer
 from mckibben.server.schemas.sizing_reports import SizingReportRequest
 
 router = APIRouter(prefix="/api/sizings", tags=["sizings"], route_class=StrictRoute)
@@ -23,7 +23,7 @@ _RESPONSES: dict[int | str, dict[str, Any]] = {**errors(400, 413, 415, 422, 429)
 
 
 @router.post(
-    "", response_model=SizingAnswer, responses=_RESPONSES, openapi_extra=request_examples.worked("task")
+    "", response_model=SizingResult, responses=_RESPONSES, openapi_extra=request_examples.worked("task")
 )
 async def size_drives(body: SizingTask, request: Request, studio: StudioDep, store: StoreDep) -> Response:
     """Ranked drives for a task, and rejected ones with reasons; closing the connection ends the search."""

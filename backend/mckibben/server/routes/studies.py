@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
-from mckibben.application.study import study_question
+from mckibben.application.study import StudyResult, study_question
 from mckibben.application.study_file import parquet_bytes
-from mckibben.application.study_options import study_options
+from mckibben.application.study_options import StudyOptions, study_options
 from mckibben.application.study_store import StudyStore
 from mckibben.documents.study import StudyDocument
 from mckibben.server import request_examples
@@ -15,13 +15,7 @@ from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.jobs import MOST_RUNS
 from mckibben.server.long_work import answered
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.studies import (
-    StudyAnswer,
-    StudyEvents,
-    StudyKeptAnswer,
-    StudyOptionsAnswer,
-    StudyOptionsRequest,
-)
+from mckibben.server.schemas.studies import StudyEvents, StudyKeptAnswer, StudyOptionsRequest
 
 _PARQUET = "application/vnd.apache.parquet"
 
@@ -30,7 +24,7 @@ router = APIRouter(prefix="/api/studies", tags=["studies"], route_class=StrictRo
 
 @router.post(
     "",
-    response_model=StudyAnswer,
+    response_model=StudyResult,
     responses={**errors(400, 413, 415, 422, 429), **StudyEvents},
     openapi_extra=request_examples.worked("study"),
 )
@@ -45,7 +39,7 @@ async def run_study(body: StudyDocument, request: Request, studio: StudioDep, st
 
 @router.post(
     "/options",
-    response_model=StudyOptionsAnswer,
+    response_model=StudyOptions,
     responses=errors(400, 413, 415, 422),
     openapi_extra=request_examples.worked("study_options"),
 )

@@ -6,52 +6,14 @@ from typing import Any
 
 from pydantic import Field
 
-from mckibben.documents.strict import Strict, si_field
-
-
-class ErrorDetail(Strict):
-    """What is wrong, where, and what would be right."""
-
-    code: str = Field(description="Machine-readable kind.", examples=["bad_input"])
-    message: str = Field(description="What is wrong, for people.")
-    field: str | None = Field(
-        description="Path of the field in the request.", examples=["muscle.braid_angle"]
-    )
-    hint: str | None = Field(description="What would be right.", examples=["e.g. '25 deg'"])
+from mckibben.application.measurements import UnreadableFile
+from mckibben.documents.strict import Strict
 
 
 class ErrorBody(Strict):
     """The body of every error."""
 
-    error: ErrorDetail = Field(description="What is wrong.")
-
-
-class Flag(Strict):
-    """A remark on an answer: a crossed limit, a value out of reach, an unverified figure."""
-
-    code: str = Field(examples=["over_force_limit"], description="Machine-readable kind.")
-    message: str = Field(description="Explanation for the user.")
-    field: str | None = Field(default=None, description="The input it belongs to.")
-
-
-class MakerLimits(Strict):
-    """Limits stated by the maker; null where not known."""
-
-    max_pressure: float | None = si_field("Pa", "Highest gauge pressure.")
-    max_force: float | None = si_field("N", "Highest force.")
-    max_contraction: float | None = si_field("1", "Highest contraction.")
-    max_pretension: float | None = si_field("1", "Highest stretch beyond the nominal length.")
-
-
-class SourceText(Strict):
-    """Source of a figure, and its grade."""
-
-    text: str = Field(description="Short source.")
-    grade: str = Field(
-        description="S read in the source, S2 second-hand, C computed, D derived here, "
-        "M general knowledge and E estimate (both unverified), user.",
-        examples=["S"],
-    )
+    error: UnreadableFile = Field(description="What is wrong.")
 
 
 def streamed(found: str = "") -> dict[int | str, dict[str, Any]]:

@@ -5,7 +5,9 @@ from __future__ import annotations
 from pydantic import Field
 
 from mckibben.documents.strict import Strict
-from mckibben.server.schemas.common import SourceText
+from mckibben.physics.catalogue import EffectProblem
+from mckibben.physics.effect import Signature
+from mckibben.physics.parameter import Source
 
 
 class EffectParameter(Strict):
@@ -21,17 +23,7 @@ class EffectParameter(Strict):
     off: float | None = Field(description="The value at which the effect vanishes.")
     fitted: bool = Field(description="Whether a fit frees it by default.")
     description: str = Field(description="What it is.")
-    source: SourceText = Field(description="Source of the typical value.")
-
-
-class Signature(Strict):
-    """How the effect shows in the residual."""
-
-    text: str = Field(description="In words.")
-    direction: str | None = Field(description="Parity when the motion reverses: even, odd or null.")
-    pressure_power: float | None = Field(description="n when it grows with the n-th power of pressure.")
-    zero_at: list[str] = Field(description="States in which it contributes nothing.")
-    energy: str = Field(description="conservative, dissipative, lumped or reading.")
+    source: Source = Field(description="Source of the typical value.")
 
 
 class Twin(Strict):
@@ -57,19 +49,12 @@ class EffectAnswer(Strict):
     kinds: list[str] = Field(description="Measurement kinds that reveal it.")
     signature: Signature = Field(description="How it shows in the residual.")
     confused_with: list[Twin] = Field(description="Effects that look alike.")
-    references: list[SourceText] = Field(description="Where it is described.")
+    references: list[Source] = Field(description="Where it is described.")
     slots: list[str] = Field(description="The places in the model where it acts.")
-
-
-class FileProblem(Strict):
-    """A file that was not loaded, and why."""
-
-    file: str = Field(description="Name of the file.")
-    message: str = Field(description="Why it was not loaded.")
 
 
 class EffectsAnswer(Strict):
     """All known effects, and the effect files that could not be loaded."""
 
     effects: list[EffectAnswer] = Field(description="All known effects.")
-    problems: list[FileProblem] = Field(description="Effect files that could not be loaded.")
+    problems: list[EffectProblem] = Field(description="Effect files that could not be loaded.")

@@ -9,7 +9,6 @@ from pydantic import Field
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.quantity import Contraction, Length, Load, PositivePressure, Pressure, Temperature
 from mckibben.documents.strict import Strict
-from mckibben.server.schemas.common import Flag
 from mckibben.server.schemas.curves import Direction
 
 
@@ -64,15 +63,3 @@ InverseRequest = Annotated[
     PressureQuestion | ContractionQuestion | WorkingRangeQuestion | StrokePressureQuestion,
     Field(discriminator="question"),
 ]
-
-
-class InverseAnswer(Strict):
-    """The requested value in SI, with flags."""
-
-    question: Literal["pressure", "contraction", "working_range", "stroke_pressure"] = Field(
-        description="The question that was asked."
-    )
-    value: float | None = Field(description="The answer; null when there is none (a flag says why).")
-    unit: str = Field(description="SI unit of the value.", examples=["Pa"])
-    details: dict[str, float | None] = Field(description="Further figures in SI.")
-    flags: list[Flag] = Field(description="Remarks on the answer.")

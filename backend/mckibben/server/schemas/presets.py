@@ -19,6 +19,7 @@ from mckibben.presets import (
     TubePreset,
     ValvePreset,
 )
+from mckibben.presets.library import LibraryProblem
 from mckibben.server.schemas.comparisons import ModelRequest
 
 
@@ -67,18 +68,9 @@ _ANSWERS = (
 PresetAnswer = Annotated[Union[_ANSWERS], Field(discriminator="kind")]  # type: ignore  # noqa: UP007 - built from a tuple
 
 
-class PresetProblem(Strict):
-    """A preset file that was not loaded, and why."""
-
-    file: str = Field(description="Name of the file.")
-    field: str | None = Field(description="Where in the file.")
-    message: str = Field(description="What is wrong with it.")
-    hint: str | None = Field(description="What would be right.")
-
-
 class PresetsAnswer(Strict):
     """All presets of one kind, and the files that could not be loaded."""
 
     kind: PresetKind = Field(description="The requested kind.")
     presets: list[PresetAnswer] = Field(description="The presets, by id.")  # pyright: ignore
-    problems: list[PresetProblem] = Field(description="Preset files that could not be loaded.")
+    problems: list[LibraryProblem] = Field(description="Preset files that could not be loaded.")

@@ -7,6 +7,7 @@ from typing import Any
 from pydantic import ConfigDict, Field
 
 from mckibben.documents.strict import Strict
+from mckibben.projects.project import ProjectSummary, Revision
 
 _TITLE = Field(description="Title, in one line, at most 200 characters.", examples=["Lift, second muscle"])
 _NOTES = Field(description="Notes of the user, plain text.")
@@ -58,34 +59,11 @@ class ProjectCopy(Strict):
     title: str | None = Field(default=None, description='Title; null = that of the original with "(copy)".')
 
 
-class ProjectInfo(Strict):
-    """A project in a list."""
-
-    id: str = Field(description="Its id.")
-    title: str = _TITLE
-    notes: str = _NOTES
-    version: int = Field(description="Number of the last version.")
-    created: float = Field(description="Instant, seconds since 1970 (UTC).")
-    changed: float = Field(description="Instant of the last change, seconds since 1970 (UTC).")
-    deleted: float | None = Field(description="Instant when it was deleted; null = it is not in the bin.")
-    files: int = Field(description="Number of measurements kept with it.")
-    size: int = Field(description="Size of document, measurements and study tables in bytes.")
-
-
-class RevisionInfo(Strict):
-    """A version in the history of a project."""
-
-    version: int = Field(description="Its number.")
-    saved: float = Field(description="Instant, seconds since 1970 (UTC).")
-    label: str = _LABEL
-    automatic: bool = Field(description="Whether it was saved without being asked for.")
-
-
 class ProjectAnswer(Strict):
     """A project with the document of one version."""
 
-    project: ProjectInfo = Field(description="The project as it is now.")
-    revision: RevisionInfo = Field(description="The version of the document.")
+    project: ProjectSummary = Field(description="The project as it is now.")
+    revision: Revision = Field(description="The version of the document.")
     document: dict[str, Any] = Field(description="The document as it was saved.")
     measurements: list[str] = Field(description="Ids of the measurements kept with it.")
     studies: int = Field(description="Number of study tables kept with it.")
@@ -97,11 +75,11 @@ class ProjectAnswer(Strict):
 class ProjectsAnswer(Strict):
     """The projects, the one changed last first."""
 
-    projects: list[ProjectInfo] = Field(description="The projects.")
+    projects: list[ProjectSummary] = Field(description="The projects.")
     place: str = Field(description="The database they are in, without a password.")
 
 
 class HistoryAnswer(Strict):
     """The versions of a project, the last one first."""
 
-    history: list[RevisionInfo] = Field(description="The versions that are kept.")
+    history: list[Revision] = Field(description="The versions that are kept.")

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass, field
 from math import sin
+from typing import Literal
 
 import numpy as np
 
@@ -54,7 +55,7 @@ class Run:
     command: Segments
     drive: Drive
     steps: int
-    engine: str
+    engine: Literal["rodas", "lsoda"]
     wall_seconds: float
     notes: list[str] = field(default_factory=list)
     counter_command: Segments | None = None

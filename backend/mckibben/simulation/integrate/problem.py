@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 
@@ -76,7 +77,7 @@ class Solution:
     outcome: Outcome
     steps: int
     rejected: int
-    engine: str
+    engine: Literal["rodas", "lsoda"]
     next_step: float = FIRST_STEP
 
 

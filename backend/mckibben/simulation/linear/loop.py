@@ -10,12 +10,12 @@ sample,
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.result import result_class
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.linear.equations import COMMAND, READING
 from mckibben.simulation.linear.model import LinearModel
@@ -25,30 +25,28 @@ Array = np.ndarray
 Complex = NDArray[np.complex128]
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Margins:
-    """Stability of a closed loop, and how far it is from its limit.
-
-    Attributes:
-        stable: whether the sampled closed loop of the linear model is stable.
-        gain_margin: factor of the gain up to the limit of stability; below 1 where less gain is the limit;
-            None where the phase never reaches -180 degrees.
-        gain_margin_at: frequency [Hz] of it.
-        phase_margin: [rad] at the crossover; None where the gain never is 1.
-        crossover: frequency [Hz] at which the gain of the loop is 1, the one with the least margin.
-        delay_margin: further dead time up to the limit [s].
-        modulus_margin: least distance of the loop from -1.
-        bandwidth: frequency [Hz] at which the closed loop has fallen by 3 dB; None where it does not.
-    """
+    """Stability of a closed loop, and how far it is from its limit."""
 
     stable: bool
+    """Whether the sampled closed loop of the linear model is stable."""
     gain_margin: float | None
+    """Factor of the gain up to the limit of stability [-]; below 1 where less gain is the limit; None where
+    the phase never reaches -180 degrees.
+    """
     gain_margin_at: float | None
+    """Frequency at which the phase is -180 degrees [Hz]."""
     phase_margin: float | None
+    """Phase left where the gain of the loop is 1 [rad]."""
     crossover: float | None
+    """Frequency [Hz] at which the gain of the loop is 1, the one with the least margin."""
     delay_margin: float | None
+    """Further dead time up to the limit of stability [s]."""
     modulus_margin: float
+    """Least distance of the open loop from -1 [-]."""
     bandwidth: float | None
+    """Frequency [Hz] at which the closed loop has fallen by 3 dB; None where it does not."""
 
 
 def controller_response(controller: PidController, frequency: Array) -> tuple[Complex, Complex]:

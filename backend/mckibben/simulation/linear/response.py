@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from typing import Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.result import result_class
 from mckibben.simulation.linear.model import LinearModel
 
 Array = np.ndarray
@@ -24,26 +25,24 @@ _POINTS = 240
 _ASIDE = 1e-3  # damping ratio below which a pole counts as undamped for the phase
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Pole:
-    """An eigenvalue of A; of a complex pair the one with the positive imaginary part.
-
-    Attributes:
-        real, imaginary: of the pole [rad/s].
-        frequency: its magnitude [Hz].
-        damping: ratio, 1 for a real stable pole; None for an integrator.
-        time_constant: of its decay [s]; None where it does not decay.
-        kind: "integrator", "real", "oscillation", "unstable".
-        cancelled: whether the chosen channel does not show it, because a zero cancels it.
-    """
+    """An eigenvalue of A; of a complex pair the one with the positive imaginary part."""
 
     real: float
+    """Real part [rad/s]."""
     imaginary: float
+    """Imaginary part [rad/s]."""
     frequency: float
+    """Magnitude [Hz]."""
     damping: float | None
+    """Ratio [-], 1 for a real stable pole; None for an integrator."""
     time_constant: float | None
-    kind: str
+    """Time constant of the decay [s]; None where nothing decays."""
+    kind: Literal["integrator", "real", "oscillation", "unstable"]
+    """"integrator", "real", "oscillation", "unstable"."""
     cancelled: bool
+    """Whether the chosen channel does not show it, because a zero cancels it."""
 
 
 def eigenvalues(model: LinearModel) -> Array:

@@ -11,10 +11,11 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 
+from mckibben.facts.result import Number, result_class
 from mckibben.simulation.command.waveforms import Sine
 from mckibben.simulation.linear.equations import COMMAND, LOAD_FORCE
 from mckibben.simulation.linear.linearise import Linearisation, balanced_bias, side_gains
@@ -32,26 +33,24 @@ _ROWS = 48  # of a period
 _TOLERANCE = 1e-5
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class DescribingPoint:
-    """One frequency and amplitude.
-
-    Attributes:
-        frequency: [Hz].
-        amplitude: of the input, in its unit.
-        gain: amplitude of the output over that of the input, in their units.
-        phase: of the output after the input [rad], between -2 pi and 0 or so; as the linear response.
-        distortion: rms of everything but the fundamental over the rms of the output; drift and an own
-            oscillation that does not decay are taken off [-].
-        remark: what kept it from being a clean oscillation; None if nothing did.
-    """
+    """One frequency and amplitude."""
 
     frequency: float
+    """Frequency [Hz]."""
     amplitude: float
-    gain: float
-    phase: float
-    distortion: float
+    """Amplitude of the input, in its unit."""
+    gain: Number
+    """Gain, in the units of output per input; None without a run."""
+    phase: Number
+    """Of the output after the input [rad], between -2 pi and 0 or so; as the linear response."""
+    distortion: Number
+    """rms of everything but the fundamental over the rms of the output; drift and an own oscillation that
+    does not decay are taken off [-].
+    """
     remark: str | None
+    """What kept it from being a clean oscillation; None if nothing did."""
 
 
 def bias_of(linear: Linearisation, amplitude: float) -> float:

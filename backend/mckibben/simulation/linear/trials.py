@@ -5,9 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import Literal
 
 import numpy as np
 
+from mckibben.facts.result import Number, result_class
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.command.shapes import Pulse
 from mckibben.simulation.drive.parts import Drive
@@ -25,6 +27,9 @@ from mckibben.simulation.linear.response import frequencies_for, frequency_respo
 from mckibben.simulation.outcome import Outcome, Watch
 
 Array = np.ndarray
+
+#: Where a controller comes from: the document, the tuning rule, or the refinement of it.
+TrialName = Literal["own", "rule", "refined"]
 
 LEAST_MODULUS = 0.5  # distance of the loop from -1: sensitivity at most 2 (Åström & Hägglund 1995)
 BAND = 0.02  # of the step; the position has settled when it stays within
@@ -52,27 +57,24 @@ class Goals:
     unsaturated: bool = False
 
 
-@dataclass(frozen=True)
+@result_class
 class StepFigures:
-    """Figures of a step and back again: the worse of the two.
+    """Figures of a step and back again: the worse of the two."""
 
-    Attributes:
-        overshoot: as a share of the step [-].
-        settling: time until the position stays within 2 % of the step [s]; None where it does not.
-        rise: time from 10 to 90 % [s]; None where it does not get there.
-        saturated: share of the time in which the command is at its limits [-].
-        error: root mean square of the error over the step [-].
-        late_error: the same over the second half of its time [-].
-        meets: whether the goals are met.
-    """
-
-    overshoot: float
+    overshoot: Number
+    """Overshoot as a share of the step [-]; None if the run failed."""
     settling: float | None
+    """Time until the position stays within 2 % of the step [s]; None where it does not."""
     rise: float | None
+    """Time from 10 to 90 % [s]; None where it does not get there."""
     saturated: float
-    error: float
-    late_error: float
+    """Share of the time with the command at its limits [-]."""
+    error: Number
+    """Root mean square of the error as a share of the step [-]."""
+    late_error: Number
+    """The same over the second half of its time [-]."""
     meets: bool
+    """Whether the goals are met."""
 
 
 @dataclass(frozen=True)
@@ -87,7 +89,7 @@ class Trial:
         time, reference, position, command: of the run.
     """
 
-    name: str
+    name: TrialName
     controller: PidController
     figures: StepFigures
     margins: Margins
@@ -200,7 +202,7 @@ class Bench:
         error, late = (max(half[index] for half in halves) for index in (3, 4))
         return StepFigures(overshoot, settling, rise, saturated, error, late, meets)
 
-    def trial(self, name: str, controller: PidController) -> Trial:
+    def trial(self, name: TrialName, controller: PidController) -> Trial:
         """A controller with everything to show of it."""
         drive = self.linear.point.bound.drive
         joint = drive.stiffness is not None

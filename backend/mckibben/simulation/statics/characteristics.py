@@ -10,6 +10,7 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.result import Number, Series, result_class
 from mckibben.physics import ideal
 from mckibben.simulation.statics.inverse import contraction_at
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
@@ -42,61 +43,68 @@ class Conditions:
     polytropic_exponent: float = 1.4
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Characteristics:
-    """Figures at one pressure.
-
-    Attributes:
-        pressure: gauge pressure [Pa].
-        blocked_force: force at the nominal length [N].
-        free_contraction: contraction ratio without load [-]; NaN when out of reach.
-        free_contraction_flag: code of the limit that it crosses, None if it crosses none.
-        max_work: work of one stroke from the nominal length to the free contraction [J].
-        thread_tension_total: ideal tension of all threads at the nominal length [N].
-    """
+    """Figures at one pressure."""
 
     pressure: float
-    blocked_force: float
-    free_contraction: float
+    """Gauge pressure [Pa]."""
+    blocked_force: Number
+    """Force at the nominal length [N]."""
+    free_contraction: Number
+    """Contraction ratio without load [-]; NaN when out of reach."""
     free_contraction_flag: str | None
-    max_work: float
-    thread_tension_total: float
+    """Code of the limit that the free contraction crosses."""
+    max_work: Number
+    """Work of one stroke from nominal length to free contraction [J]."""
+    thread_tension_total: Number
+    """Ideal tension of all threads at nominal length [N]."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class OperatingPoint:
-    """State in which a muscle holds a load at one pressure, SI; NaN and None where it cannot.
-
-    Attributes:
-        flags: codes of the limits that this state crosses.
-    """
+    """State in which a muscle holds a load at one pressure, SI; NaN and None where it cannot."""
 
     pressure: float
-    contraction: float
-    length: float
+    """Gauge pressure [Pa]."""
+    contraction: Number
+    """Contraction [-]; None when out of reach."""
+    length: Number
+    """Length [m]; None when out of reach."""
     force: float | None
-    stiffness: float
-    stiffness_closed: float
-    diameter: float
+    """The load [N]."""
+    stiffness: Number
+    """Stiffness at constant pressure [N/m]."""
+    stiffness_closed: Number
+    """Stiffness with the valve closed [N/m]."""
+    diameter: Number
+    """Braid diameter [m]."""
     flags: list[str]
+    """Codes of the flags of this point."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class PressureBranch:
     """Position under a constant load over pressure, in one direction; NaN where the load cannot be held."""
 
-    contraction: Array
-    length: Array
-    diameter: Array
-    outer_diameter: Array
+    contraction: Series
+    """Contraction at the load [-]."""
+    length: Series
+    """Length at the load [m]."""
+    diameter: Series
+    """Braid diameter at the load [m]."""
+    outer_diameter: Series
+    """Outer diameter of the wall at the load [m]."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ForceBranches:
     """Force at a fixed length over pressure [N], while shortening and while lengthening."""
 
-    filling: Array
-    venting: Array
+    filling: Series
+    """While shortening [N]."""
+    venting: Series
+    """While lengthening [N]."""
 
 
 class FurtherStiffness(NamedTuple):

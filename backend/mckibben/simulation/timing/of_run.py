@@ -8,6 +8,7 @@ from typing import ClassVar, Literal
 
 import numpy as np
 
+from mckibben.facts.result import result_class
 from mckibben.physics.drive_terms import COUNTER, HIGH_STOP
 from mckibben.physics.flow_path import Restriction, with_flow_control
 from mckibben.physics.gas import GAS_CONSTANT as _R
@@ -38,15 +39,18 @@ class Grid:
     rows: Array
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class ChokedInterval:
     """Interval in which the flow of the valve does not depend on the downstream pressure [s]."""
 
-    JSON_KEYS: ClassVar = {"begin": ("from",), "end": ("to",)}
+    JSON_KEYS: ClassVar = {"begin": "from", "end": "to"}
 
     begin: float
+    """Start [s]."""
     end: float
+    """End [s]."""
     side: Literal["fill", "exhaust"]
+    """Air flows in (fill) or out (exhaust)."""
 
 
 def time_step(duration: float) -> float:

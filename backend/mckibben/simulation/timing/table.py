@@ -1,61 +1,30 @@
 """The timing table of a drive: figures of one fill and one exhaust, SI throughout.
 
-All times count from the switching instant of their phase (ProPneu prints those of the exhaust in run
-time). With s the travel since that instant, positive in the direction of the phase (fill: shorter), and S
-the stroke of the phase: to the stop it ends on, else to where it ends, or the demanded stroke.
-
-- positioning_time: arrival. The impact on the stop that ends the stroke; without one, first s >= (1 -
-  band) S.
-- rise_time: from first s = 0.1 S to first s = 0.9 S; no dead time in it. delay_time: first s = 0.5 S.
-- settling_time: from here to the end of the phase |s - S| <= band S. The band is 5 % by default: a load that
-  stops between the end stops may swing on the air by a few per cent long after it has arrived for practical
-  purposes. A narrower band gives the time until that oscillation has decayed.
-- average_speed: travel up to there / positioning_time. end_speed: ds/dt at the impact, or without one at
-  positioning_time.
-- max_speed, max_speed_at: largest ds/dt, including the instant before the impact.
-- max_acceleration, min_acceleration: largest and smallest second derivative of the position, positive =
-  towards shorter in both phases: a fall has a negative one. Impacts, and a load at rest on a stop, do not
-  count.
-- impact_energy: m v^2/2 of the first impact; 0 without one.
-- pressure_rise_time, pressure_delay_time: 10-90 % and 50 % of the pressure step of the phase (end minus
-  start); pressure_settling_time: from here on within 1 % of that step around the end value. Where the
-  pressure stands still near such a level, as between two pulses of a modulated valve, its last digits decide
-  whether it passes before or behind the pause: a note says from when to when it is within 0.1 % of the step.
-- air_mass: air taken from the supply (fill), let out to the atmosphere (exhaust), with that for the tube;
-  air_volume_anr: that at ANR; tube_air_mass: the part for the tube. With a stated polytropic exponent, which
-  does not conserve mass, from the states at begin and end of the phase at ambient temperature.
-- choked_share: share of that air which passes the valve while its flow is choked.
-- overshoot: largest s beyond S, as a share of S.
+`mckibben.facts.timing` defines each figure. Impacts, and a load at rest on a stop, count neither for speeds
+nor for accelerations. The settling band is 5 % of the stroke by default: a load that stops between the end
+stops may swing on the air by a few per cent long after it has arrived for practical purposes; a narrower band
+gives the time until that oscillation has decayed. Where the pressure stands still near a level of a figure,
+as between two pulses of a modulated valve, its last digits decide whether it passes before or behind the
+pause: a note says from when to when it is within 0.1 % of the step. With a stated polytropic exponent, which
+does not conserve mass, the air is counted from the states at begin and end of the phase at ambient
+temperature.
 
 A figure that does not exist is None; ``notes`` says why under "extend.<figure>".
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import field
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.result import result_class
+from mckibben.facts.timing import MOTION_FIGURES, PRESSURE_FIGURES, TIMING
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.simulation.command.segments import Interval
 from mckibben.simulation.timing.trace import Trace
-
-MOTION_FIGURES = (
-    "positioning_time", "rise_time", "delay_time", "settling_time", "average_speed", "max_speed",
-    "max_speed_at", "max_acceleration", "max_acceleration_at", "min_acceleration", "min_acceleration_at",
-    "end_speed", "impact_energy", "overshoot",
-)  # fmt: skip
-PRESSURE_FIGURES = ("pressure_rise_time", "pressure_delay_time", "pressure_settling_time")
-AIR_FIGURES = ("air_mass", "air_volume_anr", "tube_air_mass", "choked_share")
-FIGURES = (*MOTION_FIGURES, *PRESSURE_FIGURES, *AIR_FIGURES)
-_NO_TIMES = {
-    "average_speed": "m/s", "max_speed": "m/s", "end_speed": "m/s", "max_acceleration": "m/s^2",
-    "min_acceleration": "m/s^2", "impact_energy": "J", "air_mass": "kg", "air_volume_anr": "m^3",
-    "tube_air_mass": "kg", "choked_share": "1", "overshoot": "1",
-}  # fmt: skip
-#: Figure -> SI unit.
-FIGURE_UNITS = {name: _NO_TIMES.get(name, "s") for name in FIGURES}
 
 #: Travel [m] and pressure change [Pa] below these count as none.
 SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0
@@ -68,9 +37,14 @@ _STILL_MOVING = 0.1
 Array = NDArray[np.float64]
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class PhaseFigures:
-    """Figures of one phase, SI, as defined in the module docstring; None where one does not exist."""
+    """Figures of one phase, as `mckibben.facts.timing` defines them; None where one does not exist.
+
+    Speeds are magnitudes along the motion of the phase, accelerations positive towards shorter in both.
+    """
+
+    FIGURES: ClassVar = TIMING.name
 
     positioning_time: float | None = None
     rise_time: float | None = None
@@ -95,23 +69,21 @@ class PhaseFigures:
     choked_share: float | None = None
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class TimingTable:
-    """Figures of the first fill and of the exhaust after it.
-
-    Attributes:
-        extend, retract: fill and exhaust.
-        notes: "extend.rise_time" -> why it is None, or a remark on it.
-    """
+    """Figures of the first fill and of the exhaust after it."""
 
     extend: PhaseFigures = field(default_factory=PhaseFigures)
+    """Figures of the first fill."""
     retract: PhaseFigures = field(default_factory=PhaseFigures)
+    """Figures of the exhaust after it."""
     notes: dict[str, str] = field(default_factory=dict)
+    """For example "extend.rise_time" -> why it is None, or a remark on it."""
 
     @classmethod
     def missing(cls, why: str) -> TimingTable:
         """A table without any figure, with the reason as a note."""
-        return cls(notes={f"{phase}.{name}": why for phase in ("extend", "retract") for name in FIGURES})
+        return cls(notes={f"{phase}.{name}": why for phase in ("extend", "retract") for name in TIMING})
 
 
 def timing(
@@ -141,8 +113,8 @@ def timing(
         window = trace.window(*interval) if interval is not None else None
         if window is None:
             why = "the command has no such phase" if interval is None else "the run ended before this phase"
-            figures: dict[str, float | None] = dict.fromkeys(FIGURES)
-            reasons = dict.fromkeys(FIGURES, why)
+            figures: dict[str, float | None] = dict.fromkeys(TIMING)
+            reasons = dict.fromkeys(TIMING, why)
         else:
             phase = _Phase(window, sign, stroke if sign > 0.0 else None, band)
             figures, reasons = phase.motion(mass)

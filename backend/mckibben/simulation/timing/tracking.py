@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
+
+from mckibben.facts.result import result_class
 
 Array = NDArray[np.float64]
 
@@ -13,24 +13,32 @@ _SAMPLES = 1000
 _PEAK_MARGIN = 1e-3
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class StepOvershoot:
     """A step of the reference: when [s], its signed height [m], overshoot as a share of it."""
 
     time: float
+    """When [s]."""
     size: float
+    """Signed height of the step [m]."""
     overshoot: float
+    """Overshoot as a share of the height [-]."""
 
 
-@dataclass(frozen=True, slots=True)
+@result_class
 class Tracking:
     """Figures of `tracking`; ``notes`` says why a figure is None."""
 
     rms: float
+    """Root mean square of the error over time [m]."""
     max: float
+    """Largest error [m]."""
     lag: float | None
+    """Delay with the best correlation [s]; None if none fits."""
     overshoot: list[StepOvershoot]
+    """Every step of the reference."""
     notes: dict[str, str]
+    """Figure -> why it is None, or a remark on it."""
 
 
 def tracking(time: ArrayLike, reference: ArrayLike, position: ArrayLike) -> Tracking:

@@ -2,10 +2,10 @@
 // Names of what an import works with.
 
 /** @typedef {import("../types.js").S} S */
-/** @typedef {S["PreviewAnswer"]} Preview */
+/** @typedef {S["PreviewResult"]} Preview */
 /** @typedef {S["PreviewColumn"]} Column */
 /** @typedef {S["OpenQuestion"]} OpenQuestion */
-/** @typedef {S["ExperimentField"]} Field */
+/** @typedef {S["FormField"]} Field */
 /** @typedef {import("../server/measurements.js").Mapping} Mapping */
 /** @typedef {import("../server/measurements.js").Choice} Choice */
 /** What the user says of a field of the experiment, as requests take it. @typedef {import("../types.js").Said} Said */

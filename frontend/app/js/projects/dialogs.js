@@ -199,7 +199,7 @@ export async function showProjects() {
 
 /** The saved versions of a project. @param {{id: string, title: string}} project */
 export async function showHistory(project) {
-  const rows = signal(/** @type {import("../types.js").S["RevisionInfo"][]} */ ([])), wrong = signal("");
+  const rows = signal(/** @type {import("../types.js").S["Revision"][]} */ ([])), wrong = signal("");
   const dialog = openDialog(
     { title: `History of ${project.title}` },
     h(

@@ -4,8 +4,8 @@ import { get, sendFile } from "./client.js";
 import { untilAnswered } from "./patience.js";
 
 /** @typedef {import("../types.js").S} S */
-/** @typedef {S["MeasurementAnswer"]} FileInfo */
-/** @typedef {S["PreviewAnswer"]} Preview */
+/** @typedef {S["MeasurementSummary"]} FileInfo */
+/** @typedef {S["PreviewResult"]} Preview */
 /** What a column is; `sign` -1: the file counts it the other way; `assumed`: its unit is what was proposed.
  * @typedef {{channel: string, unit?: string, absolute?: boolean, sign?: number, assumed?: boolean}} Choice */
 /** What the user says beyond a file; a column that is null is not used.
@@ -37,5 +37,5 @@ export const keep = (file, mapping = {}) =>
   untilAnswered(() => sendFile("PUT", `/api/measurements${query(file, mapping)}`, file));
 
 /** A kept file with its columns. @param {string} id @param {AbortSignal} [signal]
- * @returns {Promise<S["MeasurementDetail"]>} */
+ * @returns {Promise<S["MeasurementDetails"]>} */
 export const measurement = (id, signal) => get(`/api/measurements/${id}`, signal);

@@ -3,7 +3,7 @@
 import { get, post, request, sendFile } from "./client.js";
 
 /** @typedef {import("../types.js").S} S */
-/** @typedef {S["ProjectInfo"]} Info */
+/** @typedef {S["ProjectSummary"]} Info */
 /** @typedef {S["ProjectAnswer"]} Opened */
 
 /** Characters of a body with which the browser goes on sending when the page is closed; its limit is 64 kB. */

@@ -8,7 +8,7 @@ import { ApiError, get, send } from "../../server/client.js";
 import { loadKind } from "../../server/presets.js";
 import { KIND_TITLES } from "./columns.js";
 
-/** @typedef {import("../../types.js").S["KeptAnswer"]} Kept */
+/** @typedef {import("../../types.js").S["KeptData"]} Kept */
 /** @typedef {import("../../types.js").S["KeptItem"]} Item */
 
 const kept = signal(/** @type {Kept | null} */ (null));

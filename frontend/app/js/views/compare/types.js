@@ -5,21 +5,21 @@
 /** @typedef {import("../../types.js").Effects} Effects */
 /** A model as requests take it.
  * @typedef {{effects: Effects, muscle?: Record<string, any> | null}} Model */
-/** @typedef {S["FittedParameter"]} Fitted */
+/** @typedef {S["ParameterValue"]} Fitted */
 /** `rmse`: the error that the diagnosis counts, without what the accuracy of the readings explains; `rmse_of_all`:
- * with it. @typedef {S["ComparisonAnswer"] & {rmse_of_all: number | null}} Comparison */
-/** @typedef {S["ComparisonSeries"]} Series */
-/** @typedef {S["HeatMap"]} HeatMap */
-/** @typedef {S["ResidualProfile"]} Where */
-/** @typedef {S["DiagnosisAnswer"]} Diagnosis */
-/** @typedef {S["Candidate"]} Candidate */
-/** @typedef {S["PathStep"]} PathStep */
-/** @typedef {S["ProposedTerm"]} ProposedTerm */
+ * with it. @typedef {S["ComparisonResult"] & {rmse_of_all: number | null}} Comparison */
+/** @typedef {S["ComparedSeries"]} Series */
+/** @typedef {S["ResidualMap"]} HeatMap */
+/** @typedef {S["Profile"]} Where */
+/** @typedef {S["DiagnosisResult"]} Diagnosis */
+/** @typedef {S["CandidateResult"]} Candidate */
+/** @typedef {S["PathPoint"]} PathStep */
+/** @typedef {S["TermProposal"]} ProposedTerm */
 /** @typedef {S["Verdict"]["status"]} Status */
 /** @typedef {{share: number, stage?: string, found?: Candidate | null,
  *   waiting?: import("../../server/waiting.js").Waiting}} Progress */
 
-/** @typedef {S["MeasurementAnswer"]} FileInfo */
+/** @typedef {S["MeasurementSummary"]} FileInfo */
 /** @typedef {import("../../server/measurements.js").Mapping} Mapping */
 
 /** A measurement with a hidden cause.

@@ -12,7 +12,7 @@ import { answeredTask, proposals, sizing } from "./model.js";
 import { requestOf } from "../../drive/task.js";
 import { AIMS, driveWords, limitName } from "./words.js";
 
-/** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
+/** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
 
 const GRAVITY = 9.80665, NEAR = 0.3 * BAR;
 /** What one muscle holds at the end of the stroke at rest [N]. @param {Proposal} p */

@@ -7,7 +7,7 @@ import { marginBars } from "./margins.js";
 import { answer, chosen, chosenIndex, proposals } from "./model.js";
 import { asText, driveWords, partsWords, percent } from "./words.js";
 
-/** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
+/** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
 
 const LIKELY = 0.9, DOUBTFUL = 0.5;
 

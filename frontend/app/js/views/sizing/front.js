@@ -17,7 +17,7 @@ import { AIMS, asText, driveWords, partsWords } from "./words.js";
 /** @typedef {import("../../types.js").Aim} Aim */
 /** @typedef {import("./words.js").Design} Design */
 /** @typedef {import("../../plots/chart.js").Spec} Spec */
-/** @typedef {import("../../types.js").S["ExploredDesign"]} Explored */
+/** @typedef {import("../../types.js").S["ExploredDrive"]} Explored */
 
 /** How close to a mark a click must be; how far apart the numbers are kept [px]. */
 const REACH = 14, APART = 25;

@@ -3,7 +3,7 @@
 import { h } from "../../dom.js";
 import { limitName, spare } from "./words.js";
 
-/** @param {import("../../types.js").S["ProposalAnswer"]} p */
+/** @param {import("../../types.js").S["ProposedDrive"]} p */
 export function marginBars(p) {
   const rows = Object.entries(p.margins).sort(([, a], [, b]) => a - b);
   return h(

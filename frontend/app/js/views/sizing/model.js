@@ -11,8 +11,8 @@ import { opened } from "./document.js";
 import { at, put } from "../../paths.js";
 import { driveWords } from "./words.js";
 
-/** @typedef {import("../../types.js").S["SizingAnswer"]} Answer */
-/** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
+/** @typedef {import("../../types.js").S["SizingResult"]} Answer */
+/** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
 /** @typedef {import("../../types.js").Sizing} Sizing */
 /** @typedef {import("../../types.js").Doc} Doc */
 /** @typedef {"idle" | "running" | "done" | "cancelled" | "failed"} Stage */

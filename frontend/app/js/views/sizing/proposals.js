@@ -9,7 +9,7 @@ import { marginBars } from "./margins.js";
 import { answer, answeredTask, chosenIndex, lookSizing, proposals } from "./model.js";
 import { asText, driveWords, limitName, partsOf, percent, spare } from "./words.js";
 
-/** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
+/** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
 
 /** Proposals whose reasons are shown, by index. */
 const unfolded = signal(/** @type {ReadonlySet<number>} */ (new Set()));

@@ -6,7 +6,7 @@ import { computed, effect, signal } from "../../reactive.js";
 import { answer } from "./model.js";
 import { limitName } from "./words.js";
 
-/** @typedef {import("../../types.js").S["RejectedAnswer"]} Rejected */
+/** @typedef {import("../../types.js").S["RejectedParts"]} Rejected */
 
 const SHOWN = 8;
 const all = signal(false);

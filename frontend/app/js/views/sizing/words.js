@@ -3,8 +3,8 @@
 import { units } from "../../state.js";
 import { readable, withUnit } from "../../format.js";
 
-/** @typedef {import("../../types.js").S["ExploredDesign"]} Explored */
-/** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
+/** @typedef {import("../../types.js").S["ExploredDrive"]} Explored */
+/** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
 /** @typedef {import("../../types.js").Aim} Aim */
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** What proposals and explored drives have in common. @typedef {Explored | Proposal} Design */

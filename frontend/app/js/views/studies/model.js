@@ -14,9 +14,9 @@ import { countOf, forMethod, isSpread, quantityRequest } from "./forms.js";
 /** @typedef {import("../../types.js").Study} Study */
 /** @typedef {import("../../types.js").Varied} Varied */
 /** @typedef {import("../../types.js").Watched} Watched */
-/** @typedef {import("../../types.js").S["StudyAnswer"]} Answer */
-/** @typedef {import("../../types.js").S["StudyOptionsAnswer"]} Options */
-/** @typedef {import("../../types.js").S["StudyColumnAnswer"]} Column */
+/** @typedef {import("../../types.js").S["StudyResult"]} Answer */
+/** @typedef {import("../../types.js").S["StudyOptions"]} Options */
+/** @typedef {import("../../types.js").S["StudyColumn"]} Column */
 /** @typedef {Record<string, (number | string | null)[]>} Columns */
 /** The rows on screen. @typedef {{columns: Column[], table: Columns, planned: number}} Shown */
 

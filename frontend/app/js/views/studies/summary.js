@@ -8,7 +8,7 @@ import { answer } from "./model.js";
 import { columnText, outcomeText, percentText, scaleFor, titleOf, valueText } from "./words.js";
 
 /** @typedef {import("./model.js").Answer} Answer */
-/** @typedef {import("../../types.js").S["StudyProbability"]} Probability */
+/** @typedef {import("../../types.js").S["Probability"]} Probability */
 
 /** @param {string} caption @param {string[]} heads @param {(Node | string)[][]} rows */
 const table = (caption, heads, rows) =>

@@ -5,7 +5,7 @@ import { capitalized, number, plainScale, quantityOf, readable, scaleOf, toShown
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../format.js").Scale} Scale */
 /** @typedef {import("../../format.js").System} System */
-/** @typedef {import("../../types.js").S["StudyColumnAnswer"]} Column */
+/** @typedef {import("../../types.js").S["StudyColumn"]} Column */
 
 /** Where the last part of a path alone would not say what it is. @type {Record<string, string>} */
 const TITLES = {

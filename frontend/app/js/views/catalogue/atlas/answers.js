@@ -8,8 +8,8 @@ import { muscle } from "../../../muscle/preset.js";
 import { effectsById } from "../../../store.js";
 import { filter } from "../table.js";
 
-/** @typedef {import("../../../types.js").S["SignatureAnswer"]} Signatures */
-/** @typedef {import("../../../types.js").S["SignaturePictureAnswer"]} Picture */
+/** @typedef {import("../../../types.js").S["Signatures"]} Signatures */
+/** @typedef {import("../../../types.js").S["SignaturePicture"]} Picture */
 /** @typedef {import("../../../types.js").Effect} Effect */
 
 const AT_ONCE = 2;

@@ -39,7 +39,7 @@ function rows() {
     const printedValue = siNumber(`${q.value} ${q.unit}`);
     if (!figure || printedValue === null || !(phase === "extend" || phase === "retract")) return [];
     const quantity = figure[2];
-    const runValue = r.timing[phase][key];
+    const runValue = r.timing[phase][/** @type {import("../../../types.js").PhaseFigure} */ (key)];
     const s = quantity === "lapse" ? { unit: "ms", factor: 1e-3, digits: 1 } : scaleOf(quantity, system);
     const asText = (/** @type {number | null} */ si) => si == null ? "–" : brief(toShown(si, s));
     const why = printed.excluded?.[path] ?? null;

@@ -93,7 +93,8 @@ export function figureName(figure, phase) {
 const PHASES = [["extend", "Fill"], ["retract", "Vent"]];
 
 /** @param {Run} r @param {"extend" | "retract"} phase @param {string} key */
-const figureOf = (r, phase, key) => r.timing[phase][key] ?? null;
+const figureOf = (r, phase, key) =>
+  r.timing[phase][/** @type {import("../../../types.js").PhaseFigure} */ (key)] ?? null;
 
 /** @param {Run} r @param {"extend" | "retract"} phase @param {Figure} figure */
 function cell(r, phase, [key, , quantity]) {

@@ -6,7 +6,7 @@ import { post } from "../../../server/client.js";
 import { Question } from "../../../server/question.js";
 import { documentNow, drive, mode } from "../model.js";
 
-/** @typedef {import("../../../types.js").S["LinearisationAnswer"]} Linear */
+/** @typedef {import("../../../types.js").S["LinearResult"]} Linear */
 /** @typedef {Linear["models"][number]} Model */
 /** @typedef {NonNullable<Linear["design"]>} Design */
 /** @typedef {Design["trials"][number]} Trial */

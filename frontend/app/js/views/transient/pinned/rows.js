@@ -122,7 +122,8 @@ const TIMED = /** @type {("extend" | "retract")[]} */ (["extend", "retract"]).fl
   ALL_FIGURES.filter(([, label]) => !label.startsWith("…")).map((figure) => ({
     label: figureName(figure, phase),
     quantity: figure[2],
-    of: (/** @type {Run} */ r) => r.timing[phase][figure[0]] ?? null,
+    of: (/** @type {Run} */ r) =>
+      r.timing[phase][/** @type {import("../../../types.js").PhaseFigure} */ (figure[0])] ?? null,
   }))
 );
 

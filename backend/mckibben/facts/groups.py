@@ -1,0 +1,17 @@
+"""All figures, by group and by key."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from types import MappingProxyType
+
+from mckibben.facts.figure import Figure, Group
+from mckibben.facts.timing import TIMING
+
+#: Name of a group -> its figures.
+GROUPS: Mapping[str, Group] = MappingProxyType({group.name: group for group in (TIMING,)})
+
+#: Key -> figure: "timing.rise_time".
+FIGURES: Mapping[str, Figure] = MappingProxyType(
+    {figure.key: figure for group in GROUPS.values() for figure in group.values()}
+)

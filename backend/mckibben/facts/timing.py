@@ -1,0 +1,134 @@
+"""Figures of one phase of a switched drive, fill or exhaust, as Festo's ProPneu reports them.
+
+All times count from the switching instant of the phase (ProPneu prints those of the exhaust in run time).
+s is the travel since that instant, positive in the direction of the phase (fill: shorter); S the stroke of
+the phase: from its start to where it ends, or the demanded stroke.
+"""
+
+from __future__ import annotations
+
+from mckibben.facts.figure import Condition, Figure, Group
+
+_MOVES = Condition("the command has the phase and the load moves in it", "the muscle does not move")
+_ARRIVES = Condition("the load arrives in the phase", "the load does not arrive in this phase")
+_SETTLES = Condition(
+    "the load is within the band before the last tenth of the phase", "still moving at the end of the phase"
+)
+_PRESSURE = Condition("the pressure changes by 100 Pa or more in the phase", "the pressure does not change")
+_STEADY = Condition(
+    "the pressure is within the band before the last tenth of the phase",
+    "the pressure still changes at the end of the phase",
+)
+_FLOWS = Condition("air passes the valve in the direction of the phase", "no air passes in this direction")
+_COMMANDED = Condition("the command has the phase", "the command has no such phase")
+_MASS = Condition("the moving mass is known", "the moving mass is not known")
+
+TIMING = Group(
+    "timing",
+    "Timing of a phase",
+    Figure(
+        "positioning_time", "t_pos", "s", "Positioning time",
+        "Time of the impact on the stop that ends the stroke; without an impact first time at s = 0.95 S.",
+        _ARRIVES, shown="ms",
+    ),
+    Figure(
+        "rise_time", "t_r", "s", "Rise time (10–90 %)",
+        "Time from first s = 0.1 S to first s = 0.9 S; no dead time is in it.", _MOVES, shown="ms",
+    ),
+    Figure(
+        "delay_time", "t_50", "s", "Delay time (50 %)", "First time at s = 0.5 S.", _MOVES, shown="ms",
+    ),
+    Figure(
+        "settling_time", "t_s", "s", "Settling time (5 % of the stroke)",
+        "Time from which |s − S| ≤ 0.05 S until the end of the phase.", _SETTLES, shown="ms",
+    ),
+    Figure(
+        "average_speed", "v_m", "m/s", "Average speed",
+        "Travel at the positioning time over the positioning time.", _ARRIVES,
+    ),
+    Figure(
+        "max_speed", "v_max", "m/s", "Largest speed",
+        "Largest ds/dt in the phase, without a load at rest on a stop and with the instant before an impact.",
+        _MOVES,
+    ),
+    Figure(
+        "max_speed_at", "t(v_max)", "s", "Time of the largest speed", "Time of the largest ds/dt.",
+        _MOVES, shown="ms",
+    ),
+    Figure(
+        "max_acceleration", "a_max", "m/s^2", "Largest acceleration towards shorter",
+        "Largest second derivative of the position, positive towards shorter in both phases, without "
+        "impacts.", _MOVES,
+    ),
+    Figure(
+        "max_acceleration_at", "t(a_max)", "s", "Time of the largest acceleration",
+        "Time of the largest acceleration towards shorter.", _MOVES, shown="ms",
+    ),
+    Figure(
+        "min_acceleration", "a_min", "m/s^2", "Largest acceleration towards longer",
+        "Smallest second derivative of the position, negative where the load accelerates towards longer or "
+        "brakes on "
+        "its way to shorter, without impacts.", _MOVES,
+    ),
+    Figure(
+        "min_acceleration_at", "t(a_min)", "s", "Time of the largest acceleration towards longer",
+        "Time of the smallest second derivative of the position.", _MOVES, shown="ms",
+    ),
+    Figure(
+        "end_speed", "v_e", "m/s", "Speed on arrival",
+        "ds/dt just before the first impact on the stop ahead; without an impact ds/dt at the positioning "
+        "time.",
+        _ARRIVES,
+    ),
+    Figure(
+        "impact_energy", "E", "J", "Impact energy",
+        "m v²/2 of the first impact on the stop ahead, m all moving mass referred to the load; 0 without an "
+        "impact.",
+        _MASS,
+    ),
+    Figure(
+        "overshoot", "o", "1", "Overshoot",
+        "Largest travel beyond S over S: max(0, max s/S − 1); S is where the phase ends, not a reference.",
+        _MOVES,
+    ),
+    Figure(
+        "pressure_rise_time", "t_pr", "s", "Pressure rise time (10–90 %)",
+        "Time between first 10 and first 90 % of the change of pressure in the (first) muscle in the phase, "
+        "up or"
+        "down.", _PRESSURE, shown="ms",
+    ),
+    Figure(
+        "pressure_delay_time", "t_p50", "s", "Pressure delay time (50 %)",
+        "First time at 50 % of the change of pressure in the (first) muscle in the phase.",
+        _PRESSURE, shown="ms",
+    ),
+    Figure(
+        "pressure_settling_time", "t_ps", "s", "Pressure settling time (1 % of the change)",
+        "Time from which the pressure stays within 1 % of its change around its value at the end of the "
+        "phase.",
+        _STEADY, shown="ms",
+    ),
+    Figure(
+        "air_mass", "m_a", "kg", "Air taken in or let out",
+        "Mass of air of all muscles that is taken from the supply (fill) or let out to the atmosphere "
+        "(exhaust), with"
+        "that for the tubes, until the flow of the phase has ended.", _COMMANDED,
+    ),
+    Figure(
+        "air_volume_anr", "V_ANR", "m^3", "Air taken in or let out (ANR)",
+        "The same mass as a volume at 20 °C, 100 kPa and 65 % humidity: m_a/(1.185 kg/m³).", _COMMANDED,
+    ),
+    Figure(
+        "tube_air_mass", "m_t", "kg", "… of which in the tubes",
+        "Change of the mass of air in the tubes, Δp V/(R T), in the direction of the phase.", _COMMANDED,
+    ),
+    Figure(
+        "choked_share", "", "1", "Share of the air that passes choked",
+        "Integral of the flow of the phase while the flow of the valve is choked over its integral.", _FLOWS,
+    ),
+)  # fmt: skip
+
+#: Figures of the motion, of the pressure and of the air, in the order of tables.
+PRESSURE_FIGURES = ("pressure_rise_time", "pressure_delay_time", "pressure_settling_time")
+AIR_FIGURES = ("air_mass", "air_volume_anr", "tube_air_mass", "choked_share")
+MOTION_FIGURES = tuple(name for name in TIMING if name not in (*PRESSURE_FIGURES, *AIR_FIGURES))
