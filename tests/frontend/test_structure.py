@@ -19,7 +19,7 @@ MODULES = Path(__file__).resolve().parents[2] / "frontend" / "app" / "js"
 
 # From the bottom up; a name ending in "/" is a folder.
 LAYERS: tuple[tuple[str, ...], ...] = (
-    ("types.js", "reactive.js", "format.js", "quantities.js", "paths.js"),
+    ("types.js", "facts.js", "reactive.js", "format.js", "quantities.js", "paths.js"),
     ("state.js", "store.js"),
     ("server/",),
     ("dom.js", "ui/"),

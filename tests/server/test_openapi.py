@@ -13,6 +13,8 @@ from tests.server import typescript
 PATHS = {
     "/api/health": {"get"},
     "/api/effects": {"get"},
+    "/api/figures": {"get"},
+    "/api/units": {"get"},
     "/api/presets/{kind}": {"get"},
     "/api/presets/{kind}/{preset_id}": {"get"},
     "/api/presets/muscles": {"post"},

@@ -113,6 +113,8 @@ def _type(schema: Schema, indent: int) -> str:
         if union in schema:
             return " | ".join(dict.fromkeys(_type(part, indent) for part in schema[union]))
     kind = schema.get("type")
+    if kind == "array" and "prefixItems" in schema:
+        return f"[{', '.join(_type(part, indent) for part in schema['prefixItems'])}]"
     if kind == "array":
         inner = _type(schema.get("items", {}), indent)
         return f"({inner})[]" if " | " in inner else f"{inner}[]"

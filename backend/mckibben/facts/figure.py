@@ -6,6 +6,8 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
+from mckibben.facts.units import QUANTITIES, Scale, quantity_of
+
 
 @dataclass(frozen=True, slots=True)
 class Condition:
@@ -35,7 +37,7 @@ class Figure:
         label: in tables, a noun with what it depends on: "Rise time (10–90 %)".
         definition: one sentence with the formula, what it is measured against, and its limits.
         exists_when: the condition under which it exists.
-        shown: unit in which it is shown; "" for that of `mckibben.facts.units.shown_unit`.
+        quantity: of `mckibben.facts.units.QUANTITIES`, which says how it is shown; "" for that of the unit.
         group: set by `Group`.
     """
 
@@ -45,13 +47,24 @@ class Figure:
     label: str
     definition: str
     exists_when: Condition = ALWAYS
-    shown: str = ""
+    quantity: str = ""
     group: str = ""
 
     @property
     def key(self) -> str:
         """Key among all figures: "timing.rise_time"."""
         return f"{self.group}.{self.name}"
+
+    @property
+    def shown_as(self) -> str | None:
+        """The quantity that says how it is shown; None where its unit is shown as it is."""
+        return self.quantity or quantity_of(self.unit, self.name)
+
+    @property
+    def scale(self) -> Scale:
+        """The unit of reports and of the terminal."""
+        quantity = self.shown_as
+        return Scale(self.unit) if quantity is None else QUANTITIES[quantity].scales["bar"]
 
 
 class Group(Mapping[str, Figure]):

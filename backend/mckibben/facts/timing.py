@@ -29,18 +29,21 @@ TIMING = Group(
     Figure(
         "positioning_time", "t_pos", "s", "Positioning time",
         "Time of the impact on the stop that ends the stroke; without an impact first time at s = 0.95 S.",
-        _ARRIVES, shown="ms",
+        _ARRIVES, quantity="lapse",
     ),
     Figure(
         "rise_time", "t_r", "s", "Rise time (10–90 %)",
-        "Time from first s = 0.1 S to first s = 0.9 S; no dead time is in it.", _MOVES, shown="ms",
+        "Time from first s = 0.1 S to first s = 0.9 S; no dead time is in it.",
+        _MOVES, quantity="lapse",
     ),
     Figure(
-        "delay_time", "t_50", "s", "Delay time (50 %)", "First time at s = 0.5 S.", _MOVES, shown="ms",
+        "delay_time", "t_50", "s", "Delay time (50 %)", "First time at s = 0.5 S.",
+        _MOVES, quantity="lapse",
     ),
     Figure(
         "settling_time", "t_s", "s", "Settling time (5 % of the stroke)",
-        "Time from which |s − S| ≤ 0.05 S until the end of the phase.", _SETTLES, shown="ms",
+        "Time from which |s − S| ≤ 0.05 S until the end of the phase.",
+        _SETTLES, quantity="lapse",
     ),
     Figure(
         "average_speed", "v_m", "m/s", "Average speed",
@@ -53,7 +56,7 @@ TIMING = Group(
     ),
     Figure(
         "max_speed_at", "t(v_max)", "s", "Time of the largest speed", "Time of the largest ds/dt.",
-        _MOVES, shown="ms",
+        _MOVES, quantity="lapse",
     ),
     Figure(
         "max_acceleration", "a_max", "m/s^2", "Largest acceleration towards shorter",
@@ -62,7 +65,8 @@ TIMING = Group(
     ),
     Figure(
         "max_acceleration_at", "t(a_max)", "s", "Time of the largest acceleration",
-        "Time of the largest acceleration towards shorter.", _MOVES, shown="ms",
+        "Time of the largest acceleration towards shorter.",
+        _MOVES, quantity="lapse",
     ),
     Figure(
         "min_acceleration", "a_min", "m/s^2", "Largest acceleration towards longer",
@@ -72,7 +76,8 @@ TIMING = Group(
     ),
     Figure(
         "min_acceleration_at", "t(a_min)", "s", "Time of the largest acceleration towards longer",
-        "Time of the smallest second derivative of the position.", _MOVES, shown="ms",
+        "Time of the smallest second derivative of the position.",
+        _MOVES, quantity="lapse",
     ),
     Figure(
         "end_speed", "v_e", "m/s", "Speed on arrival",
@@ -89,42 +94,47 @@ TIMING = Group(
     Figure(
         "overshoot", "o", "1", "Overshoot",
         "Largest travel beyond S over S: max(0, max s/S − 1); S is where the phase ends, not a reference.",
-        _MOVES,
+        _MOVES, quantity="ratio",
     ),
     Figure(
         "pressure_rise_time", "t_pr", "s", "Pressure rise time (10–90 %)",
         "Time between first 10 and first 90 % of the change of pressure in the (first) muscle in the phase, "
         "up or"
-        "down.", _PRESSURE, shown="ms",
+        "down.",
+        _PRESSURE, quantity="lapse",
     ),
     Figure(
         "pressure_delay_time", "t_p50", "s", "Pressure delay time (50 %)",
         "First time at 50 % of the change of pressure in the (first) muscle in the phase.",
-        _PRESSURE, shown="ms",
+        _PRESSURE, quantity="lapse",
     ),
     Figure(
         "pressure_settling_time", "t_ps", "s", "Pressure settling time (1 % of the change)",
         "Time from which the pressure stays within 1 % of its change around its value at the end of the "
         "phase.",
-        _STEADY, shown="ms",
+        _STEADY, quantity="lapse",
     ),
     Figure(
         "air_mass", "m_a", "kg", "Air taken in or let out",
         "Mass of air of all muscles that is taken from the supply (fill) or let out to the atmosphere "
         "(exhaust), with"
-        "that for the tubes, until the flow of the phase has ended.", _COMMANDED,
+        "that for the tubes, until the flow of the phase has ended.",
+        _COMMANDED, quantity="air",
     ),
     Figure(
         "air_volume_anr", "V_ANR", "m^3", "Air taken in or let out (ANR)",
-        "The same mass as a volume at 20 °C, 100 kPa and 65 % humidity: m_a/(1.185 kg/m³).", _COMMANDED,
+        "The same mass as a volume at 20 °C, 100 kPa and 65 % humidity: m_a/(1.185 kg/m³).",
+        _COMMANDED, quantity="normal",
     ),
     Figure(
         "tube_air_mass", "m_t", "kg", "… of which in the tubes",
-        "Change of the mass of air in the tubes, Δp V/(R T), in the direction of the phase.", _COMMANDED,
+        "Change of the mass of air in the tubes, Δp V/(R T), in the direction of the phase.",
+        _COMMANDED, quantity="air",
     ),
     Figure(
         "choked_share", "", "1", "Share of the air that passes choked",
-        "Integral of the flow of the phase while the flow of the valve is choked over its integral.", _FLOWS,
+        "Integral of the flow of the phase while the flow of the valve is choked over its integral.",
+        _FLOWS, quantity="ratio",
     ),
 )  # fmt: skip
 

@@ -25,6 +25,7 @@ from mckibben.server.routes import (
     effects,
     experiments,
     exports,
+    facts,
     health,
     help,
     inverse,
@@ -54,6 +55,7 @@ _WARM_AFTER = 1.0  # s
 
 _TAGS = [
     {"name": "health", "description": "Is the server up?"},
+    {"name": "facts", "description": "Declared figures and units."},
     {"name": "effects", "description": "The catalogue of physical effects."},
     {"name": "presets", "description": "Real parts, reference curves, measurements and example designs."},
     {"name": "curves", "description": "Static characteristics of a muscle."},
@@ -133,6 +135,7 @@ def create_app(settings: Settings | None = None) -> FastAPI:
         comparisons,
         diagnoses,
         health,
+        facts,
         effects,
         signatures,
         presets,

@@ -1,69 +1,14 @@
 // @ts-check
 // Quantities as documents write them, "6 bar" or "120 N*s/m", converted to SI.
-
-const INCH = 0.0254, POUND = 0.45359237, LBF = 4.4482216152605;
+import { UNITS } from "./facts.js";
 
 /** Exponents of m, kg, s, K, rad. @typedef {number[]} Dimension */
-/** @type {Record<string, Dimension>} */
-const OF = {
-  none: [0, 0, 0, 0, 0],
-  length: [1, 0, 0, 0, 0],
-  volume: [3, 0, 0, 0, 0],
-  mass: [0, 1, 0, 0, 0],
-  time: [0, 0, 1, 0, 0],
-  frequency: [0, 0, -1, 0, 0],
-  temperature: [0, 0, 0, 1, 0],
-  angle: [0, 0, 0, 0, 1],
-  force: [1, 1, -2, 0, 0],
-  pressure: [-1, 1, -2, 0, 0],
-  energy: [2, 1, -2, 0, 0],
-  power: [2, 1, -3, 0, 0],
-};
-/** What units measure, and their factors. The spellings are among those the server accepts.
- * @type {[keyof typeof OF, Record<string, number>][]} */
-const UNITS = [
-  ["none", { "%": 0.01, "1": 1 }],
-  ["length", { m: 1, cm: 1e-2, CM: 1e-2, mm: 1e-3, MM: 1e-3, um: 1e-6, µm: 1e-6 }],
-  ["length", { in: INCH, inch: INCH, ft: 12 * INCH }],
-  ["volume", { l: 1e-3, L: 1e-3, ml: 1e-6 }],
-  ["mass", { kg: 1, g: 1e-3, t: 1e3, lb: POUND }],
-  ["time", { s: 1, sec: 1, Sec: 1, ms: 1e-3, us: 1e-6, µs: 1e-6, min: 60, h: 3600 }],
-  ["frequency", { Hz: 1, kHz: 1e3 }],
-  ["temperature", { K: 1 }],
-  ["angle", { rad: 1, deg: Math.PI / 180, "°": Math.PI / 180 }],
-  ["force", { N: 1, mN: 1e-3, kN: 1e3, lbf: LBF }],
-  ["pressure", {
-    Pa: 1,
-    pa: 1,
-    hPa: 100,
-    kPa: 1e3,
-    kpa: 1e3,
-    KPa: 1e3,
-    KPA: 1e3,
-    MPa: 1e6,
-    MPA: 1e6,
-    GPa: 1e9,
-  }],
-  ["pressure", { bar: 1e5, Bar: 1e5, BAR: 1e5, mbar: 100, atm: 101325 }],
-  ["pressure", { psi: LBF / INCH ** 2, PSI: LBF / INCH ** 2, Psi: LBF / INCH ** 2 }],
-  ["energy", { J: 1, kJ: 1e3 }],
-  ["power", { W: 1 }],
-];
 /** Factor and dimension of a unit. @typedef {{factor: number, of: Dimension}} Measure */
 /** @type {Map<string, Measure>} */
 const MEASURES = new Map(
-  UNITS.flatMap(([kind, factors]) =>
-    Object.entries(factors).map((
-      [unit, factor],
-    ) => /** @type {[string, Measure]} */ ([unit, { factor, of: OF[kind] }]))
-  ),
+  Object.entries(UNITS.names).map(([unit, { factor, dimension }]) => [unit, { factor, of: dimension }]),
 );
-/** Temperature scales: factor and offset. They cannot be part of a compound unit. @type {Record<string, [number, number]>} */
-const SHIFTED = {
-  degC: [1, 273.15],
-  "°C": [1, 273.15],
-  degF: [5 / 9, 273.15 - (32 * 5) / 9],
-};
+const NOTHING = [0, 0, 0, 0, 0];
 
 /** @param {Measure} one @param {Measure} other @param {1 | -1} sign @returns {Measure} */
 const times = (one, other, sign) => ({
@@ -109,7 +54,7 @@ function measureOf(text) {
 /** Whether a unit measures what an SI unit does; without a unit: whether that is a plain number.
  * @param {Measure | null} measure @param {string} si */
 function fits(measure, si) {
-  const wanted = measureOf(si), of = measure?.of ?? OF.none;
+  const wanted = measureOf(si), of = measure?.of ?? NOTHING;
   return wanted !== null && wanted.of.every((x, i) => x === of[i]);
 }
 
@@ -153,8 +98,8 @@ export function siNumber(value, wanted = {}) {
   if (!match) return null;
   const number = Number(match[1]), { unit: si } = wanted;
   if (match[2] === "") return si === undefined || fits(null, si) ? number : null;
-  if (Object.hasOwn(SHIFTED, match[2])) {
-    const [factor, offset] = SHIFTED[match[2]];
+  if (Object.hasOwn(UNITS.shifted, match[2])) {
+    const [factor, offset] = UNITS.shifted[match[2]];
     return si === undefined || si === "K" ? number * factor + offset : null;
   }
   const { unit, stated } = splitReference(match[2]);
