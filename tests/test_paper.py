@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import re
 from pathlib import Path
-from typing import Any
+from typing import Any, get_type_hints
 
 import pytest
 
@@ -37,7 +37,7 @@ def test_every_place_exists(place: str) -> None:
     if place.startswith("POST /api/curves "):
         found: Any = CurvesResult
         for name in place.removeprefix("POST /api/curves ").split("."):
-            found = _class_of(found.model_fields[name].annotation)
+            found = _class_of(get_type_hints(found)[name])
     elif place.startswith("mckibben."):
         parts = place.split(".")
         sizes = range(len(parts), 0, -1)

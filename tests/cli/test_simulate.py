@@ -43,7 +43,7 @@ def test_the_table_shows_both_phases_and_the_outcome(run: Run) -> None:
     code, out, err = run("simulate", write("lift.json", EXAMPLE))
     assert code == 0
     assert "completed" in out
-    for word in ("extend", "retract", "positioning time", "impact energy", "flows choked"):
+    for word in ("fill", "vent", "Positioning time", "Impact energy", "passes choked"):
         assert word in out
     for word in ("air: energy balance", "lower end stop"):
         assert word in err

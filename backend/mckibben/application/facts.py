@@ -23,6 +23,8 @@ class DeclaredFigure:
     """What it is, in one sentence with its formula."""
     group: str
     """Name of its group."""
+    section: str
+    """Heading inside the table of its group; empty without one."""
     exists_when: str
     """The condition under which it exists."""
     otherwise: str
@@ -93,6 +95,7 @@ def figures() -> list[DeclaredFigure]:
             label=figure.label,
             definition=figure.definition,
             group=figure.group,
+            section=figure.section,
             exists_when=figure.exists_when.name,
             otherwise=figure.exists_when.otherwise,
             quantity=figure.shown_as,

@@ -38,6 +38,7 @@ class Figure:
         definition: one sentence with the formula, what it is measured against, and its limits.
         exists_when: the condition under which it exists.
         quantity: of `mckibben.facts.units.QUANTITIES`, which says how it is shown; "" for that of the unit.
+        section: heading inside the table of its group; "" without one.
         group: set by `Group`.
     """
 
@@ -48,6 +49,7 @@ class Figure:
     definition: str
     exists_when: Condition = ALWAYS
     quantity: str = ""
+    section: str = ""
     group: str = ""
 
     @property

@@ -7,6 +7,10 @@ the phase: from its start to where it ends, or the demanded stroke.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from dataclasses import replace
+from types import MappingProxyType
+
 from mckibben.facts.figure import Condition, Figure, Group
 
 _MOVES = Condition("the command has the phase and the load moves in it", "the muscle does not move")
@@ -19,13 +23,24 @@ _STEADY = Condition(
     "the pressure is within the band before the last tenth of the phase",
     "the pressure still changes at the end of the phase",
 )
-_FLOWS = Condition("air passes the valve in the direction of the phase", "no air passes in this direction")
+_FLOWS = Condition(
+    "air flows in the direction of the phase",
+    "no air is taken from the supply (fill) or let out (vent) in this phase",
+)
+_FREE = Condition("the load moves and hits no stop", "the load hits the stop")
 _COMMANDED = Condition("the command has the phase", "the command has no such phase")
 _MASS = Condition("the moving mass is known", "the moving mass is not known")
 
-TIMING = Group(
-    "timing",
-    "Timing of a phase",
+#: Phase -> what it is called; it begins when the valve is switched.
+PHASES: Mapping[str, str] = MappingProxyType({"extend": "fill", "retract": "vent"})
+
+
+def _section(title: str, *figures: Figure) -> tuple[Figure, ...]:
+    return tuple(replace(figure, section=title) for figure in figures)
+
+
+_MOTION = _section(
+    "Motion",
     Figure(
         "positioning_time", "t_pos", "s", "Positioning time",
         "Time of the impact on the stop that ends the stroke; without an impact first time at s = 0.95 S.",
@@ -92,10 +107,14 @@ TIMING = Group(
         _MASS,
     ),
     Figure(
-        "overshoot", "o", "1", "Overshoot",
+        "overshoot", "o", "1", "Overshoot of the final position",
         "Largest travel beyond S over S: max(0, max s/S − 1); S is where the phase ends, not a reference.",
-        _MOVES, quantity="ratio",
+        _FREE, quantity="ratio",
     ),
+)  # fmt: skip
+
+_PRESSURE_STEP = _section(
+    "Pressure",
     Figure(
         "pressure_rise_time", "t_pr", "s", "Pressure rise time (10–90 %)",
         "Time between first 10 and first 90 % of the change of pressure in the (first) muscle in the phase, "
@@ -114,6 +133,10 @@ TIMING = Group(
         "phase.",
         _STEADY, quantity="lapse",
     ),
+)  # fmt: skip
+
+_AIR = _section(
+    "Air",
     Figure(
         "air_mass", "m_a", "kg", "Air taken in or let out",
         "Mass of air of all muscles that is taken from the supply (fill) or let out to the atmosphere "
@@ -138,7 +161,8 @@ TIMING = Group(
     ),
 )  # fmt: skip
 
-#: Figures of the motion, of the pressure and of the air, in the order of tables.
-PRESSURE_FIGURES = ("pressure_rise_time", "pressure_delay_time", "pressure_settling_time")
-AIR_FIGURES = ("air_mass", "air_volume_anr", "tube_air_mass", "choked_share")
-MOTION_FIGURES = tuple(name for name in TIMING if name not in (*PRESSURE_FIGURES, *AIR_FIGURES))
+TIMING = Group("timing", "Timing of a phase", *_MOTION, *_PRESSURE_STEP, *_AIR)
+
+MOTION_FIGURES, PRESSURE_FIGURES, AIR_FIGURES = (
+    tuple(figure.name for figure in part) for part in (_MOTION, _PRESSURE_STEP, _AIR)
+)

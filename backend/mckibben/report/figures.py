@@ -4,29 +4,13 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Iterable
-from typing import NamedTuple
 
+from mckibben.facts.units import Scale
 from mckibben.report.html import Html, html, tag
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
 _SMALLEST, _LARGEST = 1e-3, 1e5  # outside, scientific notation is used
 _LEAST_SHARE = 1e-5
-
-
-class Scale(NamedTuple):
-    """A display unit: SI value = displayed value * size."""
-
-    unit: str
-    size: float = 1.0
-
-    def of(self, value: float) -> float:
-        """An SI value in this unit."""
-        return value / self.size
-
-    def all(self, values: Iterable[float | None]) -> list[float]:
-        """SI values in this unit; None becomes NaN."""
-        return [math.nan if value is None else float(value) / self.size for value in values]
 
 
 PLAIN = Scale("")

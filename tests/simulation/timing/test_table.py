@@ -114,7 +114,8 @@ def test_constant_acceleration_up_to_a_stop(uneven):
     assert figures.max_acceleration == pytest.approx(a)
     assert figures.min_acceleration >= 0.0, "the impact does not count"
     assert "impact" in notes["extend.min_acceleration"]
-    assert figures.overshoot == 0.0
+    assert figures.overshoot is None, "the stop ends the stroke"
+    assert notes["extend.overshoot"] == "the load hits the stop"
 
 
 def test_a_dead_time_shifts_the_delay_and_leaves_the_rise():
@@ -200,6 +201,15 @@ def test_a_pause_at_half_the_pressure_is_said(plateau):
     assert "extend.pressure_rise_time" not in table.notes
     smooth = trace(t, zero, zero, zero, pressure=step * t / 0.52)
     assert "extend.pressure_delay_time" not in timing(smooth, fill=(0.0, 0.52), exhaust=None).notes
+
+
+def test_the_average_speed_without_a_stop_is_that_of_the_way_to_the_arrival():
+    t, stroke, speed = grid(1.0, 1001), 0.1, 0.2
+    moving = t < stroke / speed
+    run = trace(t, np.where(moving, speed * t, stroke), np.where(moving, speed, 0.0), 0.0 * t)
+    figures, _ = extend(run)
+    assert figures.positioning_time == pytest.approx(0.95 * stroke / speed, abs=1e-6)
+    assert figures.average_speed == pytest.approx(speed, rel=1e-6)
 
 
 def test_overshoot_of_a_damped_oscillation():

@@ -120,7 +120,7 @@ def _bounds(parameter: Parameter | None, item: ParameterValue) -> Html:
     if parameter is None:
         return html("–")
     scale = _scale(parameter, item)
-    low = figure(parameter.lower, Scale("", scale.size), 3, exact=True)
+    low = figure(parameter.lower, Scale("", scale.factor), 3, exact=True)
     return html(low, " to ", figure(parameter.upper, scale, 3, exact=True))
 
 

@@ -3,19 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.application.simulate import SimulationResult
+from mckibben.facts.timing import TIMING
 from mckibben.report.document import Head, figure_of, mark, paragraph, table
 from mckibben.report.figures import Scale, figure, percent
 from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Line, Mark, Rule
 from mckibben.report.sizing.material import Chosen, SizingMaterial
-from mckibben.report.sizing.words import BAR, JOULE, LITRES, MILLIMETRES, SHARE
+from mckibben.report.sizing.words import BAR, MILLIMETRES
 from mckibben.report.stack import Panel, stack
 from mckibben.simulation.timing.table import PhaseFigures, TimingTable
 
@@ -26,26 +26,8 @@ _MILLISECONDS = Scale("ms", 1e-3)
 _PANEL = 70.0  # height of a drawing: both strokes stand below the table of the operating points
 _SPEED, _ACCELERATION, _FLOW = Scale("mm/s", 1e-3), Scale("m/s²"), Scale("g/s", 1e-3)
 
-#: Figure of the timing table -> name, unit, whether it is multiplied by the number of muscles.
-_FIGURES: Mapping[str, tuple[str, Scale, bool]] = {
-    "positioning_time": ("Positioning time (arrival at the stop)", _MILLISECONDS, False),
-    "delay_time": ("Delay time (50 % of the stroke)", _MILLISECONDS, False),
-    "rise_time": ("Rise time (10 to 90 % of the stroke)", _MILLISECONDS, False),
-    "settling_time": ("Settling time (within 5 %)", _MILLISECONDS, False),
-    "average_speed": ("Average speed", _SPEED, False),
-    "max_speed": ("Largest speed", _SPEED, False),
-    "max_speed_at": ("… reached after", _MILLISECONDS, False),
-    "max_acceleration": ("Largest acceleration", _ACCELERATION, False),
-    "min_acceleration": ("Smallest acceleration", _ACCELERATION, False),
-    "end_speed": ("Speed at the stop", _SPEED, False),
-    "impact_energy": ("Energy at the stop", JOULE, True),
-    "overshoot": ("Overshoot", SHARE, False),
-    "pressure_delay_time": ("Pressure, delay time (50 %)", _MILLISECONDS, False),
-    "pressure_rise_time": ("Pressure, rise time (10 to 90 %)", _MILLISECONDS, False),
-    "pressure_settling_time": ("Pressure, settling time (within 1 %)", _MILLISECONDS, False),
-    "air_volume_anr": ("Air taken in (filling) or released (venting), ANR", LITRES, True),
-    "choked_share": ("Share of the time the valve is choked", SHARE, False),
-}
+#: Figures that are those of one muscle times the number of muscles.
+_TOGETHER = {"impact_energy", "air_mass", "air_volume_anr", "tube_air_mass"}
 
 
 class _DrawnPhase(NamedTuple):
@@ -179,12 +161,12 @@ def _passes(time: NDArray, travel: NDArray, level: float) -> float | None:
 def _table(chosen: Chosen) -> Html:
     timing = chosen.run.timing
     rows: list[list[Child]] = []
-    for name, (words, scale, together) in _FIGURES.items():
+    for name, each in TIMING.items():
         values = [getattr(_of_phase(timing, phase), name) for phase in ("extend", "retract")]
         if all(value is None for value in values):
             continue
-        times = chosen.count if together else 1
-        rows.append([words, *(_figure(v, times, scale) for v in values)])
+        times = chosen.count if name in _TOGETHER else 1
+        rows.append([each.label, *(_figure(v, times, each.scale) for v in values)])
     columns = [
         Head("Timing"),
         Head("Stroke (filling)", number=True),
@@ -199,7 +181,7 @@ def _table(chosen: Chosen) -> Html:
 
 
 def _figure(value: float | None, times: int, scale: Scale) -> Html:
-    if scale is SHARE:
+    if scale.unit == "%":
         return percent(value, 3)
     return figure(None if value is None else value * times, scale)
 
@@ -209,7 +191,8 @@ def _notes(timing: TimingTable) -> list[str]:
     about: dict[str, list[str]] = {}
     for place, why in timing.notes.items():
         phase, _, name = place.partition(".")
-        if name in _FIGURES:
+        if name in TIMING:
             phase_name = "stroke" if phase == "extend" else "return"
-            about.setdefault(why, []).append(f"{_FIGURES[name][0].partition(' (')[0].lower()} ({phase_name})")
+            label = TIMING[name].label.partition(" (")[0].lower()
+            about.setdefault(why, []).append(f"{label} ({phase_name})")
     return [f"{', '.join(names).capitalize()}: {why}" for why, names in about.items()]

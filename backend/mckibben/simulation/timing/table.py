@@ -169,7 +169,7 @@ class _Phase:
                 figures["rise_time"] = late - (self._first(0.1 * stroke) or 0.0)
             settled = self._settled(self.travel, stroke, self.band * stroke)
             arrival = self._first((1.0 - self.band) * stroke)
-            travelled = stroke
+            travelled = (1.0 - self.band) * stroke
             if impact is not None and (not self.demanded or abs(self.reached - stroke) < 1e-3 * stroke):
                 arrival = impact[0]
                 travelled = float(np.interp(arrival, self.time, self.travel))
@@ -180,7 +180,10 @@ class _Phase:
                 figures["average_speed"] = travelled / arrival
             if arrival is not None:
                 figures["end_speed"] = float(np.interp(arrival, self.time, self.speed))
-            figures["overshoot"] = max(0.0, float(self.travel.max()) / stroke - 1.0)
+            if impact is None:
+                figures["overshoot"] = max(0.0, float(self.travel.max()) / stroke - 1.0)
+            else:
+                notes["overshoot"] = "the load hits the stop"
             why = "still moving at the end of the phase"
             if self.demanded:
                 best = 1e3 * float(self.travel.max())
@@ -346,5 +349,5 @@ def air(trace: Trace, interval: Interval, sign: float, late: float) -> Figures:
         "choked_share": choked / whole if whole > 0.0 else None,
     }
     if figures["choked_share"] is None:
-        notes["choked_share"] = "no air flows"
+        notes["choked_share"] = TIMING["choked_share"].exists_when.otherwise
     return figures, notes

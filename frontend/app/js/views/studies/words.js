@@ -1,5 +1,6 @@
 // @ts-check
 // Names and scales of the columns of a study.
+import { figure } from "../../facts.js";
 import { capitalized, number, plainScale, quantityOf, readable, scaleOf, toShown } from "../../format.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -16,13 +17,10 @@ const TITLES = {
   "load.force": "Load force",
   "gas.temperature": "Temperature",
   "gas.ambient_pressure": "Ambient pressure",
-  air_volume_anr: "Air volume (ANR)",
-  max_speed: "Largest speed",
-  max_acceleration: "Largest acceleration",
-  min_acceleration: "Smallest acceleration",
   nominal_length: "Rest length",
 };
-const PHASES = ["extend", "retract"];
+/** @type {Record<string, string>} */
+const PHASES = { extend: "fill", retract: "vent" };
 
 /** @param {string} path */
 export function titleOf(path) {
@@ -30,7 +28,7 @@ export function titleOf(path) {
   const known = TITLES[base];
   const keys = base.split("."), last = keys.at(-1) ?? "";
   const name = known ?? TITLES[last] ?? capitalized(readable(last));
-  if (keys[0] === "timing" && PHASES.includes(keys[1])) return `${name}, ${keys[1]}`;
+  if (keys[0] === "timing" && PHASES[keys[1]]) return `${figure(`timing.${last}`).label}, ${PHASES[keys[1]]}`;
   if (["largest", "smallest", "last"].includes(keys[0])) {
     return `${capitalized(keys[0])} ${name.toLowerCase()}`;
   }
@@ -41,7 +39,7 @@ export function titleOf(path) {
 /** What a group of paths is called in a list. @param {string} path */
 export function groupOf(path) {
   const keys = path.split(".");
-  if (keys[0] === "timing") return `Timing, ${keys[1]}`;
+  if (keys[0] === "timing") return `Timing, ${PHASES[keys[1]]}`;
   if (keys[0] === "effects") return `Effect: ${readable(keys[1])}`;
   return keys.length > 1 ? capitalized(readable(keys[0])) : "Drive";
 }
@@ -50,11 +48,14 @@ const SHARES = /contraction|overshoot|share|probability|reserve|restitution|open
 
 /** @param {string} path @param {string | null} unit SI @returns {Quantity | null} */
 export function kindOf(path, unit) {
+  if (path.startsWith("timing.")) {
+    return /** @type {Quantity} */ (figure(`timing.${path.split(".").at(-1)}`).quantity);
+  }
   const si = (unit ?? "1").replaceAll("^", "");
   if (si === "1") return SHARES.test(path) && !path.includes("(") ? "ratio" : "number";
   if (si === "m3") return path.includes("anr") ? "normal" : "volume";
   if (si === "kg" && path.includes("air")) return "air";
-  if (si === "s" && /^(timing|tracking|best)\./.test(path)) return "lapse";
+  if (si === "s" && /^(tracking|best)\./.test(path)) return "lapse";
   if (si === "m/s2") return "acceleration";
   return quantityOf(si, path);
 }

@@ -7,7 +7,7 @@ import { brief, scaleOf, toShown } from "../../../format.js";
 import { partsOfDrive } from "../../../drive/document.js";
 import { at } from "../../../paths.js";
 import { drive, run, scenario } from "../model.js";
-import { ALL_FIGURES, figureName } from "./timing.js";
+import { figureName, figureOf, TIMING } from "./timing.js";
 import { siNumber } from "../../../quantities.js";
 
 /** @typedef {{figure?: string, figures?: Record<string, {value: number, unit: string}>,
@@ -35,12 +35,11 @@ function rows() {
   if (!printed?.figures || !r) return [];
   return Object.entries(printed.figures).flatMap(([path, q]) => {
     const [phase, key] = path.split(".");
-    const figure = ALL_FIGURES.find(([name]) => name === key);
+    const figure = TIMING.find(({ name }) => name === key);
     const printedValue = siNumber(`${q.value} ${q.unit}`);
     if (!figure || printedValue === null || !(phase === "extend" || phase === "retract")) return [];
-    const quantity = figure[2];
-    const runValue = r.timing[phase][/** @type {import("../../../types.js").PhaseFigure} */ (key)];
-    const s = quantity === "lapse" ? { unit: "ms", factor: 1e-3, digits: 1 } : scaleOf(quantity, system);
+    const runValue = figureOf(r, phase, figure);
+    const s = scaleOf(/** @type {import("../../../format.js").Quantity} */ (figure.quantity), system);
     const asText = (/** @type {number | null} */ si) => si == null ? "–" : brief(toShown(si, s));
     const why = printed.excluded?.[path] ?? null;
     const off = runValue == null ? null : 100 * (runValue / printedValue - 1);

@@ -17,7 +17,7 @@ import { SPECS } from "../inputs/fields.js";
 import { greatestOf, JOINT } from "../plots/joint.js";
 import { timeWindow } from "../model.js";
 import { signalField } from "../inputs/signals.js";
-import { ALL_FIGURES, figureName } from "../figures/timing.js";
+import { figureName, figureOf, TIMING } from "../figures/timing.js";
 import { siNumber } from "../../../quantities.js";
 
 /** @typedef {import("../../../types.js").Run} Run */
@@ -119,11 +119,10 @@ const joined = () =>
 
 /** @type {Compared[]} */
 const TIMED = /** @type {("extend" | "retract")[]} */ (["extend", "retract"]).flatMap((phase) =>
-  ALL_FIGURES.filter(([, label]) => !label.startsWith("…")).map((figure) => ({
-    label: figureName(figure, phase),
-    quantity: figure[2],
-    of: (/** @type {Run} */ r) =>
-      r.timing[phase][/** @type {import("../../../types.js").PhaseFigure} */ (figure[0])] ?? null,
+  TIMING.map((each) => ({
+    label: figureName(each, phase),
+    quantity: /** @type {Quantity} */ (each.quantity),
+    of: (/** @type {Run} */ r) => figureOf(r, phase, each),
   }))
 );
 
