@@ -3578,6 +3578,8 @@ export interface components {
     };
     /** Proposals, best first, and rejected candidates with reasons; SI, pressures gauge. */
     SizingAnswer: {
+      /** The task in one sentence, from its figures. */
+      about: string;
       /** Best first; empty if no candidate fulfils the task. */
       proposals: components["schemas"]["ProposalAnswer"][];
       /** Why the first comes before the second, in one sentence. */
@@ -3609,14 +3611,14 @@ export interface components {
       task: components["schemas"]["SizingTask"];
       /** Rank of the proposal, 1 the best. A task without proposals also has a report. */
       proposal?: number;
-      /** Empty = title of the task, or a summary of it. */
+      /** Name beside the figures of the task. Empty = that of the task. */
       title?: string;
     };
     /** A task; only the load, and a stroke or a pair, are required. Plain numbers are in SI units. */
     SizingTask: {
       /** Version of the document. */
       schema?: 1;
-      /** Title for display. */
+      /** Name that its user gives the task, shown beside its figures. */
       title?: string;
       /** The load. */
       load: components["schemas"]["TaskLoad"];

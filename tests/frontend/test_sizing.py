@@ -112,6 +112,9 @@ def test_from_the_empty_page_to_the_printed_report(page: Page, tmp_path: Path) -
     answer = paper.locator("section").first.bounding_box()
     assert answer
     assert answer["y"] + answer["height"] < 998  # the answer is on the first page
+    heading = "Lift 18 kg by 50 mm in 0.5 s, with 6 bar"  # of the example as it was changed
+    expect(paper.locator("h1")).to_have_text(heading)
+    expect(page.locator(".proposals .of-task")).to_have_text(heading)
     for text in ("18", "50 mm", drive.split(",")[0].split(" ")[-1]):
         expect(paper.locator("body")).to_contain_text(text)
     pdf = tmp_path / "report.pdf"
@@ -170,6 +173,20 @@ def test_the_list_says_what_the_server_found(page: Page) -> None:
     badge = page.locator(".chosen-drive .badge")
     badge.click()
     expect(page.get_by_role("dialog", name="Unverified values")).to_contain_text(proposals[2]["valve"])
+
+
+def test_an_example_that_was_changed_is_headed_by_its_own_figures(page: Page) -> None:
+    open_task(page)
+    example(page, "Too fast")
+    expect(page.get_by_label("Name of the task")).to_have_value("")
+    enter(page, "Mass", "5000 kg")
+    searched(page)
+    own = "Lift 5000 kg by 80 mm in 0.15 s, with 6 bar"
+    expect(page.get_by_role("region", name="No drive").locator(".of-task")).to_have_text(own)
+    page.get_by_label("Name of the task").fill("Press 3")
+    page.get_by_label("Name of the task").blur()
+    searched(page)
+    expect(page.get_by_role("region", name="No drive").locator(".of-task")).to_have_text(f"Press 3: {own}")
 
 
 @pytest.mark.examination("test_from_the_empty_page_to_the_printed_report")

@@ -10,7 +10,7 @@ from mckibben.application.drive_of_design import drive_document
 from mckibben.application.envelope import MeasuredRange, range_of, use_notices
 from mckibben.application.muscle_summary import Notice, unverified_notice
 from mckibben.application.operating_limits import pressure_notices
-from mckibben.application.task_reading import catalogue_of, task_of
+from mckibben.application.task_reading import about_task, catalogue_of, task_of
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
@@ -165,6 +165,7 @@ class SizingResult:
     """The proposals, the best first, and all rejected parts with reasons.
 
     Attributes:
+        about: the task in one sentence, from its figures.
         proposals: empty if no drive fulfils the task.
         ranking: why the first proposal comes before the second; None for less than two.
         rejected: the nearest to the task first.
@@ -178,6 +179,7 @@ class SizingResult:
         wall_ms: computing time of the whole search.
     """
 
+    about: str
     proposals: list[ProposedDrive]
     ranking: str | None
     rejected: list[RejectedParts]
@@ -235,6 +237,7 @@ def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingR
         for proposal, on in zip(sizing.proposals, listed, strict=True)
     ]
     return SizingResult(
+        about=about_task(question.document),
         proposals=proposals,
         ranking=why_first(sizing.proposals, question.task),
         rejected=[_rejected(item) for item in sizing.rejected],

@@ -39,7 +39,7 @@ def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
     count = len(material.result.proposals)
     rank = f"Proposal {chosen.rank} of {count}" if count > 1 else "The only proposal"
     parts: list[Child] = [
-        paragraph(f"Task: {material.about}."),
+        paragraph(f"Task: {material.result.about}."),
         callout(
             f"{drive_words(proposal)}, with {parts_words(proposal)} at "
             f"{plain(BAR.of(proposal.pressure), 3)} bar",
@@ -139,7 +139,7 @@ def _nothing(material: SizingMaterial) -> Html:
         else:
             hints = [f"Closest: {nearest.why}.", f"It would work with {nearest.would_work_if}."]
     parts: list[Child] = [
-        paragraph(f"Task: {material.about}."),
+        paragraph(f"Task: {material.result.about}."),
         callout("No drive in the catalogue fulfils this task", *hints, tone="bad"),
     ]
     tiles_: list[tuple[Child, Child]] = [

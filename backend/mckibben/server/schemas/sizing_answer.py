@@ -100,6 +100,7 @@ class RejectedAnswer(Strict):
 class SizingAnswer(Strict):
     """Proposals, best first, and rejected candidates with reasons; SI, pressures gauge."""
 
+    about: str = Field(description="The task in one sentence, from its figures.")
     proposals: list[ProposalAnswer] = Field(description="Best first; empty if no candidate fulfils the task.")
     ranking: str | None = Field(description="Why the first comes before the second, in one sentence.")
     rejected: list[RejectedAnswer] = Field(description="Nearest first.")

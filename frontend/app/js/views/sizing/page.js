@@ -9,6 +9,7 @@ import {
   cancel,
   fault,
   faultField,
+  headingOf,
   openExample,
   proposals,
   propose,
@@ -109,6 +110,7 @@ function nothing() {
     "section",
     { class: "card", "aria-label": "No drive" },
     h("div", { class: "card-head" }, h("h2", null, "No drive in the catalogue can do this")),
+    h("p", { class: "of-task" }, headingOf(answer.value)),
     h(
       "p",
       { class: "verdict bad" },

@@ -6,7 +6,7 @@ import { effect, signal } from "../../reactive.js";
 import { menuButton } from "../../ui/menu.js";
 import { saveCsv, saveTask } from "./actions.js";
 import { marginBars } from "./margins.js";
-import { answer, answeredTask, chosenIndex, lookSizing, proposals } from "./model.js";
+import { answer, answeredTask, chosenIndex, headingOf, lookSizing, proposals } from "./model.js";
 import { asText, driveWords, limitName, partsOf, percent, spare } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposalAnswer"]} Proposal */
@@ -188,6 +188,7 @@ export function proposalsCard() {
         ],
       }),
     ),
+    () => h("p", { class: "of-task" }, answer.value ? headingOf(answer.value) : ""),
     () => answer.value?.ranking ? h("p", { class: "hint ranking" }, answer.value.ranking) : null,
     h(
       "div",
