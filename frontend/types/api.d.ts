@@ -3596,9 +3596,9 @@ export interface components {
       simulated: number;
       /** Number of transient runs for probabilities. */
       specimens: number;
-      /** How the search ended; only a completed one has tried everything. */
+      /** How the search ended; unless completed, the answer is what was found until then. */
       outcome: "completed" | "timed_out" | "cancelled";
-      /** Advice if the search did not complete. */
+      /** How far a search came that did not complete, or what a completed one left out. */
       message: string | null;
       /** Remarks on the task. */
       flags: components["schemas"]["Flag"][];
@@ -4456,11 +4456,11 @@ export interface components {
     };
     /** The verdict of the diagnosis. */
     Verdict: {
-      /** The verdict as a word for programs: the model is at the noise (adequate); effects bring it there (missing_effects), some of which the data cannot tell from others (ambiguous); a rest with structure stays that no catalogued effect explains, or it is likelier that none of those named is missing (unknown_effect). */
-      status: "adequate" | "missing_effects" | "ambiguous" | "unknown_effect";
+      /** The verdict as a word for programs: the model is at the noise (adequate); effects bring it there (missing_effects), some of which the data cannot tell from others (ambiguous); a rest with structure stays that no catalogued effect explains, or it is likelier that none of those named is missing (unknown_effect); the limit of time ended the diagnosis, and this is what was found until then (unfinished). */
+      status: "adequate" | "missing_effects" | "ambiguous" | "unknown_effect" | "unfinished";
       /** The status in words. */
       title: string;
-      /** Ids of the missing effects. */
+      /** Ids of the missing effects; unfinished: of those found so far. */
       effects: string[];
       /** Groups of effects that the data cannot distinguish. */
       indistinguishable: string[][];

@@ -63,7 +63,8 @@ class CandidateResult:
         freed: further constants that were freed.
         next_measurement: measurement that would separate it from its first twin.
         model: in the form of a request.
-        probability: that it, or one of its twins in the best model, is missing; None while the search runs.
+        probability: that it, or one of its twins in the best model, is missing; None while the search runs,
+            and where it was not finished.
     """
 
     JSON_KEYS: ClassVar = {"score_change": ("score_change", "delta_bic")}  # the old name, for one version
@@ -182,10 +183,10 @@ class Verdict:
     """Verdict of a diagnosis.
 
     Attributes:
-        status: adequate, missing_effects, ambiguous or unknown_effect (also where it is likelier
-            that none of the named effects is missing).
+        status: adequate, missing_effects, ambiguous, unknown_effect (also where it is likelier
+            that none of the named effects is missing), or unfinished (the limit of time ended the diagnosis).
         title: the status in words.
-        effects: the missing effects.
+        effects: the missing effects; unfinished, those found so far.
         indistinguishable: groups of effects that the data cannot distinguish.
         probabilities: effect -> probability that it, or one of its group, is missing; a group shares one.
         applied: effect of the model with a group -> why this one of its group.

@@ -20,12 +20,10 @@ from mckibben.sizing import size as search_designs
 from mckibben.sizing.ranking import joint_front, why_first
 from mckibben.sizing.trial import Trial
 
-_MESSAGES = {
-    Outcome.TIMED_OUT: "The search took too long and was stopped. Name fewer muscles, valves or tubes, or "
-    "ask for fewer specimens.",
-    Outcome.CANCELLED: "The search was cancelled.",
-}
-_TIME_LIMIT = 30.0  # s; a search consists of many runs
+#: A search that takes longer ends with the drives found so far [s]; it consists of many runs.
+TIME_LIMIT = 30.0
+#: How it would take less time.
+HINT = "name fewer muscles, valves or tubes, or ask for fewer specimens"
 
 
 @dataclass(frozen=True)
@@ -175,7 +173,7 @@ class SizingResult:
         simulated: number of simulated designs.
         specimens: number of simulations for probabilities.
         outcome: how the search ended.
-        message: what to do if it did not complete.
+        message: how far it came and what would help if it did not complete; what it left out otherwise.
         wall_ms: computing time of the whole search.
     """
 
@@ -192,6 +190,13 @@ class SizingResult:
     message: str | None
     flags: list[Notice]
     wall_ms: float
+
+
+def nothing_words(result: SizingResult) -> str:
+    """What a search without a proposal says: only a complete one speaks of the whole catalogue."""
+    if result.outcome == Outcome.COMPLETED.label:
+        return "no drive in the catalogue fulfils this task"
+    return "none of the drives that were tried fulfils this task"
 
 
 @dataclass(frozen=True)
@@ -216,10 +221,10 @@ def prepare_search(question: SizingQuestion) -> Callable[[Watch], Searched]:
     """The search, ready to start; it returns question, outcome and result."""
 
     def work(watch: Watch) -> Searched:
-        watch.time_limit = max(watch.time_limit, _TIME_LIMIT)
         began = time.perf_counter()
         sizing = search_designs(question.task, question.catalogue, watch)
-        return Searched(question, sizing, _result(sizing, question, (time.perf_counter() - began) * 1e3))
+        wall_ms = (time.perf_counter() - began) * 1e3
+        return Searched(question, sizing, _result(sizing, question, watch.time_limit, wall_ms))
 
     return work
 
@@ -230,7 +235,7 @@ def prepare(question: SizingQuestion) -> Callable[[Watch], SizingResult]:
     return lambda watch: search(watch).result
 
 
-def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingResult:
+def _result(sizing: Sizing, question: SizingQuestion, limit: float, wall_ms: float) -> SizingResult:
     listed, explored = joint_front(sizing.proposals, sizing.explored)
     proposals = [
         _proposal(replace(proposal, front=on), question)
@@ -247,19 +252,43 @@ def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingR
         simulated=sizing.simulated,
         specimens=sum(proposal.specimens for proposal in proposals),
         outcome=sizing.outcome.label,
-        message=_MESSAGES.get(sizing.outcome) or _untried(sizing),
+        message=_message(sizing, question.document.uncertainty.specimens, limit),
         flags=_notices(proposals, question.document),
         wall_ms=wall_ms,
     )
 
 
-def _untried(sizing: Sizing) -> str | None:
+def _message(sizing: Sizing, specimens: int, limit: float) -> str | None:
+    """What was not tried; None when everything was."""
+    if sizing.outcome is not Outcome.COMPLETED:
+        return _so_far(sizing, specimens, limit)
     if not sizing.untried:
         return None
     return (
         f"{sizing.untried} choices of parts that need more air and space were not simulated; "
         "name fewer parts."
     )
+
+
+def _so_far(sizing: Sizing, specimens: int, limit: float) -> str:
+    """How far a search came that was ended, and what the drives of it are not."""
+    timed = sizing.outcome is Outcome.TIMED_OUT
+    ended = f"The limit of {limit:g} s ended the search" if timed else "The search was cancelled"
+    more = f" To try all, {HINT}." if timed else ""
+    tried = sizing.choices - sizing.untried
+    if not tried:
+        return f"{ended} before any drive was simulated: nothing was tried.{more}"
+    done = [
+        f"{tried} of {sizing.choices} choices of parts that the static calculation leaves were simulated"
+        + ("; the others were not tried" if sizing.untried else "")
+    ]
+    if sizing.proposals:
+        if not sizing.refined:
+            done.append("length and pressure of the drives were not searched to the end")
+        known = sum(proposal.chance is not None for proposal in sizing.proposals)
+        if specimens and known < len(sizing.proposals):
+            done.append(f"{known} of {len(sizing.proposals)} probabilities were computed")
+    return f"Partial result. {ended}: {'; '.join(done)}.{more}"
 
 
 def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:

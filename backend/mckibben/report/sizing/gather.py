@@ -63,17 +63,19 @@ def report_of(
     """The HTML of a search and one of its proposals.
 
     Raises:
-        InputError: there are fewer proposals, or the search did not complete.
+        InputError: there are fewer proposals, or the search was cancelled.
     """
     result, document = search.result, search.question.document
-    if search.sizing.outcome is not Outcome.COMPLETED:
+    if search.sizing.outcome is Outcome.CANCELLED:
         raise InputError(f"there is nothing to report: {result.message}", field="task")
     count = len(result.proposals)
     if 0 < count < proposal:  # a task without a proposal has a report too
         number = "is 1 proposal" if count == 1 else f"are {count} proposals"
         most = "1" if count == 1 else f"1 to {count}"
         raise InputError(f"there {number}", field="proposal", hint=most)
-    chosen = _chosen(search, studio, proposal, watch or Watch()) if count else None
+    # The time of the search may be over: the one run of the report has its own.
+    cancelled = None if watch is None else watch.cancelled
+    chosen = _chosen(search, studio, proposal, Watch(cancelled=cancelled)) if count else None
     task = canonical(document.completed())
     files = {_TASK_FILE: task}
     if chosen is not None:

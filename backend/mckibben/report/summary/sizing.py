@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mckibben.application.size import SizingResult
+from mckibben.application.size import SizingResult, nothing_words
 from mckibben.application.task_reading import heading_of
 from mckibben.report.summary.parts import Summary, Table, figure
 
@@ -63,5 +63,6 @@ def proposal_table(result: SizingResult, name: str) -> Table:
     counted = f"{result.combinations} combinations, {result.simulated} simulated"
     heading = heading_of(result.about, name)
     if not rows:
-        return Table(f"{heading}: no drive in the catalogue fulfils this task ({counted})", ["no drive"], [])
-    return Table(f"{heading}: drives, best first ({counted})", header, rows)
+        return Table(f"{heading}: {nothing_words(result)} ({counted})", ["no drive"], [])
+    found = "drives" if result.outcome == "completed" else "drives found so far"
+    return Table(f"{heading}: {found}, best first ({counted})", header, rows)

@@ -210,14 +210,15 @@ class Repetition(Strict):
 class Verdict(Strict):
     """The verdict of the diagnosis."""
 
-    status: Literal["adequate", "missing_effects", "ambiguous", "unknown_effect"] = Field(
+    status: Literal["adequate", "missing_effects", "ambiguous", "unknown_effect", "unfinished"] = Field(
         description="The verdict as a word for programs: the model is at the noise (adequate); effects bring "
         "it there (missing_effects), some of which the data cannot tell from others (ambiguous); a rest with "
         "structure stays that no catalogued effect explains, or it is likelier that none of those named is "
-        "missing (unknown_effect)."
+        "missing (unknown_effect); the limit of time ended the diagnosis, and this is what was found until "
+        "then (unfinished)."
     )
     title: str = Field(description="The status in words.")
-    effects: list[str] = Field(description="Ids of the missing effects.")
+    effects: list[str] = Field(description="Ids of the missing effects; unfinished: of those found so far.")
     indistinguishable: list[list[str]] = Field(
         description="Groups of effects that the data cannot distinguish."
     )

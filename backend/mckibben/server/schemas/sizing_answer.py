@@ -114,8 +114,10 @@ class SizingAnswer(Strict):
     simulated: int = Field(description="Number of transient runs, without those of specimens.")
     specimens: int = Field(description="Number of transient runs for probabilities.")
     outcome: Literal["completed", "timed_out", "cancelled"] = Field(
-        description="How the search ended; only a completed one has tried everything."
+        description="How the search ended; unless completed, the answer is what was found until then."
     )
-    message: str | None = Field(description="Advice if the search did not complete.")
+    message: str | None = Field(
+        description="How far a search came that did not complete, or what a completed one left out."
+    )
     flags: list[Flag] = Field(description="Remarks on the task.")
     wall_ms: float = Field(description="Computing time of the search in ms.")

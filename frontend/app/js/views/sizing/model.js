@@ -110,6 +110,15 @@ export const answeredTask = () => JSON.parse(search.answered.value ?? "{}");
  * @param {Answer} found */
 export const headingOf = ({ about }) => [answeredTask().title, about].filter(Boolean).join(": ");
 
+/** Whether the search ended before everything was tried. @param {Answer} found */
+export const isPartial = ({ outcome }) => outcome !== "completed";
+/** What an answer without a drive says: only a complete search speaks of the whole catalogue.
+ * @param {Answer} found */
+export const nothingWords = (found) =>
+  isPartial(found)
+    ? "None of the drives that were tried can do this"
+    : "No drive in the catalogue can do this";
+
 export const proposals = computed(() => answer.value?.proposals ?? []);
 export const chosenIndex = computed(() => Math.min(sizing.value.selected, proposals.value.length - 1));
 export const chosen = computed(() => proposals.value[chosenIndex.value] ?? null);
@@ -123,8 +132,10 @@ function showFound(found) {
   keep(search.answered.peek(), found);
   lookSizing({ selected: 0 });
   status.value = best
-    ? `${rest.length + 1} drive${rest.length ? "s" : ""} found; first ${driveWords(best)}.`
-    : "No drive in the catalogue can do this task. The list below gives the reasons.";
+    ? `${rest.length + 1} drive${rest.length ? "s" : ""} found${isPartial(found) ? " so far" : ""}; first ${
+      driveWords(best)
+    }.`
+    : `${nothingWords(found)}. The list below gives the reasons.`;
 }
 
 /** Ends the search on the server too; drives found before stay. */

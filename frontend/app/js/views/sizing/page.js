@@ -10,6 +10,7 @@ import {
   fault,
   faultField,
   headingOf,
+  nothingWords,
   openExample,
   proposals,
   propose,
@@ -109,7 +110,7 @@ function nothing() {
   return h(
     "section",
     { class: "card", "aria-label": "No drive" },
-    h("div", { class: "card-head" }, h("h2", null, "No drive in the catalogue can do this")),
+    h("div", { class: "card-head" }, h("h2", null, nothingWords(answer.value))),
     h("p", { class: "of-task" }, headingOf(answer.value)),
     h(
       "p",
