@@ -166,8 +166,6 @@ class _Search:
         sizing.untried = sizing.choices - len(self.ran)
         works = {proposal.design.group.muscle.id for proposal in self.proposals}
         sizing.rejected = at_rest_rejections(self.sheets, self.catalogue, task, works)
-        if not self.settled:  # those that are nearly quick enough were not tried at other lengths
-            slow = [(group, trial) for group, trial in slow if trial.excess() > _SECOND_LOOK]
         broken = self.broken if sizing.refined else []  # another length or pressure may keep the limit
         sizing.rejected += slow_rejections([*self.failed, *slow, *broken], task, works)
         sizing.rejected.sort(key=lambda rejection: rejection.nearness)
@@ -236,22 +234,24 @@ class _Search:
         again = [
             (candidate, index)
             for candidate, trials in self.ran.items()
-            if not any(trial.keeps_limits for trial in trials)
-            and min(trial.excess() for trial in trials) <= _SECOND_LOOK
+            if not any(trial.keeps_limits for trial in trials) and not _far_off(candidate, trials)
             for index in _second_choice(candidate)
         ]
         self._run(again, (0.8 * _TRIED, _TRIED))
         self.settled = True
 
-    def _judged(self) -> tuple[list[Trial], list[tuple[Group, Trial]]]:
-        """The best trial of each group that fulfils the task, and the nearest trial of each other group."""
+    def _judged(self) -> tuple[list[Trial], list[Failed]]:
+        """The best trial of each group that fulfils the task, and the nearest trial of each other group.
+
+        Before the end no group is among the others that another length or pressure might make quick enough.
+        """
         good: list[Trial] = []
-        slow: list[tuple[Group, Trial]] = []
+        slow: list[Failed] = []
         for candidate, trials in self.ran.items():
             good_trials = [trial for trial in trials if trial.keeps_limits]
             if good_trials:
                 good.append(min(good_trials, key=lambda trial: trial.cost()))
-            else:
+            elif self.settled or _far_off(candidate, trials):
                 slow.append((candidate.group, min(trials, key=lambda trial: trial.cost())))
         return good, slow
 
@@ -314,6 +314,12 @@ def _first_choice(candidate: DesignCandidate) -> list[int]:
     same = left[rest.length[left] == rest.length[cheap]]
     strong = int(left[np.argmax(rest.capacity[left])])
     return list(dict.fromkeys((cheap, int(same[np.argmax(rest.pressure[same])]), strong)))
+
+
+def _far_off(candidate: DesignCandidate, trials: list[Trial]) -> bool:
+    """Whether all designs of the first choice were tried and none of them is nearly quick enough."""
+    tried = len(trials) >= len(_first_choice(candidate))
+    return tried and min(trial.excess() for trial in trials) > _SECOND_LOOK
 
 
 def _second_choice(candidate: DesignCandidate) -> list[int]:

@@ -135,7 +135,8 @@ def _nothing(material: SizingMaterial) -> Html:
     if rejected:
         nearest = rejected[0]
         if nearest.would_work_if.startswith("nothing"):
-            hints = ["Neither relaxing a single limit nor another part of the catalogue would help."]
+            if material.result.outcome == "completed":
+                hints = ["Neither relaxing a single limit nor another part of the catalogue would help."]
         else:
             hints = [f"Closest: {nearest.why}.", f"It would work with {nearest.would_work_if}."]
     words = nothing_words(material.result)
