@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
 from tests.benchmarks.scenarios import SCENARIOS, Scenario, loop_width, rows_of, run_scenario, table
 from tests.shipped import shipped_studio
 
+PHYSICAL = ("propneu-20-physical", "propneu-10-physical")
 CONTROLLED = ("paper-pid-triangle", "paper-pid-pulse", "paper-pid-random")
 
 
@@ -49,6 +52,50 @@ def test_every_printed_figure_is_compared_or_said_to_be_impossible(
     for row in rows_of(scenarios[name]):
         assert (row.tolerance is None) != (row.excluded is None), row.name
         assert row.tolerance is None or row.tolerance <= 0.10
+
+
+@pytest.mark.parametrize("name", PHYSICAL)
+def test_a_miss_of_a_physical_drive_is_stated_as_it_is(scenarios: dict[str, Scenario], name: str) -> None:
+    missed = [row for row in rows_of(scenarios[name]) if row.excluded and "missed" in row.excluded]
+    assert len(missed) == 4
+    for row in missed:
+        stated = re.search(r"missed by ([+-][\d.]+) %", row.excluded or "")
+        assert stated, row.name
+        assert 100.0 * row.difference == pytest.approx(float(stated[1]), abs=0.15), row.name
+        assert abs(row.difference) > 0.10  # what is met is compared
+
+
+@pytest.mark.parametrize("name", PHYSICAL)
+def test_a_physical_drive_rests_on_its_stop_and_is_made_of_parts(
+    scenarios: dict[str, Scenario], name: str
+) -> None:
+    given, result = scenarios[name].given.drive, scenarios[name].result
+    time, position = np.asarray(result.time), np.asarray(result.position)
+    landed = int(np.argmax(position > 0.1999))
+    resting = (time >= time[landed]) & (time < 2.0)  # the source holds the 200 mm until the valve switches
+    assert np.max(np.abs(position[resting] - 0.2)) < 1e-3
+    assert position[resting][-1] == pytest.approx(0.2, abs=1e-6)
+    assert position[-1] == pytest.approx(0.0, abs=1e-6)
+    # Conductances between those of the smallest and the largest proportional valve of the catalogue,
+    # a dead volume of less than a third of the bore, no stated exponent.
+    valves = [preset for preset in shipped_studio().library.list("valves") if preset.id.startswith("MPYE")]
+    flows = [preset.data["sonic_conductance"].si("m^3/(s*Pa)") for preset in valves]  # type: ignore[attr-defined]
+    for flow in (given.valve.fill_conductance, given.valve.exhaust_conductance):
+        assert min(flows) < flow < max(flows)
+    muscle = given.model.muscle
+    bore = np.pi / 4.0 * muscle.inside_diameter**2 * muscle.nominal_length
+    assert 0.0 < given.fitting_volume < bore / 3.0
+    assert given.polytropic_exponent is None
+
+
+@pytest.mark.parametrize("size", [20, 10])
+def test_a_curve_fit_is_called_one_wherever_it_is_listed(size: int) -> None:
+    library = shipped_studio().library
+    fit, physical = (library.get("drives", f"propneu-{size}{end}") for end in ("", "-physical"))
+    assert fit.title.endswith("curve fit")
+    assert fit.description.startswith("Curve fit, not a drive that could be built")
+    assert physical.id in fit.description
+    assert physical.title.endswith("physical drive")
 
 
 def test_the_ramp_crosses_the_rest_length_when_the_load_is_the_blocked_force(

@@ -25,7 +25,8 @@ from mckibben.simulation.timing.trace import Trace
 
 SCENARIOS = (
     "paper-ramp", "paper-step", "paper-step-mpye", "paper-hysteresis", "paper-pid-triangle",
-    "paper-pid-pulse", "paper-pid-random", "propneu-20", "propneu-10",
+    "paper-pid-pulse", "paper-pid-random", "propneu-20", "propneu-10", "propneu-20-physical",
+    "propneu-10-physical",
 )  # fmt: skip
 POINTS = 2001
 

@@ -62,7 +62,7 @@ def test_nothing_found_is_an_answer(run: Run) -> None:
     task = write("task.json", IMPOSSIBLE)
     code, out, err = run("size", task)
     assert code == 0
-    assert "no drive in the catalogue fulfils this task" in out
+    assert "task.json: Lift 5000 kg by 60 mm in 0.5 s, with 6 bar: no drive in the catalogue" in out
     assert "times the load" in err
     assert json.loads(run("size", task, "--json")[1])["proposals"] == []
 
@@ -102,7 +102,7 @@ def test_a_report_is_written_beside_the_tables(run: Run) -> None:
     assert "report: r.html" in err
     text = Path("r.html").read_text("utf-8")
     assert text.startswith("<!DOCTYPE html>")
-    assert "<h1>&lt;b&gt;Mine&lt;/b&gt;</h1>" in text
+    assert "<h1>&lt;b&gt;Mine&lt;/b&gt;: Lift 20 kg by 60 mm in 0.5 s, with 6 bar</h1>" in text
     assert "Proposal 2 of " in text
     assert "mckibben size task.json --report report.html --proposal 2" in text
 

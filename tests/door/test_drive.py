@@ -134,6 +134,10 @@ def test_tasks_are_documents_files_and_presets(tmp_path: Path) -> None:
     ]
     by_document.report("report.html")
     assert "DMSP-10" in Path("report.html").read_text("utf-8")
+    own = "Lift 5 kg by 40 mm in 1 s, with 6 bar"
+    assert f"<h1>{own}</h1>" in Path("report.html").read_text("utf-8")
+    assert str(by_document).startswith(own)
+    assert str(by_file).startswith(f"task: {own}")
     with pytest.raises(mk.Problem, match="proposal"):
         by_document.report("report.html", proposal=99)
     with pytest.raises(mk.Problem, match="lift-20kg"):

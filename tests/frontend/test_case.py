@@ -13,6 +13,11 @@ from typing import Any
 import pytest
 from playwright.sync_api import FilePayload, Page, Route, expect
 
+from mckibben.application.diagnose import prepare
+from mckibben.application.json_text import to_json
+from mckibben.measurement.store import MeasurementStore
+from mckibben.server.questions.models import model_question
+from mckibben.server.schemas.diagnoses import DiagnosisRequest
 from tests.frontend.comparing import (
     NOISE,
     changed,
@@ -33,6 +38,8 @@ from tests.frontend.diagnoses import alter, remember, unanswered
 from tests.frontend.guard import PageGuard
 from tests.frontend.importing import CORPUS, answer_everything
 from tests.frontend.views import marked, open_compare, open_design, run
+from tests.looks import Looks
+from tests.shipped import shipped_studio
 
 needs_corpus = pytest.mark.skipif(
     not (CORPUS / "lab_de.csv").exists(), reason="the files of laboratories are not beside the project"
@@ -75,6 +82,31 @@ def to_the_end(page: Page, most: int = 6) -> list[str]:
 def falling(errors: list[str]) -> bool:
     values = [float(re.sub(r"[^\d.]", "", text.partition("N")[0])) for text in errors]
     return all(after < before for before, after in pairwise(values))
+
+
+def test_a_diagnosis_whose_time_is_over_shows_what_it_found(page: Page) -> None:
+    studio, limits = shipped_studio(), [1, 7]  # first there is time for the start model alone
+
+    def ended(route: Route) -> None:
+        body = DiagnosisRequest.model_validate_json(route.request.post_data or "")
+        work = prepare(model_question(body, studio, MeasurementStore(Path("unused"))), studio)
+        found = to_json(work(Looks(limits.pop(0)))).decode()
+        route.fulfill(content_type="text/event-stream", body=f"event: done\ndata: {found}\n\n")
+
+    open_compare(page)
+    page.route("**/api/diagnoses", ended)
+    page.locator(".tile", has_text="DMSP-20-300").click()
+    told = page.locator("#unfinished")
+    expect(told).to_contain_text("Not finished. So far no effect lowers the error", timeout=60_000)
+    expect(told).to_contain_text("ended the diagnosis after 0 of ")
+    page.get_by_role("button", name="Diagnose", exact=True).click()
+    expect(told).to_contain_text("Not finished. So far, with ", timeout=60_000)
+    expect(told).to_contain_text(re.compile(r"The limit of 7 s ended the diagnosis after \d+ of \d+ effects"))
+    card = page.get_by_role("region", name="What is missing")
+    expect(card.locator(".card-head")).to_contain_text("not finished")
+    expect(card.locator(".found-missing > li")).not_to_have_count(0)
+    assert not limits
+    page.unroute("**/api/diagnoses", ended)
 
 
 def test_a_mystery_is_solved_by_the_recommendations_alone(page: Page) -> None:

@@ -10,14 +10,19 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Locator, Page, expect
+from playwright.sync_api import Locator, Page, Route, expect
 
+from mckibben.application.json_text import to_json
+from mckibben.application.size import prepare, sizing_question
 from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
+from mckibben.simulation.integrate.many import lane_kernels
 from tests.frontend.axe import violations
 from tests.frontend.guard import PageGuard
 from tests.frontend.test_layout import OVERLAPS, SIDEWAYS, TOO_SMALL
 from tests.frontend.views import REFUSED, SIZES, enter, field, link_of, load, marked, run
+from tests.looks import Looks
+from tests.shipped import shipped_studio
 
 pytestmark = pytest.mark.kept_page
 
@@ -112,6 +117,9 @@ def test_from_the_empty_page_to_the_printed_report(page: Page, tmp_path: Path) -
     answer = paper.locator("section").first.bounding_box()
     assert answer
     assert answer["y"] + answer["height"] < 998  # the answer is on the first page
+    heading = "Lift 18 kg by 50 mm in 0.5 s, with 6 bar"  # of the example as it was changed
+    expect(paper.locator("h1")).to_have_text(heading)
+    expect(page.locator(".proposals .of-task")).to_have_text(heading)
     for text in ("18", "50 mm", drive.split(",")[0].split(" ")[-1]):
         expect(paper.locator("body")).to_contain_text(text)
     pdf = tmp_path / "report.pdf"
@@ -170,6 +178,48 @@ def test_the_list_says_what_the_server_found(page: Page) -> None:
     badge = page.locator(".chosen-drive .badge")
     badge.click()
     expect(page.get_by_role("dialog", name="Unverified values")).to_contain_text(proposals[2]["valve"])
+
+
+def test_an_example_that_was_changed_is_headed_by_its_own_figures(page: Page) -> None:
+    open_task(page)
+    example(page, "Too fast")
+    expect(page.get_by_label("Name of the task")).to_have_value("")
+    enter(page, "Mass", "5000 kg")
+    searched(page)
+    own = "Lift 5000 kg by 80 mm in 0.15 s, with 6 bar"
+    expect(page.get_by_role("region", name="No drive").locator(".of-task")).to_have_text(own)
+    page.get_by_label("Name of the task").fill("Press 3")
+    page.get_by_label("Name of the task").blur()
+    searched(page)
+    expect(page.get_by_role("region", name="No drive").locator(".of-task")).to_have_text(f"Press 3: {own}")
+
+
+def test_a_search_whose_time_is_over_shows_the_drives_found_so_far(page: Page) -> None:
+    lane_kernels.warm().join()
+    studio, looks = shipped_studio(), [3, 1]
+
+    def ended(route: Route) -> None:
+        question = sizing_question(SizingTask.model_validate_json(route.request.post_data or ""), studio)
+        found = to_json(prepare(question)(Looks(looks.pop(0)))).decode()
+        route.fulfill(content_type="text/event-stream", body=f"event: done\ndata: {found}\n\n")
+
+    open_task(page)
+    page.route("**/api/sizings", ended)
+    _, answer = searched(page)
+    assert answer["outcome"] == "timed_out"
+    expect(rows(page)).to_have_count(len(answer["proposals"]))
+    expect(page.locator(".proposals .card-head")).to_contain_text("found so far, best first")
+    expect(page.locator(".ranked .notice")).to_contain_text(
+        "Partial result. The limit of 7 s ended the search"
+    )
+    expect(page.locator(".chosen-drive")).to_contain_text("Its probability is not known")
+    expect(page.locator(".status")).to_contain_text("found so far")
+    searched(page)
+    empty = page.get_by_role("region", name="No drive")
+    expect(empty).to_contain_text("None of the drives that were tried can do this")
+    expect(page.locator(".ranked .notice")).to_contain_text("before any drive was simulated")
+    expect(page.locator("body")).not_to_contain_text("No drive in the catalogue")
+    page.unroute("**/api/sizings", ended)
 
 
 @pytest.mark.examination("test_from_the_empty_page_to_the_printed_report")

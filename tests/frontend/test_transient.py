@@ -122,6 +122,37 @@ def test_a_scenario_brings_its_drive_and_the_printed_figures(page: Page) -> None
     expect(page.locator("#drive-muscle")).to_contain_text("300 mm")
 
 
+CHANGED_BY = """
+(await import("/js/state.js")).edit((d) => {
+  const design = structuredClone(d.design);
+  CHANGE
+  return { ...d, design };
+}, "changed");
+"""
+
+
+def test_a_changed_drive_no_longer_bears_the_words_of_its_scenario(page: Page) -> None:
+    open_transient(page)
+    scenario = page.locator(".scenario")
+    longer = "design.muscle.values.nominal_length = 0.79;"
+    changes: list[Callable[[], object]] = [
+        lambda: enter(page, "Mass", "12 kg"),
+        lambda: run(page, CHANGED_BY.replace("CHANGE", longer)),
+    ]
+    for change in changes:
+        load_scenario(page, "paper-step")
+        chosen, words = scenario.locator("option:checked"), scenario.locator(".hint")
+        title, description = chosen.inner_text(), words.inner_text()
+        assert not title.startswith("Changed")
+        rerun(page, change)
+        expect(chosen).to_have_text(f"Changed from: {title}")
+        expect(words).to_have_text("The drive below is no longer that of the scenario.")
+        assert description != words.inner_text()
+    rerun(page, lambda: page.get_by_role("button", name="Reset to the scenario").click())
+    expect(scenario.locator("option:checked")).to_have_text(title)
+    expect(scenario.locator(".hint")).to_have_text(description)
+
+
 REFERENCED = (
     "bar(a)", "bar(g)", "barg", "bara", "bar abs", "bar (gauge)", "psig", "psia", "PSIA", "psi(g)", "MPa(g)",
     "MPa a", "kg", "mm", "m/s", "N/mm^2", "kPa(abs)", "mbar(a)", "hPa abs.", "Bar rel",

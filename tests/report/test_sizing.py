@@ -24,8 +24,8 @@ REJECTED = RejectedParts(
     would_work_if="half the load", combinations=3,
 )  # fmt: skip
 NOTHING = SizingResult(
-    proposals=[], ranking=None, rejected=[REJECTED], explored=[], combinations=3, pruned=3, simulated=0,
-    specimens=0, outcome="completed", message=None, flags=[], wall_ms=1.0,
+    about="Lift 1 kg", proposals=[], ranking=None, rejected=[REJECTED], explored=[], combinations=3, pruned=3,
+    simulated=0, specimens=0, outcome="completed", message=None, flags=[], wall_ms=1.0,
 )  # fmt: skip
 
 
@@ -33,7 +33,7 @@ def material(**changes: Any) -> SizingMaterial:
     """Of a task that nothing does."""
     given: dict[str, Any] = {
         "title": "A title", "made": datetime(2026, 1, 2, tzinfo=UTC), "versions": {"mckibben": "1"},
-        "about": "Lift 1 kg", "entries": [], "pair": False,
+        "entries": [], "pair": False,
         "operation": TaskOperation.model_validate({}), "profile": ((), ()),
         "result": NOTHING,
         "chosen": None, "catalogue": {}, "hashes": {"task.json": "ab" * 32},
@@ -146,9 +146,9 @@ def test_rejections_of_the_same_muscles_are_told_once_and_counted() -> None:
 def test_a_report_without_a_drive_is_well_formed_and_takes_texts_as_texts() -> None:
     entry = Entry("load.mass", NASTY, "", True, NASTY)
     rejected = replace(REJECTED, why=NASTY, would_work_if=NASTY)
-    result = replace(NOTHING, rejected=[rejected], message=NASTY)
+    result = replace(NOTHING, about=NASTY, rejected=[rejected], message=NASTY)
     command = Command([NASTY], {NASTY: NASTY}, [NASTY])
-    page = sizing_report(material(title=NASTY, about=NASTY, entries=[entry], result=result, command=command))
+    page = sizing_report(material(title=NASTY, entries=[entry], result=result, command=command))
     root = ElementTree.fromstring(page.removeprefix("<!DOCTYPE html>\n"))
     assert "script" not in {element.tag for element in root.iter()}
     assert root.findtext("head/title") == f"{NASTY} – sizing report"

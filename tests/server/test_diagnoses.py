@@ -14,6 +14,7 @@ from fastapi.testclient import TestClient
 from mckibben.application.diagnose import prepare
 from mckibben.application.diagnosis_result import CandidateResult, DiagnosisResult
 from mckibben.physics.errors import InputError
+from mckibben.server import long_work
 from mckibben.server.app import create_app
 from mckibben.server.long_work import events
 from mckibben.server.questions.models import model_question
@@ -21,6 +22,7 @@ from mckibben.server.schemas.diagnoses import DiagnosisRequest
 from mckibben.server.settings import Settings
 from mckibben.simulation.outcome import Outcome, Watch
 from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text
+from tests.looks import Looks
 from tests.server.answers import valid
 from tests.server.conftest import URL, assert_error, post, run_async
 from tests.server.test_simulations import events_of
@@ -34,7 +36,7 @@ PROMISED = {
     "model", "rows_used", "excluded", "channels", "parameters", "correlations", "geometry", "freed",
     "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed", "context",
 }  # fmt: skip
-STATUS = {"adequate", "missing_effects", "ambiguous", "unknown_effect"}
+STATUS = {"adequate", "missing_effects", "ambiguous", "unknown_effect", "unfinished"}
 
 
 def coulomb(*, direction: float, **_: float) -> float:
@@ -457,13 +459,39 @@ def test_closing_the_stream_ends_the_search(app: FastAPI, client: TestClient, ru
     assert [getattr(end, "code", None) for end in ends] == ["stopped"]
 
 
-def test_a_search_that_takes_too_long_is_stopped_with_a_name(
+def test_a_search_that_takes_too_long_ends_with_what_it_found(
+    client: TestClient, rubbing: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(long_work, "Watch", lambda **_: Looks(5))
+    body = {"muscle": BRAID, "measurement": rubbing}
+    response = post(client, PATH, body)
+    assert response.status_code == 200, response.text
+    answer = response.json()
+    valid(DiagnosisResult, answer)
+    verdict, path = answer["verdict"], answer["path"]
+    assert verdict["status"] == "unfinished"
+    assert path[-1]["rmse"] < 0.7 * path[0]["rmse"]
+    assert verdict["effects"] == [step["added"] for step in path if step["added"]]
+    tried = len(answer["candidates"])
+    left = [each["effect"] for each in answer["not_tried"] if "limit of time" in each["why"]]
+    assert f"after {tried} of {tried + len(left)} effects had been tried alone" in verdict["sentence"]
+    assert "The limit of 7 s ended the diagnosis" in verdict["sentence"]
+    assert {c["probability"] for c in answer["candidates"]} == {None}
+    again = post(client, "/api/comparisons", {**body, "effects": path[-1]["model"]["effects"]})
+    assert again.json()["rmse"] == pytest.approx(path[-1]["rmse"], rel=1e-6)
+    report = post(client, "/api/reports", {**body, "effects": {}, "diagnose": True})
+    assert report.status_code == 200, report.text
+    for words in ("Not finished: the limit of time ended the diagnosis", "With the effects found so far"):
+        assert words in report.text
+
+
+def test_a_search_that_ends_before_it_began_says_what_would_help(
     app: FastAPI, client: TestClient, rubbing: str
 ) -> None:
-    with pytest.raises(InputError, match="stopped") as error:
-        work_of(app, rubbing)(Watch(time_limit=0.0))
+    with pytest.raises(InputError, match="before the start model was fitted") as error:
+        work_of(app, rubbing)(Looks(0))
     assert error.value.code == "stopped"
-    assert error.value.hint
+    assert "rows of the measurement" in (error.value.hint or "")
     watch = Watch(cancelled=lambda: True)
     with pytest.raises(InputError):
         work_of(app, rubbing)(watch)

@@ -364,10 +364,21 @@ def test_titles_are_shown_and_never_run(shared_client: TestClient) -> None:
     assert "<img" not in text
     assert text.count("&lt;script&gt;") >= 2
     other = report(shared_client, {"task": {**IMPOSSIBLE, "title": NASTY}, "title": "  Mine  "})
-    assert "<h1>Mine</h1>" in other
+    assert "<h1>Mine: Lift 5000 kg by 60 mm in 0.5 s, with 6 bar</h1>" in other
     assert "<h1>Lift 5000 kg by 60 mm in 0.5 s, with 6 bar</h1>" in report(
         shared_client, {"task": IMPOSSIBLE}
     )
+
+
+def test_the_heading_of_an_example_that_was_changed_tells_the_change(shared_client: TestClient) -> None:
+    """The load of the example of 20 kg; its preset describes it, the report of another load does not."""
+    preset = shared_client.get("/api/presets/tasks/lift-20kg").json()
+    changed = {**preset["document"], "load": {"mass": "5000 kg"}}
+    root = root_of(report(shared_client, {"task": changed}))
+    (heading,), title = [words(h) for h in root.iter("h1")], words(next(root.iter("title")))
+    assert heading == "Lift 5000 kg by 60 mm in 0.5 s, with 6 bar"
+    assert title.startswith(heading)
+    assert post(shared_client, "/api/sizings", changed).json()["about"] == heading
 
 
 @pytest.mark.parametrize(

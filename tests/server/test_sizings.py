@@ -8,7 +8,11 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.size import SizingResult
+from mckibben.application.size import TIME_LIMIT, SizingResult
+from mckibben.server import long_work
+from mckibben.server.jobs import JOBS
+from mckibben.simulation.integrate.many import lane_kernels
+from tests.looks import Looks
 from tests.server.answers import valid
 from tests.server.conftest import assert_error, post
 from tests.server.test_simulations import events_of
@@ -64,6 +68,33 @@ def test_no_proposal_is_an_answer(shared_client: TestClient) -> None:
     valid(SizingResult, answer)
     assert answer["proposals"] == []
     assert {item["binding"] for item in answer["rejected"]} == {"force", "suspended_mass"}
+
+
+def test_a_search_whose_time_is_over_answers_with_the_drives_found_so_far(
+    shared_client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    lane_kernels.warm().join()  # or looks at the compiler count
+    monkeypatch.setattr(long_work, "Watch", lambda **_: Looks(3))
+    response = post(shared_client, PATH, TASK)
+    assert response.status_code == 200, response.text
+    answer = response.json()
+    valid(SizingResult, answer)
+    assert answer["outcome"] == "timed_out"
+    assert answer["proposals"]
+    assert "Partial result. The limit of 7 s ended the search" in answer["message"]
+    text = post(shared_client, f"{PATH}/reports", {"task": TASK}).text
+    assert "Not everything was tried" in text
+    assert answer["message"] in text.replace(" ", " ")
+    monkeypatch.setattr(long_work, "Watch", lambda **_: Looks(1))
+    text = post(shared_client, f"{PATH}/reports", {"task": TASK}).text
+    assert "None of the drives that were tried fulfils this task" in text
+    assert "No drive in the catalogue" not in text
+
+
+def test_a_search_has_its_own_limit_and_the_words_of_a_task() -> None:
+    for name in ("sizing", "sizing report"):
+        assert JOBS[name].time_limit == TIME_LIMIT
+        assert "rows" not in (JOBS[name].hint or "")  # a task has none
 
 
 @pytest.mark.parametrize("task", [TASK, IMPOSSIBLE])

@@ -9,15 +9,18 @@ import pytest
 
 from mckibben.application.drive_of_design import drive_document
 from mckibben.application.simulate import SimulationQuestion, simulate
-from mckibben.application.size import SizingResult
+from mckibben.application.size import SizingResult, prepare, sizing_question
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.transient import parameters_of
 from mckibben.simulation.integrate.engine import compiled_drive
+from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.sizing import size
+from tests.looks import Looks
 from tests.server.answers import valid
 from tests.sizing.conftest import LIFT, sized, understood
 
@@ -177,6 +180,63 @@ def test_a_search_ends_when_nobody_waits(studio: Studio) -> None:
     assert found.outcome is Outcome.CANCELLED
     assert found.proposals == []
     assert found.simulated == 0
+
+
+#: More designs than are run at a time.
+MANY: dict[str, Any] = {
+    **LIFT,
+    "catalogue": {"muscles": ["DMSP-10", "DMSP-20", "DMSP-40"], "tubes": ["PUN-H-6x1", "PUN-H-4x0.75"]},
+    "uncertainty": {"specimens": 10},
+    "max_proposals": 3,
+}
+
+
+@pytest.mark.parametrize(
+    ("looks", "said"),
+    [
+        (1, ["before any drive was simulated"]),
+        (3, ["choices of parts", "the others were not tried", "not searched to the end", "0 of 3 prob"]),
+        (12, ["not searched to the end", "0 of 3 probabilities"]),
+    ],
+)
+def test_a_search_whose_time_is_over_keeps_the_drives_found_so_far(
+    studio: Studio, looks: int, said: list[str]
+) -> None:
+    lane_kernels.warm().join()  # or looks at the compiler count
+    question = sizing_question(SizingTask.model_validate(MANY), studio)
+    watch = Looks(looks)
+    result = prepare(question)(watch)
+    assert result.outcome == "timed_out"
+    assert watch.time_limit == 7.0  # a search takes the limit that it is given
+    for words in [*said, "The limit of 7 s"]:
+        assert words in (result.message or ""), result.message
+    assert [p.probability for p in result.proposals] == [None] * len(result.proposals)
+    if looks == 1:
+        assert result.proposals == []
+        return
+    assert len(result.proposals) == 3
+    for p in result.proposals:  # each is a drive that does the task, by a run of its own
+        run = simulate(SimulationQuestion(drive_of(p.drive, studio), engine="rodas"))
+        assert run.timing.extend.positioning_time == pytest.approx(p.time, rel=2e-3)
+        assert p.time is not None
+        assert p.time <= 0.5
+    # Nothing is rejected for what was not tried: no choice of parts that could do the task is named.
+    whole = prepare(question)(Watch(time_limit=1e9))
+    works = {(p.muscle, p.parallel, p.valve, p.tube) for p in whole.explored}
+    assert not works & {(r.muscle, r.parallel, r.valve, r.tube) for r in result.rejected}
+
+
+def test_a_search_that_nobody_waits_for_runs_nothing_more(studio: Studio) -> None:
+    task, catalogue = understood(LIFT, studio)
+    asked: list[int] = []
+
+    def gone() -> bool:
+        asked.append(1)
+        return len(asked) > 3
+
+    found = size(task, catalogue, Watch(cancelled=gone))
+    assert found.outcome is Outcome.CANCELLED
+    assert found.proposals == []
 
 
 @pytest.mark.parametrize(

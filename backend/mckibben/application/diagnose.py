@@ -70,14 +70,16 @@ from mckibben.identification.residual.term import SYMBOLS
 from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
-from mckibben.simulation.outcome import Watch
+from mckibben.simulation.outcome import Outcome, Watch
 
 _MOST_ROWS = 3000  # of a diagnosis; longer measurements are reduced
 _UNITS: dict[Coordinate, Literal["m", "Pa", "s"]] = {"length": "m", "pressure": "Pa", "time": "s"}
 _CURVE = 200  # points of the curve of a proposed term
 
-#: A diagnosis that takes longer is stopped [s].
+#: A diagnosis that takes longer ends with what it has found [s].
 TIME_LIMIT = 300.0
+#: How it would take less time.
+HINT = "give fewer rows of the measurement, or start with fewer effects"
 
 
 @dataclass(frozen=True)
@@ -133,9 +135,11 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
                 on_candidate=report_candidate,
             )
         except CancelledError as stop:
+            if stop.outcome is Outcome.CANCELLED:
+                raise InputError("the diagnosis was cancelled", code="stopped") from stop
             raise InputError(
-                "the diagnosis was stopped before it was finished",
-                hint="use fewer rows or effects",
+                f"the limit of {watch.time_limit:g} s ended the diagnosis before the start model was fitted",
+                hint=HINT,
                 code="stopped",
             ) from stop
         return _result(question, data, diagnosis, catalogue, studio)
@@ -195,7 +199,7 @@ def _result(
         candidates=[
             replace(
                 _candidate(question, candidate, catalogue),
-                probability=diagnosis.probability_of(candidate.effect.id),
+                probability=None if diagnosis.unfinished else diagnosis.probability_of(candidate.effect.id),
             )
             for candidate in diagnosis.candidates
         ],

@@ -90,7 +90,9 @@ class CandidateResult:
     model: ModelDocument
     """The model with it."""
     probability: float | None = None
-    """That it, or one of its twins in the best model, is missing; None while the search runs."""
+    """That it, or one of its twins in the best model, is missing; None while the search runs, and where it
+    was not finished.
+    """
 
 
 @result_class
@@ -218,12 +220,13 @@ class Verdict:
     """The verdict as a word for programs: the model is at the noise (adequate); effects bring it there
     (missing_effects), some of which the data cannot tell from others (ambiguous); a rest with structure
     stays that no catalogued effect explains, or it is likelier that none of those named is missing
-    (unknown_effect).
+    (unknown_effect); the limit of time ended the diagnosis, and this is what was found until then
+    (unfinished).
     """
     title: str
     """The status in words."""
     effects: list[str]
-    """Ids of the missing effects."""
+    """Ids of the missing effects; unfinished: of those found so far."""
     indistinguishable: list[list[str]]
     """Groups of effects that the data cannot distinguish."""
     probabilities: dict[str, float]

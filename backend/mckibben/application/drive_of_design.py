@@ -18,7 +18,7 @@ def drive_document(design: Design, task: Task) -> DriveDocument:
         valve["exhaust_conductance"] = drive.valve.exhaust_conductance
     document: dict[str, object] = {
         "schema": 1,
-        "title": f"{group.muscle.id}, one of {group.muscles}" if group.muscles > 1 else group.muscle.id,
+        "title": f"One of {group.muscles} muscles" if group.muscles > 1 else "",
         "muscle": {"preset": group.muscle.id, "nominal_length": design.length},
         "supply": {"pressure": design.pressure},
         "valve": valve,

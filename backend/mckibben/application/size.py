@@ -10,7 +10,7 @@ from mckibben.application.drive_of_design import drive_document
 from mckibben.application.envelope import MeasuredRange, range_of, use_notices
 from mckibben.application.muscle_summary import Notice, unverified_notice
 from mckibben.application.operating_limits import pressure_notices
-from mckibben.application.task_reading import catalogue_of, task_of
+from mckibben.application.task_reading import about_task, catalogue_of, task_of
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
@@ -22,12 +22,10 @@ from mckibben.sizing.ranking import joint_front, why_first
 from mckibben.sizing.statics import LimitName
 from mckibben.sizing.trial import Trial
 
-_MESSAGES = {
-    Outcome.TIMED_OUT: "The search took too long and was stopped. Name fewer muscles, valves or tubes, or "
-    "ask for fewer specimens.",
-    Outcome.CANCELLED: "The search was cancelled.",
-}
-_TIME_LIMIT = 30.0  # s; a search consists of many runs
+#: A search that takes longer ends with the drives found so far [s]; it consists of many runs.
+TIME_LIMIT = 30.0
+#: How it would take less time.
+HINT = "name fewer muscles, valves or tubes, or ask for fewer specimens"
 
 
 @dataclass(frozen=True)
@@ -183,6 +181,8 @@ class ExploredDrive:
 class SizingResult:
     """The proposals, the best first, and all rejected parts with reasons."""
 
+    about: str
+    """The task in one sentence, from its figures."""
     proposals: list[ProposedDrive]
     """Best first; empty if no candidate fulfils the task."""
     ranking: str | None
@@ -200,13 +200,20 @@ class SizingResult:
     specimens: int
     """Number of transient runs for probabilities."""
     outcome: OutcomeName
-    """How the search ended; only a completed one has tried everything."""
+    """How the search ended; unless completed, the answer is what was found until then."""
     message: str | None
-    """Advice if the search did not complete."""
+    """How far a search came that did not complete, or what a completed one left out."""
     flags: list[Notice]
     """Remarks on the task."""
     wall_ms: float
     """Computing time of the search in ms."""
+
+
+def nothing_words(result: SizingResult) -> str:
+    """What a search without a proposal says: only a complete one speaks of the whole catalogue."""
+    if result.outcome == Outcome.COMPLETED.label:
+        return "no drive in the catalogue fulfils this task"
+    return "none of the drives that were tried fulfils this task"
 
 
 @dataclass(frozen=True)
@@ -231,10 +238,10 @@ def prepare_search(question: SizingQuestion) -> Callable[[Watch], Searched]:
     """The search, ready to start; it returns question, outcome and result."""
 
     def work(watch: Watch) -> Searched:
-        watch.time_limit = max(watch.time_limit, _TIME_LIMIT)
         began = time.perf_counter()
         sizing = search_designs(question.task, question.catalogue, watch)
-        return Searched(question, sizing, _result(sizing, question, (time.perf_counter() - began) * 1e3))
+        wall_ms = (time.perf_counter() - began) * 1e3
+        return Searched(question, sizing, _result(sizing, question, watch.time_limit, wall_ms))
 
     return work
 
@@ -245,13 +252,14 @@ def prepare(question: SizingQuestion) -> Callable[[Watch], SizingResult]:
     return lambda watch: search(watch).result
 
 
-def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingResult:
+def _result(sizing: Sizing, question: SizingQuestion, limit: float, wall_ms: float) -> SizingResult:
     listed, explored = joint_front(sizing.proposals, sizing.explored)
     proposals = [
         _proposal(replace(proposal, front=on), question)
         for proposal, on in zip(sizing.proposals, listed, strict=True)
     ]
     return SizingResult(
+        about=about_task(question.document),
         proposals=proposals,
         ranking=why_first(sizing.proposals, question.task),
         rejected=[_rejected(item) for item in sizing.rejected],
@@ -261,19 +269,43 @@ def _result(sizing: Sizing, question: SizingQuestion, wall_ms: float) -> SizingR
         simulated=sizing.simulated,
         specimens=sum(proposal.specimens for proposal in proposals),
         outcome=sizing.outcome.label,
-        message=_MESSAGES.get(sizing.outcome) or _untried(sizing),
+        message=_message(sizing, question.document.uncertainty.specimens, limit),
         flags=_notices(proposals, question.document),
         wall_ms=wall_ms,
     )
 
 
-def _untried(sizing: Sizing) -> str | None:
+def _message(sizing: Sizing, specimens: int, limit: float) -> str | None:
+    """What was not tried; None when everything was."""
+    if sizing.outcome is not Outcome.COMPLETED:
+        return _so_far(sizing, specimens, limit)
     if not sizing.untried:
         return None
     return (
         f"{sizing.untried} choices of parts that need more air and space were not simulated; "
         "name fewer parts."
     )
+
+
+def _so_far(sizing: Sizing, specimens: int, limit: float) -> str:
+    """How far a search came that was ended, and what the drives of it are not."""
+    timed = sizing.outcome is Outcome.TIMED_OUT
+    ended = f"The limit of {limit:g} s ended the search" if timed else "The search was cancelled"
+    more = f" To try all, {HINT}." if timed else ""
+    tried = sizing.choices - sizing.untried
+    if not tried:
+        return f"{ended} before any drive was simulated: nothing was tried.{more}"
+    done = [
+        f"{tried} of {sizing.choices} choices of parts that the static calculation leaves were simulated"
+        + ("; the others were not tried" if sizing.untried else "")
+    ]
+    if sizing.proposals:
+        if not sizing.refined:
+            done.append("length and pressure of the drives were not searched to the end")
+        known = sum(proposal.chance is not None for proposal in sizing.proposals)
+        if specimens and known < len(sizing.proposals):
+            done.append(f"{known} of {len(sizing.proposals)} probabilities were computed")
+    return f"Partial result. {ended}: {'; '.join(done)}.{more}"
 
 
 def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from typing import TypeVar
 
@@ -32,6 +33,32 @@ _LEAST_TUBE = 0.05  # m; the formulas are not valid for shorter tubes
 _SHORTEST, _LONGEST = 0.02, 10.0
 # A muscle without these catalogue data is only used if the task names it.
 _COMPLETE = ("min_temperature", "max_temperature")
+
+
+def about_task(document: SizingTask) -> str:
+    """The task in one sentence, from its figures alone: what heads everything that is found for it."""
+    load, pair = document.load, document.load.pair
+    if pair is not None:
+        against = f" against {pair.torque:.4g} N·m" if pair.torque else ""
+        inertia = f" with {pair.inertia:.4g} kg·m²" if pair.inertia else ""
+        what = f"Turn a pulley{inertia} by {math.degrees(pair.angle):.4g}°{against} with an antagonist pair"
+    else:
+        moved = [f"{load.mass:.4g} kg"] if load.mass else []
+        moved += [f"a spring of {load.spring / 1e3:.4g} N/mm"] if load.spring else []
+        moved += [f"{load.force:.4g} N"] if load.force else []
+        moved += ["a force over the stroke"] if load.force_over_stroke is not None else []
+        verb = "Lift" if load.mass and load.inclination > 1.57 else "Pull"
+        helped = f" with {load.counterweight:.4g} kg of counterweight" if load.counterweight else ""
+        what = f"{verb} {' and '.join(moved)}{helped} by {(document.stroke or 0.0) * 1e3:.4g} mm"
+    time = "" if document.time is None else f" in {document.time:.4g} s"
+    if document.speed is not None:
+        time = f" at {document.speed:.4g} m/s"
+    return f"{what}{time}, with {document.supply_pressure / 1e5:.4g} bar"
+
+
+def heading_of(about: str, name: str) -> str:
+    """The heading of what is found for a task: its figures, beside the name that its user gave it."""
+    return f"{name.strip()}: {about}" if name.strip() else about
 
 
 def task_of(document: SizingTask) -> Task:

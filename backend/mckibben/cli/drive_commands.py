@@ -69,7 +69,10 @@ def size(
         int | None, typer.Option("--proposal", min=1, help="Rank of the drive in the report; 1 is the best.")
     ] = None,
     title: Annotated[
-        str, typer.Option("--title", help="Title of the report. Default: that of the task.")
+        str,
+        typer.Option(
+            "--title", help="Name beside the figures of the task in the heading. Default: that of the task."
+        ),
     ] = "",
     as_json: AsJson = False,
     presets: PresetsFolder = None,

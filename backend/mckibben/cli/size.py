@@ -17,7 +17,7 @@ from mckibben.report.summary.sizing import notices, summary_of
 
 @dataclass(frozen=True)
 class Wanted:
-    """A report to write: path, rank of the proposal (1 the best), title ("" = that of the task)."""
+    """A report to write: path, rank of the proposal (1 the best), title (a name, "" = that of the task)."""
 
     path: Path
     proposal: int = 1

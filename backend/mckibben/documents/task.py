@@ -191,13 +191,13 @@ _EXAMPLES: list[JsonValue] = [
         },
     },
     {
-        "title": "ProPneu, figure 24: 200 mm at 6 bar with 20 mm",
+        "title": "ProPneu, figure 24",
         "load": {"mass": "9.321 kg"}, "stroke": "200 mm", "time": "0.4 s",
         "limits": {"max_contraction": "25 %"},
         "catalogue": {"muscles": ["DMSP-20"], "valves": ["MPYE-5-1/4", "MPYE-5-3/8"]},
     },
     {
-        "title": "ProPneu: the same stroke with 10 mm",
+        "title": "ProPneu, the smaller muscle",
         "load": {"mass": "9.79 kg"}, "stroke": "200 mm", "time": "0.4 s", "limits": {"max_length": "2 m"},
         "catalogue": {"muscles": ["DMSP-10"], "valves": ["MPYE-5-1/4", "MPYE-5-3/8"]},
     },
@@ -217,7 +217,9 @@ class SizingTask(Strict):
     model_config = ConfigDict(json_schema_extra={"examples": _EXAMPLES})
 
     schema_version: Literal[1] = Field(1, alias="schema", description="Version of the document.")
-    title: Annotated[str, Field(max_length=200)] = Field("", description="Title for display.")
+    title: Annotated[str, Field(max_length=200)] = Field(
+        "", description="Name that its user gives the task, shown beside its figures."
+    )
     load: TaskLoad = Field(description="The load.")
     stroke: Stroke | None = Field(None, description="Stroke of the load; a pair has an angle instead.")
     time: TaskTime | None = Field(None, description="Time for the stroke. Leave empty for no limit.")

@@ -54,7 +54,7 @@ class Diagnosis(Result, Generic[ModelT]):
 
     @property
     def status(self) -> str:
-        """adequate, missing_effects, ambiguous or unknown_effect."""
+        """adequate, missing_effects, ambiguous, unknown_effect or unfinished."""
         return self._result.verdict.status
 
     @property

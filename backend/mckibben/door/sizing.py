@@ -17,6 +17,7 @@ from mckibben.application.size import (
     prepare_search,
     sizing_question,
 )
+from mckibben.application.task_reading import heading_of
 from mckibben.application.text_file import write_text
 from mckibben.documents.located import at_file
 from mckibben.documents.studio import Studio
@@ -131,6 +132,10 @@ class Sizing(Result):
         self._set(_search=search, _name=name, _studio=of)
 
     @property
+    def _heading(self) -> str:
+        return heading_of(self._result.about, self._name)
+
+    @property
     def _result(self) -> SizingResult:
         return self._search.result
 
@@ -171,7 +176,7 @@ class Sizing(Result):
         """Air per cycle over the time of the stroke, for all drives that fulfil the task."""
         from mckibben.door.figures.others import sizing_figure
 
-        return sizing_figure(self._result, self._name)
+        return sizing_figure(self._result, self._heading)
 
     @reported
     def report(self, path: str | PathLike[str], *, proposal: int = 1, title: str = "") -> None:
@@ -180,7 +185,7 @@ class Sizing(Result):
         Args:
             path: of the file.
             proposal: rank of the drive; 1 is the best.
-            title: "" for that of the task.
+            title: name beside the figures of the task in the heading; "" for that of the task.
 
         Raises:
             Problem: there is no such proposal, or the file cannot be written.
@@ -196,7 +201,7 @@ class Sizing(Result):
         return summary_of(self._result, self._name)
 
     def _title(self) -> str:
-        return f"Sizing of {self._name}: {len(self._result.proposals)} proposals"
+        return f"{self._heading}: {len(self._result.proposals)} proposals"
 
     def _lead(self) -> Sequence[str]:
         return () if self._result.ranking is None else (self._result.ranking,)
@@ -216,9 +221,10 @@ def size(
     Raises:
         Problem: names the file, the field, what is wrong and what would be right.
     """
-    of, name = studio(), "the task"
+    of, name = studio(), ""
     if isinstance(task, Mapping):
-        search = _search(read_task(dict(task)), of, progress)
+        document = read_task(dict(task))
+        search, name = _search(document, of, progress), document.title
     else:
         name = fspath(task)
         try:

@@ -23,17 +23,18 @@ class Job:
 
     Attributes:
         prepare: reads and checks; raises `InputError` for what cannot be used.
-        time_limit: after which it ends by itself, or is ended where it does not look at the time [s].
+        time_limit: after which it ends by itself, with what it has found where it can, or is ended where it
+            does not look at the time [s].
         lane: of the processes that do it.
         looks: whether it looks at the time.
-        hint: how it would take less time or memory.
+        hint: how it would take less time or memory, by what its question has.
     """
 
     prepare: Callable[[Any, Studio, MeasurementStore], Prepared]
     time_limit: float = TIME_LIMIT
     lane: LaneName = "long"
     looks: bool = True
-    hint: str = "use fewer rows, effects, specimens or points"
+    hint: str | None = None
 
     @property
     def ended_after(self) -> float:

@@ -81,11 +81,11 @@ def _study(body: StudyDocument, studio: Studio, store: MeasurementStore) -> Prep
 
 #: The kinds of work.
 JOBS: Mapping[str, Job] = {
-    "diagnosis": Job(_diagnosis, diagnose.TIME_LIMIT),
-    "linear view": Job(_linear_view),
-    "report": Job(_report, diagnose.TIME_LIMIT),
-    "study": Job(_study, _STUDY_LIMIT),
-    "sizing": Job(_sizing),
-    "sizing report": Job(_sizing_report),
+    "diagnosis": Job(_diagnosis, diagnose.TIME_LIMIT, hint=diagnose.HINT),
+    "linear view": Job(_linear_view, hint="ask for fewer amplitudes"),
+    "report": Job(_report, diagnose.TIME_LIMIT, hint=diagnose.HINT),
+    "study": Job(_study, _STUDY_LIMIT, hint="ask for fewer runs, or a shorter duration of each"),
+    "sizing": Job(_sizing, size.TIME_LIMIT, hint=size.HINT),
+    "sizing report": Job(_sizing_report, size.TIME_LIMIT, hint=size.HINT),
     **SHORT_JOBS,
 }

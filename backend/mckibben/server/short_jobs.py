@@ -43,6 +43,7 @@ _COMPARE_WITHIN = 120.0  # s
 _COMPUTE_WITHIN = 20.0  # s
 _COMPILE_WITHIN = 1800.0  # s; the first FMU of a machine compiles the libraries of three systems
 _SMALLER = "split the file, or keep every second row"
+_FEWER = "give fewer rows of the measurement, or compare with fewer effects"
 _SMALLER_PROJECT = "import a project with smaller files"
 _SIMPLER = "use fewer factors and functions in the term"
 
@@ -157,9 +158,9 @@ SHORT_JOBS: Mapping[str, Job] = {
     "preview": Job(_preview, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
     "project import": Job(_project_import, _READ_WITHIN, "files", looks=False, hint=_SMALLER_PROJECT),
     "measurement": Job(_details, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
-    "comparison": Job(_comparison, _COMPARE_WITHIN, "models", looks=False),
+    "comparison": Job(_comparison, _COMPARE_WITHIN, "models", looks=False, hint=_FEWER),
     "experiment form": Job(_experiments, _READ_WITHIN, "models", looks=False, hint=_SMALLER),
-    "fitted model": Job(_fitted_model, _COMPARE_WITHIN, "models", looks=False),
+    "fitted model": Job(_fitted_model, _COMPARE_WITHIN, "models", looks=False, hint=_FEWER),
     "computation of curves": Job(_curves, _COMPUTE_WITHIN, "models", looks=False, hint=_SIMPLER),
     "inverse question": Job(_inverse, _COMPUTE_WITHIN, "models", looks=False, hint=_SIMPLER),
     "simulation": Job(_simulation, lane="models", hint=_SIMPLER),

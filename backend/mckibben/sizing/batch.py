@@ -91,9 +91,15 @@ class Bench:
         done = 0
         with ThreadPoolExecutor(_THREADS) as pool:
             while chunk := list(islice(source, 8 * _THREADS)):
-                self.check_end(begin + (share[1] - begin) * done / max(total, 1))
-                yield from pool.map(function, chunk)
-                done += len(chunk)
+                futures = [pool.submit(function, item) for item in chunk]
+                try:
+                    for future in futures:
+                        self.check_end(begin + (share[1] - begin) * done / max(total, 1))
+                        yield future.result()
+                        done += 1
+                finally:
+                    for future in futures:  # what has not begun is not run any more
+                        future.cancel()
 
     def count_run(self) -> None:
         """Count one more run; may be called from any thread."""
@@ -126,6 +132,10 @@ class Bench:
             return prepared.figures(prepared.parameters, prepared.inputs, self.task.returns)
         except InputError:  # no rest position at all: the stretched counter muscle is too strong
             return NOTHING
+
+    def has_run(self, design: Design) -> bool:
+        """Whether `run_ahead` has simulated a design that `run` has not been asked for."""
+        return (design.group, design.length, design.pressure) in self._known
 
     def check_end(self, share: float) -> None:
         """Report progress.

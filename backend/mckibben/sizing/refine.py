@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import numpy as np
 
@@ -18,8 +18,10 @@ _FIRST_STEP = (0.12, 0.2)  # of the logarithms of length and pressure
 _CLOSE = 1e-3  # of the logarithms, and of the cost
 
 
-def refined(trials: Sequence[Trial], bench: Bench, share: tuple[float, float]) -> list[Trial]:
-    """The best design near each trial, found by the simplex method; all searches go on side by side.
+def refined(trials: Sequence[Trial], bench: Bench, share: tuple[float, float]) -> Iterator[list[Trial]]:
+    """The best designs so far near each trial, after each round; all searches go on side by side.
+
+    The simplex method finds them; the last ones are the best near each trial.
 
     Args:
         trials: where to begin.
@@ -42,7 +44,7 @@ def refined(trials: Sequence[Trial], bench: Bench, share: tuple[float, float]) -
         for search in active:
             search.answer([next(found) for _ in search.wanted])
         active = [search for search in active if search.wanted]
-    return [search.best for search in searches]
+        yield [search.best for search in searches]
 
 
 class _Search:

@@ -32,7 +32,6 @@ from mckibben.sizing.trial import AtRest, Trial, at_rest_of, trial_of
 _PRUNED, _TRIED, _REFINED, _MEASURED = 0.1, 0.35, 0.65, 0.7
 _OF_ONE_KIND = 4  # most proposals with the same muscles, while there are others
 _SPARE = 4  # designs refined beyond the number requested: some fail on the fine grid
-_JUDGED_AT_ONCE = 64  # trials between two looks at the watch
 _MOST_GROUPS = 240  # most groups simulated
 _SECOND_LOOK = 2.0  # a group gets more designs tried if its time is within this factor of the required one
 
@@ -48,7 +47,10 @@ class Sizing:
         combinations: designs within the limits of length, pressure and contraction, times valves and tubes.
         pruned: number of them that the closed form ruled out.
         simulated: number of transient runs, without those of specimens.
-        untried: groups not ruled out by the closed form and not simulated, to save time.
+        choices: choices of parts that the closed form does not rule out.
+        untried: those of them that were not simulated: to save time, or because the watch ended the search.
+        refined: whether lengths and pressures were searched to the end.
+        outcome: how it ended; unless it is complete, the proposals are the best of what was simulated.
     """
 
     proposals: list[Proposal] = field(default_factory=list)
@@ -57,7 +59,9 @@ class Sizing:
     combinations: int = 0
     pruned: int = 0
     simulated: int = 0
+    choices: int = 0
     untried: int = 0
+    refined: bool = False
     outcome: Outcome = Outcome.COMPLETED
 
 
@@ -67,17 +71,23 @@ def size(task: Task, catalogue: PartsCatalogue, watch: Watch | None = None) -> S
     Args:
         task: the task.
         catalogue: the parts that may be used.
-        watch: may end the search early; the result so far is returned.
+        watch: may end the search early; then the drives found so far are returned, ranked.
 
     Raises:
         InputError: the task has no stroke, or nothing stretches the muscle again.
     """
-    sizing, bench = Sizing(), Bench(task, watch or Watch())
+    sizing = Sizing()
+    try:
+        bench = Bench(task, watch or Watch())
+    except EndedError as end:
+        sizing.outcome = end.outcome
+        return sizing
     search = _Search(task, catalogue, bench, sizing)
     try:
         search.run()
     except EndedError as end:
         sizing.outcome = end.outcome
+    search.conclude()
     sizing.simulated = bench.runs
     return sizing
 
@@ -110,43 +120,74 @@ class _Search:
     def __init__(self, task: Task, catalogue: PartsCatalogue, bench: Bench, sizing: Sizing) -> None:
         self.task, self.catalogue, self.bench, self.sizing = task, catalogue, bench, sizing
         self.parts = [(valve, tube) for valve in catalogue.valves for tube in catalogue.tubes]
+        self.sheets: list[Sheet] = []
+        self.failed: list[Failed] = []
+        self.ran: dict[DesignCandidate, list[Trial]] = {}
+        self.better: list[Trial] | None = None  # to be proposed; None = none is chosen yet
+        self.proposals: list[Proposal] = []
+        self.settled = False  # whether each candidate was tried as often as it can be
+        self.broken: list[Failed] = []  # those that break a limit on the fine grid
 
     def run(self) -> None:
-        """Run all stages; fills `sizing`."""
-        task, sizing, bench = self.task, self.sizing, self.bench
-        sheets = [
+        """Run all stages; what each finds stays, wherever the watch ends them.
+
+        Raises:
+            EndedError: the watch ended the search.
+        """
+        task, bench = self.task, self.bench
+        bench.check_end(0.0)
+        self.sheets = [
             sheet_of(part, duty, task)
             for duty in task.duties()
             for part in self.catalogue.muscles
             if temperature_text(part, task) is None
         ]
-        sizing.rejected = at_rest_rejections(sheets, self.catalogue, task, set())
-        candidates, failed = self._prune(sheets)
-        candidates = self._likely(candidates)
+        candidates = self._likely(self._prune())
         bench.check_end(_PRUNED)
-        good, slow = self._try(candidates)
-        sizing.explored = good
-        failed += slow
-        chosen = _varied(sorted(good, key=_by_cost), task.max_proposals + _SPARE)
-        better = refined(chosen, bench, (_TRIED, _REFINED))
-        proposals: list[Proposal] = []
-        for item in bench.each(lambda t: propose(t, bench), better, (_REFINED, _MEASURED), len(better)):
-            if isinstance(item, Proposal):
-                proposals.append(item)
-            else:
-                failed.append((item.design.group, item))
-        works = {proposal.design.group.muscle.id for proposal in proposals}
-        sizing.rejected = at_rest_rejections(sheets, self.catalogue, task, works)
-        sizing.rejected += slow_rejections(failed, task, works)
-        sizing.rejected.sort(key=lambda rejection: rejection.nearness)
-        sizing.proposals = ranked(proposals, task)[: task.max_proposals]
-        sizing.proposals = self._with_chances(sizing.proposals)
+        self._try(candidates)
+        self.better = self._chosen(task.max_proposals + _SPARE)
+        for better in refined(self.better, bench, (_TRIED, _REFINED)):
+            self.better = better
+        self.sizing.refined = True
+        share, total = (_REFINED, _MEASURED), len(self.better)
+        for item in bench.each(lambda trial: propose(trial, bench), self.better, share, total):
+            self._take(item)
+        self._give_chances()
 
-    def _prune(self, sheets: list[Sheet]) -> tuple[list[DesignCandidate], list[Failed]]:
-        """Candidates not ruled out by the closed form, and groups without any such design."""
+    def conclude(self) -> None:
+        """Rank and reject by what was found; of a search whose time is over the best drives are proposed."""
+        task, sizing = self.task, self.sizing
+        good, slow = self._judged()
+        if sizing.outcome is Outcome.TIMED_OUT:
+            left = self._chosen(task.max_proposals) if self.better is None else self.better
+            for trial in left[: max(task.max_proposals - len(self.proposals), 0)]:
+                self._take(propose(trial, self.bench))
+        sizing.explored = good
+        sizing.untried = sizing.choices - len(self.ran)
+        works = {proposal.design.group.muscle.id for proposal in self.proposals}
+        sizing.rejected = at_rest_rejections(self.sheets, self.catalogue, task, works)
+        broken = self.broken if sizing.refined else []  # another length or pressure may keep the limit
+        sizing.rejected += slow_rejections([*self.failed, *slow, *broken], task, works)
+        sizing.rejected.sort(key=lambda rejection: rejection.nearness)
+        sizing.proposals = ranked(self.proposals, task)[: task.max_proposals]
+
+    def _take(self, item: Proposal | Trial) -> None:
+        """Take a drive that was measured on the fine grid, the next one of those to propose."""
+        self.better = (self.better or [])[1:]
+        if isinstance(item, Proposal):
+            self.proposals.append(item)
+        else:
+            self.broken.append((item.design.group, item))
+
+    def _chosen(self, count: int) -> list[Trial]:
+        """The trials worth refining and proposing."""
+        return _varied(sorted(self._judged()[0], key=_by_cost), count)
+
+    def _prune(self) -> list[DesignCandidate]:
+        """Candidates not ruled out by the closed form."""
         kept: list[DesignCandidate] = []
-        failed: list[Failed] = []
-        for sheet in sheets:
+        failed = self.failed
+        for sheet in self.sheets:
             self.sizing.combinations += int(sheet.allowed.sum()) * len(self.parts)
             for parallel in range(1, self.task.limits.max_parallel + 1):
                 sound = sheet.sound(parallel)
@@ -163,7 +204,7 @@ class _Search:
                     else:
                         failed.append((group, None))
         self.sizing.pruned = self.sizing.combinations - sum(len(candidate.left) for candidate in kept)
-        return kept, failed
+        return kept
 
     def _likely(self, candidates: list[DesignCandidate]) -> list[DesignCandidate]:
         """Candidates worth simulating: one pulley radius for each choice of parts, at most `_MOST_GROUPS`."""
@@ -176,7 +217,7 @@ class _Search:
             taken[key] += 1
             if taken[key] == 1 and len(kept) < _MOST_GROUPS:
                 kept.append(candidate)
-        self.sizing.untried = len(taken) - len(kept)
+        self.sizing.choices, self.sizing.untried = len(taken), len(taken) - len(kept)
         return kept
 
     def _quick(self, group: Group, sheet: Sheet, sound: np.ndarray) -> np.ndarray:
@@ -186,63 +227,60 @@ class _Search:
         times = least_time(sheet.rest, sheet.duty, task, conductance=group.conductance)
         return sound[times[sound] <= wanted]
 
-    def _try(self, candidates: list[DesignCandidate]) -> tuple[list[Trial], list[Failed]]:
-        """The best trial of each group that fulfils the task, and the nearest trial of each other group."""
+    def _try(self, candidates: list[DesignCandidate]) -> None:
+        """Simulate some designs of each candidate, and more of those that are nearly quick enough."""
         first = [(candidate, index) for candidate in candidates for index in _first_choice(candidate)]
-        ran = self._run(first, (_PRUNED, 0.8 * _TRIED))
+        self._run(first, (_PRUNED, 0.8 * _TRIED))
         again = [
             (candidate, index)
-            for candidate, trials in ran.items()
-            if not any(trial.keeps_limits for trial in trials)
-            and min(trial.excess() for trial in trials) <= _SECOND_LOOK
+            for candidate, trials in self.ran.items()
+            if not any(trial.keeps_limits for trial in trials) and not _far_off(candidate, trials)
             for index in _second_choice(candidate)
         ]
-        for candidate, trials in self._run(again, (0.8 * _TRIED, _TRIED)).items():
-            ran[candidate] += trials
+        self._run(again, (0.8 * _TRIED, _TRIED))
+        self.settled = True
+
+    def _judged(self) -> tuple[list[Trial], list[Failed]]:
+        """The best trial of each group that fulfils the task, and the nearest trial of each other group.
+
+        Before the end no group is among the others that another length or pressure might make quick enough.
+        """
         good: list[Trial] = []
         slow: list[Failed] = []
-        for candidate, trials in ran.items():
+        for candidate, trials in self.ran.items():
             good_trials = [trial for trial in trials if trial.keeps_limits]
             if good_trials:
                 good.append(min(good_trials, key=lambda trial: trial.cost()))
-            else:
+            elif self.settled or _far_off(candidate, trials):
                 slow.append((candidate.group, min(trials, key=lambda trial: trial.cost())))
         return good, slow
 
-    def _run(
-        self, jobs: list[tuple[DesignCandidate, int]], share: tuple[float, float]
-    ) -> dict[DesignCandidate, list[Trial]]:
-        trials_by_candidate: dict[DesignCandidate, list[Trial]] = {}
+    def _run(self, jobs: list[tuple[DesignCandidate, int]], share: tuple[float, float]) -> None:
         for candidate, _ in jobs:
             self.bench.compile(candidate.group)
-        middle = share[0] + 0.9 * (share[1] - share[0])
-        self.bench.run_ahead([candidate.design(index) for candidate, index in jobs], (share[0], middle))
+        end = None
+        try:
+            self.bench.run_ahead([candidate.design(index) for candidate, index in jobs], share)
+        except EndedError as stop:
+            end = stop
         # What ran ahead is only judged here: threads would gain nothing.
-        for done, (candidate, index) in enumerate(jobs):
-            if done % _JUDGED_AT_ONCE == 0:
-                self.bench.check_end(middle + (share[1] - middle) * done / len(jobs))
-            trial = trial_of(candidate.design(index), self.bench, candidate.at_rest(index))
-            trials_by_candidate.setdefault(candidate, []).append(trial)
-        return trials_by_candidate
+        for candidate, index in jobs:
+            if self.bench.has_run(candidate.design(index)):
+                trial = trial_of(candidate.design(index), self.bench, candidate.at_rest(index))
+                self.ran.setdefault(candidate, []).append(trial)
+        if end is not None:
+            raise end
 
-    def _with_chances(self, proposals: list[Proposal]) -> list[Proposal]:
+    def _give_chances(self) -> None:
         specimens = self.task.uncertainty.specimens
+        self.proposals = ranked(self.proposals, self.task)[: self.task.max_proposals]
         if not specimens:
-            return proposals
-        width = (1.0 - _MEASURED) / max(len(proposals), 1)
-        done = [
-            replace(
-                proposal,
-                chance=chance(
-                    self.bench,
-                    proposal.design,
-                    (_MEASURED + i * width, _MEASURED + (i + 1) * width),
-                    specimens,
-                ),
-            )
-            for i, proposal in enumerate(proposals)
-        ]
-        return ranked(done, self.task)
+            return
+        width = (1.0 - _MEASURED) / max(len(self.proposals), 1)
+        for i, proposal in enumerate(self.proposals):
+            share = (_MEASURED + i * width, _MEASURED + (i + 1) * width)
+            known = chance(self.bench, proposal.design, share, specimens)
+            self.proposals[i] = replace(proposal, chance=known)
 
 
 def _suited(group: Group, sheet: Sheet, sound: np.ndarray) -> np.ndarray:
@@ -276,6 +314,12 @@ def _first_choice(candidate: DesignCandidate) -> list[int]:
     same = left[rest.length[left] == rest.length[cheap]]
     strong = int(left[np.argmax(rest.capacity[left])])
     return list(dict.fromkeys((cheap, int(same[np.argmax(rest.pressure[same])]), strong)))
+
+
+def _far_off(candidate: DesignCandidate, trials: list[Trial]) -> bool:
+    """Whether all designs of the first choice were tried and none of them is nearly quick enough."""
+    tried = len(trials) >= len(_first_choice(candidate))
+    return tried and min(trial.excess() for trial in trials) > _SECOND_LOOK
 
 
 def _second_choice(candidate: DesignCandidate) -> list[int]:

@@ -11,6 +11,7 @@ import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
+from mckibben.identification.diagnose.steps import SingleAddition
 from mckibben.identification.diagnose.words import sentence_of
 from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import predictor_of
@@ -19,9 +20,10 @@ from mckibben.identification.predict.free import Free
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.custom import custom_effect
-from mckibben.simulation.outcome import Watch
+from mckibben.simulation.outcome import Outcome, Watch
 from tests.identification.synthetic import CATALOGUE, MUSCLE, csv, cycles, force_map, length_under
 from tests.identification.synthetic import truth as hidden_force
+from tests.looks import Looks
 from tests.shipped import shipped_studio
 
 DATA = Path(__file__).parents[4] / "shared" / "data"
@@ -397,9 +399,38 @@ def test_whoever_goes_away_ends_it(fits):
     assert len(asked) == fits
 
 
-def test_a_time_limit_ends_it():
-    with pytest.raises(CancelledError):
-        diagnosis(cycles(coulomb, noise=1.0, each=20), watch=Watch(time_limit=0.0))
+def test_without_time_for_the_start_model_there_is_nothing_to_keep():
+    with pytest.raises(CancelledError) as end:
+        diagnosis(cycles(coulomb, noise=1.0, each=20), watch=Looks(0))
+    assert end.value.outcome is Outcome.TIMED_OUT
+
+
+@pytest.mark.parametrize("fits", [1, 2, 6, 60])
+def test_a_time_limit_keeps_what_was_found(fits):
+    data = cycles(coulomb, noise=1.0, each=20, c10=0.4e6)
+    told: list[SingleAddition] = []
+    found = diagnosis(data, watch=Looks(fits), on_candidate=told.append)
+    done = found.unfinished
+    assert found.status == "unfinished"
+    assert done is not None
+    assert done.limit == 7.0
+    assert done.models <= fits
+    shown = {single.effect.id for single in told}
+    assert done.tried == len(shown) == len(found.candidates)
+    # What was not tried is named, each effect once; nothing is claimed beside what was fitted.
+    untried = {each.effect for each in found.not_tried}
+    assert not untried & shown
+    assert len(untried | shown) == len(untried) + done.tried
+    assert found.alternatives == found.evidence == found.corrections == found.context == ()
+    # The path leads from the start model to the best model, one fitted effect at a time.
+    effects = [set(step.fitted_model.fit_model.ids) for step in found.path]
+    assert [step.added for step in found.path if step.added] == list(found.added)
+    for step, before, after in zip(found.path[1:], effects, effects[1:], strict=False):
+        assert after - before == ({step.added} if step.added else set())
+    best = min((single.fitted_model.rmse for single in told), default=found.root.rmse)
+    assert found.path[-1].fitted_model.rmse <= 1.05 * best
+    if fits > 2:
+        assert found.path[-1].fitted_model.rmse < 0.7 * found.start.rmse
 
 
 # --- measured

@@ -36,6 +36,7 @@ def result(
     return SimpleNamespace(
         status=status,
         none_likely=False,
+        unfinished=None,
         predictor=SimpleNamespace(unit=unit, channels=[SimpleNamespace(name="force" if unit == "N" else "")]),
         start=SimpleNamespace(rmse=before),
         root=SimpleNamespace(rmse=before if refitted is None else refitted, free=refitted is not None),

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, replace
-from functools import partial
+from dataclasses import dataclass, field, replace
+from functools import cached_property, partial
 
 import numpy as np
 
@@ -14,7 +14,7 @@ from mckibben.identification.diagnose.contest import contest
 from mckibben.identification.diagnose.corrections import Correction, refined, without_corrections
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
-from mckibben.identification.diagnose.gauge_zero import vented
+from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
 from mckibben.identification.diagnose.probability import (
@@ -29,7 +29,13 @@ from mckibben.identification.diagnose.progress import Progress
 from mckibben.identification.diagnose.reason import traits_of
 from mckibben.identification.diagnose.repetition import Repetition
 from mckibben.identification.diagnose.search import search
-from mckibben.identification.diagnose.steps import PathStep, SingleAddition, path_to, single_addition
+from mckibben.identification.diagnose.steps import (
+    PathStep,
+    SingleAddition,
+    known_path,
+    path_to,
+    single_addition,
+)
 from mckibben.identification.diagnose.supported import supported
 from mckibben.identification.diagnose.turned import turned_constants
 from mckibben.identification.diagnose.twins import Alternative, likeliest, same, same_predictions
@@ -46,7 +52,7 @@ from mckibben.identification.diagnose.verdict import (
 from mckibben.identification.diagnose.wrong_entry import WrongEntry
 from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel
-from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.fit.fitter import CancelledError, Fitter
 from mckibben.identification.fit.least_squares import FitResult, fit_report
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
@@ -58,7 +64,7 @@ from mckibben.identification.residual.profiles import Profile, profiles, variabl
 from mckibben.identification.residual.structure import ResidualStructure
 from mckibben.identification.residual.term import Term, proposed_term
 from mckibben.physics.effect import Effect
-from mckibben.simulation.outcome import Watch
+from mckibben.simulation.outcome import Outcome, Watch
 
 #: Fewest values for a diagnosis: with fewer, many single effects fit them exactly.
 FEWEST_VALUES = 6
@@ -75,6 +81,23 @@ class NotTried:
     """The reason."""
     needs_time: bool = False
     """Whether the time of each row would make it a candidate."""
+
+
+@dataclass(frozen=True)
+class Unfinished:
+    """How far a diagnosis came that its limit of time ended.
+
+    Attributes:
+        tried: effects that were tried alone.
+        candidates: effects that could be tried.
+        models: models that were fitted.
+        limit: of time [s].
+    """
+
+    tried: int
+    candidates: int
+    models: int
+    limit: float
 
 
 @dataclass(frozen=True)
@@ -97,7 +120,7 @@ class Diagnosis:
         best: the best model, with the corrections that it keeps.
         lean: the same with those corrections only that the alternatives hold as well.
         fit: its parameters with standard errors.
-        status: adequate, missing_effects, ambiguous or unknown_effect.
+        status: adequate, missing_effects, ambiguous, unknown_effect, or unfinished.
         added: effects of the best model that the start model does not have.
         alternatives: effects that could replace one of these.
         structure: the part of the last residual that a regression still predicts.
@@ -115,6 +138,8 @@ class Diagnosis:
         left_out: of several specimens, each predicted by the best model fitted to the others.
         none_likely: whether the status is unknown_effect because none of the named effects is likely, and not
             because of what they leave.
+        unfinished: how far it came, where the limit of time ended it: then it is the best of what was fitted
+            until then, and what the data cannot tell from it was not looked for. None when it is complete.
     """
 
     predictor: Predictor
@@ -147,6 +172,7 @@ class Diagnosis:
     weights: ModelWeights | None = None
     left_out: tuple[LeftOutSpecimen, ...] = ()
     none_likely: bool = False
+    unfinished: Unfinished | None = None
 
     def probability_of(self, effect: str) -> float:
         """Probability that an effect, or one that the data cannot tell from it, is missing."""
@@ -187,14 +213,18 @@ def diagnose(
         watch: receives the progress and may cancel.
         on_candidate: receives each candidate as soon as it is fitted, or guessed if it promises little.
 
+    Returns:
+        The diagnosis; where the time limit of the watch ended it, the best of what was fitted until then.
+
     Raises:
-        CancelledError: the watch cancelled.
+        CancelledError: the watch cancelled, or the time is over before the start model is fitted.
     """
     from threadpoolctl import threadpool_limits
 
+    watch = watch or Watch(time_limit=np.inf)
     # The matrices are small: several linear-algebra threads would be slower than one.
     with threadpool_limits(1):
-        return _diagnose(
+        begun = _begin(
             predictor,
             fit_model,
             catalogue=catalogue,
@@ -202,14 +232,55 @@ def diagnose(
             load=load,
             freed=frozenset(freed),
             noise=noise,
-            statements=statements,
             effort=effort or diagnosis_effort(simulated=predictor.simulated),
-            watch=watch or Watch(time_limit=np.inf),
+            watch=watch,
             on_candidate=on_candidate,
         )
+        try:
+            return _search(begun, fit_model, catalogue=catalogue, noise=noise, statements=statements)
+        except CancelledError as end:
+            if end.outcome is not Outcome.TIMED_OUT:
+                raise
+            return _so_far(begun, watch.time_limit)
 
 
-def _diagnose(
+@dataclass
+class _Begun:
+    """A diagnosis whose start model is fitted, and what it has found since."""
+
+    progress: Progress
+    fitter: Fitter
+    start: FittedModel
+    first: FitModel
+    root: FittedModel
+    noise_how: str
+    gauge_zero: GaugeZero | None
+    candidates: tuple[Effect, ...]
+    not_tried: list[NotTried]
+    on_candidate: Callable[[SingleAddition], None]
+    singles: dict[str, SingleAddition] = field(default_factory=dict)
+
+    @property
+    def predictor(self) -> Predictor:
+        return self.fitter.predictor
+
+    @cached_property
+    def variables(self) -> dict[str, np.ndarray]:
+        """That the residual may depend on."""
+        return variables_of(self.predictor, self.start.fit_model)
+
+    @cached_property
+    def where(self) -> list[Profile]:
+        """The residual of the start model over each of them."""
+        return profiles(self.start.residual, self.variables, self.predictor.folds[0])
+
+    def tell(self, single: SingleAddition) -> None:
+        """Pass on a candidate as soon as it is known."""
+        self.singles[single.effect.id] = single
+        self.on_candidate(single)
+
+
+def _begin(
     predictor: Predictor,
     fit_model: FitModel,
     *,
@@ -218,11 +289,15 @@ def _diagnose(
     load: Free | None,
     freed: frozenset[str],
     noise: float | None,
-    statements: Statements | None,
     effort: SearchEffort,
     watch: Watch,
     on_candidate: Callable[[SingleAddition], None],
-) -> Diagnosis:
+) -> _Begun:
+    """The start model fitted.
+
+    Raises:
+        CancelledError: the watch ended the diagnosis before.
+    """
     start_ids = set(fit_model.ids)
     absent = [effect for effect in catalogue.values() if effect.id not in start_ids]
     reasons = {effect: _why_not(effect, predictor) for effect in absent}
@@ -259,15 +334,32 @@ def _diagnose(
         fitter.known.clear()
         root = fitter.fit(first, freed)
     fitter.noise, how = noise_of(predictor, root.residual, noise)
-    variables = variables_of(predictor, fit_model)
+    return _Begun(progress, fitter, start, first, root, how, gauge_zero, candidates, not_tried, on_candidate)
+
+
+def _search(
+    begun: _Begun,
+    fit_model: FitModel,
+    *,
+    catalogue: Mapping[str, Effect],
+    noise: float | None,
+    statements: Statements | None,
+) -> Diagnosis:
+    """The whole diagnosis.
+
+    Raises:
+        CancelledError: the watch ended it; ``begun`` holds what was found.
+    """
+    fitter, predictor, progress = begun.fitter, begun.predictor, begun.progress
+    start, root, gauge_zero, candidates = begun.start, begun.root, begun.gauge_zero, begun.candidates
+    variables, where, how = begun.variables, begun.where, begun.noise_how
     before = traits_of(root.residual, variables)
-    where = profiles(start.residual, variables, predictor.folds[0])
     # The most promising first: whoever follows the search sees a useful answer at once, and a first one while
     # the equations of the other effects are compiled.
     early = fitter.promising(root, [effect for effect in candidates if effect in predictor.quick])[:1]
     for effect in early:
-        on_candidate(single_addition(fitter, root, effect, fitter.adding(root, effect), before, ()))
-    promising = fitter.promising(root, candidates)[: effort.tried]
+        begun.tell(single_addition(fitter, root, effect, fitter.adding(root, effect), before, ()))
+    promising = fitter.promising(root, candidates)[: fitter.effort.tried]
     fitted_singles, guesses = [], []
     for number, effect in enumerate(dict.fromkeys([*promising, *candidates])):
         progress.share = 0.45 * number / max(len(candidates), 1)
@@ -279,7 +371,7 @@ def _diagnose(
             guesses.append((effect, fitter.guessed(root, effect)))
         found = fitted_singles[-1] if number < len(promising) else guesses[-1]
         if effect not in early:
-            on_candidate(single_addition(fitter, root, *found, before, ()))
+            begun.tell(single_addition(fitter, root, *found, before, ()))
     progress.share, progress.end = 0.45, 0.85
     best = search(fitter, root, singles=[fitted_model for _, fitted_model in fitted_singles])
     fitter.noise, how = noise_of(predictor, best.residual, noise)
@@ -327,7 +419,7 @@ def _diagnose(
     context = ()
     if statements is not None:
         context = contest(
-            statements, fitter=fitter, first=first, root=root, best=searched, stated_noise=noise
+            statements, fitter=fitter, first=begun.first, root=root, best=searched, stated_noise=noise
         )
     doubted = any(entry.stands for entry in context)
     # What a correction explains is not an unknown effect.
@@ -378,7 +470,7 @@ def _diagnose(
             *predictor.assumed_history(best.fit_model),
             *turned_constants(fitter, fit_model, best),
         ),
-        not_tried=tuple(not_tried),
+        not_tried=tuple(begun.not_tried),
         context=context,
         absorbed=absorbed_by(predictor, best.fit_model),
         corrections=corrections,
@@ -386,6 +478,54 @@ def _diagnose(
         weights=likely.weights,
         left_out=left_out_specimens(predictor, best) if isinstance(predictor, SpecimensPredictor) else (),
         none_likely=unlikely,
+    )
+
+
+def _so_far(begun: _Begun, limit: float) -> Diagnosis:
+    """The best of the models that were fitted until the time was over; nothing more is fitted."""
+    fitter, predictor, start, root = begun.fitter, begun.predictor, begun.start, begun.root
+    steps = known_path(fitter, root)
+    best = steps[-1].fitted_model if steps else root
+    path = [PathStep(None, start)]
+    if begun.gauge_zero is not None:
+        path.append(PathStep(begun.gauge_zero.effect.id, root))
+    elif root.free:
+        path.append(PathStep(None, root, refitted=True))
+    path += steps
+    added = tuple(step.added for step in path if step.added)
+    shown = partial(as_compared, predictor)
+    left = [effect for effect in begun.candidates if effect.id not in begun.singles]
+    return Diagnosis(
+        predictor=predictor,
+        start=start,
+        root=root,
+        noise=fitter.noise,
+        noise_how=begun.noise_how,
+        noise_interval=None,
+        where=tuple(begun.where),
+        left_where=tuple(profiles(best.residual, begun.variables, predictor.folds[0])),
+        candidates=tuple(
+            replace(one, fitted_model=shown(one.fitted_model))
+            for one in sorted(begun.singles.values(), key=lambda single: single.score)
+        ),
+        path=tuple(replace(step, fitted_model=shown(step.fitted_model)) for step in path),
+        best=best,
+        lean=best,
+        fit=_final_fit(best),
+        status="unfinished",
+        added=added,
+        alternatives=(),
+        structure=left_structure(predictor, best.residual, begun.variables, fitter.noise, added),
+        repetition=None,
+        term=None,
+        proposals=(),
+        messages=() if begun.gauge_zero is None else (begun.gauge_zero.message,),
+        not_tried=(
+            *begun.not_tried,
+            *(NotTried(effect.id, "the limit of time ended the diagnosis before") for effect in left),
+        ),
+        absorbed=absorbed_by(predictor, best.fit_model),
+        unfinished=Unfinished(len(begun.singles), len(begun.candidates), len(fitter.known), limit),
     )
 
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mckibben.identification.fit.fitter import CancelledError
-from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.outcome import Watch
 
 
 class Progress:
@@ -14,11 +14,12 @@ class Progress:
         self.share, self.end = 0.0, 0.45
 
     def count_fit(self) -> None:
-        """Count one more fitted model; cancel when the watch asks for it.
+        """Count one more fitted model; end when the watch asks for it.
 
         Raises:
-            CancelledError: the watch cancelled.
+            CancelledError: the watch ended the diagnosis.
         """
         self.share += 0.02 * (self.end - self.share)
-        if self._watch.ended(self.share) in (Outcome.CANCELLED, Outcome.TIMED_OUT):
-            raise CancelledError
+        outcome = self._watch.ended(self.share)
+        if outcome is not None:
+            raise CancelledError(outcome)

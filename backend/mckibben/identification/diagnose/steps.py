@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from mckibben.identification.diagnose.as_compared import as_compared
 from mckibben.identification.diagnose.gauge_zero import GaugeZero
 from mckibben.identification.diagnose.reason import ResidualTraits, why
-from mckibben.identification.diagnose.score import effective_rows, score
+from mckibben.identification.diagnose.score import better, effective_rows, score
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.physics.effect import Effect
@@ -103,6 +103,36 @@ def path_to(
     if vent is not None:
         added = _with_vent(fitter, start, root, added, vent)
     return (*steps, *added)
+
+
+def known_path(fitter: Fitter, root: FittedModel) -> list[PathStep]:
+    """The steps from the fitted start model to the best of the models that are fitted already.
+
+    Only models that single additions lead to are considered, each of them fitted; empty where none is better
+    than the start model.
+    """
+    present = frozenset(root.fit_model.ids)
+    lowest: dict[frozenset[str], FittedModel] = {present: root}
+    for model in sorted(fitter.known.values(), key=lambda each: each.rmse, reverse=True):
+        effects = frozenset(model.fit_model.ids)
+        if effects > present and model.implausible <= root.implausible:
+            lowest[effects] = model
+    before: dict[frozenset[str], frozenset[str]] = {}
+    for effects in sorted(lowest, key=len):
+        parents = [effects - {name} for name in effects - present]
+        reached = [parent for parent in parents if parent == present or parent in before]
+        if reached:
+            before[effects] = min(reached, key=lambda parent: lowest[parent].rmse)
+    rows = effective_rows(root.residual, fitter.predictor.sweeps, fitter.predictor.folds)
+    sound = [effects for effects in before if better(lowest[effects], root, rows=rows, noise=fitter.noise)]
+    steps: list[PathStep] = []
+    if sound:
+        effects = min(sound, key=lambda each: score(lowest[each], rows=rows, noise=fitter.noise))
+        while effects != present:
+            (name,) = effects - before[effects]
+            steps.insert(0, PathStep(name, lowest[effects]))
+            effects = before[effects]
+    return steps
 
 
 def with_own_constants(fitter: Fitter, root: FittedModel, best: FittedModel) -> FittedModel:

@@ -40,7 +40,7 @@ class Interval(NamedTuple):
 
 
 #: What a diagnosis ends with; `mckibben.identification.diagnose.words` says what each means.
-Status = Literal["adequate", "missing_effects", "ambiguous", "unknown_effect"]
+Status = Literal["adequate", "missing_effects", "ambiguous", "unknown_effect", "unfinished"]
 
 
 def left_structure(

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from mckibben.identification.diagnose.corrections import Correction
-from mckibben.identification.diagnose.diagnosis import Diagnosis
+from mckibben.identification.diagnose.diagnosis import Diagnosis, Unfinished
 from mckibben.identification.diagnose.probability import EVEN, instead_of
 from mckibben.identification.diagnose.repetition_words import repetition_text
 from mckibben.identification.diagnose.score import AT_FLOOR
@@ -29,6 +29,7 @@ _TITLES: dict[Status, str] = {
     "missing_effects": "Effects are missing",
     "ambiguous": "Effects are missing, and the data cannot tell all of them apart",
     "unknown_effect": "Something is missing that no catalogued effect explains",
+    "unfinished": "Not finished: the limit of time ended the diagnosis",
 }
 
 
@@ -69,6 +70,9 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     ])  # fmt: skip
     noise = None if result.noise is None else scale * result.noise
     highest = noise if result.noise_interval is None else scale * result.noise_interval.high
+    if result.unfinished is not None:
+        these = _joined([titles.get(name, name) for name in result.added])
+        return _unfinished(result.unfinished, these, before, after, unit)
     level = ""
     if noise is not None and highest is not None and not scaled:
         level = f"{brief(noise)} {unit}"
@@ -238,6 +242,20 @@ def left_out_sentence(result: Diagnosis) -> str:
             "more than the model says."
         )
     return text
+
+
+def _unfinished(done: Unfinished, names: str, before: float, after: float, unit: str) -> str:
+    """What was found until the time was over, and what was not tried."""
+    found = (
+        f"So far, with {names} the error falls from {brief(before)} to {brief(after)} {unit}."
+        if names
+        else f"So far no effect lowers the error of {brief(before)} {unit}."
+    )
+    return (
+        f"{found} The limit of {done.limit:g} s ended the diagnosis after {done.tried} of "
+        f"{done.candidates} effects had been tried alone and {done.models} models fitted: the other effects "
+        "and combinations were not tried, nor was what else would explain the data as well."
+    )
 
 
 def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str], *, first: bool) -> str:

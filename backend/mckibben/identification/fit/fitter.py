@@ -17,6 +17,7 @@ from mckibben.identification.predict.fit_model import FitModel, free_numbers, he
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.effect import Effect
+from mckibben.simulation.outcome import Outcome
 
 _MOVED = 1e-3  # relative change of a parameter below which the fit has not left its start
 _STUCK = 0.999  # error over the error before, above which a fit is repeated from another start
@@ -31,7 +32,11 @@ _ByModel = WeakKeyDictionary
 
 
 class CancelledError(Exception):
-    """The diagnosis was cancelled."""
+    """The watch ended the diagnosis; ``outcome`` says why."""
+
+    def __init__(self, outcome: Outcome) -> None:
+        super().__init__(outcome.label)
+        self.outcome = outcome
 
 
 @dataclass

@@ -20,6 +20,7 @@ _TONES: dict[Status, Tone] = {
     "missing_effects": "warn",
     "ambiguous": "warn",
     "unknown_effect": "bad",
+    "unfinished": "warn",
 }
 _SAME = 0.98  # ratio to the first error: below, the refitted error gets a tile of its own
 
@@ -54,12 +55,13 @@ def _missing(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
                 probability(verdict.probabilities.get(name)),
                 html(figure(before.rmse, scale, 3), " → ", figure(step.rmse, scale, 3)),
                 figure(step.holdout_rmse, scale, 3),
-                ", ".join(others) or "none",
+                ", ".join(others) or ("not tried" if verdict.status == "unfinished" else "none"),
                 _experiment(verdict, name) if others else "–",
             ]
         )
+    found = "Found so far" if verdict.status == "unfinished" else "Missing"
     columns = [
-        Head("Missing"), Head("Probability", number=True), Head("Error", number=True),
+        Head(found), Head("Probability", number=True), Head("Error", number=True),
         Head("Held\N{NON-BREAKING HYPHEN}out", number=True), Head("Indistinguishable from"),
         Head("What would tell", wide=True),
     ]  # fmt: skip
@@ -101,7 +103,8 @@ def _verdict(material: DiagnosisMaterial) -> Html:
     title, tone = verdict.title, _TONES[verdict.status]
     best = diagnosis.path[-1].rmse
     if verdict.effects:
-        figures.append(("With the missing effects", figure(best, scale, 3)))
+        which = "effects found so far" if verdict.status == "unfinished" else "missing effects"
+        figures.append((f"With the {which}", figure(best, scale, 3)))
     elif best < _SAME * diagnosis.path[0].rmse:
         figures.append(("With its parameters refitted", figure(best, scale, 3)))
     figures.append(("Noise of the data", figure(diagnosis.noise_floor.rmse, scale, 3)))

@@ -10,7 +10,6 @@ from pydantic.fields import FieldInfo
 
 from mckibben.documents.quantity import QuantityField
 from mckibben.documents.task import ForceOverStroke, SizingTask
-from mckibben.report.figures import scale_of
 from mckibben.report.sizing.material import Entry
 
 _NOT_LISTED = frozenset({"schema_version", "title"})
@@ -85,30 +84,3 @@ def _inside(annotation: Any) -> Iterator[Any]:
     """Metadata of the parts of a union type."""
     for part in get_args(annotation):
         yield from getattr(part, "__metadata__", ())
-
-
-def about_task(document: SizingTask) -> str:
-    """The task in one sentence."""
-    load, pair = document.load, document.load.pair
-    if pair is not None:
-        against = f" against {pair.torque:.4g} N·m" if pair.torque else ""
-        inertia = f" with {pair.inertia:.4g} kg·m²" if pair.inertia else ""
-        what = f"Turn a pulley{inertia} by {_words(pair.angle, 'rad')}{against} with an antagonist pair"
-    else:
-        moved = [f"{load.mass:.4g} kg"] if load.mass else []
-        moved += [f"a spring of {_words(load.spring, 'N/m')}"] if load.spring else []
-        moved += [f"{load.force:.4g} N"] if load.force else []
-        moved += ["a force over the stroke"] if load.force_over_stroke is not None else []
-        verb = "Lift" if load.mass and load.inclination > 1.57 else "Pull"
-        helped = f" with {load.counterweight:.4g} kg of counterweight" if load.counterweight else ""
-        what = f"{verb} {' and '.join(moved)}{helped} by {_words(document.stroke or 0.0, 'm')}"
-    time = "" if document.time is None else f" in {_words(document.time, 's')}"
-    if document.speed is not None:
-        time = f" at {_words(document.speed, 'm/s')}"
-    return f"{what}{time}, with {document.supply_pressure / 1e5:.4g} bar"
-
-
-def _words(value: float, unit: str) -> str:
-    scale = scale_of(unit)
-    gap = "" if scale.unit == "°" else " "
-    return f"{scale.of(value):.4g}{gap}{scale.unit}"

@@ -13,13 +13,14 @@ from mckibben.application.drive_run import run_drive
 from mckibben.application.json_text import to_json
 from mckibben.application.simulate import result_of
 from mckibben.application.size import Searched, prepare_search, sizing_question
+from mckibben.application.task_reading import heading_of
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.report.command import Command
 from mckibben.report.sizing.chosen import curves_of, margins_of, spread_of
-from mckibben.report.sizing.entries import about_task, entries_of
+from mckibben.report.sizing.entries import entries_of
 from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sizing.parts_list import effect_figures, parts_of
 from mckibben.report.sizing.writing import sizing_report
@@ -42,7 +43,7 @@ def prepare_report(
         document: the task.
         studio: presets and effects.
         proposal: rank of the drive that is reported, 1 is the best.
-        title: "" to use the title of the task or, without one, its summary.
+        title: name beside the figures of the task in the heading; "" = that of the task.
 
     Raises:
         InputError: the task cannot be used; its field begins with ``task``.
@@ -62,18 +63,19 @@ def report_of(
     """The HTML of a search and one of its proposals.
 
     Raises:
-        InputError: there are fewer proposals, or the search did not complete.
+        InputError: there are fewer proposals, or the search was cancelled.
     """
     result, document = search.result, search.question.document
-    if search.sizing.outcome is not Outcome.COMPLETED:
+    if search.sizing.outcome is Outcome.CANCELLED:
         raise InputError(f"there is nothing to report: {result.message}", field="task")
     count = len(result.proposals)
     if 0 < count < proposal:  # a task without a proposal has a report too
         number = "is 1 proposal" if count == 1 else f"are {count} proposals"
         most = "1" if count == 1 else f"1 to {count}"
         raise InputError(f"there {number}", field="proposal", hint=most)
-    chosen = _chosen(search, studio, proposal, watch or Watch()) if count else None
-    about = about_task(document)
+    # The time of the search may be over: the one run of the report has its own.
+    cancelled = None if watch is None else watch.cancelled
+    chosen = _chosen(search, studio, proposal, Watch(cancelled=cancelled)) if count else None
     task = canonical(document.completed())
     files = {_TASK_FILE: task}
     if chosen is not None:
@@ -85,10 +87,9 @@ def report_of(
     }
     return sizing_report(
         SizingMaterial(
-            title=title.strip() or document.title.strip() or about,
+            title=heading_of(result.about, title.strip() or document.title),
             made=datetime.now().astimezone(),
             versions=versions(),
-            about=about,
             entries=entries_of(document, considered),
             result=result,
             pair=search.question.task.pair is not None,

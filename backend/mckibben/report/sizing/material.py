@@ -176,7 +176,6 @@ class SizingMaterial:
         title: of the report.
         made: date and time.
         versions: program -> version.
-        about: the task in one sentence.
         entries: every field of the task that applies.
         result: of the search.
         pair: whether the drive is an antagonist pair.
@@ -191,7 +190,6 @@ class SizingMaterial:
     title: str
     made: datetime
     versions: Mapping[str, str]
-    about: str
     entries: Sequence[Entry]
     result: SizingResult
     pair: bool

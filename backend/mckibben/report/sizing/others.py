@@ -140,7 +140,8 @@ def rejected_section(material: SizingMaterial) -> Html:
     """Rejected parts: reason, violated limit, and what would help; a row per choice of muscles and limit."""
     rejected = material.result.rejected
     if not rejected:
-        return paragraph("Every choice of parts that was tried fulfils the task.")
+        some = material.result.proposals
+        return paragraph(f"{'Every' if some else 'No'} choice of parts that was tried fulfils the task.")
     groups: dict[tuple[str, int, str], list[RejectedParts]] = {}
     for item in rejected:
         groups.setdefault((item.muscle, item.parallel, item.binding), []).append(item)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from mckibben.application.size import nothing_words
 from mckibben.documents.task import TaskOperation
 from mckibben.report.document import Tone, bullets, callout, paragraph, tiles
 from mckibben.report.figures import figure, percent, plain
@@ -39,7 +40,8 @@ def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
     count = len(material.result.proposals)
     rank = f"Proposal {chosen.rank} of {count}" if count > 1 else "The only proposal"
     parts: list[Child] = [
-        paragraph(f"Task: {material.about}."),
+        paragraph(f"Task: {material.result.about}."),
+        *_left_out(material),
         callout(
             f"{drive_words(proposal)}, with {parts_words(proposal)} at "
             f"{plain(BAR.of(proposal.pressure), 3)} bar",
@@ -52,8 +54,6 @@ def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
     if chosen.rank == 1 and material.result.ranking:
         parts.append(paragraph(material.result.ranking))
     remarks = [*proposal.notes, *_crossed(chosen)]
-    if material.result.message:
-        remarks.append(material.result.message)
     if remarks:
         parts.append(bullets(remarks))
     parts.append(_unverified(chosen))
@@ -135,12 +135,15 @@ def _nothing(material: SizingMaterial) -> Html:
     if rejected:
         nearest = rejected[0]
         if nearest.would_work_if.startswith("nothing"):
-            hints = ["Neither relaxing a single limit nor another part of the catalogue would help."]
+            if material.result.outcome == "completed":
+                hints = ["Neither relaxing a single limit nor another part of the catalogue would help."]
         else:
             hints = [f"Closest: {nearest.why}.", f"It would work with {nearest.would_work_if}."]
+    words = nothing_words(material.result)
     parts: list[Child] = [
-        paragraph(f"Task: {material.about}."),
-        callout("No drive in the catalogue fulfils this task", *hints, tone="bad"),
+        paragraph(f"Task: {material.result.about}."),
+        *_left_out(material),
+        callout(f"{words[:1].upper()}{words[1:]}", *hints, tone="bad"),
     ]
     tiles_: list[tuple[Child, Child]] = [
         ("Combinations", f"{material.result.combinations}"),
@@ -148,6 +151,10 @@ def _nothing(material: SizingMaterial) -> Html:
         ("Simulated", f"{material.result.simulated}"),
     ]
     parts.append(tiles(tiles_))
-    if material.result.message:
-        parts.append(callout(material.result.message, tone="warn"))
     return html(parts)
+
+
+def _left_out(material: SizingMaterial) -> list[Html]:
+    """What the search did not try, before anything that it found."""
+    message = material.result.message
+    return [] if message is None else [callout("Not everything was tried", message, tone="warn")]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from mckibben.application.size import SizingResult
+from mckibben.application.size import SizingResult, nothing_words
+from mckibben.application.task_reading import heading_of
 from mckibben.report.summary.parts import Summary, Table, figure
 
 _REJECTED_SHOWN = 12
@@ -13,7 +14,7 @@ def summary_of(result: SizingResult, name: str) -> Summary:
 
     Args:
         result: the sizing.
-        name: of the task, for the title.
+        name: of the task, beside its figures in the title.
     """
     shown = result.rejected[:_REJECTED_SHOWN]
     others = len(result.rejected) - len(shown)
@@ -60,6 +61,8 @@ def proposal_table(result: SizingResult, name: str) -> Table:
         "air per cycle", "impact", "probability", "margin", "nearest limit",
     ]  # fmt: skip
     counted = f"{result.combinations} combinations, {result.simulated} simulated"
+    heading = heading_of(result.about, name)
     if not rows:
-        return Table(f"{name}: no drive in the catalogue fulfils this task ({counted})", ["no drive"], [])
-    return Table(f"{name}: drives, best first ({counted})", header, rows)
+        return Table(f"{heading}: {nothing_words(result)} ({counted})", ["no drive"], [])
+    found = "drives" if result.outcome == "completed" else "drives found so far"
+    return Table(f"{heading}: {found}, best first ({counted})", header, rows)

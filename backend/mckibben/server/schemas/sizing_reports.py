@@ -17,4 +17,6 @@ class SizingReportRequest(Strict):
     proposal: Annotated[int, Field(ge=1, le=30)] = Field(
         1, description="Rank of the proposal, 1 the best. A task without proposals also has a report."
     )
-    title: str = Field("", max_length=200, description="Empty = title of the task, or a summary of it.")
+    title: str = Field(
+        "", max_length=200, description="Name beside the figures of the task. Empty = that of the task."
+    )

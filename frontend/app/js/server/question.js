@@ -35,6 +35,10 @@ export class Memory {
     this.answers.set(text, answer);
     if (this.answers.size > this.most) this.answers.delete([...this.answers.keys()][0]);
   }
+  /** @param {string} text */
+  forget(text) {
+    this.answers.delete(text);
+  }
 }
 
 /** Calls when the server has been gone and back for a while. @param {() => void} then
@@ -117,10 +121,13 @@ export class Question {
     this.next();
   }
 
-  /** Asks the newest text once more, after an error or a cancellation. */
+  /** Asks the newest text once more, after an error, a cancellation or an answer that its limit of time ended. */
   again() {
-    if (!this.followers) return this.ask(this.asked.peek());
+    const text = this.asked.peek();
+    if (!this.followers) return this.ask(text, true);
     batch(() => {
+      if (text !== null) this.memory?.forget(text);
+      if (this.answered.peek() === text) this.answered.value = null;
       this.ended.value = { text: null, stage: "idle" };
       this.tries.value++;
     });

@@ -58,9 +58,9 @@ export function taskCard() {
     id: "task-title",
     maxlength: 200,
     autocomplete: "off",
-    placeholder: "Untitled",
+    placeholder: "Name of your task (optional)",
     value: () => valueAt("title") ?? "",
-    onchange: () => setTask("title", title.value.trim() || undefined, "title"),
+    onchange: () => setTask("title", title.value.trim() || undefined, "name"),
   });
   return h(
     "section",
@@ -76,7 +76,7 @@ export function taskCard() {
         items: exampleItems,
       }),
     ),
-    h("label", { class: "unseen", for: "task-title" }, "Title of the task"),
+    h("label", { class: "unseen", for: "task-title" }, "Name of the task"),
     title,
     h("p", { class: "error", "data-field": "title" }, () => messageFor("title") ?? ""),
     h(

@@ -22,7 +22,6 @@ const defaultSizing = () => ({
   mode: "muscle",
   arrangement: "lift",
   task: {
-    title: "Lift 20 kg by 60 mm in 0.5 s",
     load: { mass: 20 },
     stroke: 0.06,
     time: 0.5,

@@ -40,9 +40,10 @@ export function openTask(document, label) {
   edit((d) => ({ ...d, view: "design", sizing: { ...d.sizing, ...part, mode: "task" } }), label);
 }
 
-/** @param {import("../../types.js").Preset} preset */
+/** A title describes the figures of its preset; as the name of a task it would outlive them.
+ * @param {import("../../types.js").Preset} preset */
 export function openExample({ title, description, document }) {
-  openTask(document ?? {}, `example ${title}`);
+  openTask({ ...document, title: "" }, `example ${title}`);
   status.value = [title, description].filter(Boolean).join(": ");
 }
 
@@ -56,7 +57,7 @@ const KEPT = "mckibben-proposals";
 function recall() {
   try {
     const { version, text, answer } = JSON.parse(sessionStorage.getItem(KEPT) ?? "{}");
-    if (version === 1 && typeof text === "string" && Array.isArray(answer?.proposals)) {
+    if (version === 2 && typeof text === "string" && Array.isArray(answer?.proposals)) {
       searchMemory.set(text, answer);
     }
   } catch {
@@ -67,7 +68,7 @@ function recall() {
 /** @param {string | null} text @param {Answer} answer */
 function keep(text, answer) {
   try {
-    sessionStorage.setItem(KEPT, JSON.stringify({ version: 1, text, answer }));
+    sessionStorage.setItem(KEPT, JSON.stringify({ version: 2, text, answer }));
   } catch {
     // No storage or no room in it: then the drives last until the page is left.
   }
@@ -105,6 +106,19 @@ export const stale = computed(() => answer.value !== null && taskText.value !== 
 /** The task that the drives on screen belong to. @returns {import("../../types.js").Task} */
 export const answeredTask = () => JSON.parse(search.answered.value ?? "{}");
 
+/** The task of an answer in its figures, beside the name that the user gave it, as reports are headed.
+ * @param {Answer} found */
+export const headingOf = ({ about }) => [answeredTask().title, about].filter(Boolean).join(": ");
+
+/** Whether the search ended before everything was tried. @param {Answer} found */
+export const isPartial = ({ outcome }) => outcome !== "completed";
+/** What an answer without a drive says: only a complete search speaks of the whole catalogue.
+ * @param {Answer} found */
+export const nothingWords = (found) =>
+  isPartial(found)
+    ? "None of the drives that were tried can do this"
+    : "No drive in the catalogue can do this";
+
 export const proposals = computed(() => answer.value?.proposals ?? []);
 export const chosenIndex = computed(() => Math.min(sizing.value.selected, proposals.value.length - 1));
 export const chosen = computed(() => proposals.value[chosenIndex.value] ?? null);
@@ -118,8 +132,10 @@ function showFound(found) {
   keep(search.answered.peek(), found);
   lookSizing({ selected: 0 });
   status.value = best
-    ? `${rest.length + 1} drive${rest.length ? "s" : ""} found; first ${driveWords(best)}.`
-    : "No drive in the catalogue can do this task. The list below gives the reasons.";
+    ? `${rest.length + 1} drive${rest.length ? "s" : ""} found${isPartial(found) ? " so far" : ""}; first ${
+      driveWords(best)
+    }.`
+    : `${nothingWords(found)}. The list below gives the reasons.`;
 }
 
 /** Ends the search on the server too; drives found before stay. */

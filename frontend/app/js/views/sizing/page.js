@@ -9,6 +9,8 @@ import {
   cancel,
   fault,
   faultField,
+  headingOf,
+  nothingWords,
   openExample,
   proposals,
   propose,
@@ -108,7 +110,8 @@ function nothing() {
   return h(
     "section",
     { class: "card", "aria-label": "No drive" },
-    h("div", { class: "card-head" }, h("h2", null, "No drive in the catalogue can do this")),
+    h("div", { class: "card-head" }, h("h2", null, nothingWords(answer.value))),
+    h("p", { class: "of-task" }, headingOf(answer.value)),
     h(
       "p",
       { class: "verdict bad" },

@@ -6,7 +6,7 @@ import { effect, signal } from "../../reactive.js";
 import { menuButton } from "../../ui/menu.js";
 import { saveCsv, saveTask } from "./actions.js";
 import { marginBars } from "./margins.js";
-import { answer, answeredTask, chosenIndex, lookSizing, proposals } from "./model.js";
+import { answer, answeredTask, chosenIndex, headingOf, isPartial, lookSizing, proposals } from "./model.js";
 import { asText, driveWords, limitName, partsOf, percent, spare } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
@@ -177,7 +177,11 @@ export function proposalsCard() {
       "div",
       { class: "card-head" },
       h("h2", null, "Proposals"),
-      h("span", { class: "muted" }, () => `best first${frontWords()}`),
+      h(
+        "span",
+        { class: "muted" },
+        () => `${answer.value && isPartial(answer.value) ? "found so far, " : ""}best first${frontWords()}`,
+      ),
       menuButton({
         label: icon("more"),
         name: "Proposals: save",
@@ -188,6 +192,7 @@ export function proposalsCard() {
         ],
       }),
     ),
+    () => h("p", { class: "of-task" }, answer.value ? headingOf(answer.value) : ""),
     () => answer.value?.ranking ? h("p", { class: "hint ranking" }, answer.value.ranking) : null,
     h(
       "div",

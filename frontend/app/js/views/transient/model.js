@@ -132,18 +132,20 @@ export const scenario = computed(() =>
   scenarios.value.find((s) => s.id === transient.value.scenario) ?? null
 );
 
+/** The scenario as it was loaded; null without one, and for one that cannot be read, which is not loaded. */
+const loaded = computed(() => {
+  const document = scenario.value?.document;
+  try {
+    return document ? partsOfDrive(document, null) : null;
+  } catch {
+    return null;
+  }
+});
+
 const start = defaultTransient().drive;
 /** What fields are compared with and reset to: the scenario as it was loaded, else the default drive.
  * @type {import("../../reactive.js").Signal<Drive>} */
-export const baseDrive = computed(() => {
-  const document = scenario.value?.document;
-  try {
-    if (document) return /** @type {Drive} */ (partsOfDrive(document, null).transient.drive);
-  } catch {
-    // a scenario that cannot be read is not loaded either
-  }
-  return start;
-});
+export const baseDrive = computed(() => loaded.value?.transient.drive ?? start);
 
 /** @param {string} id */
 export function useScenario(id) {
@@ -156,6 +158,20 @@ export function useScenario(id) {
     status.value = `“${chosen.title}” cannot be opened: ${/** @type {Error} */ (error).message}.`;
   }
 }
+
+/** Whether muscle, effects and drive are still those of the scenario; its words hold for no other. */
+export const untouched = computed(() => {
+  if (!loaded.value) return true;
+  const { muscle, effects, transient: part } = loaded.value;
+  const opened = driveDocument({ ...transient.value, ...part }, muscleInput(muscle), effects);
+  return sorted(opened) === sorted(documentNow());
+});
+/** A document as a text in which the order of its keys does not matter. @param {Drive} document */
+const sorted = (document) =>
+  JSON.stringify(
+    document,
+    (_, part) => isObject(part) ? Object.fromEntries(Object.entries(part).sort()) : part,
+  );
 
 // ---- the run
 

@@ -2,7 +2,7 @@
 // "What is missing": the verdict is this list. Entries that may be wrong come first, then the effects in the order of
 // the joint proposal, then everything else that was tried.
 import { waitingWords } from "../../../server/waiting.js";
-import { h } from "../../../dom.js";
+import { h, icon } from "../../../dom.js";
 import { effect } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { answer, brush, diagnosis, diagnosisError, lookCompare, progress, stage, stale } from "../answers.js";
@@ -15,7 +15,7 @@ import { kept, remaining } from "./kept.js";
 import { addAll, entries, refits, soFar } from "./plan.js";
 import { overWhat } from "./sketch.js";
 import { insideOf } from "./selection.js";
-import { share, state } from "./state.js";
+import { share, state, unfinished } from "./state.js";
 import { triedFold, triedText } from "./tried.js";
 import { unknown } from "./unknown.js";
 
@@ -132,6 +132,15 @@ function expected() {
 /** @param {string} words */
 const quiet = (words) => h("p", { class: "list-part muted" }, words);
 
+/** What the limit of time left untried. */
+const unfinishedLine = () =>
+  h(
+    "p",
+    { class: "list-part flag note", id: "unfinished" },
+    icon("info"),
+    h("span", null, h("b", null, "Not finished. "), diagnosis.value?.verdict.sentence ?? ""),
+  );
+
 function body() {
   const result = diagnosis.value;
   switch (state.value) {
@@ -156,7 +165,9 @@ function body() {
     case "stopped": {
       const best = soFar.value;
       return [
-        quiet("The diagnosis was stopped before all effects were tried."),
+        unfinished.value
+          ? unfinishedLine()
+          : quiet("The diagnosis was stopped before all effects were tried."),
         best ? soFarRow(best) : null,
       ];
     }
@@ -166,6 +177,7 @@ function body() {
       return result && [
         contextLine(),
         h("p", { class: "unseen", id: "verdict-status" }, result.verdict.title),
+        unfinished.value ? unfinishedLine() : null,
         question(),
         key(),
         refits.value ? refitRow(refits.value, result.baseline.rmse, noise()) : null,
@@ -203,7 +215,7 @@ const aside = () => {
   if (state.value === "context") return "entries first";
   if (state.value === "verdict" && result) {
     const n = entries.value.length;
-    return `${n} effect${n === 1 ? "" : "s"} of ${triedText()}`;
+    return `${n} effect${n === 1 ? "" : "s"} of ${triedText()}${unfinished.value ? " · not finished" : ""}`;
   }
   return triedText();
 };

@@ -5,7 +5,8 @@ import { chosen, compare, diagnosis, fault, files, progress, stage } from "../an
 import { asked } from "./context.js";
 import { entries, refits } from "./plan.js";
 
-/** `idle`: no file is used for the fit; `stopped`: the user ended the diagnosis; `context`: an entry may be wrong;
+/** `idle`: no file is used for the fit; `stopped`: the user ended the diagnosis, or the limit of time before anything
+ * helped; `context`: an entry may be wrong;
  * `verdict`: effects are missing; `unknown`: none of the catalogue helps.
  * @typedef {"empty" | "idle" | "fault" | "comparing" | "running" | "stopped" | "failed" | "context" | "verdict" |
  *   "adequate" | "unknown"} Case */
@@ -22,6 +23,7 @@ export const state = computed(() => {
   if (stage.value === "failed" || !result) return "failed";
   if (asked(result).length) return "context";
   const { status } = result.verdict;
+  if (status === "unfinished" && !entries.value.length && !refits.value) return "stopped";
   if (entries.value.length || (refits.value && status !== "unknown_effect")) return "verdict";
   return status === "adequate" ? "adequate" : "unknown";
 });
@@ -46,6 +48,9 @@ export const openSteps = computed(() => {
     return twins.length > 1 && chosen ? [{ index, group: twins, chosen, tells }] : [];
   });
 });
+
+/** Whether the diagnosis on the page was ended by its limit of time: what it shows was found until then. */
+export const unfinished = computed(() => diagnosis.value?.verdict.status === "unfinished");
 
 /** How far the diagnosis is, 0 to 1. */
 export const share = computed(() => progress.value.share);

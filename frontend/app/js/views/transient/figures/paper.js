@@ -1,12 +1,9 @@
 // @ts-check
 // The figures the paper prints for a scenario beside those of the run, and why some are not compared.
 import { h, icon } from "../../../dom.js";
-import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { brief, scaleOf, toShown } from "../../../format.js";
-import { partsOfDrive } from "../../../drive/document.js";
-import { at } from "../../../paths.js";
-import { drive, run, scenario } from "../model.js";
+import { run, scenario, untouched } from "../model.js";
 import { figureName, figureOf, TIMING } from "./timing.js";
 import { siNumber } from "../../../quantities.js";
 
@@ -19,16 +16,6 @@ const signed = (percent) =>
 
 /** @returns {Paper | null} */
 const paper = () => /** @type {any} */ (scenario.value)?.paper ?? null;
-
-/** Whether the drive is still that of the scenario. */
-const untouched = computed(() => {
-  const document = scenario.value?.document;
-  if (!document) return true;
-  const part = /** @type {any} */ (partsOfDrive(/** @type {any} */ (document), null).transient.drive);
-  const same = (/** @type {string} */ key) =>
-    JSON.stringify(at(drive.value, key)) === JSON.stringify(part[key]);
-  return Object.keys(part).every(same);
-});
 
 function rows() {
   const printed = paper(), r = run.value, system = units.value;

@@ -21,6 +21,7 @@ import {
   scenario,
   scenarios,
   transient,
+  untouched,
   useScenario,
 } from "../model.js";
 import { airCard } from "./air.js";
@@ -44,10 +45,19 @@ function scenarioField() {
         scenarios.value.length ? "Own drive" : "No scenarios on this server",
       ),
       ...scenarios.value.map((s) =>
-        h("option", { value: s.id, selected: s.id === transient.value.scenario }, s.title)
+        h(
+          "option",
+          { value: s.id, selected: s.id === transient.value.scenario },
+          s === scenario.value && !untouched.value ? `Changed from: ${s.title}` : s.title,
+        )
       ),
     ]),
-    () => scenario.value?.description ? h("p", { class: "hint" }, scenario.value.description) : null,
+    () => {
+      const words = untouched.value
+        ? scenario.value?.description
+        : "The drive below is no longer that of the scenario.";
+      return words ? h("p", { class: "hint" }, words) : null;
+    },
     () =>
       scenario.value
         ? h(
