@@ -42,6 +42,11 @@ def _section(title: str, *figures: Figure) -> tuple[Figure, ...]:
 _MOTION = _section(
     "Motion",
     Figure(
+        "stroke", "S", "m", "Stroke of the phase",
+        "Position at the end of the phase minus position at its start, in the direction of the phase; the "
+        "demanded stroke where one is demanded.", _MOVES,
+    ),
+    Figure(
         "positioning_time", "t_pos", "s", "Positioning time",
         "Time of the impact on the stop that ends the stroke; without an impact first time at s = 0.95 S.",
         _ARRIVES, quantity="lapse",

@@ -103,6 +103,7 @@ def test_constant_acceleration_up_to_a_stop(uneven):
     def at(share: float) -> float:
         return np.sqrt(2.0 * share * stop / a)
 
+    assert figures.stroke == pytest.approx(stop, rel=1e-9)
     assert figures.positioning_time == pytest.approx(delay + at(1.0), abs=1e-6)
     assert figures.rise_time == pytest.approx(at(0.9) - at(0.1), abs=1e-6)
     assert figures.delay_time == pytest.approx(delay + at(0.5), abs=1e-6)

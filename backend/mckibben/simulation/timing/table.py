@@ -26,6 +26,9 @@ from mckibben.physics.gas import ANR_DENSITY
 from mckibben.simulation.command.segments import Interval
 from mckibben.simulation.timing.trace import Trace
 
+# Figures that need an arrival.
+_TIMED = ("positioning_time", "rise_time", "delay_time", "settling_time", "average_speed")
+
 #: Travel [m] and pressure change [Pa] below these count as none.
 SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0
 PRESSURE_BAND = 0.01
@@ -46,6 +49,7 @@ class PhaseFigures:
 
     FIGURES: ClassVar = TIMING.name
 
+    stroke: float | None = None
     positioning_time: float | None = None
     rise_time: float | None = None
     delay_time: float | None = None
@@ -154,7 +158,11 @@ class _Phase:
         notes: dict[str, str] = {}
         impact = self._impact()
         self._extremes(figures, notes, impact)
-        stroke, timed = self.stroke, MOTION_FIGURES[:5]
+        stroke, timed = (
+            self.stroke,
+            ("positioning_time", "rise_time", "delay_time", "settling_time", "average_speed"),
+        )
+        figures["stroke"] = stroke
         if not stroke >= SMALLEST_STROKE:
             why = (
                 f"the phase ends {-1e3 * stroke:.3g} mm behind its start"
