@@ -121,6 +121,6 @@ def test_a_joint_prints_its_stiffness(run: Run) -> None:
     code, out, _ = run("simulate", "joint-20")
     assert code == 0
     table = out.split("Joint\n")[-1]
-    assert "rms error of the stiffness" in table
+    assert "RMS error of the joint stiffness" in table
     (at_end,) = [line for line in table.splitlines() if "stiffness at the end" in line]
     assert float(at_end.split()[-2]) == pytest.approx(22.0, rel=0.02)

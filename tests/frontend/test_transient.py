@@ -307,7 +307,7 @@ def test_rebound_and_start_position(page: Page) -> None:
     assert min(run(page, speeds)) > -1e-6  # filling: the load stays on the upper stop
     drive = asked_drive(page, lambda: enter(page, "Rebound", "50 %"))
     assert drive["stops"]["restitution"] == 0.5
-    end = figure(page, "End speed")
+    end = figure(page, "Speed on arrival")
     assert end
     page.wait_for_function(  # Plotly has the data of a plot once its lines have been moved
         """() => document.querySelector("#run-speed .canvas").data[0].y.some((v, i) => i < 200 && v < 0)"""

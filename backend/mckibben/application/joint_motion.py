@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 
 from mckibben.facts.result import Series, result_class
+from mckibben.facts.run import JOINT
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.simulation.drive.transient import Run
 
@@ -15,32 +18,21 @@ Array = np.ndarray
 class JointMotion:
     """The pulley of an antagonist pair, and its second muscle."""
 
+    FIGURES: ClassVar = JOINT.name
+
     angle: Series
-    """Pulley angle from the middle [rad], positive as the first muscle pulls."""
     torque: Series
-    """Torque of both muscles on the pulley [N*m]."""
     stiffness: Series
-    """Stiffness of the joint at constant pressures [N*m/rad]."""
     counter_force: Series
-    """Tension of the second muscle [N]."""
     counter_pressure: Series
-    """Pressure in the second muscle [Pa]."""
     counter_command: Series
-    """Command of the second valve or regulator [-]."""
     counter_mass_flow: Series
-    """Mass flow into the second muscle [kg/s]."""
     counter_supply_flow: Series
-    """Mass flow from the supply to the second muscle [kg/s]."""
     counter_exhaust_flow: Series
-    """Mass flow from the second muscle to the atmosphere [kg/s]."""
     counter_diameter: Series
-    """Braid diameter of the second muscle at mid-span [m]."""
     angle_reference: Series | None
-    """Set point of the angle [rad]; None without a controller."""
     stiffness_reference: Series | None
-    """Set point of the stiffness [N*m/rad]; None where the stiffness is not controlled."""
     stiffness_error: float | None
-    """Root mean square of stiffness minus set point over the rows [N*m/rad]; None without one."""
 
 
 def joint_of(run: Run, rows: Array) -> JointMotion | None:
@@ -48,21 +40,13 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
     drive = run.drive
     if drive.pulley_radius is None:
         return None
-    radius, rest = drive.pulley_radius, drive.muscle.nominal_length
-    stroke = run.states["stroke"][rows]
-    pressures = [
-        run.states[name][rows] - drive.ambient_pressure for name in ("pressure", f"pressure{COUNTER}")
-    ]
-    middle = rest * (1.0 - drive.precontraction)
-    stiffness = np.zeros(len(rows))
-    for sense, pressure in zip((1.0, -1.0), pressures, strict=True):
-        seen = drive.model.outputs(
-            length=middle - sense * stroke, pressure=pressure, temperature=drive.temperature
-        )
-        stiffness += np.where(seen["tension"] > 0.0, seen["tension_by_length"], 0.0)
+    radius = drive.pulley_radius
     counter = run.outputs[f"force{COUNTER}"][rows]
-    wanted = None if drive.stiffness is None else np.asarray(drive.stiffness.reference.value(run.time))[rows]
-    error = None if wanted is None else float(np.sqrt(np.mean((radius**2 * stiffness - wanted) ** 2)))
+    wanted = None if drive.stiffness is None else np.asarray(drive.stiffness.reference.value(run.time))
+    error = None
+    if wanted is not None and len(run.time) > 1:
+        square = (_stiffness(run, slice(None)) - wanted) ** 2
+        error = float(np.sqrt(np.trapezoid(square, run.time) / np.ptp(run.time)))
     flows = (run.outputs[f"{name}_flow{COUNTER}"][rows] for name in ("mass", "supply", "exhaust"))
     if run.counter_command is not None:
         command = run.counter_command.value(run.time)[rows]
@@ -71,11 +55,11 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         command = 2.0 * drive.common_command - np.asarray(own.value(run.time))[rows]
     inflow, supplied, vented = flows
     return JointMotion(
-        angle=stroke / radius,
+        angle=run.states["stroke"][rows] / radius,
         torque=radius * (run.outputs["force"][rows] - counter),
-        stiffness=radius**2 * stiffness,
+        stiffness=_stiffness(run, rows),
         counter_force=counter,
-        counter_pressure=pressures[1],
+        counter_pressure=run.states[f"pressure{COUNTER}"][rows] - drive.ambient_pressure,
         counter_command=command,
         counter_mass_flow=inflow,
         counter_supply_flow=supplied,
@@ -84,6 +68,22 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         angle_reference=None
         if drive.reference is None
         else np.asarray(drive.reference.value(run.time))[rows] / radius,
-        stiffness_reference=wanted,
+        stiffness_reference=None if wanted is None else wanted[rows],
         stiffness_error=error,
     )
+
+
+def _stiffness(run: Run, rows: Array | slice) -> Array:
+    """Stiffness of the joint at constant pressures [N m/rad]."""
+    drive = run.drive
+    stroke = run.states["stroke"][rows]
+    middle = drive.muscle.nominal_length * (1.0 - drive.precontraction)
+    total = np.zeros(len(stroke))
+    for sense, name in ((1.0, "pressure"), (-1.0, f"pressure{COUNTER}")):
+        seen = drive.model.outputs(
+            length=middle - sense * stroke,
+            pressure=run.states[name][rows] - drive.ambient_pressure,
+            temperature=drive.temperature,
+        )
+        total += np.where(seen["tension"] > 0.0, seen["tension_by_length"], 0.0)
+    return (drive.pulley_radius or 0.0) ** 2 * total

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -30,7 +30,9 @@ from mckibben.application.operating_limits import (
 from mckibben.application.prediction_interval import PositionInterval
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.facts.result import Booleans, FiniteSeries, Series, result_class
+from mckibben.facts.run import RUN
 from mckibben.physics.errors import InputError
+from mckibben.physics.gas import ANR_DENSITY
 from mckibben.physics.model import Model
 from mckibben.simulation.drive.transient import Run
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
@@ -113,46 +115,28 @@ class DriveBounds(MakerLimits):
 class SimulationResult:
     """Columns over time, SI; pressures gauge, positions positive = muscle shorter."""
 
+    FIGURES: ClassVar = RUN.name
+
     time: FiniteSeries
-    """Instants of the rows [s]; fewer than requested if the run ended early."""
     position: Series
-    """Stroke of the load [m]."""
     velocity: Series
-    """Velocity of the load [m/s], positive towards shorter."""
     acceleration: Series
-    """Acceleration of the load [m/s^2], positive towards shorter."""
     pressure: Series
-    """Pressure in the muscle [Pa]."""
     force: Series
-    """Tension of the muscle [N]."""
     mass_flow: Series
-    """Mass flow into the muscle [kg/s]."""
     command: Series
-    """Command before dead times [-]."""
     opening: Series
-    """Opening of the valve after all effects [-]."""
     reference: Series | None
-    """Set point of the controller [m], None without one."""
     supply_flow: Series
-    """Mass flow from the supply [kg/s]."""
     exhaust_flow: Series
-    """Mass flow to the atmosphere [kg/s]."""
     tube_pressure: Series | None
-    """Pressure in the tube [Pa], if there is one."""
     regulator_pressure: Series | None
-    """Set point of the regulator after its lag [Pa], if there is one."""
     volume: Series
-    """Gas volume of the muscle with all dead volumes [m^3]."""
     diameter: Series
-    """Braid diameter at mid-span [m]."""
     length: Series
-    """Length of the muscle [m]."""
     contraction: Series
-    """Contraction ratio of the muscle [-]."""
     load_force: Series
-    """External force on the load [N]."""
     temperature: Series
-    """Temperature of the gas in the muscle [K]."""
     contact: Booleans
     """Whether the load rests on an end stop."""
     slack: Booleans
@@ -194,7 +178,7 @@ class SimulationResult:
     model: EffectSettings
     """The effects used, with all their values."""
     duration: float
-    """Duration of the whole run [s]."""
+    supplied_volume_anr: float | None
 
 
 def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]:
@@ -307,6 +291,7 @@ def result_of(
         geometry=geometry_of(annotated.start),
         model=EffectSettings(drive.model.values),
         duration=drive.duration,
+        supplied_volume_anr=None if trace is None else float(np.ptp(trace.supplied)) / ANR_DENSITY,
     )
 
 

@@ -6,10 +6,13 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from mckibben.facts.figure import Figure, Group
+from mckibben.facts.run import JOINT, RUN, STEP, TRACKING
 from mckibben.facts.timing import TIMING
 
 #: Name of a group -> its figures.
-GROUPS: Mapping[str, Group] = MappingProxyType({group.name: group for group in (TIMING,)})
+GROUPS: Mapping[str, Group] = MappingProxyType(
+    {group.name: group for group in (TIMING, RUN, TRACKING, STEP, JOINT)}
+)
 
 #: Key -> figure: "timing.rise_time".
 FIGURES: Mapping[str, Figure] = MappingProxyType(

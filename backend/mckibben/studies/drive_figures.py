@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
+from mckibben.facts.run import RUN, TRACKING
 from mckibben.facts.timing import TIMING
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.simulation.drive.transient import Run
@@ -13,8 +14,7 @@ from mckibben.simulation.timing.of_run import timing_of, trace_of, tracking_of
 from mckibben.simulation.timing.trace import Trace
 from mckibben.studies.table import Figure
 
-_COLUMNS = {"position": "m", "velocity": "m/s", "acceleration": "m/s^2", "pressure": "Pa", "force": "N"}
-_TRACKING = {"rms": "m", "max": "m", "lag": "s"}
+_COLUMNS = ("position", "velocity", "acceleration", "pressure", "force")
 _PICKS = {"largest": np.max, "smallest": np.min, "last": lambda column: column[-1]}
 
 #: Path -> SI unit: the timing table, tracking of a reference, and extremes and last values of columns.
@@ -24,8 +24,8 @@ DRIVE_FIGURES: dict[str, str] = {
         for phase in ("extend", "retract")
         for figure in TIMING.values()
     },
-    **{f"tracking.{name}": unit for name, unit in _TRACKING.items()},
-    **{f"{pick}.{name}": unit for pick in _PICKS for name, unit in _COLUMNS.items()},
+    **{figure.key: figure.unit for figure in TRACKING.values()},
+    **{f"{pick}.{name}": RUN[name].unit for pick in _PICKS for name in _COLUMNS},
 }
 
 

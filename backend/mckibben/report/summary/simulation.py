@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import pi
 
 from mckibben.application.simulate import SimulationResult
+from mckibben.facts.run import JOINT, TRACKING
 from mckibben.facts.timing import PHASES, PRESSURE_FIGURES, TIMING
 from mckibben.facts.units import Scale
 from mckibben.report.summary.parts import Summary, Table, figure
@@ -68,12 +69,8 @@ def _tracking(result: SimulationResult) -> list[Table]:
     follows = result.tracking
     if follows is None:
         return []
-    rows = [
-        ["rms error", figure(follows.rms * 1e3, unit=" mm")],
-        ["largest error", figure(follows.max * 1e3, unit=" mm")],
-        ["lag", figure(_times(follows.lag, 1e3), unit=" ms")],
-    ]
-    return [Table("Following the reference", ["", ""], rows)]
+    rows = [[each.label, _shown(getattr(follows, name), each.scale)] for name, each in TRACKING.items()]
+    return [Table(TRACKING.title, ["", ""], rows)]
 
 
 def _joint(result: SimulationResult) -> list[Table]:
@@ -83,17 +80,14 @@ def _joint(result: SimulationResult) -> list[Table]:
         return []
     degrees = 180.0 / pi
     rows = [
-        ["angle at the end", figure(float(joint.angle[-1]) * degrees, unit="°")],
-        ["stiffness at the end", figure(float(joint.stiffness[-1]), unit=" N·m/rad")],
+        ["Angle at the end", figure(float(joint.angle[-1]) * degrees, unit="°")],
+        ["Stiffness at the end", figure(float(joint.stiffness[-1]), unit=" N·m/rad")],
         [
-            "pressures at the end",
+            "Pressures at the end",
             f"{result.pressure[-1] / 1e5:.3g} and {joint.counter_pressure[-1] / 1e5:.3g} bar",
         ],
     ]
     if joint.stiffness_error is not None:
-        rows.append(["rms error of the stiffness", figure(joint.stiffness_error, unit=" N·m/rad")])
+        each = JOINT["stiffness_error"]
+        rows.append([each.label, _shown(joint.stiffness_error, each.scale)])
     return [Table("Joint", ["", ""], rows)]
-
-
-def _times(value: float | None, factor: float) -> float | None:
-    return None if value is None else value * factor

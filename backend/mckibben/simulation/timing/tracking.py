@@ -2,10 +2,13 @@
 
 from __future__ import annotations
 
+from typing import ClassVar
+
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from mckibben.facts.result import result_class
+from mckibben.facts.run import STEP, TRACKING
 
 Array = NDArray[np.float64]
 
@@ -17,24 +20,22 @@ _PEAK_MARGIN = 1e-3
 class StepOvershoot:
     """A step of the reference: when [s], its signed height [m], overshoot as a share of it."""
 
+    FIGURES: ClassVar = STEP.name
+
     time: float
-    """When [s]."""
     size: float
-    """Signed height of the step [m]."""
     overshoot: float
-    """Overshoot as a share of the height [-]."""
 
 
 @result_class
 class Tracking:
     """Figures of `tracking`; ``notes`` says why a figure is None."""
 
+    FIGURES: ClassVar = TRACKING.name
+
     rms: float
-    """Root mean square of the error over time [m]."""
     max: float
-    """Largest error [m]."""
     lag: float | None
-    """Delay with the best correlation [s]; None if none fits."""
     overshoot: list[StepOvershoot]
     """Every step of the reference."""
     notes: dict[str, str]

@@ -1,63 +1,50 @@
 // @ts-check
 // Results of a run: verdict, key figures, tracking, timing.
 import { h, icon } from "../../../dom.js";
+import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
 import { brief, readable, withUnit } from "../../../format.js";
 import { jointCard } from "../plots/joint.js";
-import { fault, roundTrip, run, timeWindow } from "../model.js";
+import { fault, roundTrip, run } from "../model.js";
 import { paperCard } from "./paper.js";
 import { lapse, reasons, timingTable } from "./timing.js";
 
+/** @typedef {import("../../../format.js").Quantity} Quantity */
 /** @typedef {import("../../../types.js").Run} Run */
 
-/** @param {string} name @param {string} value @param {string} [title] */
-const big = (name, value, title) =>
-  h("div", { class: "big", title: title ?? null }, h("span", null, name), h("b", { class: "num" }, value));
-
-const ANR_DENSITY = 1.185; // kg/m³ at 20 °C, 100 kPa, 65 % humidity
-
-/** Air taken from the supply in the time shown [m³ ANR]. @param {Run} r */
-const airOf = ({ time, supply_flow: flow }) =>
-  time.reduce(
-    (sum, t, i) => i ? sum + 0.5 * (t - time[i - 1]) * ((flow[i] ?? 0) + (flow[i - 1] ?? 0)) : 0,
-    0,
-  ) / ANR_DENSITY;
+/** A key figure by its declaration. @param {string} key @param {number | null | undefined} value @param {string} [note] */
+function big(key, value, note) {
+  const { label, definition, quantity, otherwise } = figure(key);
+  const shown = quantity === "lapse"
+    ? lapse(value ?? null)
+    : withUnit(value, /** @type {Quantity} */ (quantity), units.value);
+  return h(
+    "div",
+    { class: "big", title: `${definition} ${note ?? (value == null ? otherwise : "")}`.trim() },
+    h("span", null, label),
+    h("b", { class: "num" }, shown),
+  );
+}
 
 /** The most important figures. @param {Run} r */
 function keyFigures(r) {
-  const system = units.value, { extend } = r.timing;
-  const first = r.tracking
-    ? [
-      big("Error, RMS", withUnit(r.tracking.rms, "length", system)),
-      big("Lag", r.tracking.lag === null ? "–" : lapse(r.tracking.lag), r.tracking.notes.lag),
-    ]
-    : [
-      big("Positioning", lapse(extend.positioning_time), r.timing.notes["extend.positioning_time"]),
-      big("Largest speed", withUnit(extend.max_speed, "speed", system), r.timing.notes["extend.max_speed"]),
-    ];
+  const { tracking, timing: { extend, notes } } = r;
+  const timed = (/** @type {import("../../../types.js").PhaseFigure} */ name) =>
+    big(`timing.${name}`, extend[name], notes[`extend.${name}`]);
+  const air = tracking || extend.air_volume_anr == null
+    ? big("run.supplied_volume_anr", r.supplied_volume_anr)
+    : timed("air_volume_anr");
   return h(
     "div",
     { class: "bigs", id: "key-figures" },
-    ...first,
-    r.tracking ? big("Largest error", withUnit(r.tracking.max, "length", system)) : big(
-      "Impact",
-      withUnit(extend.impact_energy, "energy", system),
-      r.timing.notes["extend.impact_energy"],
-    ),
-    r.tracking || extend.air_volume_anr == null
-      ? big(
-        timeWindow.value ? "Air in the window" : "Air of the run",
-        withUnit(airOf(r), "normal", system),
-        `Taken from the supply ${timeWindow.value ? "in the time shown" : "over the whole run"}, at ANR`,
-      )
-      : big(
-        "Air per cycle",
-        withUnit(extend.air_volume_anr, "normal", system),
-        [
-          "Taken from the supply for one filling, with the tube, at ANR.",
-          r.timing.notes["extend.air_volume_anr"] ?? r.timing.notes["extend.air_mass"],
-        ].filter(Boolean).join(" "),
-      ),
+    ...(tracking
+      ? [
+        big("tracking.rms", tracking.rms),
+        big("tracking.lag", tracking.lag, tracking.notes.lag),
+        big("tracking.max", tracking.max),
+      ]
+      : [timed("positioning_time"), timed("max_speed"), timed("impact_energy")]),
+    air,
   );
 }
 
@@ -131,6 +118,12 @@ function conditions() {
     `${reason}. Air: ${r.gas}.`;
 }
 
+/** @param {string} key */
+function named(key) {
+  const { label, definition } = figure(key);
+  return h("dt", { title: definition }, label);
+}
+
 function tracking() {
   const t = run.value?.tracking;
   if (!t) return null;
@@ -142,11 +135,11 @@ function tracking() {
     h(
       "dl",
       null,
-      h("dt", { title: "Root mean square of reference minus position over time." }, "Error, RMS"),
+      named("tracking.rms"),
       h("dd", null, withUnit(t.rms, "length", system)),
-      h("dt", null, "Largest error"),
+      named("tracking.max"),
       h("dd", null, withUnit(t.max, "length", system)),
-      h("dt", { title: "Delay of the reference that fits the position best." }, "Lag"),
+      named("tracking.lag"),
       h("dd", { title: t.notes.lag ?? null }, t.lag === null ? `– ${t.notes.lag ?? ""}` : lapse(t.lag)),
     ),
     t.overshoot.length

@@ -1,5 +1,6 @@
 // @ts-check
 // The rows of the table of pinned runs: different inputs, and figures with their change from the baseline.
+import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
 import {
@@ -104,9 +105,9 @@ export function inputRows(all) {
 
 /** @type {Compared[]} */
 const TRACKING = [
-  { label: "Error, RMS", quantity: "length", of: (r) => r.tracking?.rms ?? null },
-  { label: "Largest error", quantity: "length", of: (r) => r.tracking?.max ?? null },
-  { label: "Lag", quantity: "lapse", of: (r) => r.tracking?.lag ?? null },
+  { label: figure("tracking.rms").label, quantity: "length", of: (r) => r.tracking?.rms ?? null },
+  { label: figure("tracking.max").label, quantity: "length", of: (r) => r.tracking?.max ?? null },
+  { label: figure("tracking.lag").label, quantity: "lapse", of: (r) => r.tracking?.lag ?? null },
 ];
 
 /** Figures of the pulley, for the time shown. @returns {Compared[]} */

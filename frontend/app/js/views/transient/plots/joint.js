@@ -1,6 +1,7 @@
 // @ts-check
 // The pulley of an antagonist pair: plots, values at the cursor, card.
 import { h } from "../../../dom.js";
+import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
 import { brief, scaleOf, toShown, withUnit } from "../../../format.js";
 import { extent } from "../../../plots/axes.js";
@@ -15,11 +16,12 @@ import { overTime, pinLines } from "./specs.js";
 /** @typedef {"angle" | "torque" | "stiffness"} Column */
 
 /** @type {Record<Column, {title: string, quantity: Quantity}>} */
-export const JOINT = {
-  angle: { title: "Angle", quantity: "angle" },
-  torque: { title: "Torque", quantity: "torque" },
-  stiffness: { title: "Joint stiffness", quantity: "rotary" },
-};
+export const JOINT = /** @type {Record<Column, {title: string, quantity: Quantity}>} */ (Object.fromEntries(
+  ["angle", "torque", "stiffness"].map((key) => {
+    const { label, quantity } = figure(`joint.${key}`);
+    return [key, { title: label, quantity }];
+  }),
+));
 
 /** The set point of a column, where it is controlled. @param {View} v @param {Palette} p @param {Column} key
  * @returns {import("./specs.js").Line[]} */
@@ -90,10 +92,10 @@ export function jointCard() {
       "p",
       { class: "hint" },
       joint.stiffness_error == null
-        ? "Stiffness at constant pressures. The air consumption is that of the first muscle only."
+        ? "Stiffness at constant pressures. The plotted air flow is that of the first muscle; the air in the table of both."
         : `Stiffness at constant pressures; it misses its set point by ${
           withUnit(joint.stiffness_error, "rotary", units.value)
-        } rms. The air consumption is that of the first muscle only.`,
+        } rms. The plotted air flow is that of the first muscle; the air in the table of both.`,
     ),
   );
 }

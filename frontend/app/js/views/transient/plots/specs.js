@@ -1,5 +1,6 @@
 // @ts-check
 // What each plot over time shows: lines, bands and marks in the user's units. Pure functions.
+import { figure } from "../../../facts.js";
 import { axisTitle, extent, shown, steadyRange } from "../../../plots/axes.js";
 import { scaleOf } from "../../../format.js";
 import { intervals, measuredColumn, resampled, withoutImpacts } from "../series.js";
@@ -146,7 +147,7 @@ export function positionSpec(v, p) {
   lines.push({ id: "position", name: "position", values: run.position, color: p.accent });
   return overTime(v, p, {
     key: "position",
-    title: "Position",
+    title: figure("run.position").label,
     quantity: "length",
     lines,
     dots: measuredColumn(v.measured, v.window, ["displacement", "position"]),
@@ -200,7 +201,7 @@ export function pressureSpec(v, p) {
   });
   return overTime(v, p, {
     key: "pressure",
-    title: "Pressure",
+    title: figure("run.pressure").label,
     quantity: "pressure",
     lines,
     dots: measuredColumn(v.measured, v.window, ["pressure"]),
@@ -212,7 +213,7 @@ export function pressureSpec(v, p) {
 export const speedSpec = (v, p) =>
   overTime(v, p, {
     key: "speed",
-    title: "Speed",
+    title: figure("run.velocity").label,
     quantity: "speed",
     lines: [{ id: "velocity", name: "speed", values: v.run.velocity, color: p.accent }],
     dots: measuredColumn(v.measured, v.window, ["velocity"]),
@@ -225,7 +226,7 @@ export function accelerationSpec(v, p) {
   const { run } = v, free = withoutImpacts(run, run.acceleration);
   return overTime(v, p, {
     key: "acceleration",
-    title: "Acceleration",
+    title: figure("run.acceleration").label,
     quantity: "acceleration",
     lines: [{ id: "acceleration", name: "acceleration", values: run.acceleration, color: p.accent }],
     within: [free.some((a) => a != null) ? free : run.acceleration],
@@ -260,7 +261,13 @@ export function lowerSpec(v, p) {
       { id: "flow", name: run.joint ? "muscle 1" : "muscle", values: run.mass_flow, color: p.accent },
     ];
     if (run.joint) lines.push(second(p, run.joint.counter_mass_flow));
-    return overTime(v, p, { key: lower, title: "Mass flow", quantity: "flow", lines, zero: true });
+    return overTime(v, p, {
+      key: lower,
+      title: figure("run.mass_flow").label,
+      quantity: "flow",
+      lines,
+      zero: true,
+    });
   }
   if (lower === "force") {
     const name = run.joint ? "muscle 1" : "force of the muscle";
@@ -279,7 +286,7 @@ export function lowerSpec(v, p) {
     }
     return overTime(v, p, {
       key: lower,
-      title: "Force",
+      title: figure("run.force").label,
       quantity: "force",
       lines,
       dots: measuredColumn(v.measured, v.window, ["force"]),

@@ -1,0 +1,165 @@
+"""Figures of a run over time: its columns, how a reference is followed, the joint of a pair, the air."""
+
+from __future__ import annotations
+
+from mckibben.facts.figure import Condition, Figure, Group
+
+_CONTROLLED = Condition("a controller follows a reference", "there is no reference to follow")
+_LAGGED = Condition(
+    "reference and position change, and a shift of at most a quarter of the run correlates them",
+    "no lag fits",
+)
+_STEPS = Condition(
+    "the reference jumps between constant levels", "the reference has no jump between constant levels"
+)
+_TUBE = Condition("there is a tube", "there is no tube")
+_REGULATOR = Condition("there is a proportional pressure regulator", "there is no regulator")
+_STIFFNESS = Condition("the stiffness is controlled", "the stiffness is not controlled")
+
+#: Columns over time, and what is said of the whole run.
+RUN = Group(
+    "run",
+    "Run",
+    Figure("time", "t", "s", "Time", "Time from the start of the run."),
+    Figure(
+        "position", "x", "m", "Position",
+        "Position of the load, positive towards a shorter muscle; 0 at the nominal length, of a pair in the"
+        " middle.",
+    ),
+    Figure("velocity", "v", "m/s", "Velocity", "dx/dt of the load, positive towards a shorter muscle."),
+    Figure(
+        "acceleration", "a", "m/s^2", "Acceleration",
+        "d²x/dt² of the load, positive towards a shorter muscle.",
+    ),
+    Figure("pressure", "p", "Pa", "Pressure", "Gauge pressure in the muscle; of a pair in the first one."),
+    Figure("force", "F", "N", "Force", "Tension of the muscle; of a pair of the first one."),
+    Figure(
+        "mass_flow", "ṁ", "kg/s", "Air flow",
+        "Mass flow of air into the muscle, negative out of it; of a pair of the first one.",
+    ),
+    Figure(
+        "command", "u", "1", "Command", "Command before dead times: 1 fill, 0 closed, −1 vent.",
+        quantity="number",
+    ),
+    Figure("opening", "", "1", "Opening", "Opening of the valve after all effects.", quantity="number"),
+    Figure("reference", "r", "m", "Reference", "Set point of the position.", _CONTROLLED),
+    Figure(
+        "supply_flow", "", "kg/s", "Flow from the supply",
+        "Mass flow from the supply; of a pair to the first muscle.",
+    ),
+    Figure(
+        "exhaust_flow", "", "kg/s", "Flow to the atmosphere",
+        "Mass flow to the atmosphere; of a pair from the first muscle.",
+    ),
+    Figure("tube_pressure", "", "Pa", "Pressure in the tube", "Gauge pressure in the tube.", _TUBE),
+    Figure(
+        "regulator_pressure", "", "Pa", "Set point of the regulator",
+        "Gauge pressure that the regulator holds, after its lag.", _REGULATOR,
+    ),
+    Figure("volume", "V", "m^3", "Gas volume", "Gas volume of the muscle with all dead volumes."),
+    Figure("diameter", "Ø", "m", "Braid diameter", "Diameter of the braid at mid-span."),
+    Figure(
+        "length", "L", "m", "Length between the fittings",
+        "Distance of the fittings; a slack muscle is longer.",
+    ),
+    Figure(
+        "contraction", "ε", "1", "Contraction", "1 − length/nominal length, by the distance of the fittings.",
+        quantity="ratio",
+    ),
+    Figure("load_force", "", "N", "External force", "Force on the load besides gravity and spring."),
+    Figure("temperature", "T", "K", "Gas temperature", "Temperature of the air in the muscle."),
+    Figure("duration", "", "s", "Duration", "Duration of the whole run."),
+    Figure(
+        "supplied_volume_anr", "V_ANR", "m^3", "Air taken from the supply (ANR)",
+        "Air that all muscles take from the supply over the whole run, with that for the tubes, as a volume"
+        " at 20 °C, "
+        "100 kPa and 65 % humidity.", quantity="normal",
+    ),
+)  # fmt: skip
+
+#: How a controlled run follows its reference.
+TRACKING = Group(
+    "tracking",
+    "Following the reference",
+    Figure(
+        "rms", "e_rms", "m", "RMS error of the position",
+        "√(1/T ∫(reference − position)² dt) over the whole run, with the transient at its start.",
+        _CONTROLLED,
+    ),
+    Figure(
+        "max", "e_max", "m", "Largest error of the position",
+        "Largest |reference − position| over the run; where the reference jumps, at least about the jump.",
+        _CONTROLLED,
+    ),
+    Figure(
+        "lag", "τ", "s", "Lag",
+        "The shift up to a quarter of the run with the largest correlation of reference(t − τ) and "
+        "position, whatever "
+        "their gain and offset.", _LAGGED, quantity="lapse",
+    ),
+)  # fmt: skip
+
+#: A jump of the reference.
+STEP = Group(
+    "step",
+    "Step of the reference",
+    Figure("time", "t", "s", "Time of the step", "First row after the jump of the reference.", _STEPS),
+    Figure("size", "Δr", "m", "Height of the step", "Signed jump of the reference.", _STEPS),
+    Figure(
+        "overshoot", "o", "1", "Overshoot of the step",
+        "Largest travel beyond the new level before the next jump, as a share of the jump.",
+        _STEPS, quantity="ratio",
+    ),
+)  # fmt: skip
+
+#: The joint of an antagonist pair, with its second muscle.
+JOINT = Group(
+    "joint",
+    "Joint",
+    Figure(
+        "angle", "φ", "rad", "Angle",
+        "Angle of the pulley from the middle, positive as the first muscle pulls.",
+    ),
+    Figure("torque", "M", "N*m", "Torque", "r (F₁ − F₂), torque of both muscles on the pulley of radius r."),
+    Figure(
+        "stiffness", "k", "N*m/rad", "Joint stiffness",
+        "r² (dF₁/dL₁ + dF₂/dL₂) at constant pressures; a slack muscle counts as 0.",
+    ),
+    Figure("counter_force", "F₂", "N", "Force of the second muscle", "Tension of the second muscle."),
+    Figure(
+        "counter_pressure",
+        "p₂", "Pa", "Pressure in the second muscle", "Gauge pressure in the second muscle.",
+    ),
+    Figure(
+        "counter_command",
+        "u₂", "1", "Command of the second muscle", "Command of the second valve or regulator.",
+        quantity="number",
+    ),
+    Figure(
+        "counter_mass_flow",
+        "", "kg/s", "Air flow of the second muscle", "Mass flow of air into the second muscle.",
+    ),
+    Figure(
+        "counter_supply_flow", "", "kg/s", "Flow from the supply to the second muscle",
+        "Mass flow from the supply to the second muscle.",
+    ),
+    Figure(
+        "counter_exhaust_flow", "", "kg/s", "Flow from the second muscle to the atmosphere",
+        "Mass flow from the second muscle to the atmosphere.",
+    ),
+    Figure(
+        "counter_diameter", "Ø₂", "m", "Braid diameter of the second muscle",
+        "Diameter of the braid of the second muscle at mid-span.",
+    ),
+    Figure("angle_reference", "", "rad", "Set point of the angle", "Set point of the angle.", _CONTROLLED),
+    Figure(
+        "stiffness_reference",
+        "", "N*m/rad", "Set point of the stiffness", "Set point of the joint stiffness.",
+        _STIFFNESS,
+    ),
+    Figure(
+        "stiffness_error", "", "N*m/rad", "RMS error of the joint stiffness",
+        "√(1/T ∫(stiffness − set point)² dt) over the whole run, with the transient at its start.",
+        _STIFFNESS,
+    ),
+)  # fmt: skip
