@@ -44,7 +44,7 @@ from mckibben.identification.diagnose.verdict import (
 )
 from mckibben.identification.diagnose.wrong_entry import WrongEntry
 from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
-from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitted_model import FittedModel, unfitted
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.fit.least_squares import FitResult, fit_report
 from mckibben.identification.predict.fit_model import FitModel
@@ -57,10 +57,12 @@ from mckibben.identification.residual.profiles import Profile, profiles, variabl
 from mckibben.identification.residual.structure import ResidualStructure
 from mckibben.identification.residual.term import Term, proposed_term
 from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Watch
 
 #: Fewest values for a diagnosis: with fewer, many single effects fit them exactly.
 FEWEST_VALUES = 6
+_STOPS = "with it the model stops before the end of a run"
 _DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 
 
@@ -185,6 +187,7 @@ def diagnose(
 
     Raises:
         CancelledError: the watch cancelled.
+        InputError: runs of the best model stop before their end.
     """
     from threadpoolctl import threadpool_limits
 
@@ -236,10 +239,7 @@ def _diagnose(
         before_fit=progress.count_fit,
         estimate=lambda fitted_model: noise_of(predictor, fitted_model.residual, noise)[0],
     )
-    start = FittedModel(
-        fit_model, (), frozenset(), predictor.weighted(predictor.residual(fit_model)),
-        np.empty((len(predictor.measured), 0)), predictor.folds,
-    )  # fmt: skip
+    start = unfitted(predictor, fit_model)
     readings = predictor.inputs.get("pressure")
     gauge_zero = None if readings is None else vented(readings, candidates)
     first = fit_model
@@ -258,11 +258,16 @@ def _diagnose(
     variables = variables_of(predictor, fit_model)
     before = traits_of(root.residual, variables)
     where = profiles(start.residual, variables, predictor.folds[0])
+
     # The most promising first: whoever follows the search sees a useful answer at once, and a first one while
     # the equations of the other effects are compiled.
+    def tell(effect: Effect, fitted_model: FittedModel) -> None:
+        if not fitted_model.lost:
+            on_candidate(single_addition(fitter, root, effect, fitted_model, before, ()))
+
     early = fitter.promising(root, [effect for effect in candidates if effect in predictor.quick])[:1]
     for effect in early:
-        on_candidate(single_addition(fitter, root, effect, fitter.adding(root, effect), before, ()))
+        tell(effect, fitter.adding(root, effect))
     promising = fitter.promising(root, candidates)[: effort.tried]
     fitted_singles, guesses = [], []
     for number, effect in enumerate(dict.fromkeys([*promising, *candidates])):
@@ -275,7 +280,9 @@ def _diagnose(
             guesses.append((effect, fitter.guessed(root, effect)))
         found = fitted_singles[-1] if number < len(promising) else guesses[-1]
         if effect not in early:
-            on_candidate(single_addition(fitter, root, *found, before, ()))
+            tell(*found)
+    not_tried += [NotTried(effect.id, _STOPS) for effect, single in fitted_singles if single.lost]
+    fitted_singles = [(effect, single) for effect, single in fitted_singles if not single.lost]
     progress.share, progress.end = 0.45, 0.85
     best = search(fitter, root, singles=[fitted_model for _, fitted_model in fitted_singles])
     fitter.noise, how = noise_of(predictor, best.residual, noise)
@@ -298,6 +305,13 @@ def _diagnose(
     path += tuple(PathStep(name, model, correction=True) for name, model in kept)
     corrections = (*likely.corrections, *corrections)
     best = kept[-1][1] if kept else lean
+    if any(step.fitted_model.lost for step in path):
+        raise InputError(
+            "no diagnosis can be made: the model stops before the end of a run with some of the effects that "
+            "the data show",
+            field="measurement",
+            hint="give the load more mass, or state more of the drive; 'compare' shows where it stops",
+        )
     fit = _final_fit(best)
     by_effect = {item.effect: item for item in likely.evidence}
     support = []
