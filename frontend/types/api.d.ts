@@ -331,6 +331,8 @@ export interface components {
       absorbed: components["schemas"]["Absorbed"][];
       /** Columns of the files that nothing is read from, and why. */
       unread: components["schemas"]["UnreadColumn"][];
+      /** Runs of the model that ended early; all figures are of the rows that they reached. */
+      stopped: components["schemas"]["StoppedRun"][];
     };
     /** A model, the measurements to compare it with, and whether to fit it. */
     ComparisonRequest: {
@@ -3874,6 +3876,21 @@ export interface components {
       kp?: number | string | null;
       /** Integral gain, 1/s. Default: 0 for a valve, 0.5 for a regulator. [1/s] */
       ki?: number | string | null;
+    };
+    /** A run of the model that ended before the last row of its record. */
+    StoppedRun: {
+      /** Measurement; empty for a single one. */
+      of: string;
+      /** Number of the run within it, from 1; 0 for the only one. */
+      run: number;
+      /** Time of the last row that it reached; null where it never began. [s] */
+      reached: number | null;
+      /** Duration of the record. [s] */
+      duration: number;
+      /** Share of the compared rows that it did not reach. */
+      share: number;
+      /** Why it ended. */
+      reason: string;
     };
     /** End stops as contraction ratios; below 0 the muscle may be stretched. */
     StopsInput: {

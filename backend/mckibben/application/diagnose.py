@@ -98,6 +98,13 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
     data = _data(question)
     doubtful = statements_of(question, data.most_rows)
     check_finite(data.predictor, start)
+    if stopped := data.predictor.stopped(start):
+        raise InputError(
+            f"no diagnosis can be made: {stopped[0].event}",
+            field="measurement",
+            hint="what a model predicts of a part of a run says nothing about entries or effects; 'compare' "
+            "shows the error of the rows before",
+        )
     if len(data.predictor.measured) < FEWEST_VALUES:
         name = question.points.measurement.name
         raise InputError(

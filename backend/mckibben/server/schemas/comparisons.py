@@ -231,6 +231,17 @@ class ValidationAnswer(Strict):
     series: list[ComparisonSeries] = Field(description="The points, curve by curve.")
 
 
+class StoppedRun(Strict):
+    """A run of the model that ended before the last row of its record."""
+
+    of: str = Field(description="Measurement; empty for a single one.")
+    run: int = Field(description="Number of the run within it, from 1; 0 for the only one.")
+    reached: float | None = si_field("s", "Time of the last row that it reached; null where it never began.")
+    duration: float = si_field("s", "Duration of the record.")
+    share: float = Field(description="Share of the compared rows that it did not reach.")
+    reason: str = Field(description="Why it ended.")
+
+
 class ComparisonAnswer(Strict):
     """The figures of the model's error, and the points."""
 
@@ -290,3 +301,6 @@ class ComparisonAnswer(Strict):
         description="Errors of readings within the accuracy, which a fit allows for."
     )
     unread: list[UnreadColumn] = Field(description="Columns of the files that nothing is read from, and why.")
+    stopped: list[StoppedRun] = Field(
+        description="Runs of the model that ended early; all figures are of the rows that they reached."
+    )
