@@ -1223,6 +1223,8 @@ export interface components {
       lower: number;
       /** Upper bound of the plausible range. */
       upper: number;
+      /** Whether the bounds are those of usual muscles, and grow with the force of a large one. */
+      grows: boolean;
       /** The value at which the effect vanishes. */
       off: number | null;
       /** Whether a fit frees it by default. */
@@ -4495,6 +4497,8 @@ export interface components {
       proposed_term: components["schemas"]["ProposedTerm"] | null;
       /** Without a formula: the ranges in which the unexplained error is largest. */
       where_to_look: string | null;
+      /** Missing effects whose values ended at the bound of the search; null without any. */
+      at_bounds: string | null;
       /** Recommended next measurement; null where none is needed. */
       next_measurement: string | null;
       /** For each pair of effects that the data cannot distinguish. */

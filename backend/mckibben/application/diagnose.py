@@ -46,6 +46,7 @@ from mckibben.identification.diagnose.steps import SingleAddition
 from mckibben.identification.diagnose.verdict import unexplained_share
 from mckibben.identification.diagnose.words import (
     applied_reasons,
+    bounds_sentence,
     corrections_sentence,
     left_out_sentence,
     repeats,
@@ -258,6 +259,7 @@ def _model(question: ModelQuestion, fitted: FittedModel) -> ModelDocument:
 
 def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[str, Effect]) -> Verdict:
     titles = {name: effect.title for name, effect in catalogue.items()}
+    bounds = bounds_sentence(diagnosis, catalogue)
     return Verdict(
         status=diagnosis.status,
         title=title_of(
@@ -281,6 +283,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
         repeats=_repetition(diagnosis),
         proposed_term=_term(question, diagnosis),
         where_to_look=where_to_look(diagnosis) or None,
+        at_bounds=bounds or None,
         next_measurement=next_measurement(diagnosis, titles),
         experiments=[proposal(pair) for pair in diagnosis.proposals],
         next_experiments=[next_experiment(design) for design in diagnosis.designs if design.decided()],
@@ -290,6 +293,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
                 *(assumption.sentence for assumption in question.assumptions),
                 questions_of(diagnosis.context, titles),
                 sentence_of(diagnosis, catalogue),
+                bounds,
                 corrections_sentence(diagnosis, titles),
                 left_out_sentence(diagnosis),
             )

@@ -195,6 +195,7 @@ class Verdict:
         repeats: what of it is periodic.
         proposed_term: a short formula for it that halves the error of the groups left out.
         where_to_look: without a formula, the ranges of these variables with the largest error.
+        at_bounds: the missing effects whose values ended at the bound of the search; None without any.
         next_measurement: recommended next measurement.
         experiments: for each pair of effects that the data cannot distinguish.
         next_experiments: for each group of them that an experiment of the rig splits, the best one, and
@@ -214,6 +215,7 @@ class Verdict:
     repeats: RepetitionResult | None
     proposed_term: TermProposal | None
     where_to_look: str | None
+    at_bounds: str | None
     next_measurement: str | None
     experiments: list[ExperimentProposal]
     next_experiments: list[NextExperiment]

@@ -239,6 +239,9 @@ class Verdict(Strict):
     where_to_look: str | None = Field(
         description="Without a formula: the ranges in which the unexplained error is largest."
     )
+    at_bounds: str | None = Field(
+        description="Missing effects whose values ended at the bound of the search; null without any."
+    )
     next_measurement: str | None = Field(
         description="Recommended next measurement; null where none is needed."
     )
