@@ -104,7 +104,9 @@ def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
     else:
         start = studio.start_model(stated_muscle(MuscleInput.model_validate(case.muscle)), case.effects)
         drive, model = None, studio.static_model(start)
-    fit_model = FitModel(model.muscle, model.effects, model.values)
+    pressure = measurement.columns.get("pressure", np.zeros(1))
+    blocked = model.muscle.blocked_force(float(np.max(pressure)))
+    fit_model = FitModel(model.muscle, model.effects, model.values, blocked_force=blocked)
     return predictor_of(measurement, fit_model.muscle, drive), fit_model
 
 

@@ -122,5 +122,5 @@ def test_a_joint_prints_its_stiffness(run: Run) -> None:
     assert code == 0
     table = out.split("Joint\n")[-1]
     assert "RMS error of the joint stiffness" in table
-    (at_end,) = [line for line in table.splitlines() if "stiffness at the end" in line]
+    (at_end,) = [line for line in table.splitlines() if "Stiffness at the end" in line]
     assert float(at_end.split()[-2]) == pytest.approx(22.0, rel=0.02)

@@ -9,6 +9,7 @@ import pandas as pd
 import pytest
 
 import mckibben as mk
+from tests.stopping import SECONDS, record, stop_runs
 
 RNG = np.random.default_rng(7)
 PRESSURE = RNG.uniform(0.5, 6.0, 40)  # bar, with all their digits
@@ -131,3 +132,17 @@ def test_a_list_of_files_is_to_be_read_one_by_one() -> None:
     Path("list.json").write_text('[{"file": "a.csv"}, {"file": "a.csv"}]', "utf-8")
     with pytest.raises(mk.Problem, match="list of 2 measurements"):
         mk.read("list.json")
+
+
+def test_a_run_of_the_model_that_stops_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
+    stop_runs(monkeypatch)
+    Path("record.csv").write_text(record())
+    data = mk.read("record.csv", load="5 kg", rest_length="400 mm")
+    found = mk.Model.preset("hand-made", length="400 mm").compare(data)
+    (run,) = found.stopped
+    assert 0.0 < run.reached < run.duration == pytest.approx(SECONDS)
+    assert run.sentence in " ".join(str(found).split())
+    assert run.sentence in found.sentences
+    assert found.to_frame()["time"].max() == pytest.approx(run.reached)
+    with pytest.raises(ValueError, match="no diagnosis can be made"):
+        mk.Model.preset("hand-made", length="400 mm").diagnose(data)

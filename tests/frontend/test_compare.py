@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 
 import pytest
-from playwright.sync_api import FilePayload, Page, expect
+from playwright.sync_api import FilePayload, Page, Route, expect
 
 from tests.frontend.comparing import (
     C10,
@@ -326,3 +326,19 @@ def test_an_impossible_muscle_says_so_at_its_field(
     page.get_by_role("button", name="Undo: braid angle").click()
     expect(page.locator(".compare .notice.bad")).to_have_count(0)
     diagnosed(page)
+
+
+def test_a_run_of_the_model_that_stopped_is_said_above_all_figures(page: Page) -> None:
+    said = "the run of the model stopped at 41 of 120 s: the solver needed more than 400 000 steps"
+
+    def stopped(route: Route) -> None:
+        body = route.fetch().json()
+        run = {"of": "", "run": 0, "reached": 41.0, "duration": 120.0, "share": 0.66, "reason": "steps"}
+        route.fulfill(json={**body, "stopped": [run], "sentences": [said, *body["sentences"]]})
+
+    open_compare(page)
+    page.route("**/api/diagnoses", lambda route: None)  # never answered
+    page.route("**/api/comparisons", stopped)
+    choose(page, file("stopped.csv", measured(5)))  # a kept page remembers the answers of another file
+    use(page)
+    expect(page.locator(".case-notices")).to_contain_text(f"T{said[1:]}.", timeout=20_000)

@@ -33,6 +33,16 @@ def test_a_valid_one() -> None:
     assert parameter(default=0.0).default == parameter().lower, "bounds belong to the range"
 
 
+def test_bounds_of_a_strong_muscle_are_the_same_share_of_its_force() -> None:
+    grows = parameter(lower=-50.0, grows=True)
+    assert [grows.bounds(force) for force in (0.0, 500.0, 2000.0)] == [(-50.0, 200.0)] * 3
+    assert grows.bounds(4900.0) == pytest.approx((-122.5, 490.0))
+    assert parameter(lower=0.05, upper=20.0, off=None, grows=True).bounds(4000.0) == (0.05, 40.0), (
+        "never towards 0"
+    )
+    assert parameter().bounds(4900.0) == (0.0, 200.0)
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

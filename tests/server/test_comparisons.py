@@ -10,6 +10,7 @@ from mckibben.application.compared_series import MAX_POINTS_PER_SERIES
 from tests.identification.synthetic import CYCLE_HEADER, cycle_rows, text
 from tests.server.answers import valid
 from tests.server.conftest import CSV, assert_error, post
+from tests.stopping import SECONDS, STEPS, record, stop_runs
 
 IDEAL = {
     "braid_diameter": "21.8 mm", "braid_angle": "26.5 deg", "nominal_length": "300 mm",
@@ -249,3 +250,21 @@ def test_a_driven_transient_needs_its_load(client: TestClient) -> None:
     answer = compare(client, {"preset": "DMSP-20"}, identity)
     assert (answer["predicted"], answer["unit"]) == ("displacement", "m")
     assert answer["series"][0]["time"] == [0.0, 0.1, 0.2]
+
+
+def test_a_run_that_stops_is_said_in_the_answer_and_in_the_report(
+    client: TestClient, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    stop_runs(monkeypatch)
+    identity = client.put("/api/measurements?name=chirp.csv", content=record().encode()).json()["id"]
+    stated = {"experiment": {"rest_length": "400 mm", "load": "5 kg"}}
+    answer = compare(client, {"preset": "hand-made"}, identity, **stated)
+    (stopped,) = answer["stopped"]
+    assert 0.0 < stopped["reached"] < stopped["duration"] == pytest.approx(SECONDS)
+    assert f"more than {STEPS} steps" in stopped["reason"]
+    assert answer["sentences"][0].startswith("the run of the model stopped at")
+    body = {"muscle": {"preset": "hand-made"}, "measurement": identity, **stated}
+    report = post(client, "/api/reports", {**body, "diagnose": False})
+    assert report.status_code == 200
+    assert f"{answer['sentences'][0][1:]}." in report.text
+    assert_error(post(client, "/api/reports", {**body, "diagnose": True}), 422, field="measurement")

@@ -36,6 +36,7 @@ from mckibben.identification.fit.comparison import (
     compared,
     correlations_of,
 )
+from mckibben.identification.predict.predictor import StoppedRun
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.predict.specimens import own_muscle
 from mckibben.identification.residual.cross import CrossCorrelation, cross_correlation
@@ -157,6 +158,8 @@ class ComparisonResult:
     """Errors of readings within the accuracy, which a fit allows for."""
     unread: list[UnreadColumn]
     """Columns of the files that nothing is read from, and why."""
+    stopped: list[StoppedRun]
+    """Runs of the model that ended early; all figures are of the rows that they reached."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -209,9 +212,10 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         *comparison.messages,
         *absorbed_message(comparison.absorbed, predictor.unit),
     ]
-    validation = None
+    validation, stopped = None, list(comparison.stopped)
     if question.validation is not None:
-        validation, thin, remark = _validation(question, question.validation, comparison, data)
+        validation, thin, remark, others = _validation(question, question.validation, comparison, data)
+        stopped += others
         thinned = thinned or thin
         messages += [remark] if remark else []
     if thinned:
@@ -247,7 +251,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         whiteness=white,
         cross=_cross(comparison, residual, variables),
         loops=_loops(comparison, residual),
-        sentences=_sentences(where, white, predictor.unit),
+        sentences=[*(run.sentence for run in stopped), *_sentences(where, white, predictor.unit)],
         series=series,
         validation=validation,
         model=ModelDocument(question.effect_document(comparison.fit_model)),
@@ -259,6 +263,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         assumptions=[assumption.message for assumption in question.assumptions],
         specimens=specimen_results(question, predictor, residual),
         absorbed=list(comparison.absorbed),
+        stopped=stopped,
     )
     return Compared(result, comparison, data)
 
@@ -304,8 +309,10 @@ def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
 
 def _validation(
     question: ModelQuestion, specimens: Specimens, fitted: Comparison, envelope: Envelope
-) -> tuple[ValidationResult, bool, str]:
-    """The error of the fitted model for validation data, whether the curves were thinned, and a remark."""
+) -> tuple[ValidationResult, bool, str, list[StoppedRun]]:
+    """The error of the fitted model for validation data, whether the curves were thinned, a remark, and the
+    runs that ended early.
+    """
     muscle = fitted.fit_model.muscle
     own = own_muscle(muscle, reference=specimens.reference, own=specimens.each[0].muscle)
     predictor = specimens.predictor(muscle if specimens.several else own)[0]
@@ -314,5 +321,8 @@ def _validation(
     rows = specimens.points.measurement.rows
     validation = compared(predictor, model, rows=rows, noise=question.noise)
     series, thinned = series_of(validation, "validation")
-    result = ValidationResult(validation.rmse, validation.nrmse_percent, predictor.rows_used, series)
-    return result, thinned, f"validation: {remark}" if remark else ""
+    rows_used = validation.predictor.rows_used
+    result = ValidationResult(validation.rmse, validation.nrmse_percent, rows_used, series)
+    names = [f"validation, {run.of}" if run.of else "validation" for run in validation.stopped]
+    stopped = [replace(run, of=name) for run, name in zip(validation.stopped, names, strict=True)]
+    return result, thinned, f"validation: {remark}" if remark else "", stopped

@@ -48,6 +48,7 @@ from mckibben.identification.diagnose.swept_rows import Coordinate
 from mckibben.identification.diagnose.verdict import unexplained_share
 from mckibben.identification.diagnose.words import (
     applied_reasons,
+    bounds_sentence,
     corrections_sentence,
     left_out_sentence,
     repeats,
@@ -103,6 +104,13 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
     data = _data(question)
     doubtful = statements_of(question, data.most_rows)
     check_finite(data.predictor, start)
+    if stopped := data.predictor.stopped(start):
+        raise InputError(
+            f"no diagnosis can be made: {stopped[0].event}",
+            field="measurement",
+            hint="what a model predicts of a part of a run says nothing about entries or effects; 'compare' "
+            "shows the error of the rows before",
+        )
     if len(data.predictor.measured) < FEWEST_VALUES:
         name = question.points.measurement.name
         raise InputError(
@@ -258,6 +266,7 @@ def _model(question: ModelQuestion, fitted: FittedModel) -> ModelDocument:
 
 def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[str, Effect]) -> Verdict:
     titles = {name: effect.title for name, effect in catalogue.items()}
+    bounds = bounds_sentence(diagnosis, catalogue)
     return Verdict(
         status=diagnosis.status,
         title=title_of(
@@ -281,6 +290,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
         repeats=_repetition(diagnosis),
         proposed_term=_term(question, diagnosis),
         where_to_look=where_to_look(diagnosis) or None,
+        at_bounds=bounds or None,
         next_measurement=next_measurement(diagnosis, titles),
         experiments=[proposal(pair) for pair in diagnosis.proposals],
         next_experiments=[next_experiment(design) for design in diagnosis.designs if design.decided()],
@@ -290,6 +300,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
                 *(assumption.sentence for assumption in question.assumptions),
                 questions_of(diagnosis.context, titles),
                 sentence_of(diagnosis, catalogue),
+                bounds,
                 corrections_sentence(diagnosis, titles),
                 left_out_sentence(diagnosis),
             )

@@ -245,6 +245,8 @@ class Verdict:
     """A short formula for it that halves the error of the groups left out."""
     where_to_look: str | None
     """Without a formula: the ranges in which the unexplained error is largest."""
+    at_bounds: str | None
+    """Missing effects whose values ended at the bound of the search; None without any."""
     next_measurement: str | None
     """Recommended next measurement; None where none is needed."""
     experiments: list[ExperimentProposal]

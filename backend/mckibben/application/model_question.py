@@ -6,6 +6,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
+import numpy as np
+
 from mckibben.application.envelope import Envelope
 from mckibben.application.experiment import Assumption, SaidMeasurement, SaidModel, resolved
 from mckibben.application.measurements import UnreadColumn, unread_sentence
@@ -123,8 +125,21 @@ class ModelQuestion:
         start = self.start
         effects = tuple(start.catalogue[name] for name in start.effects)
         return FitModel(
-            start.muscle.checked(), effects, start.effects, self.load_force, frozenset(start.assumed)
+            start.muscle.checked(),
+            effects,
+            start.effects,
+            self.load_force,
+            frozenset(start.assumed),
+            blocked_force=self._blocked_force,
         )
+
+    @property
+    def _blocked_force(self) -> float:
+        """Of the ideal muscle at the highest pressure that it is made for or was measured at [N]."""
+        limit = None if self.start.preset is None else self.start.preset.limits.max_pressure
+        seen = [one.points.measurement.columns.get("pressure") for one in self.specimens.each]
+        highest = max([limit or 0.0, *(float(np.max(pressure)) for pressure in seen if pressure is not None)])
+        return self.start.muscle.blocked_force(highest)
 
     def free_geometry(self) -> tuple[Free, ...]:
         """The freed geometry with its bounds: within the tolerance, or within what is plausible where an

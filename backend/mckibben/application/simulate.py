@@ -272,7 +272,7 @@ def result_of(
         timing=table,
         tracking=follows,
         outcome=run.outcome.label,
-        message=None if run.outcome is Outcome.COMPLETED else run.outcome.value,
+        message=None if run.outcome is Outcome.COMPLETED else run.outcome.advice(),
         wall_ms=run.wall_seconds * 1e3,
         engine=run.engine,
         steps=run.steps,

@@ -13,6 +13,7 @@ from mckibben.application.compared_series import rows_of
 from mckibben.door.frames import frame_of
 from mckibben.door.result import ModelT, Result
 from mckibben.identification.fit.comparison import Correlation, ParameterValue
+from mckibben.identification.predict.predictor import StoppedRun
 from mckibben.report.summary import Summary
 from mckibben.report.summary.comparison import summary_of
 
@@ -111,8 +112,13 @@ class Comparison(Result, Generic[ModelT]):
         return tuple(self._result.correlations)
 
     @property
+    def stopped(self) -> Sequence[StoppedRun]:
+        """Runs of the model that ended early; all figures are of the rows that they reached."""
+        return tuple(self._result.stopped)
+
+    @property
     def sentences(self) -> Sequence[str]:
-        """Where the model fails, and whether the rest is noise."""
+        """Runs that stopped, where the model fails, and whether the rest is noise."""
         return tuple(self._result.sentences)
 
     @property
@@ -147,4 +153,4 @@ class Comparison(Result, Generic[ModelT]):
         return f"Comparison with {self._name}: {self.nrmse_percent:.3g} % rms error"
 
     def _lead(self) -> Sequence[str]:
-        return tuple(self._result.assumptions)
+        return (*self._result.assumptions, *(run.sentence for run in self._result.stopped))

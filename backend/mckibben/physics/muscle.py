@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from math import acos, degrees, isfinite
 from typing import NamedTuple
 
+from mckibben.physics import ideal
 from mckibben.physics.braid import Braid, braid_from_diameter
 from mckibben.physics.errors import InputError
 from mckibben.physics.ops import Value
@@ -13,6 +14,7 @@ from mckibben.physics.ops import Value
 # Fields that a fit may change; symbols of the compiled model.
 GEOMETRY = ("nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter")
 
+HIGHEST_PRESSURE = 1.6e6  # of any muscle, gauge [Pa]
 NEUTRAL_ANGLE = acos(3.0**-0.5)  # 54.7356 degrees: no force at any pressure
 
 # Wall of a muscle that does not state it: 1.8 mm in DMSP-10 and DMSP-20 (Martens & Boblan 2017), 0.5 to
@@ -61,6 +63,19 @@ class Muscle(NamedTuple):
         return braid_from_diameter(
             diameter=self.braid_diameter, braid_angle=self.braid_angle, length=self.nominal_length
         )
+
+    def blocked_force(self, pressure: float = HIGHEST_PRESSURE) -> float:
+        """Force of the ideal muscle at its nominal length [N], 0 of one that does not pull there.
+
+        Args:
+            pressure: gauge [Pa], of which at most `HIGHEST_PRESSURE` counts.
+        """
+        force = ideal.blocked_force(
+            diameter=self.braid_diameter,
+            braid_angle=self.braid_angle,
+            pressure=min(pressure, HIGHEST_PRESSURE),
+        )
+        return max(float(force), 0.0)
 
     def contraction(self, length: Value) -> Value:
         """Contraction ratio 1 - L/L0 of a length (positive = shorter)."""

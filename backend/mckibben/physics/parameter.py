@@ -18,6 +18,9 @@ GRADES = {
 }
 UNVERIFIED_GRADES = frozenset({"M", "E"})
 
+#: Blocked force up to which bounds that grow hold as they are declared [N]: a muscle of 20 mm at 8 bar.
+USUAL_BLOCKED_FORCE = 2000.0
+
 
 @result_class
 class Source:
@@ -62,6 +65,8 @@ class Parameter:
             None = the default.
         reference: whether it states for which muscle the other parameters hold; a search for the missing
             physics never frees it.
+        grows: whether the bounds are those of muscles of up to `USUAL_BLOCKED_FORCE`, and of a stronger one
+            the same share of its blocked force (`bounds`).
     """
 
     name: str
@@ -77,6 +82,16 @@ class Parameter:
     natural: bool = False
     reference: bool = False
     usual: float | None = None
+    grows: bool = False
+
+    def bounds(self, blocked_force: float) -> tuple[float, float]:
+        """Bounds for a muscle of this blocked force at its highest pressure [N]; 0 = not known.
+
+        Those of a parameter that `grows` move away from 0 in proportion to a blocked force above
+        `USUAL_BLOCKED_FORCE`, and never towards it.
+        """
+        factor = max(1.0, blocked_force / USUAL_BLOCKED_FORCE) if self.grows else 1.0
+        return min(self.lower, factor * self.lower), max(self.upper, factor * self.upper)
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier():

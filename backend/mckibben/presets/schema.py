@@ -8,6 +8,7 @@ from typing import Annotated, Any, Literal
 from pydantic import Field, PrivateAttr
 
 from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.muscle import Muscle
 from mckibben.physics.parameter import UNVERIFIED_GRADES, Parameter
 from mckibben.presets.fit import FitRecord
 from mckibben.presets.quantity import (
@@ -164,7 +165,13 @@ class _WithEffects(Preset):
                 continue
             for key, quantity in table.items():
                 known = None if effects is None else effects[name]
-                yield from _parameter_findings(f"effects.{name}.{key}", key, quantity, known)
+                yield from _parameter_findings(
+                    f"effects.{name}.{key}", key, quantity, known, self._blocked_force()
+                )
+
+    def _blocked_force(self) -> float:
+        """Of the muscle at the highest pressure of any [N]; 0 of another part."""
+        return 0.0
 
 
 class MusclePreset(_WithEffects):
@@ -194,6 +201,13 @@ class MusclePreset(_WithEffects):
         "have intervals and say where the muscle was not measured.",
     )
 
+    def _blocked_force(self) -> float:
+        geometry = self.geometry
+        stated = (geometry.nominal_length, "m"), (geometry.braid_diameter, "m"), (geometry.braid_angle, "rad")
+        if any(si_unit(quantity.unit) != unit for quantity, unit in stated):
+            return 0.0  # which is found elsewhere
+        return Muscle(*(quantity.si(unit) for quantity, unit in stated)).blocked_force()
+
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
         """Adds: the braid is wider than the bore."""
         inherited = list(super().findings(effects))
@@ -207,13 +221,18 @@ class MusclePreset(_WithEffects):
 
 
 def _parameter_findings(
-    path: str, key: str, quantity: Quantity, known: Collection[str] | Mapping[str, Parameter] | None
+    path: str,
+    key: str,
+    quantity: Quantity,
+    known: Collection[str] | Mapping[str, Parameter] | None,
+    blocked_force: float,
 ) -> Iterator[Finding]:
     if known is not None and key not in known:
         yield Finding(path, f"the effect has no parameter '{key}'", did_you_mean(key, known))
     elif isinstance(known, Mapping):
         declared = known[key]
-        yield from range_findings(path, quantity, Expected(declared.unit, declared.lower, declared.upper))
+        bounds = declared.bounds(blocked_force)
+        yield from range_findings(path, quantity, Expected(declared.unit, *bounds))
     elif si_unit(quantity.unit) is None:
         yield Finding(f"{path}.unit", f"'{quantity.unit}' is not a known unit", "e.g. 'MPa'")
 

@@ -31,6 +31,7 @@ def _parameter(parameter: Parameter) -> EffectParameter:
         default=parameter.default,
         lower=parameter.lower,
         upper=parameter.upper,
+        grows=parameter.grows,
         off=parameter.off,
         fitted=parameter.fitted,
         description=parameter.description,

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from enum import Enum
 from typing import Literal, cast
 
+MAX_STEPS = 400_000  # accepted and rejected steps of a run, unless its caller states another limit
 # A run that takes longer has a stiff or chattering drive, or is longer than a user waits for.
 TIME_LIMIT = 10.0  # s
 _PROGRESS_EVERY = 0.1  # s
@@ -18,11 +19,11 @@ OutcomeName = Literal["completed", "stuck", "diverged", "timed_out", "cancelled"
 
 
 class Outcome(Enum):
-    """How a run ended; the value is advice for the user."""
+    """How a run ended; the value is advice for the user, see `advice`."""
 
     COMPLETED = "completed"
     STUCK = (
-        "The solver needed more than 400 000 steps: the drive chatters. Shorten the duration, lower the "
+        "The solver needed more than {steps} steps: the drive chatters. Shorten the duration, lower the "
         "controller's gains, or give the load more mass."
     )
     DIVERGED = (
@@ -34,6 +35,14 @@ class Outcome(Enum):
         "often, or remove the fastest effects."
     )
     CANCELLED = "The run was cancelled."
+
+    def advice(self, steps: int = MAX_STEPS) -> str:
+        """Why the run ended and what helps, for the user.
+
+        Args:
+            steps: the most steps that the run was allowed.
+        """
+        return self.value.format(steps=f"{steps:,}".replace(",", " "))
 
     @property
     def label(self) -> OutcomeName:

@@ -140,7 +140,7 @@ class DriveRuns:
     def _row(self, run: Run) -> Row:
         figures, message = figures_of_run(run, self._paths)
         if run.outcome is not Outcome.COMPLETED:
-            return Row(run.outcome.label, figures, run.outcome.value)
+            return Row(run.outcome.label, figures, run.outcome.advice())
         return Row(COMPLETED, figures, message)
 
     def _refused(self, error: InputError) -> Row:

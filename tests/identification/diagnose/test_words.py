@@ -6,6 +6,7 @@ from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen
@@ -13,14 +14,18 @@ from mckibben.identification.diagnose.repetition import Repetition
 from mckibben.identification.diagnose.verdict import Interval
 from mckibben.identification.diagnose.words import (
     applied_reasons,
+    bounds_sentence,
     by_mechanism,
     corrections_sentence,
     left_out_sentence,
     sentence_of,
     title_of,
 )
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.residual.structure import ResidualStructure
 from mckibben.physics.catalogue import default_catalogue
+from tests.identification.synthetic import MUSCLE
 
 BUILT_IN = default_catalogue()
 TITLES = {"creep": "Creep", "leak": "Leak"}
@@ -274,6 +279,28 @@ def test_an_effect_that_is_less_likely_than_not_is_only_perhaps_missing() -> Non
     found = result("missing_effects", 20.0, 2.0, "creep", "leak")
     found.evidence[1].probability = 0.3
     assert "Missing: Creep (probability 97 %) and perhaps Leak (30 %)." in sentence_of(found, CATALOGUE)
+
+
+@pytest.mark.parametrize(
+    ("start", "names", "said"),
+    [
+        (10.0, (), ""),
+        (200.0, ("coulomb_friction",), "Coulomb friction (force 200 N) ends at the bound of the search"),
+    ],
+)
+def test_a_named_cause_that_ends_at_its_bound_is_said_to(
+    start: float, names: tuple[str, ...], said: str
+) -> None:
+    effect = BUILT_IN["coulomb_friction"]
+    model = FitModel(MUSCLE).adding(effect, {"force": start, "static_share": 0.5})
+    free = free_numbers(model, (), frozenset({"coulomb_friction.static_share"}))
+    rows = np.ones((9, len(free)))
+    fitted = FittedModel(model, free, frozenset(), rows[:, 0], rows, ())
+    found = SimpleNamespace(best=fitted, added=("coulomb_friction",))
+    text = bounds_sentence(found, BUILT_IN)
+    assert ("Coulomb friction" in text) == bool(names)
+    assert text.startswith(said)
+    assert bounds_sentence(SimpleNamespace(best=fitted, added=()), BUILT_IN) == ""
 
 
 def test_specimens_that_were_left_out_are_told_in_newtons_and_percent() -> None:

@@ -12,9 +12,11 @@ import pytest
 from mckibben.identification.diagnose.diagnosis import diagnose
 from mckibben.identification.diagnose.entries import statements
 from mckibben.identification.diagnose.entry_words import sentence_of
+from mckibben.identification.fit.comparison import Comparison, compared
 from mckibben.identification.fit.effort import FitEffort
 from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import (
+    Predictor,
     TransientPredictor,
     driven_by_pressure,
     highest_stop,
@@ -29,8 +31,10 @@ from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.driven import driven_motion, driven_motions
 from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
+from mckibben.simulation.drive.recorded_run import RecordedRun
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.integrate.many import lane_kernels
+from mckibben.simulation.outcome import MAX_STEPS
 from mckibben.simulation.statics.model import StaticModel
 from tests.identification.comparing import compare
 from tests.identification.synthetic import CATALOGUE, MUSCLE, G, truth
@@ -412,13 +416,15 @@ def test_a_fit_with_differences_side_by_side_finds_the_numbers(monkeypatch):
         assert parameter.value == pytest.approx(true[parameter.name], rel=1e-3)
 
 
-def test_a_run_that_breaks_off_is_far_off_not_an_error():
+def test_a_run_without_a_start_has_no_prediction_and_no_error():
     predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
     torn = replace(predictor._records[0].drive, start_position=10.0)  # nowhere between the stops
     predictor._records = [replace(predictor._records[0], drive=torn)]
-    found = predictor.predict(fit_model({}))
-    assert np.all(np.isfinite(found))
-    assert predictor.rmse(predictor.measured - found) == pytest.approx(1e3)
+    assert np.all(np.isnan(predictor.predict(fit_model({}))))
+    (run,) = predictor.stopped(fit_model({}))
+    assert (run.share, np.isnan(run.reached)) == (1.0, True)
+    with pytest.raises(InputError, match=r"did not begin: .* end stops"):
+        predictor.reached(fit_model({}))
 
 
 def test_long_records_are_thinned_evenly():
@@ -488,21 +494,146 @@ def test_motion_from_a_measured_pressure_is_that_of_the_kernel():
             [own], time=GRID, pressure=columns["pressure"], stroke=columns["displacement"][0],
             tolerance=tolerance,
         )  # fmt: skip
-        assert not isinstance(alone, InputError)
+        assert not alone.stop
         away = np.max(np.abs(alone["stroke_reading"] - predictor.predict(fit_model(HIDDEN))))
         assert (away <= 1e-12) if not least else (least < away < 1e-6)
 
 
-def test_a_trial_that_rings_faster_than_any_muscle_ends_early(monkeypatch: pytest.MonkeyPatch) -> None:
-    """Its prediction is far from the measurement, so that a fit turns back."""
+def stopping(measurement: Measurement, steps: int, drive: Drive | None = None) -> TransientPredictor:
+    """The measurement predicted by runs that stop after so many steps."""
+    predictor = predictor_of(measurement, MUSCLE, drive)
+    assert isinstance(predictor, TransientPredictor)
+    records = [replace(record, most_steps=steps) for record in predictor._records]
+    return predictor._with_records(records)
+
+
+def against(predictor: Predictor, model: FitModel, *, fit: bool = False) -> Comparison:
+    return compared(predictor, model, rows=predictor.rows_used, fit=fit)
+
+
+@pytest.mark.parametrize("command", [False, True])
+def test_a_run_that_stops_is_compared_where_it_ran(command: bool) -> None:
+    """The rows before the stop have the prediction of the whole run; the others enter no figure."""
+    measurement = measured(drive(), command=command, conditions={"load_mass": 12.0})
+    own = drive({}) if command else None
+    model = fit_model({"bladder_elasticity": {"shear_modulus": 0.3e6}})
+    whole = against(predictor_of(measurement, MUSCLE, own), model)
+    predictor = stopping(measurement, 150, own)
+    found = against(predictor, model)
+    count = found.predictor.rows_used
+    assert 3 <= count < len(GRID)
+    (run,) = found.stopped
+    assert run.share == pytest.approx(1.0 - count / len(GRID))
+    assert (run.reached, run.duration) == pytest.approx((GRID[count - 1], 3.0))
+    assert "more than 150 steps" in run.reason
+    assert f"stopped at {run.reached:.3g} of 3 s" in run.sentence
+    assert not whole.stopped
+    rows = np.concatenate([np.arange(count) + channel.rows.start for channel in whole.predictor.channels])
+    assert found.predicted == pytest.approx(whole.predicted[rows], rel=1e-9)
+    expected = np.sqrt(np.mean((whole.residual[rows] / whole.predictor.scale[rows]) ** 2))
+    assert found.rmse == pytest.approx(expected, rel=1e-9)
+    assert found.excluded["after the run of the model stopped"] == len(GRID) - count
+
+
+def test_one_of_two_runs_that_stops_takes_nothing_from_the_other() -> None:
+    first = measured(drive(), command=False, conditions={"load_mass": 12.0})
+    columns = {name: np.tile(values, 2) for name, values in first.columns.items() if name != "group"}
+    twice = build(
+        columns, name="twice", id="6" * 64, kind="transient", conditions={"load_mass": 12.0}, excluded_rows={}
+    )
+    predictor = predictor_of(twice, MUSCLE)
+    assert isinstance(predictor, TransientPredictor)
+    one, two = predictor._records
+    predictor = predictor._with_records([one, replace(two, most_steps=150)])
+    found = against(predictor, fit_model(HIDDEN))
+    (run,) = found.stopped
+    assert run.run == 2
+    assert "run 2 of the model stopped" in run.sentence
+    assert found.predictor.rows_used == len(GRID) + round((1.0 - run.share) * len(GRID))
+    assert found.rmse < 5e-5  # the pressure is a straight line between the rows
+
+
+def test_a_fit_of_a_run_that_stops_is_to_the_rows_that_ran() -> None:
+    """The penalty of the optimiser enters neither the numbers nor their standard errors."""
+    measurement = measured(drive(), command=False, conditions={"load_mass": 12.0})
+    model = fit_model(
+        {"bladder_elasticity": {"shear_modulus": 0.3e6}, "viscous_damping": {"coefficient": 150.0}}
+    )
+    whole = against(predictor_of(measurement, MUSCLE), model, fit=True)
+    found = against(stopping(measurement, 250), model, fit=True)
+    assert found.stopped
+    assert found.rmse < 5e-5  # the pressure is a straight line between the rows
+    for effect, values in HIDDEN.items():
+        for name, value in values.items():
+            there, here = whole.parameters[effect][name], found.parameters[effect][name]
+            assert here.value == pytest.approx(value, rel=1e-2)
+            assert here.stderr is not None
+            assert there.stderr is not None
+            assert here.stderr < 100.0 * max(there.stderr, 1e-6 * value)
+
+
+def test_effects_with_which_the_model_stops_are_not_judged(monkeypatch: pytest.MonkeyPatch) -> None:
+    """No error, gain or probability is made of a run that did not reach the end, or of a fit's penalty."""
+    run = TransientPredictor._motions
+
+    def begun(whole: RecordedRun) -> RecordedRun:
+        return RecordedRun({name: values[:40] for name, values in whole.readings.items()}, 40, "stuck")
+
+    def with_friction_none_ends(drives, record):
+        return [
+            begun(found) if one.model.values.get("dahl", {}).get("force") else found
+            for one, found in zip(drives, run(drives, record), strict=True)
+        ]
+
+    monkeypatch.setattr(TransientPredictor, "_motions", staticmethod(with_friction_none_ends))
+    measurement = measured(
+        drive(HIDDEN | {"dahl": {"force": 20.0}}), command=False, conditions={"load_mass": 12.0}
+    )
+    names = ("dahl", "linear_elasticity", "prestress")
+    model = fit_model(HIDDEN)
+    predictor = predictor_of(measurement, MUSCLE)
+    found = diagnose(predictor, model, catalogue={name: CATALOGUE[name] for name in names})
+    stopped = {item.effect for item in found.not_tried if "stops before the end" in item.why}
+    assert stopped <= {"dahl"}
+    judged = {one.effect.id: one.fitted_model for one in found.candidates}
+    assert judged
+    assert not stopped & judged.keys()
+    assert "dahl" not in found.added
+    for one in [*judged.values(), *(step.fitted_model for step in found.path)]:
+        assert not one.lost
+        assert one.rmse <= found.start.rmse
+    assert found.probability_of("dahl") == 0.0
+
+
+def test_trials_of_a_fit_have_ten_times_the_steps_of_its_start() -> None:
     measurement = measured(drive(), command=False, conditions={"load_mass": 12.0})
     predictor = predictor_of(measurement, MUSCLE)
-    usual = predictor.predict(fit_model(HIDDEN))
-    monkeypatch.setattr(moving, "_most_steps", lambda _: 40)
-    ended = predictor_of(measurement, MUSCLE).predict(fit_model(HIDDEN))
-    lost = predictor.measured + moving._LOST * predictor._noises()
-    assert ended == pytest.approx(lost)
-    assert not np.any(usual == lost)
+    assert isinstance(predictor, TransientPredictor)
+    (start,) = predictor._of_records([fit_model(HIDDEN)])[0]
+    (record,) = predictor._records
+    assert record.most_steps == MAX_STEPS
+    assert predictor.beginning(fit_model(HIDDEN))._records[0].most_steps == 50_000 > 10 * start.steps
+    assert [record.beginning(steps).most_steps for steps in (6_000, 90_000)] == [60_000, MAX_STEPS]
+
+
+def test_every_row_drives_the_model_although_a_part_is_compared() -> None:
+    """A pressure that rings between the compared rows moves the load as it does in a run along all rows."""
+    time = np.linspace(0.0, 10.0, 8001)
+    pressure = 3e5 + 1e5 * np.sin(2.0 * np.pi * time) + 8e4 * np.sin(2.0 * np.pi * 100.0 * time)
+    measurement = build(
+        {"time": time, "pressure": pressure, "displacement": 0.01 + 1e-3 * np.sin(time)},
+        name="dense", id="7" * 64, kind="transient", conditions={"load_mass": 12.0}, excluded_rows={},
+    )  # fmt: skip
+    predictor = predictor_of(measurement, MUSCLE)
+    assert isinstance(predictor, TransientPredictor)
+    assert predictor.rows_used == 1000
+    own = replace(predictor._records[0].drive, model=StaticModel(MUSCLE, HIDDEN))
+    exact = driven_motion(own, time=time, pressure=pressure, stroke=0.01)["stroke_reading"]
+    assert predictor.predict(fit_model(HIDDEN)) == pytest.approx(exact[predictor.rows], abs=2e-6)
+    thin = driven_motion(own, time=time[predictor.rows], pressure=pressure[predictor.rows], stroke=0.01)[
+        "stroke_reading"
+    ]
+    assert np.max(np.abs(thin - exact[predictor.rows])) > 1e-4, "the rows between them matter"
 
 
 @pytest.mark.parametrize(("stretched", "expected"), [(0.0, 0.0), (1e-4, 0.0), (3e-3, -0.01)])

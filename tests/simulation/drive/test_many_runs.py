@@ -45,6 +45,19 @@ def test_together_the_first_is_as_alone_and_the_others_differ_smoothly():
 
 def test_a_drive_without_a_start_has_no_readings():
     torn = replace(DRIVE, start_position=9.0)
-    assert side_by_side([torn, DRIVE])[0] == {}
-    assert side_by_side([torn, DRIVE], together=True) == [{}, {}]
-    assert side_by_side([DRIVE, torn])[1] == {}
+    assert not side_by_side([torn, DRIVE])[0].readings
+    assert not any(run.readings for run in side_by_side([torn, DRIVE], together=True))
+    ran, none = side_by_side([DRIVE, torn])
+    assert not none.readings
+    assert "9000 mm" in none.stop
+    assert not ran.stop
+
+
+def test_a_run_that_takes_too_many_steps_has_the_rows_before_and_states_its_limit():
+    (whole,) = side_by_side([DRIVE])
+    (part,) = side_by_side([DRIVE], max_steps=200)
+    assert part.steps == 200 < whole.steps
+    assert "more than 200 steps" in part.stop
+    for name in READINGS:
+        assert 0 < len(part[name]) < len(whole[name])
+        assert np.array_equal(part[name], whole[name][: len(part[name])])

@@ -231,7 +231,7 @@ def _tried(
         estimate=lambda fitted: noise_of(predictor, fitted.residual, _scaled(stated_noise, scale))[0],
     )
     fitted = own.fit(first, root.freed)
-    if not np.isfinite(fitted.rmse):
+    if fitted.lost:  # nothing is known of the data read so
         return None
     own.update_noise(fitted)
     return _Trial(entry, own, fitted, fitted, scale)

@@ -51,7 +51,7 @@ from mckibben.identification.diagnose.verdict import (
 )
 from mckibben.identification.diagnose.wrong_entry import WrongEntry
 from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
-from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitted_model import FittedModel, unfitted
 from mckibben.identification.fit.fitter import CancelledError, Fitter
 from mckibben.identification.fit.least_squares import FitResult, fit_report
 from mckibben.identification.predict.fit_model import FitModel
@@ -64,10 +64,12 @@ from mckibben.identification.residual.profiles import Profile, profiles, variabl
 from mckibben.identification.residual.structure import ResidualStructure
 from mckibben.identification.residual.term import Term, proposed_term
 from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Outcome, Watch
 
 #: Fewest values for a diagnosis: with fewer, many single effects fit them exactly.
 FEWEST_VALUES = 6
+_STOPS = "with it the model stops before the end of a run"
 _DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 
 
@@ -218,6 +220,7 @@ def diagnose(
 
     Raises:
         CancelledError: the watch cancelled, or the time is over before the start model is fitted.
+        InputError: runs of the best model stop before their end.
     """
     from threadpoolctl import threadpool_limits
 
@@ -315,10 +318,7 @@ def _begin(
         before_fit=progress.count_fit,
         estimate=lambda fitted_model: noise_of(predictor, fitted_model.residual, noise)[0],
     )
-    start = FittedModel(
-        fit_model, (), frozenset(), predictor.weighted(predictor.residual(fit_model)),
-        np.empty((len(predictor.measured), 0)), predictor.folds,
-    )  # fmt: skip
+    start = unfitted(predictor, fit_model)
     readings = predictor.inputs.get("pressure")
     gauge_zero = None if readings is None else vented(readings, candidates)
     first = fit_model
@@ -354,11 +354,16 @@ def _search(
     start, root, gauge_zero, candidates = begun.start, begun.root, begun.gauge_zero, begun.candidates
     variables, where, how = begun.variables, begun.where, begun.noise_how
     before = traits_of(root.residual, variables)
+
     # The most promising first: whoever follows the search sees a useful answer at once, and a first one while
     # the equations of the other effects are compiled.
+    def tell(effect: Effect, fitted_model: FittedModel) -> None:
+        if not fitted_model.lost:
+            begun.tell(single_addition(fitter, root, effect, fitted_model, before, ()))
+
     early = fitter.promising(root, [effect for effect in candidates if effect in predictor.quick])[:1]
     for effect in early:
-        begun.tell(single_addition(fitter, root, effect, fitter.adding(root, effect), before, ()))
+        tell(effect, fitter.adding(root, effect))
     promising = fitter.promising(root, candidates)[: fitter.effort.tried]
     fitted_singles, guesses = [], []
     for number, effect in enumerate(dict.fromkeys([*promising, *candidates])):
@@ -371,7 +376,9 @@ def _search(
             guesses.append((effect, fitter.guessed(root, effect)))
         found = fitted_singles[-1] if number < len(promising) else guesses[-1]
         if effect not in early:
-            begun.tell(single_addition(fitter, root, *found, before, ()))
+            tell(*found)
+    begun.not_tried += [NotTried(effect.id, _STOPS) for effect, single in fitted_singles if single.lost]
+    fitted_singles = [(effect, single) for effect, single in fitted_singles if not single.lost]
     progress.share, progress.end = 0.45, 0.85
     best = search(fitter, root, singles=[fitted_model for _, fitted_model in fitted_singles])
     fitter.noise, how = noise_of(predictor, best.residual, noise)
@@ -394,6 +401,13 @@ def _search(
     path += tuple(PathStep(name, model, correction=True) for name, model in kept)
     corrections = (*likely.corrections, *corrections)
     best = kept[-1][1] if kept else lean
+    if any(step.fitted_model.lost for step in path):
+        raise InputError(
+            "no diagnosis can be made: the model stops before the end of a run with some of the effects that "
+            "the data show",
+            field="measurement",
+            hint="give the load more mass, or state more of the drive; 'compare' shows where it stops",
+        )
     fit = _final_fit(best)
     by_effect = {item.effect: item for item in likely.evidence}
     support = []

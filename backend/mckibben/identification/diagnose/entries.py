@@ -19,14 +19,14 @@ from mckibben.measurement.measurement import STROKES, Measurement
 from mckibben.measurement.rescaled import rescaled
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.physics.muscle import NEUTRAL_ANGLE
+from mckibben.physics.muscle import HIGHEST_PRESSURE, NEUTRAL_ANGLE
 
 #: Standard atmosphere [Pa]: what a gauge reading and an absolute reading differ by.
 ATMOSPHERE = 101325.0
 _G = 9.80665
 _PSI, _POUND, _INCH = 6894.757, 4.4482216, 25.4
 # Plausible sizes: pressure [Pa], force [N], stroke over the nominal length, duration [s].
-_PRESSURES, _FORCES, _STROKES, _DURATIONS = (2e4, 1.6e6), (1.0, 2e4), (0.005, 0.5), (0.02, 1e5)
+_PRESSURES, _FORCES, _STROKES, _DURATIONS = (2e4, HIGHEST_PRESSURE), (1.0, 2e4), (0.005, 0.5), (0.02, 1e5)
 _ANGLE = np.radians(10.0)
 _SUPPLIES, _WALLS = (0.4, 2.5), (0.08, 12.5)  # over the stated value
 # A priori odds of a mistake against none, and of the rarer ones.

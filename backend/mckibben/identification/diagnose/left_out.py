@@ -44,7 +44,7 @@ class LeftOutSpecimen:
 
 
 def left_out_specimens(predictor: SpecimensPredictor, fitted: FittedModel) -> tuple[LeftOutSpecimen, ...]:
-    """The error of every specimen that is left out in turn.
+    """The error of every specimen that is left out in turn, without one whose run stops.
 
     Args:
         predictor: the data of all specimens.
@@ -57,6 +57,8 @@ def left_out_specimens(predictor: SpecimensPredictor, fitted: FittedModel) -> tu
         residual = (predictor.residual(model) / predictor.scale)[rows]
         largest = float(np.max(np.abs(predictor.measured / predictor.scale)[rows]))
         rmse = float(np.sqrt(np.mean(residual**2)))
+        if not np.isfinite(rmse):  # a run stopped
+            continue
         found.append(LeftOutSpecimen(name, rmse, rmse / largest if largest > 0.0 else float("nan")))
     return tuple(found)
 

@@ -62,7 +62,7 @@ def model_weights(
     logarithms: dict[frozenset[str], float] = {}
     for model in (root, *models):
         present = frozenset(model.fit_model.ids)
-        if not start <= present or not np.isfinite(model.mean_square):
+        if not start <= present or model.lost:
             continue
         if model is not root and model.implausible > implausible:
             continue
@@ -163,10 +163,12 @@ def loss(best: FittedModel, without: FittedModel, root: FittedModel, *, noise: f
 
     Args:
         best: the model.
-        without: the same without the effect, refitted.
+        without: the same without the effect, refitted; where its runs stop it counts as the start model, from
+            which it differs by more free numbers.
         root: the fitted start model.
         noise: of the scaled residual.
     """
+    without = root if without.lost else without
     lost = max(without.mean_square - best.mean_square, 0.0)
     explained = max(root.mean_square - best.mean_square, lost, 1e-300)
     return Loss(float(np.sqrt(lost)) / noise, float(np.sqrt(lost / explained)))

@@ -55,7 +55,8 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
         return root
     children = list(singles)
     for _ in range(_DEEPEST):
-        children = [n for n in {child.key: child for child in children}.values() if n.rmse < root.rmse]
+        each = {child.key: child for child in children}.values()
+        children = [child for child in each if not child.lost and child.rmse < root.rmse]
         if not children:
             break
         rows = _rows(fitter, min(children, key=lambda fitted_model: fitted_model.rmse))

@@ -14,6 +14,7 @@ from mckibben.identification.diagnose.search import exchanged, lean
 from mckibben.identification.diagnose.usual import as_usual
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.fit.misfit import penalised
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.specimens import SpecimensPredictor
@@ -100,7 +101,8 @@ def _beyond_declared(best: FittedModel, effect: Effect) -> bool:
 def _unfitted(fitter: Fitter, fit_model: FitModel, like: FittedModel) -> FittedModel:
     """A model as it is, with the free numbers of a fitted one."""
     predictor = fitter.predictor
-    return replace(like, fit_model=fit_model, residual=predictor.weighted(predictor.residual(fit_model)))
+    residual, lost = penalised(predictor, predictor.residual(fit_model))
+    return replace(like, fit_model=fit_model, residual=residual, lost=lost)
 
 
 def _in_its_place(fitter: Fitter, kept: FittedModel, effect: Effect, exchange: FittedModel) -> FittedModel:

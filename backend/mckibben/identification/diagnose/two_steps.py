@@ -99,7 +99,8 @@ def _steps(fitter: Fitter, model: FittedModel, basis: np.ndarray) -> Iterator[_S
         if off:
             reach = np.array([between(effect, off)[name] - value for name, value in off.items()])
             ranges = [(effect.parameter(name), value) for name, value in off.items()]
-            ends = np.array([(p.lower - value, p.upper - value) for p, value in ranges]) / reach[:, None]
+            bounds = np.array([p.bounds(model.fit_model.blocked_force) for p, _ in ranges])
+            ends = (bounds - np.array([[value] for _, value in ranges])) / reach[:, None]
             yield from _step(effect, True, fitter.changes(model, effect), ends, basis)
     for effect in model.fit_model.effects:
         names = fitter.further(model, effect)

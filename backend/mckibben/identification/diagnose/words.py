@@ -219,6 +219,33 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
     return " ".join(texts)
 
 
+def bounds_sentence(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
+    """The named effects whose values ended at the bound of the search; empty without any.
+
+    A value at a bound of its definition, such as 0 and 1 of a share, is a value like others.
+    """
+    added = [effect for effect in result.best.fit_model.effects if effect.id in result.added]
+    ended = dict(zip((p.name for p in result.best.free), result.best.at_bound.tolist(), strict=True))
+    texts = []
+    for effect in added:
+        values = [
+            f"{p.name.replace('_', ' ')} {brief(result.best.fit_model.number(f'{effect.id}.{p.name}'))}"
+            f"{'' if p.unit == '1' else f' {p.unit}'}"
+            for p in effect.parameters
+            if ended.get(f"{effect.id}.{p.name}")
+        ]
+        if values:
+            title = catalogue[effect.id].title if effect.id in catalogue else effect.id
+            texts.append(f"{title} ({_joined(values)})")
+    if not texts:
+        return ""
+    ends = "ends" if len(texts) == 1 else "end"
+    return (
+        f"{_joined(texts)} {ends} at the bound of the search: these data do not determine the size, and "
+        "another cause may act in that place."
+    )
+
+
 def left_out_sentence(result: Diagnosis) -> str:
     """How well the model predicts a specimen that it was not fitted to; empty for a single one."""
     if not result.left_out:

@@ -15,10 +15,13 @@ from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.predictor import StoppedRun
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
 from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.errors import InputError
+
+_FITS = 3  # most fits of a model whose runs stop, each of which leads farther
 
 
 @dataclass(frozen=True)
@@ -39,6 +42,7 @@ class Comparison:
         excluded: reason -> number of excluded rows.
         messages: notes for the user.
         absorbed: reading errors within the stated accuracy that explain a part of the residual.
+        stopped: runs of the model that ended early; the rest is of the rows that they reached.
     """
 
     predictor: Predictor
@@ -53,6 +57,7 @@ class Comparison:
     excluded: Mapping[str, int]
     messages: tuple[str, ...] = field(default_factory=tuple)
     absorbed: tuple[AbsorbedError, ...] = ()
+    stopped: tuple[StoppedRun, ...] = ()
 
     @property
     def residual(self) -> np.ndarray:
@@ -195,6 +200,8 @@ def compared(
 ) -> Comparison:
     """Compare prepared data with a model.
 
+    Where a run of the model stops early, the rows that it reached are fitted to and compared.
+
     Args:
         predictor: the data.
         fit_model: the model.
@@ -205,23 +212,20 @@ def compared(
         noise: standard deviation of the predicted channel, when it is known.
 
     Raises:
-        InputError: the model has no finite value at some row.
+        InputError: the model has no finite value at some row, or its runs reach less than three rows.
     """
     check_finite(predictor, fit_model)
-    predictor = allowing_for_errors(predictor, fit_model)
     messages = list(predictor.messages)
-    choice = free_numbers(fit_model, geometry, freed, load=predictor.unknown_load) if fit else ()
+    choice = _chosen(predictor, fit_model, geometry, freed) if fit else ()
     if geometry and not fit:
         messages.append("geometry fields were freed or accepted as wrong, but no fit was requested")
     if fit and not choice:
         messages.append("nothing to fit: the model has no effects and no geometry was freed")
-    result = None
+    whole, result = predictor, None
+    predictor = allowing_for_errors(whole.reached(fit_model), fit_model)
     if choice:
-        usual = free_numbers(fit_model, (), (), load=predictor.unknown_load)
-        result = fit_of(
-            predictor, fit_model, choice, first=[p for p in choice if p.name in {q.name for q in usual}]
-        )
-        fit_model = fit_model.with_numbers([p.name for p in choice], result.numbers)
+        predictor, fit_model, result = _fitted(whole, predictor, fit_model, geometry, freed)
+    stopped = whole.stopped(fit_model)
     predicted = predictor.predict(fit_model)
     rmse = predictor.rmse(predictor.measured - predicted)
     holdout: float | None = rmse
@@ -245,7 +249,45 @@ def compared(
         excluded=predictor.excluded,
         messages=(*messages, *predictor.assumed_history(fit_model), *(result.messages if result else ())),
         absorbed=absorbed_by(predictor, fit_model),
+        stopped=stopped,
     )
+
+
+def _chosen(
+    predictor: Predictor, fit_model: FitModel, geometry: Sequence[Free], freed: Sequence[str]
+) -> tuple[Free, ...]:
+    return free_numbers(fit_model, geometry, freed, load=predictor.unknown_load)
+
+
+def _fitted(
+    whole: Predictor,
+    part: Predictor,
+    fit_model: FitModel,
+    geometry: Sequence[Free],
+    freed: Sequence[str],
+) -> tuple[Predictor, FitModel, FitResult]:
+    """The rows that the runs of the fitted model reach, that model, and what these rows determine.
+
+    Args:
+        whole: all rows.
+        part: those that the runs of the start model reach. Where the fit leads farther, it is repeated there.
+        fit_model, geometry, freed: see `compared`.
+    """
+    for left in reversed(range(_FITS)):
+        choice = _chosen(part, fit_model, geometry, freed)
+        usual = {p.name for p in free_numbers(fit_model, (), (), load=part.unknown_load)}
+        first = [p for p in choice if p.name in usual]
+        result = fit_of(part.beginning(fit_model), fit_model, choice, first=first)
+        fit_model = fit_model.with_numbers([p.name for p in choice], result.numbers)
+        ended = whole.reached(fit_model)
+        if ended.rows_used == part.rows_used:
+            break
+        farther = ended.rows_used > part.rows_used
+        part = allowing_for_errors(ended, fit_model)
+        if not (farther and left):  # what the fit determines is said of the rows that its end reaches
+            result = Misfit(part, fit_model, choice).report(np.array(result.numbers))
+            break
+    return part, fit_model, result
 
 
 def check_finite(predictor: Predictor, fit_model: FitModel) -> None:

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from mckibben.identification.fit.effort import FitEffort, search_effort
-from mckibben.identification.fit.misfit import Misfit
+from mckibben.identification.fit.misfit import Misfit, penalised
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
@@ -18,6 +18,7 @@ _NEAR_BOUND = 1e-6  # share of the range; nearer to a bound a parameter cannot m
 _AT_BOUND = 1e-3  # share of the range; nearer to a bound a parameter counts as being at it
 _COLLINEAR = 3e-3  # singular value of the normalised Jacobian below which parameters are not separable
 _CUTOFF = 1e-13  # share of the largest singular value below which a direction is not determined
+_STOPPED = 1000  # implausible parameters that a model whose run stopped counts as
 _DECADES = 30.0  # upper over lower bound from which a parameter is a scale, taken by its logarithm
 
 
@@ -33,6 +34,8 @@ class FittedModel:
             shape (values,).
         jacobian: derivatives of the prediction, weighted likewise, shape (values, free).
         folds: folds of the hold-out error, see `mckibben.identification.predict.predictor.Predictor`.
+        lost: number of values without a finite prediction, because a run stopped: their residual is the
+            penalty of the optimiser, and no figure of this model may be shown.
     """
 
     fit_model: FitModel
@@ -41,6 +44,7 @@ class FittedModel:
     residual: np.ndarray = field(repr=False)
     jacobian: np.ndarray = field(repr=False)
     folds: tuple[np.ndarray, ...] = field(repr=False)
+    lost: int = 0
 
     @property
     def key(self) -> tuple[frozenset[str], frozenset[str]]:
@@ -86,7 +90,9 @@ class FittedModel:
 
     @cached_property
     def implausible(self) -> int:
-        """Number of parameters that are at a bound or not separable from others."""
+        """Number of parameters that are at a bound or not separable from others; many where a run stopped."""
+        if self.lost:
+            return _STOPPED
         inner = self.jacobian[:, ~self.at_bound & ~self.idle]
         if not inner.shape[1]:
             return int(np.count_nonzero(self.at_bound))
@@ -191,16 +197,21 @@ def refitted(
 ) -> FittedModel:
     """Fit the free parameters jointly from their starts; the default effort is that of a search."""
     if not free:
-        residual = predictor.weighted(predictor.residual(fit_model))
-        empty = np.empty((len(residual), 0))
-        return FittedModel(fit_model, (), frozenset(freed), residual, empty, predictor.folds)
+        return unfitted(predictor, fit_model, freed=freed)
     misfit = Misfit(predictor, fit_model, free)
     result = misfit.fit(effort or search_effort(simulated=predictor.simulated))
     numbers = np.array(result.numbers)
     ended = misfit.fit_model(numbers)
     # Fits use the unclipped force, which may be negative; the residual uses the force of a slack muscle.
-    residual = predictor.weighted(predictor.residual(ended))
+    residual, lost = penalised(predictor, predictor.residual(ended))
     same = np.isclose(residual, -misfit.value(numbers), rtol=1e-9)
     jacobian = np.where(same[:, None], misfit.derivatives(numbers), 0.0)
     at_solution = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))
-    return FittedModel(ended, at_solution, frozenset(freed), residual, jacobian, predictor.folds)
+    return FittedModel(ended, at_solution, frozenset(freed), residual, jacobian, predictor.folds, lost)
+
+
+def unfitted(predictor: Predictor, fit_model: FitModel, *, freed: Collection[str] = ()) -> FittedModel:
+    """A model with the values that it has."""
+    residual, lost = penalised(predictor, predictor.residual(fit_model))
+    empty = np.empty((len(residual), 0))
+    return FittedModel(fit_model, (), frozenset(freed), residual, empty, predictor.folds, lost)

@@ -267,7 +267,7 @@ class Fitter:
         """The model with one more effect of the best first-order size; nothing else is refitted."""
         fit_model = self._guess(fitted_model, effect)
         residual = self._trial_residual(fit_model)
-        if float(np.mean(residual**2)) > fitted_model.mean_square:
+        if not float(np.mean(residual**2)) <= fitted_model.mean_square:  # also where its run stops
             fit_model, residual = fitted_model.fit_model.adding(effect, effect.off), fitted_model.residual
         return replace(fitted_model, fit_model=fit_model, residual=residual)
 

@@ -13,9 +13,26 @@ from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import Predictor
 
-_LOST = 1e3  # misfit of a row whose prediction is not finite, over the largest value
+_LOST = 1e3  # residual of a row whose prediction is not finite, over the largest value
 # Steps of a fit in a row without new derivatives, where those are dear, and its least tolerance.
 _SECANTS, _TOLERANCE = 2, 3e-5
+
+
+def penalised(predictor: Predictor, residual: np.ndarray) -> tuple[np.ndarray, int]:
+    """The weighted residual as an optimiser sees it, and the number of values without a finite prediction.
+
+    Those get a large residual, so that a fit turns back; it is no error, and nobody is to see a figure made
+    from it.
+
+    Args:
+        predictor: the data.
+        residual: measured minus predicted, shape (values,), SI.
+    """
+    finite = np.isfinite(residual)
+    largest = float(np.max(np.abs(predictor.measured / predictor.scale), initial=1.0))
+    penalty = -_LOST * largest * predictor.scale
+    lost = len(residual) - int(np.count_nonzero(finite))
+    return predictor.weighted(np.where(finite, residual, penalty)), lost
 
 
 class Misfit:
@@ -33,7 +50,6 @@ class Misfit:
     def __init__(self, predictor: Predictor, fit_model: FitModel, free: Sequence[Free]) -> None:
         self._predictor, self._fit_model, self._free = predictor, fit_model, free
         self._names = [parameter.name for parameter in free]
-        self._lost = _LOST * float(np.max(np.abs(predictor.measured / predictor.scale), initial=1.0))
         self._at: bytes | None = None
         self._misfit = np.empty(0)
         self._predicted: np.ndarray | None = None
@@ -56,9 +72,8 @@ class Misfit:
                     predicted, slopes = predictor.linearised(fit_model, self._free)
                     slopes = np.where(np.isfinite(predicted)[:, None], slopes, 0.0)
                     self._slopes = self._weighted(slopes)
-                misfit = predicted - predictor.measured
-            lost = self._lost * predictor.scale
-            self._at, self._misfit = key, predictor.weighted(np.where(np.isfinite(misfit), misfit, lost))
+                residual = predictor.measured - predicted
+            self._at, self._misfit = key, -penalised(predictor, residual)[0]
         return self._misfit
 
     def derivatives(self, numbers: np.ndarray) -> np.ndarray:

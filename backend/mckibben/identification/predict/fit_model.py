@@ -37,6 +37,8 @@ class FitModel:
         load: the unknown load of a measurement [N].
         assumed: fields of the muscle that an effect needs and that are not stated; they hold a typical value.
         supply_factor: supply pressure of a drive over the stated one [-].
+        blocked_force: of the stated muscle at its highest pressure, with which the bounds of some parameters
+            grow [N]; 0 = not known.
     """
 
     muscle: Muscle
@@ -45,6 +47,7 @@ class FitModel:
     load: float = 0.0
     assumed: frozenset[str] = frozenset()
     supply_factor: float = 1.0
+    blocked_force: float = 0.0
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "values", {name: dict(inner) for name, inner in dict(self.values).items()})
@@ -129,7 +132,7 @@ def free_numbers(
     geometry = tuple(geometry)
     held = held_beside(geometry)
     of_effects = [
-        _free(effect.id, p, fit_model.values[effect.id][p.name])
+        _free(effect.id, p, fit_model.values[effect.id][p.name], p.bounds(fit_model.blocked_force))
         for effect in fit_model.effects
         for p in effect.parameters
         if (p.fitted or f"{effect.id}.{p.name}" in freed) and f"{effect.id}.{p.name}" not in held
@@ -145,15 +148,15 @@ def held_beside(free: Iterable[Free]) -> frozenset[str]:
     return frozenset().union(*(each.holds for each in free))
 
 
-def _free(effect: str, p: Parameter, value: float) -> Free:
+def _free(effect: str, p: Parameter, value: float, bounds: tuple[float, float]) -> Free:
     usual = abs(p.default) if p.off is None else abs(p.default - p.off)
     if not usual and p.natural:
         usual = p.upper - p.lower  # a share that is 0 by default
     return Free(
         name=f"{effect}.{p.name}",
         start=value,
-        lower=p.lower,
-        upper=p.upper,
+        lower=bounds[0],
+        upper=bounds[1],
         unit=p.unit,
         off=p.off,
         usual=usual or None,

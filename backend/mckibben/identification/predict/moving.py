@@ -7,7 +7,7 @@ are scaled by their noise.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from copy import copy
 from dataclasses import replace
 
@@ -19,13 +19,14 @@ from mckibben.identification.predict.folds import FEWEST
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.kept_runs import KeptRuns
 from mckibben.identification.predict.moving_records import (
+    MOST_DRIVING,
     MOST_ROWS,
     Record,
     record_of,
     recorded_channels,
     stroke_of,
 )
-from mckibben.identification.predict.predictor import PredictedChannel, Predictor
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor, StoppedRun
 from mckibben.identification.predict.side_by_side import side_by_side
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.noise import noise_floor
@@ -37,15 +38,13 @@ from mckibben.physics.model import Model
 from mckibben.simulation.drive.driven import driven_motions
 from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.recorded_run import RecordedRun
 from mckibben.simulation.statics.model import StaticModel
 
 # Error per step of a motion under a measured pressure: below 0.1 um in all where something damps the motion,
 # 26 um after 200 swings of a load that nothing damps.
 _TOLERANCE = 1e-5
-# Most steps of a run for each row and segment, and at least: trial values may be those of a drive that rings
-# faster than any muscle, whose run would cost more than all others of a fit.
-_STEPS_EACH, _STEPS_AT_LEAST = 20, 20_000
-_LOST = 1e3  # residual after a run has stopped early, over the noise
+_FEWEST_ROWS = 3  # of a run
 _READINGS = {"pressure": "pressure_reading", "displacement": "stroke_reading", "force": "force_reading"}
 # Derivatives by runs that take the same steps: relative step, fewest parameters, and the number of runs for
 # derivatives of a structure after which its fits need them; so many segments of a command count as a run.
@@ -79,19 +78,14 @@ class TransientPredictor(Predictor):
         columns = measurement.columns
         self.kind = measurement.kind
         self.commanded = "command" in columns
-        recorded = recorded_channels(measurement, drive, commanded=self.commanded)
-        if not recorded:
+        self._recorded = recorded_channels(measurement, drive, commanded=self.commanded)
+        if not self._recorded:
             raise InputError(
                 f"{measurement.name}: a transient without a command column needs a displacement",
                 field="displacement",
                 hint="add a displacement column, or a command column to simulate valve and pressure (the "
                 "command of a drive document is not used instead)",
             )
-        labels = records_of(measurement)
-        self._records = [
-            record_of(measurement, drive, np.flatnonzero((labels == label) & measurement.usable))
-            for label in np.unique(labels)
-        ]
         if "pressure" not in columns and not self.commanded:
             raise InputError(
                 f"{measurement.name}: neither command nor pressure was measured",
@@ -99,49 +93,64 @@ class TransientPredictor(Predictor):
                 hint="add a command column, or a pressure column (the command of a drive document is not "
                 "used instead)",
             )
-        rows = np.concatenate([record.rows for record in self._records])
-        self.rows, count = data.rows[rows], len(rows)
-        channels: list[PredictedChannel] = []
-        self.rows_used, self.messages = (
-            count,
-            (*measurement.messages, *([data.message] if data.message else [])),
-        )
+        labels = records_of(measurement)
+        runs = [np.flatnonzero((labels == label) & measurement.usable) for label in np.unique(labels)]
+        self._records = [record_of(measurement, drive, rows) for rows in runs]
+        self._measurement, self._row_numbers = measurement, data.rows
+        self.messages = (*measurement.messages, *([data.message] if data.message else []))
+        if any(self._thinly_driven(rows) for rows in runs):
+            self.messages += (
+                f"the pressure of {MOST_DRIVING:,} rows of each run, evenly spread, drives the model".replace(
+                    ",", " "
+                ),
+            )
+        sweeps = [np.flatnonzero(labels == label) for label in np.unique(labels)]
+        self._noise = []
+        for _, _, values in self._recorded:
+            full_scale = float(np.max(np.abs(values)))
+            noise = noise_floor(values, sweeps) or 1e-3 * full_scale
+            self._noise.append((max(noise, 1e-6 * full_scale), full_scale))
+        self._arrange()
         self.excluded = dict(measurement.exclusions)
         if data.repeated:
             self.excluded["repeated rows"] = data.repeated
-        if between := int(np.count_nonzero(measurement.usable)) - count:
+        if between := int(np.count_nonzero(measurement.usable)) - self.rows_used:
             self.excluded[f"in between ({MOST_ROWS} rows of each run are compared, evenly spread)"] = between
-        for number, (name, unit, values) in enumerate(recorded):
-            sweeps = [np.flatnonzero(labels == label) for label in np.unique(labels)]
-            full_scale = float(np.max(np.abs(values)))
-            noise = noise_floor(values, sweeps) or 1e-3 * full_scale
-            place = slice(number * count, (number + 1) * count)
-            channels.append(PredictedChannel(name, unit, place, max(noise, 1e-6 * full_scale), full_scale))
-        self.channels = tuple(channels)
-        self.measured = np.concatenate([values[rows] for _, _, values in recorded])
-        several = len(recorded) > 1
-        self.scale = np.concatenate(
-            [np.full(count, channel.noise if several else 1.0) for channel in self.channels]
-        )
-        per_record = [np.full(len(record.rows), n) for n, record in enumerate(self._records)]
-        self.records = np.tile(np.concatenate(per_record), len(recorded)) + np.repeat(
-            len(self._records) * np.arange(len(recorded)), count
-        )
-        self.groups = self.records
-        self.sweeps = [np.flatnonzero(self.records == label) for label in np.unique(self.records)]
-        self.folds = (_blocks(self._records, len(recorded)),)
-        time = np.concatenate([record.time for record in self._records])
-        others = {name: columns[name][rows] for name in ("pressure", "command") if name in columns}
-        stroke = stroke_of(measurement, drive)
-        if stroke is not None:
-            others |= {"displacement": stroke[rows], "velocity": -np.gradient(stroke, columns["time"])[rows]}
-        self.inputs = {name: np.tile(v, len(recorded)) for name, v in {"time": time, **others}.items()}
         self._wide: tuple[tuple[Effect, ...], ...] = ()
         self._spent: dict[tuple[Effect, ...], float] = {}
         self._tried: dict[tuple[int, frozenset[Effect]], int] = {}
         self._made: dict[DriveStructure, float] = {}
         self._kept = KeptRuns()
         self._next: tuple[list[FitModel], list[np.ndarray | None]] = [], []
+
+    def _thinly_driven(self, rows: np.ndarray) -> bool:
+        return not self.commanded and len(rows) > MOST_DRIVING
+
+    def _arrange(self) -> None:
+        """Set the stacked arrays to the rows of the records."""
+        measurement, columns = self._measurement, self._measurement.columns
+        rows = np.concatenate([record.rows for record in self._records])
+        self.rows, self.rows_used = self._row_numbers[rows], len(rows)
+        count, several = len(rows), len(self._recorded)
+        self.channels = tuple(
+            PredictedChannel(name, unit, slice(number * count, (number + 1) * count), *noise)
+            for number, ((name, unit, _), noise) in enumerate(zip(self._recorded, self._noise, strict=True))
+        )
+        self.measured = np.concatenate([values[rows] for _, _, values in self._recorded])
+        self.scale = np.repeat([noise if several > 1 else 1.0 for noise, _ in self._noise], count)
+        per_record = [np.full(len(record.rows), n) for n, record in enumerate(self._records)]
+        self.records = np.tile(np.concatenate(per_record), several) + np.repeat(
+            len(self._records) * np.arange(several), count
+        )
+        self.groups = self.records
+        self.sweeps = [np.flatnonzero(self.records == label) for label in np.unique(self.records)]
+        self.folds = (_blocks(self._records, several),)
+        time = np.concatenate([record.time for record in self._records])
+        others = {name: columns[name][rows] for name in ("pressure", "command") if name in columns}
+        stroke = stroke_of(measurement, self._records[0].drive)
+        if stroke is not None:
+            others |= {"displacement": stroke[rows], "velocity": -np.gradient(stroke, columns["time"])[rows]}
+        self.inputs = {name: np.tile(v, several) for name, v in {"time": time, **others}.items()}
 
     @property
     def drives(self) -> tuple[Drive, ...]:
@@ -191,7 +200,7 @@ class TransientPredictor(Predictor):
         tubeless = self._records[0].drive.tube is None
         other = {"heat", "tube_conductance"} if tubeless else {"heat"}
         further = [e for e in candidates if e.id not in inside and not other & set(e.slots) and not _fast(e)]
-        ready = copy(self)
+        ready = self.beginning(fit_model)
         ready.quick = plain = tuple(effect for effect in further if not effect.states)
         ready._wide = tuple(Model((*fit_model.effects, *added)).effects for added in (plain, further))
         return ready
@@ -224,7 +233,7 @@ class TransientPredictor(Predictor):
         return replace(fit_model, effects=effects, values=values)
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
-        """The channels of all records, stacked; far from the measurement after a run has stopped early."""
+        """The channels of all records, stacked; NaN after a run has stopped early."""
         del clipped  # a slack muscle reads no force in either case
         return self.predictions([fit_model])[0]
 
@@ -243,8 +252,8 @@ class TransientPredictor(Predictor):
                 found[index] = self._stacked(readings)
         return [found[index] for index in range(len(fit_models))]
 
-    def _of_records(self, models: Sequence[FitModel]) -> list[Sequence[Mapping[str, np.ndarray]]]:
-        """Of each record the readings of models with the same effects."""
+    def _of_records(self, models: Sequence[FitModel]) -> list[Sequence[RecordedRun]]:
+        """Of each record the runs of models with the same effects."""
         drives = [[_drive_with(model, record) for model in models] for record in self._records]
         # Counted here, so that it does not depend on which thread is first.
         few = [self.commanded and self._few(*each) for each in zip(drives, self._records, strict=True)]
@@ -264,16 +273,84 @@ class TransientPredictor(Predictor):
                 self._kept.keep(fit_model, here)
         return self.predict(fit_model)
 
-    def _stacked(self, readings: Sequence[Mapping[str, np.ndarray]]) -> np.ndarray:
-        """The channels of the readings of all records; far from the measurement where there are none."""
+    def stopped(self, fit_model: FitModel) -> tuple[StoppedRun, ...]:
+        """The runs that end before the last rows of their records, and why."""
+        if np.all(np.isfinite(self.predict(fit_model))):
+            return ()
+        found = []
+        several = len(self._records) > 1
+        runs = [of_record[0] for of_record in self._of_records([fit_model])]
+        for number, (record, run, count) in enumerate(
+            zip(self._records, runs, self._reached(fit_model), strict=True), 1
+        ):
+            if count == len(record.rows):
+                continue
+            found.append(
+                StoppedRun(
+                    of="",
+                    run=number if several else 0,
+                    reached=float(record.time[count - 1]) if count else float("nan"),
+                    duration=float(record.time[-1]),
+                    share=1.0 - count / len(record.rows),
+                    reason=run.stop or "it has no finite value there",
+                )
+            )
+        return tuple(found)
+
+    def reached(self, fit_model: FitModel) -> TransientPredictor:
+        """As of the base class; a run that reaches less than three rows is left out."""
+        counts = self._reached(fit_model)
+        wholes = [len(record.rows) for record in self._records]
+        if counts == wholes:
+            return self
+        left = [count if count >= _FEWEST_ROWS else 0 for count in counts]
+        if not any(left):
+            raise InputError(
+                f"{self._measurement.name}: {self.stopped(fit_model)[0].event}",
+                field="effects",
+                hint="without three rows of a run nothing can be compared",
+            )
+        inside = [np.arange(whole) < count for whole, count in zip(wholes, left, strict=True)]
+        kept = np.tile(np.concatenate(inside), len(self._recorded))
+        other = self._with_records([
+            record.until(count) for record, count in zip(self._records, left, strict=True) if count
+        ])  # fmt: skip
+        other._arrange()
+        other.reading_errors = tuple(replace(error, rows=error.rows[kept]) for error in self.reading_errors)
+        lost = int(np.count_nonzero(~kept)) // len(self._recorded)
+        other.excluded = {**self.excluded, "after the run of the model stopped": lost}
+        other._kept.keep(fit_model, self.predict(fit_model)[kept])
+        return other
+
+    def _reached(self, fit_model: FitModel) -> list[int]:
+        """Of each record the number of rows up to the first one without a finite prediction."""
+        finite = np.isfinite(self.predict(fit_model)).reshape(len(self._recorded), -1).all(axis=0)
+        ends = np.cumsum([len(record.rows) for record in self._records])[:-1]
+        return [int(np.argmin([*part, False])) for part in np.split(finite, ends)]
+
+    def beginning(self, fit_model: FitModel) -> TransientPredictor:
+        """As of the base class."""
+        runs = [of_record[0] for of_record in self._of_records([fit_model])]
+        records = [record.beginning(run.steps) for record, run in zip(self._records, runs, strict=True)]
+        other = self._with_records(records)
+        other._kept.keep(fit_model, self._stacked(runs))
+        return other
+
+    def _with_records(self, records: list[Record]) -> TransientPredictor:
+        """This predictor with other records, whose runs are not known yet."""
+        other = copy(self)
+        other._records, other._kept, other._next = records, KeptRuns(), ([], [])
+        return other
+
+    def _stacked(self, runs: Sequence[RecordedRun]) -> np.ndarray:
+        """The channels of the readings of all records; NaN where there are none."""
         parts: list[list[np.ndarray]] = [[] for _ in self.channels]
-        for record, of_record in zip(self._records, readings, strict=True):
+        for record, run in zip(self._records, runs, strict=True):
             for part, channel in zip(parts, self.channels, strict=True):
-                values = of_record.get(channel.name, np.empty(0))
+                values = run.readings.get(_READINGS[channel.name], np.empty(0))
                 lost = np.full(len(record.rows) - len(values), np.nan)
                 part.append(np.concatenate([values, lost]))
-        predicted = np.concatenate([np.concatenate(part) for part in parts])
-        return np.where(np.isfinite(predicted), predicted, self.measured + _LOST * self._noises())
+        return np.concatenate([np.concatenate(part) for part in parts])
 
     def differences(
         self, fit_model: FitModel, free: Sequence[Free], here: np.ndarray | None = None
@@ -319,20 +396,18 @@ class TransientPredictor(Predictor):
         runs = list(zip(drives, self._records, few, strict=True))
         of_records = side_by_side(lambda run: _readings(*run, together=True), runs)
         return [
-            self._stacked(readings) if all(readings) else None for readings in zip(*of_records, strict=True)
+            self._stacked(runs) if all(run.readings for run in runs) else None
+            for runs in zip(*of_records, strict=True)
         ]
 
-    def _noises(self) -> np.ndarray:
-        return np.repeat([channel.noise for channel in self.channels], len(self.rows))
-
-    def _runs(self, drives: Sequence[Drive], record: Record, few: bool) -> Sequence[Mapping[str, np.ndarray]]:
+    def _runs(self, drives: Sequence[Drive], record: Record, few: bool) -> Sequence[RecordedRun]:
         """Readings of drives with the same effects; none where the values of a fit are those of no drive."""
         if not self.commanded:
             return self._motions(drives, record)
         try:
             return _readings(drives, record, few)
-        except InputError:
-            return [{} for _ in drives]
+        except InputError as error:
+            return [RecordedRun({}, stop=error.message) for _ in drives]
 
     def _few(self, drives: Sequence[Drive], record: Record) -> bool:
         """Whether few runs of a structure have been made; counts these."""
@@ -341,36 +416,36 @@ class TransientPredictor(Predictor):
         return made <= _FEW
 
     @staticmethod
-    def _motions(drives: Sequence[Drive], record: Record) -> list[dict[str, np.ndarray]]:
-        """Readings of drives under the measured pressure; none of one that does not follow it."""
-        assert record.pressure is not None  # noqa: S101 - checked by the constructor
+    def _motions(drives: Sequence[Drive], record: Record) -> list[RecordedRun]:
+        """Runs of drives under the measured pressure; without readings where no drive can have the values."""
+        assert record.driving is not None  # noqa: S101 - checked by the constructor
+        time, pressure = record.driving
         try:
-            runs = driven_motions(
+            return driven_motions(
                 drives,
-                time=record.time,
-                pressure=record.pressure,
+                time=time,
+                pressure=pressure,
                 stroke=record.stroke,
                 tolerance=_TOLERANCE,
-                max_steps=_most_steps(len(record.time)),
+                grid=record.time,
+                max_steps=record.most_steps,
             )
-        except InputError:  # values of the fit that no drive can have
-            return [{} for _ in drives]
-        return [{} if isinstance(run, InputError) else _named(run) for run in runs]
+        except InputError as error:  # values of the fit that no drive can have
+            return [RecordedRun({}, stop=error.message) for _ in drives]
 
 
 def _readings(
     drives: Sequence[Drive], record: Record, few: bool, *, together: bool = False
-) -> list[dict[str, np.ndarray]]:
-    """Readings of commanded drives with the same effects, see `readings_of_many`."""
-    pieces = [record.pieces(drive) for drive in drives]
-    most = _most_steps(len(record.time) + len(pieces[0][1]))
-    runs = readings_of_many(drives, pieces, grid=record.time, together=together, few=few, max_steps=most)
-    return [_named(run) for run in runs]
-
-
-def _named(outputs: Mapping[str, np.ndarray]) -> dict[str, np.ndarray]:
-    """The readings by the names of their channels."""
-    return {name: outputs[output] for name, output in _READINGS.items() if output in outputs}
+) -> list[RecordedRun]:
+    """Runs of commanded drives with the same effects, see `readings_of_many`."""
+    return readings_of_many(
+        drives,
+        [record.pieces(drive) for drive in drives],
+        grid=record.time,
+        together=together,
+        few=few,
+        max_steps=record.most_steps,
+    )
 
 
 def _drive_with(fit_model: FitModel, record: Record) -> Drive:
@@ -378,10 +453,6 @@ def _drive_with(fit_model: FitModel, record: Record) -> Drive:
     model = StaticModel.of(fit_model.muscle, Model(fit_model.effects).effects, fit_model.values)
     supply = fit_model.supply_factor * record.drive.supply_pressure
     return replace(record.drive, model=model, supply_pressure=supply)
-
-
-def _most_steps(pieces: int) -> int:
-    return max(_STEPS_AT_LEAST, _STEPS_EACH * pieces)
 
 
 def _fast(effect: Effect) -> bool:

@@ -16,9 +16,16 @@ from mckibben.simulation.command.signals import TableSignal
 from mckibben.simulation.drive.many_runs import Pieces
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import dead_times, segments_after
+from mckibben.simulation.outcome import MAX_STEPS
 
-#: Most rows of a run; more are thinned evenly.
+#: Most rows of a run that are compared; more are thinned evenly.
 MOST_ROWS = 1000
+#: Most rows of a run whose pressure drives the model; more are thinned evenly.
+MOST_DRIVING = 100_000
+_STEPS_EACH = 4  # most steps of a run for each segment of its input, where that is more than `MAX_STEPS`
+# Most steps of a run of a fit over those of the run that the fit begins with, and at least: trial values may
+# be those of a drive that rings faster than any muscle, whose run would cost more than all others.
+_STEPS_OVER, _STEPS_AT_LEAST = 10, 50_000
 _PIECES = 8  # kept; only dead times change them
 _FEW_LEVELS = 0.2  # share of rows at which the command changes, up to which it is held between changes
 _FIRST_ROWS = 50  # most rows for the start pressure
@@ -43,13 +50,24 @@ class Recorded(TableSignal):
 
 @dataclass(frozen=True)
 class Record:
-    """One uninterrupted run: the drive as documented, its times from 0, and the measured pressure."""
+    """One uninterrupted run.
+
+    Attributes:
+        drive: as documented.
+        time: of the compared rows, from 0 [s].
+        driving: times and readings of the pressure that drives the model, of all rows; None where a command
+            does.
+        stroke: at the first row [m].
+        rows: the compared rows of the measurement.
+        most_steps: accepted and rejected steps after which a run of the model stops.
+    """
 
     drive: Drive
     time: np.ndarray
-    pressure: np.ndarray | None
+    driving: tuple[np.ndarray, np.ndarray] | None
     stroke: float
     rows: np.ndarray
+    most_steps: int
     _pieces: dict[tuple[float, float], Pieces] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -62,6 +80,19 @@ class Record:
                 del self._pieces[next(iter(self._pieces))]
             self._pieces[delays] = segments_after(drive, delays)[:2]
         return self._pieces[delays]
+
+    def until(self, count: int) -> Record:
+        """The first rows of the run."""
+        time, driving = self.time[:count], self.driving
+        if driving is not None:
+            last = int(np.searchsorted(driving[0], time[-1])) + 1
+            driving = driving[0][:last], driving[1][:last]
+        return replace(self, time=time, rows=self.rows[:count], driving=driving)
+
+    def beginning(self, steps: int) -> Record:
+        """The run for fits that begin with a run of so many steps."""
+        most = max(_STEPS_AT_LEAST, _STEPS_OVER * steps)
+        return replace(self, most_steps=min(most, self.most_steps))
 
     @cached_property
     def segments(self) -> int:
@@ -154,8 +185,7 @@ def record_of(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Recor
     columns, conditions = measurement.columns, measurement.conditions
     if len(rows) < 3:
         raise InputError(f"{measurement.name}: a run of {len(rows)} rows is too short", field="time")
-    if len(rows) > MOST_ROWS:
-        rows = rows[np.unique(np.linspace(0, len(rows) - 1, MOST_ROWS).astype(int))]
+    whole, rows = rows, thinned(rows, MOST_ROWS)
     time = columns["time"][rows] - columns["time"][rows[0]]
     load = drive.load
     if "load_mass" in conditions:
@@ -169,13 +199,29 @@ def record_of(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Recor
         changed["supply_pressure"] = float(conditions["supply_pressure"])
     if "command" in columns:
         changed["command"] = _command(columns["time"], columns["command"], rows)
-    pressure = columns["pressure"][rows] if "pressure" in columns else None
-    if pressure is not None and "command" in columns:
+    driving = None
+    if "command" not in columns:
+        whole = thinned(whole, MOST_DRIVING)
+        driving = columns["time"][whole] - columns["time"][whole[0]], columns["pressure"][whole]
+    elif "pressure" in columns:
+        pressure = columns["pressure"][rows]
         changed["start_pressure"] = _start_pressure(drive, pressure, columns["command"][rows])
     stroke = stroke_of(measurement, drive)
+    own = replace(drive, **changed)
+    segments = len(own.command.segments(own.duration).slopes) if driving is None else len(driving[0])
     return Record(
-        replace(drive, **changed), time, pressure, 0.0 if stroke is None else float(stroke[rows[0]]), rows
+        drive=own,
+        time=time,
+        driving=driving,
+        stroke=0.0 if stroke is None else float(stroke[rows[0]]),
+        rows=rows,
+        most_steps=max(MAX_STEPS, _STEPS_EACH * segments),
     )
+
+
+def thinned(rows: np.ndarray, most: int) -> np.ndarray:
+    """At most so many of the rows, evenly spread, with the first and the last one."""
+    return rows if len(rows) <= most else rows[np.unique(np.linspace(0, len(rows) - 1, most).astype(int))]
 
 
 def _start_pressure(drive: Drive, pressure: np.ndarray, command: np.ndarray) -> float:

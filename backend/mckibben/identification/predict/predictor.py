@@ -11,6 +11,7 @@ from typing import Self
 
 import numpy as np
 
+from mckibben.facts.result import Number, result_class
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.reading_errors import ReadingError, ReadingWeights, reading_weights
@@ -47,6 +48,41 @@ class PredictedChannel:
     rows: slice
     noise: float
     full_scale: float
+
+
+@result_class
+class StoppedRun:
+    """A run of the model that ended before the last row of its record."""
+
+    of: str
+    """Name of the measurement; empty for a single one."""
+    run: int
+    """Its number within the measurement, from 1; 0 for the only one."""
+    reached: Number
+    """Time of the last row that it reached, from the first one on [s]; NaN where it never began."""
+    duration: float
+    """Duration of the record [s]."""
+    share: float
+    """Share of the compared rows of the record that it did not reach [-]."""
+    reason: str
+    """Why it ended."""
+
+    @property
+    def event(self) -> str:
+        """What happened, in words."""
+        begin = f"{self.of}: " if self.of else ""
+        which = f"run {self.run}" if self.run else "the run"
+        reason = self.reason[:1].lower() + self.reason[1:].rstrip(".")
+        if not self.reached > 0.0:
+            return f"{begin}{which} of the model did not begin: {reason}"
+        return f"{begin}{which} of the model stopped at {self.reached:.3g} of {self.duration:.3g} s: {reason}"
+
+    @property
+    def sentence(self) -> str:
+        """The same, with what the figures of a comparison are of."""
+        percent = 100.0 * self.share
+        lost = f"{percent:.{0 if percent >= 10.0 else 1}f} % of {'its' if self.run else 'the'} rows"
+        return f"{self.event}. The figures are of the rows before; {lost} were not reached"
 
 
 class Predictor(ABC):
@@ -103,7 +139,9 @@ class Predictor(ABC):
 
     @abstractmethod
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
-        """Predicted values, shape (values,); ``clipped``: a slack muscle reads no force."""
+        """Predicted values, shape (values,), NaN where there is none; ``clipped``: a slack muscle reads no
+        force.
+        """
 
     def predictions(self, fit_models: Sequence[FitModel]) -> list[np.ndarray]:
         """Unclipped predictions of several models; simulated runs go side by side."""
@@ -182,6 +220,25 @@ class Predictor(ABC):
     def rest_length(self, fit_model: FitModel) -> np.ndarray | float:
         """Rest length of the muscle [m]; of each value where there are several muscles."""
         return float(fit_model.muscle.nominal_length)
+
+    def stopped(self, fit_model: FitModel) -> tuple[StoppedRun, ...]:
+        """The runs of a model that end before the last rows; a closed form has none."""
+        del fit_model
+        return ()
+
+    def reached(self, fit_model: FitModel) -> Predictor:
+        """This predictor of the rows alone that the runs of a model reach.
+
+        Raises:
+            InputError: no run reaches three rows.
+        """
+        del fit_model
+        return self
+
+    def beginning(self, fit_model: FitModel) -> Predictor:
+        """This predictor for fits that begin with a model: a run that takes many more steps stops."""
+        del fit_model
+        return self
 
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
         """Number of rows without a finite prediction, and of all rows."""

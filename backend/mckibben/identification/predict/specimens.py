@@ -16,7 +16,7 @@ import numpy as np
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.folds import folds_of
 from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.predictor import PredictedChannel, Predictor
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor, StoppedRun
 from mckibben.identification.predict.reading_errors import ReadingError
 from mckibben.measurement.kind import common_kind
 from mckibben.physics.effect import Effect
@@ -266,6 +266,37 @@ class SpecimensPredictor(Predictor):
         value = fit_model.number(channel)
         field = Free(channel, value, 0.9 * value, 1.1 * value, "")
         return -self.linearised(fit_model, [field])[1][:, 0]
+
+    def stopped(self, fit_model: FitModel) -> tuple[StoppedRun, ...]:
+        """Those of all specimens, by their names."""
+        return tuple(
+            replace(run, of=each.name)
+            for each in self._specimens
+            for run in each.predictor.stopped(self._own(fit_model, each))
+        )
+
+    def reached(self, fit_model: FitModel) -> SpecimensPredictor:
+        """The rows that the runs of every specimen reach.
+
+        Raises:
+            InputError: no run of a specimen reaches three rows.
+        """
+        if not self.stopped(fit_model):
+            return self
+        own = [
+            replace(each, predictor=each.predictor.reached(self._own(fit_model, each)))
+            for each in self._specimens
+        ]
+        return SpecimensPredictor(own, reference=self._reference)
+
+    def beginning(self, fit_model: FitModel) -> SpecimensPredictor:
+        """That of every specimen."""
+        other = copy(self)
+        other._specimens = tuple(
+            replace(each, predictor=each.predictor.beginning(self._own(fit_model, each)))
+            for each in self._specimens
+        )
+        return other
 
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
         """Sums over the specimens."""

@@ -46,6 +46,7 @@ EFFECT = Effect(
             source=_RANGE,
             description="Half the width of the force loop; with a static excess, that at high speed.",
             off=0.0,
+            grows=True,
         ),
         Parameter(
             "static_share",

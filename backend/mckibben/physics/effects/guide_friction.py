@@ -56,6 +56,7 @@ EFFECT = Effect(
             source=_RANGE,
             description="Friction at high speed.",
             off=0.0,
+            grows=True,
         ),
         Parameter(
             "coefficient",

@@ -86,6 +86,7 @@ EFFECT = Effect(
             *("force", "F_c", "N", 10.0, 0.0, 200.0, _RANGE),
             description="Friction after a long travel; with a power q, that at 3 bar.",
             off=0.0,
+            grows=True,
         ),
         Parameter(
             *("break_strain", r"\varepsilon_b", "1", 0.02, 1.0e-3, 0.1),
@@ -149,8 +150,7 @@ EFFECT = Effect(
             ),
             {"cell_1": 1.0, "cell_2": 0.5, "cell_3": -0.25, "cell_4": -0.25, "pressure": 2e5, "length": 0.24},
         ),
-        Example(
-            # 2.5 N sqrt(2), but for the rounding at low pressure
+        Example(  # 2.5 N sqrt(2), but for the rounding at low pressure
             *(
                 "slot:friction",
                 3.5355339,

@@ -35,6 +35,7 @@ EFFECT = Effect(
             source=_MAPS,
             description="Constant loss of tension; negative when the bladder pulls.",
             off=0.0,
+            grows=True,
         ),
     ),
     slots={"elastomer": elastomer},

@@ -29,7 +29,8 @@ def answer_section(material: DiagnosisMaterial) -> Html:
     """All that a reader needs who reads no further."""
     diagnosis = material.diagnosis
     assumptions = (diagnosis or material.comparison).assumptions
-    parts: list[Child] = [_verdict(material)]
+    stopped = [callout("Stopped", _sentence(run.sentence), tone="bad") for run in material.comparison.stopped]
+    parts: list[Child] = [*stopped, _verdict(material)]
     if diagnosis is not None and diagnosis.verdict.effects:
         parts.append(_missing(material, diagnosis))
     parts.append(_steps(material))

@@ -20,6 +20,9 @@ class EffectParameter(Strict):
     default: float = Field(description="A typical value.")
     lower: float = Field(description="Lower bound of the plausible range.")
     upper: float = Field(description="Upper bound of the plausible range.")
+    grows: bool = Field(
+        description="Whether the bounds are those of usual muscles, and grow with the force of a large one."
+    )
     off: float | None = Field(description="The value at which the effect vanishes.")
     fitted: bool = Field(description="Whether a fit frees it by default.")
     description: str = Field(description="What it is.")

@@ -11,6 +11,7 @@ from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.drive.initial_state import settle
 from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.recorded_run import RecordedRun
 from mckibben.simulation.drive.transient import constants_of, external_force, skewed
 from mckibben.simulation.integrate.engine import (
     CompiledDrive,
@@ -20,7 +21,7 @@ from mckibben.simulation.integrate.engine import (
     integrate,
 )
 from mckibben.simulation.integrate.many import integrate_many
-from mckibben.simulation.integrate.problem import MAX_STEPS
+from mckibben.simulation.outcome import MAX_STEPS
 from mckibben.simulation.statics.model import StaticModel
 
 TOLERANCE = 1e-6
@@ -133,7 +134,7 @@ def driven_states_of_many(
     )
     for outcome, written in zip(solutions.outcomes, solutions.written, strict=True):
         if outcome is not Outcome.COMPLETED:
-            raise _unfollowed(time, int(written), outcome)
+            raise _unfollowed(time, int(written), outcome.advice())
     return [dict(zip(names, rows.T.copy(), strict=True)) for rows in solutions.rows]
 
 
@@ -164,11 +165,11 @@ def _packed(compiled: CompiledDrive, inputs: Mapping[str, np.ndarray]) -> tuple[
     return packed, packed[0] * ~np.array([name.endswith("_slope") for name in names])
 
 
-def _unfollowed(time: np.ndarray, written: int, outcome: Outcome) -> InputError:
+def _unfollowed(time: np.ndarray, written: int, why: str) -> InputError:
     return InputError(
         f"the model does not follow this record beyond {time[max(written - 1, 0)]:.4g} s",
         field="effects",
-        hint=outcome.value,
+        hint=why,
     )
 
 
@@ -184,11 +185,14 @@ def driven_motion(
 
     Returns:
         ``stroke_reading`` [m], ``force_reading`` [N] and ``stroke``, ``speed`` at each time.
+
+    Raises:
+        InputError: times that do not ascend, or a drive that does not follow the record to its end.
     """
     (found,) = driven_motions([drive], time=time, pressure=pressure, stroke=stroke, tolerance=tolerance)
-    if isinstance(found, InputError):
-        raise found
-    return found
+    if found.stop:
+        raise _unfollowed(time, len(found["stroke"]), found.stop)
+    return dict(found.readings)
 
 
 def driven_motions(
@@ -198,16 +202,27 @@ def driven_motions(
     pressure: np.ndarray,
     stroke: float,
     tolerance: float = TOLERANCE,
+    grid: np.ndarray | None = None,
     max_steps: int = MAX_STEPS,
-) -> list[dict[str, np.ndarray] | InputError]:
+) -> list[RecordedRun]:
     """`driven_motion` of drives that differ in numbers only, side by side; each as it would be alone.
 
-    An error in the place of a drive that does not follow the record, or takes more than ``max_steps`` steps.
+    Args:
+        drives: of the same effects.
+        time, pressure, stroke: see `driven_motion`; every row of the record drives the motion.
+        tolerance: relative error per step.
+        grid: ascending times within the record at which readings are wanted [s]; default: those of its rows.
+        max_steps: most accepted and rejected steps of a run, which stops there.
+
+    Raises:
+        InputError: times that do not ascend.
     """
+    grid = time if grid is None else grid
     first = drives[0]
     compiled = compiled_driven(first.model.effects, motion=True)
     steps, names = _steps(time), [state.name for state in compiled.model.states]
     parameters, starts, packed = [], [], []
+    alike = all(drive.load is first.load for drive in drives)  # then one table of inputs serves them all
     for drive in drives:
         table = constants_of(drive) | {"temperature": drive.temperature}
         external = external_force(drive).value(time - time[0])
@@ -226,27 +241,26 @@ def driven_motions(
         settle(compiled, start, constants, at_rest)
         parameters.append(constants)
         starts.append(start)
-        packed.append(columns)
+        if not (alike and packed):
+            packed.append(columns)
     solutions = integrate_many(
         compiled,
         parameters=np.array(parameters),
         starts=np.array(starts),
         times=time,
-        inputs=np.array(packed),
-        grid=time,
+        inputs=packed[0] if alike else np.array(packed),
+        grid=grid,
         tolerance=tolerance,
         columns=_MOTION,
         restitution=first.restitution,
         max_steps=max_steps,
     )
-    found: list[dict[str, np.ndarray] | InputError] = []
+    found = []
     for number, drive in enumerate(drives):
-        if solutions.outcomes[number] is not Outcome.COMPLETED:
-            found.append(_unfollowed(time, int(solutions.written[number]), solutions.outcomes[number]))
-            continue
-        outputs = dict(zip(_MOTION, solutions.rows[number].T.copy(), strict=True))
-        outputs["force_reading"] = skewed(drive.model, time, outputs["force_reading"])
-        found.append(outputs)
+        rows = solutions.rows[number, : solutions.written[number]]
+        outputs = dict(zip(_MOTION, rows.T.copy(), strict=True))
+        outputs["force_reading"] = skewed(drive.model, grid[: len(rows)], outputs["force_reading"])
+        found.append(RecordedRun(outputs, *solutions.ending(number, max_steps)))
     return found
 
 
@@ -273,7 +287,7 @@ def _run(
         engine=engine_by_size(len(packed_inputs)),
     )
     if solution.outcome is not Outcome.COMPLETED:
-        raise _unfollowed(time, len(solution.rows), solution.outcome)
+        raise _unfollowed(time, len(solution.rows), solution.outcome.advice())
     columns = (*(state.name for state in model.states), *model.output_names)
     return dict(zip(columns, solution.rows.T, strict=True))
 

@@ -9,10 +9,11 @@ import numpy as np
 from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.initial_state import Start, start_of
 from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.recorded_run import RecordedRun
 from mckibben.simulation.drive.transient import TOLERANCE, before_of, parameters_of, skewed
 from mckibben.simulation.integrate.engine import CompiledDrive, compiled_drive, quick_drive
 from mckibben.simulation.integrate.many import ManySolutions, integrate_many
-from mckibben.simulation.integrate.problem import MAX_STEPS
+from mckibben.simulation.outcome import MAX_STEPS
 
 READINGS = ("pressure_reading", "stroke_reading", "force_reading")
 #: Boundaries of the segments of a run, shape (segments + 1,) [s], and inputs, shape (segments, inputs).
@@ -28,7 +29,7 @@ def readings_of_many(
     together: bool = False,
     few: bool = False,
     max_steps: int = MAX_STEPS,
-) -> list[dict[str, np.ndarray]]:
+) -> list[RecordedRun]:
     """Readings of each drive on a grid, by the names of `READINGS`, SI; none of a drive that has no start.
 
     Each has the numbers that it has alone, fewer of them where the run ends early. ``together``, the first
@@ -50,14 +51,14 @@ def readings_of_many(
     compiled = (quick_drive if few else compiled_drive)(drives[0].structure)
     parameters = [parameters_of(drive, compiled) for drive in drives]
     starts: dict[int, Start] = {}
+    found = [RecordedRun({}) for _ in drives]
     for index, (drive, (times, inputs)) in enumerate(zip(drives, pieces, strict=True)):
         if together and not np.array_equal(times, pieces[0][0]):
             continue
         try:
             starts[index] = start_of(drive, compiled, parameters[index], before_of(drive, inputs))
-        except InputError:
-            continue
-    found: list[dict[str, np.ndarray]] = [{} for _ in drives]
+        except InputError as error:
+            found[index] = RecordedRun({}, stop=error.message)
     if together and 0 not in starts:
         return found
     groups: dict[int, list[int]] = {}  # dead times change the number of segments
@@ -80,7 +81,7 @@ def readings_of_many(
             readings = dict(zip(READINGS, rows.T.copy(), strict=True))
             force = readings["force_reading"]
             readings["force_reading"] = skewed(drives[index].model, grid[: len(rows)], force)
-            found[index] = readings
+            found[index] = RecordedRun(readings, *runs.ending(place, max_steps))
     return found
 
 

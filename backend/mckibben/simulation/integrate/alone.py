@@ -9,7 +9,6 @@ import numpy as np
 from mckibben.simulation.integrate.lane_room import columns_of, lane_kernels
 from mckibben.simulation.integrate.problem import (
     EVENT_WIDTH,
-    MAX_STEPS,
     MOST_EVENTS,
     Solution,
     bounce_of,
@@ -17,6 +16,7 @@ from mckibben.simulation.integrate.problem import (
 )
 from mckibben.simulation.integrate.recycled import recycled
 from mckibben.simulation.integrate.system import CompiledDrive
+from mckibben.simulation.outcome import MAX_STEPS
 
 
 class Alone:

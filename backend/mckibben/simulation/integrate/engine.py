@@ -15,7 +15,6 @@ from mckibben.simulation.integrate.lsoda import by_lsoda
 from mckibben.simulation.integrate.problem import (
     EVENT_WIDTH,
     FIRST_STEP,
-    MAX_STEPS,
     MOST_EVENTS,
     SLOWEST_REBOUND,
     Problem,
@@ -29,7 +28,7 @@ from mckibben.simulation.integrate.system import (
     compiled_driven,
     quick_drive,
 )
-from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.outcome import MAX_STEPS, Outcome, Watch
 
 __all__ = [
     "EVENT_WIDTH",

@@ -12,14 +12,13 @@ from mckibben.simulation.integrate.lane_room import Columns, LaneKernels, column
 from mckibben.simulation.integrate.problem import (
     EVENT_WIDTH,
     FIRST_STEP,
-    MAX_STEPS,
     MOST_EVENTS,
     bounce_of,
     outcome_of,
 )
 from mckibben.simulation.integrate.recycled import recycled
 from mckibben.simulation.integrate.system import CompiledDrive
-from mckibben.simulation.outcome import Outcome
+from mckibben.simulation.outcome import MAX_STEPS, Outcome
 
 
 @dataclass(frozen=True, eq=False)
@@ -43,6 +42,17 @@ class ManySolutions:
     outcomes: tuple[Outcome, ...]
     steps: np.ndarray
     rejected: np.ndarray
+
+    def ending(self, number: int, max_steps: int) -> tuple[int, str]:
+        """Accepted and rejected steps of a set, and why it stopped early; "" where it did not.
+
+        Args:
+            number: of the set.
+            max_steps: the limit that it had.
+        """
+        outcome = self.outcomes[number]
+        stop = "" if outcome is Outcome.COMPLETED else outcome.advice(max_steps)
+        return int(self.steps[number] + self.rejected[number]), stop
 
     @cached_property
     def alike(self) -> np.ndarray:

@@ -16,7 +16,6 @@ SLOWEST_REBOUND = 1e-3  # m/s; an impact that would leave less leaves the load a
 LOWEST_REBOUND = 1e-7  # m; a lower one would be a matter of rounding, and leaves the load at rest too
 MOST_EVENTS = 256  # events of a run that are kept
 EVENT_WIDTH = 5  # see `Solution.events`
-MAX_STEPS = 400_000  # accepted and rejected steps of a run
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -63,7 +63,7 @@ class StaticModel:
         self.muscle = muscle.checked()
         self.limits = limits or MuscleLimits()
         known = default_catalogue() if catalogue is None else catalogue
-        self.values = checked_values(effects or {}, known)
+        self.values = checked_values(effects or {}, known, blocked_force=self.muscle.blocked_force())
         self.effects = tuple(known[effect_id] for effect_id in self.values)
         for effect in self.effects:
             for needed in effect.needs:
@@ -165,8 +165,19 @@ class StaticModel:
         return Curves(*(field.reshape(shape) for field in fields))
 
 
-def checked_values(effects: EffectValues, catalogue: Mapping[str, Effect]) -> dict[str, dict[str, float]]:
-    """Values of every parameter of the named effects, with defaults filled in; unknown names are refused."""
+def checked_values(
+    effects: EffectValues, catalogue: Mapping[str, Effect], *, blocked_force: float = 0.0
+) -> dict[str, dict[str, float]]:
+    """Values of every parameter of the named effects, with defaults filled in; unknown names are refused.
+
+    Args:
+        effects: effect id -> parameter -> value [SI].
+        catalogue: the known effects.
+        blocked_force: see `mckibben.physics.parameter.Parameter.bounds`.
+
+    Raises:
+        InputError: an unknown parameter, or a value outside its bounds.
+    """
     values: dict[str, dict[str, float]] = {}
     for effect_id, stated in effects.items():
         effect = catalogue[effect_id]
@@ -180,11 +191,12 @@ def checked_values(effects: EffectValues, catalogue: Mapping[str, Effect]) -> di
                     hint=did_you_mean(name, known),
                 )
             parameter = known[name]
-            if not isfinite(value) or not parameter.lower <= value <= parameter.upper:
+            lower, upper = parameter.bounds(blocked_force)
+            if not isfinite(value) or not lower <= value <= upper:
                 unit = "" if parameter.unit == "1" else f" {parameter.unit}"
                 raise InputError(
                     f"{name.replace('_', ' ')} of '{effect_id}' is {value:g}{unit}, outside "
-                    f"{parameter.lower:g} to {parameter.upper:g}{unit}",
+                    f"{lower:g} to {upper:g}{unit}",
                     field=field,
                     hint=f"a typical value is {parameter.default:g}{unit}",
                 )

@@ -52,7 +52,7 @@ function parameterField(c, e, p) {
     label: capitalized(readable(p.name)),
     symbol: mathml(p.symbol_mathml),
     quantity,
-    strict: true,
+    strict: !p.grows, // the server knows the bounds of this muscle
     scale: () => quantity ? scaleOf(quantity, units.value) : plainScale(p.unit),
     bounds: () => [p.lower, p.upper],
     get: () => valueOf(c, e, p),

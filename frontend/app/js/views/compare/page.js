@@ -2,6 +2,7 @@
 // The page of the Compare & diagnose view: one case, from a file to the noise of its data. The strip holds what is
 // known and what comes next; under it plots, map and the list of what is missing.
 import { h } from "../../dom.js";
+import { capitalized } from "../../format.js";
 import { computed, effect } from "../../reactive.js";
 import { missing } from "../../server/missing.js";
 import { answer, compare, fault, files, showToAtlas, stage, startComparing } from "./answers.js";
@@ -36,6 +37,12 @@ const faultWords = () =>
     )
     : null;
 
+/** Runs of the model that ended early: every figure of the page is of the rows before. */
+const stopWords = () =>
+  answer.value?.sentences.slice(0, answer.value.stopped.length).map((words) =>
+    h("p", { class: "notice bad", role: "alert" }, `${capitalized(words)}.`)
+  ) ?? [];
+
 export function comparePage() {
   const empty = computed(() => files.value.length === 0);
   const page = h(
@@ -43,7 +50,7 @@ export function comparePage() {
     { class: () => `compare${empty.value ? " is-empty" : ""}` },
     strip(),
     setupPanel(measurementsCard(), setupCard(), h("div", { class: "column" }, rigCard)),
-    h("div", { class: "case-notices" }, complaintNotices, faultWords),
+    h("div", { class: "case-notices" }, complaintNotices, faultWords, stopWords),
     h("div", { class: "case-start", hidden: () => !empty.value }, emptyCard()),
     h(
       "div",

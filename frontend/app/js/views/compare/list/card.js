@@ -183,7 +183,9 @@ function body() {
         refits.value ? refitRow(refits.value, result.baseline.rmse, noise()) : null,
         h("ol", { class: "plain found-missing" }, ...rows()),
         allRow(),
-        result.verdict.status === "unknown_effect" ? quiet(`${result.verdict.sentence}`) : null,
+        result.verdict.status === "unknown_effect"
+          ? quiet(`${result.verdict.sentence}`)
+          : result.verdict.at_bounds && quiet(result.verdict.at_bounds),
         openChoices(),
       ];
     case "adequate":

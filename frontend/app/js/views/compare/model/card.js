@@ -24,7 +24,7 @@ import { FORMULA, OWN_TERM, sigmaText, titleOf } from "../words.js";
 
 /** What a field needs of a parameter.
  * @typedef {Pick<import("../../../types.js").Parameter,
- *   "name" | "unit" | "symbol_mathml" | "lower" | "upper" | "default">} Field */
+ *   "name" | "unit" | "symbol_mathml" | "lower" | "upper" | "grows" | "default">} Field */
 
 /** The effects of the model with their values. */
 const effects = computed(() => compare.value.effects ?? effectValues(preset.value));
@@ -84,7 +84,7 @@ function parameterField(id, p) {
       symbol: p.symbol_mathml ? mathml(p.symbol_mathml) : null,
       quantity: quantityOf(p.unit, p.name),
       slider: false,
-      strict: Number.isFinite(p.lower),
+      strict: Number.isFinite(p.lower) && !p.grows,
       scale: () => fittedScale(id, p),
       bounds: Number.isFinite(p.lower) ? () => [p.lower, p.upper] : undefined,
       get: value,
@@ -135,6 +135,7 @@ const constant = (id, name) => ({
   symbol_mathml: "",
   lower: -Infinity,
   upper: Infinity,
+  grows: false,
   default: Number(effects.peek()[id]?.[name] ?? 1),
 });
 
