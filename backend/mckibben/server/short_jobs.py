@@ -21,6 +21,7 @@ from mckibben.application.saved_model import present_model
 from mckibben.documents.studio import Studio
 from mckibben.export.use_case import export
 from mckibben.measurement.read import Correction, preview
+from mckibben.measurement.read.limits import MOST_SECONDS
 from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.server.job import Job, Prepared
@@ -38,7 +39,7 @@ from mckibben.server.schemas.presets import FittedMuscleRequest
 from mckibben.server.schemas.simulations import SimulationRequest
 from mckibben.simulation.outcome import Watch
 
-_READ_WITHIN = 60.0  # s; the largest file takes a third of it
+_READ_WITHIN = float(MOST_SECONDS)  # s; a file that takes longer is refused by its reader
 _COMPARE_WITHIN = 120.0  # s
 _COMPUTE_WITHIN = 20.0  # s
 _COMPILE_WITHIN = 1800.0  # s; the first FMU of a machine compiles the libraries of three systems
@@ -153,10 +154,10 @@ def _export(body: ExportRequest, studio: Studio, _store: MeasurementStore) -> Pr
 
 
 SHORT_JOBS: Mapping[str, Job] = {
-    "file upload": Job(_upload, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
-    "preview": Job(_preview, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
+    "file upload": Job(_upload, _READ_WITHIN, "files", hint=_SMALLER),
+    "preview": Job(_preview, _READ_WITHIN, "files", hint=_SMALLER),
     "project import": Job(_project_import, _READ_WITHIN, "files", looks=False, hint=_SMALLER_PROJECT),
-    "measurement": Job(_details, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
+    "measurement": Job(_details, _READ_WITHIN, "files", hint=_SMALLER),
     "comparison": Job(_comparison, _COMPARE_WITHIN, "models", looks=False),
     "experiment form": Job(_experiments, _READ_WITHIN, "models", looks=False, hint=_SMALLER),
     "fitted model": Job(_fitted_model, _COMPARE_WITHIN, "models", looks=False),

@@ -2,7 +2,7 @@
 
 A small file may unpack to any size. What one file becomes is counted before memory is taken for it, over
 all its parts, with 8 bytes for a number however short it is written; reading a file takes at most four times
-`MAX_UNPACKED`.
+`MAX_UNPACKED`. What the readers do not foresee ends at `MOST_SECONDS` or `MOST_MEMORY`, see `process.py`.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from collections.abc import Iterator
 
 from mckibben.physics.errors import InputError
 
+MOST_SECONDS = 60  # of processor time; the largest file takes a third of it
+MOST_MEMORY = 2_000_000_000  # bytes beside what the program has taken before
 MAX_UNPACKED = 256_000_000  # bytes
 MAX_ROWS = 6_000_000
 MAX_COLUMNS = 1000
@@ -21,7 +23,7 @@ MAX_BLOCKS = 1000  # of readings, one below the other
 MAX_REMARKS = 2000  # texts around a table that are searched for what they say of the test
 WORD = 64  # bytes that a short text takes
 _PIECE = 1_000_000  # bytes
-_SPLIT = "split the file, or keep every second row"
+SPLIT = "split the file, or keep every second row"
 
 
 def size_of(size: int) -> str:
@@ -54,7 +56,7 @@ class Allowance:
                 f"{self._name}, {part}: the file of {size_of(self._size)} unpacks to at least "
                 f"{size_of(self._taken)}, at most {size_of(MAX_UNPACKED)} are read",
                 field=part,
-                hint=f"{_SPLIT}; save only what belongs to the measurement",
+                hint=f"{SPLIT}; save only what belongs to the measurement",
             )
 
 
@@ -62,7 +64,7 @@ def check_rows(rows: int, place: str) -> None:
     """Refuse a table of too many rows."""
     if rows > MAX_ROWS:
         raise InputError(
-            f"{place}: the table has {rows} rows, at most {MAX_ROWS} rows are read", field="rows", hint=_SPLIT
+            f"{place}: the table has {rows} rows, at most {MAX_ROWS} rows are read", field="rows", hint=SPLIT
         )
 
 

@@ -170,7 +170,7 @@ def _sheets(data: bytes, name: str) -> list[tuple[str, Rows]]:
                 if rows:
                     found.append((title, rows))
             book.close()
-    except InputError:
+    except (InputError, MemoryError):
         raise
     except Exception as error:  # openpyxl raises whatever a damaged part leads to
         raise InputError(
