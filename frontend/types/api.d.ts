@@ -4889,6 +4889,7 @@ export interface operations {
       404: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       409: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       422: { content: { "application/json": components["schemas"]["ErrorBody"] } };
+      429: { content: { "application/json": components["schemas"]["ErrorBody"] } };
       500: { content: { "application/json": components["schemas"]["ErrorBody"] } };
     };
   };
