@@ -43,7 +43,7 @@ def one_of_each_format() -> list[Hostile]:
 
 
 def _parts() -> tuple[Callable[[], _Files], ...]:
-    return _mat5, _mat73, _workbooks, _tdms, _csv, _other_texts, _packed_tables
+    return _mat5, _mat73, _workbooks, _tdms, _csv, _packed_tables
 
 
 def element(kind: int, data: bytes) -> bytes:
@@ -295,16 +295,6 @@ def _csv() -> _Files:
     words = b"".join(b"1;280;10;w%d\n" % number for number in range(300_000))
     labels = b"# kind: static\npressure_bar;length_mm;force_N;direction\n" + words
     yield "words.csv", labels, ("column 'direction'", "more than 200000 different words")
-
-
-def _other_texts() -> _Files:
-    digits = b"1" * 400_000 + b"x"  # a pattern that goes back takes the square of their number
-    yield "digits.xml", b"<?xml version='1.0'?><a><b>" + digits + b"</b></a>", ("no variable is a vector",)
-    yield "attribute.xml", b"<?xml version='1.0'?><a b='" + digits + b"'/>", ("no variable is a vector",)
-    deep = b"<?xml version='1.0'?>" + b"<a>" * 100_000 + b"</a>" * 100_000
-    yield "deep.xml", deep, ("no variable is a vector",)
-    yield "digits.m", b"p = [" + digits + b"];\nF = [1 2 3];\n", ("more than 131072 characters",)
-    yield "nested.yaml", b"a: " + b"[1," * 5000, ("not understood as YAML",)
 
 
 def _packed_tables() -> _Files:

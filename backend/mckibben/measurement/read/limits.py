@@ -1,4 +1,4 @@
-"""How much of a measurement file is read at most, whatever it says of itself, and the refusal of more.
+"""What of a measurement file is read at most, whatever it says of itself, and the refusal of anything else.
 
 A small file may unpack to any size. What one file becomes is counted before memory is taken for it, over
 all its parts, with 8 bytes for a number however short it is written; reading a file takes at most four times
@@ -29,6 +29,15 @@ SPLIT = "split the file, or keep every second row"
 def size_of(size: int) -> str:
     """A number of bytes for people: ``0.9 MB``."""
     return f"{size / 1e6:.3g} MB" if size < 1e9 else f"{size / 1e9:.3g} GB"
+
+
+def no_table(name: str, what: str) -> InputError:
+    """The refusal of a file of another kind."""
+    return InputError(
+        f"{name}: no column can be read: {what} is not a table that mckibben reads",
+        field="file",
+        hint="save it as CSV or XLSX",
+    )
 
 
 class Allowance:
