@@ -33,6 +33,11 @@ _REFUSED = {
     b"MATLAB 4": ("a MATLAB 4 file", "save it with -v7"),
 }
 
+#: First bytes -> what the file is.
+_OTHER_KINDS = {
+    b"SQLite format 3\0": "an SQLite database",
+    b"\x93NUMPY": "an array of numpy",
+}
 #: Endings of texts that hold values and no table -> what the file is.
 _NO_TABLE = {
     ".yaml": "a YAML text", ".yml": "a YAML text", ".toml": "a TOML text", ".xml": "an XML text",
@@ -111,10 +116,9 @@ def _opened(data: bytes, name: str, correction: Correction | None = None) -> Raw
         source = _open_inner(inner, name_inside, correction)
         source.messages.append(f"the file is gzip-compressed: '{name_inside}' in it is read")
         return source
-    if data.startswith(b"SQLite format 3\0"):
-        from mckibben.measurement.read.sqlite_file import open_sqlite
-
-        return open_sqlite(data, name, correction)
+    for first, what in _OTHER_KINDS.items():
+        if data.startswith(first):
+            raise no_table(name, what)
     if data.startswith(b"TDSm"):
         from mckibben.measurement.read.tdms import open_tdms
 

@@ -52,17 +52,7 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
         InputError: not a workbook, damaged, compressed too far, without a table, or without the sheet that
             the user names.
     """
-    return open_sheets(_sheets(data, name), name, correction)
-
-
-def open_sheets(
-    sheets: Sequence[tuple[str, Rows]], name: str, correction: Correction | None = None
-) -> RawTable:
-    """The table of sheets of cells, each with its title.
-
-    Raises:
-        InputError: no table, or not the sheet that the user names.
-    """
+    sheets = _sheets(data, name)
     correction = correction or Correction()
     wanted = correction.sheet
     tables: list[Table] = []
