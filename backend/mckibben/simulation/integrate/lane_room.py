@@ -42,8 +42,8 @@ def _load() -> LaneKernels:
         from mckibben.simulation.integrate.lane_type import LANES
         from mckibben.simulation.integrate.repeated import call_blocks, find_roots
 
-        run, *calls = (kernel.compiled() for kernel in (rodas4_lanes, call_blocks, find_roots))
-    return LaneKernels(run, *calls, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS, NO_LOOP)
+        run, call, find = rodas4_lanes.compiled(), call_blocks.compiled(), find_roots.compiled()
+    return LaneKernels(run, call, find, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS, NO_LOOP)
 
 
 def _is_kept() -> bool:

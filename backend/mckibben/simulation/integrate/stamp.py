@@ -24,7 +24,7 @@ class Kernel(Generic[Compiled]):
 
     def __init__(self, function: Compiled, signature: str) -> None:
         self._signature = signature
-        self.dispatcher = njit(error_model="numpy", cache=True, nogil=True)(function)
+        self.dispatcher: Any = njit(error_model="numpy", cache=True, nogil=True)(function)
 
     def is_kept(self) -> bool:
         """Whether numba's cache has it as it is now: then `compiled` takes no compilation."""
