@@ -95,3 +95,22 @@ def test_friction_of_ordered_rows_can_be_found() -> None:
             assert hidden == ""
         elif effect.type == "dynamic" and measurement.kind in effect.kinds:
             assert "no time" in hidden
+
+
+def test_the_work_grows_with_the_rows(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where each row is a block of its own, none of them may look at all the others."""
+    seen = 0
+    widths = np.ptp
+
+    def counted(values: np.ndarray) -> float:
+        nonlocal seen
+        seen += np.size(values)
+        return widths(values)
+
+    monkeypatch.setattr(np, "ptp", counted)
+    rows = 4000
+    there = np.arange(rows) % 2
+    order_of_rows(
+        {"pressure": 1e5 + 1e5 * there, "length": 0.28 + 1e-3 * there, "force": 10.0 + 10.0 * there}
+    )
+    assert rows <= seen < 50 * rows

@@ -43,7 +43,7 @@ def one_of_each_format() -> list[Hostile]:
 
 
 def _parts() -> tuple[Callable[[], _Files], ...]:
-    return _mat5, _mat73, _workbooks, _tdms, _csv, _other_texts, _packed_tables
+    return _mat5, _mat73, _workbooks, _tdms, _csv
 
 
 def element(kind: int, data: bytes) -> bytes:
@@ -295,37 +295,3 @@ def _csv() -> _Files:
     words = b"".join(b"1;280;10;w%d\n" % number for number in range(300_000))
     labels = b"# kind: static\npressure_bar;length_mm;force_N;direction\n" + words
     yield "words.csv", labels, ("column 'direction'", "more than 200000 different words")
-
-
-def _other_texts() -> _Files:
-    digits = b"1" * 400_000 + b"x"  # a pattern that goes back takes the square of their number
-    yield "digits.xml", b"<?xml version='1.0'?><a><b>" + digits + b"</b></a>", ("no variable is a vector",)
-    yield "attribute.xml", b"<?xml version='1.0'?><a b='" + digits + b"'/>", ("no variable is a vector",)
-    deep = b"<?xml version='1.0'?>" + b"<a>" * 100_000 + b"</a>" * 100_000
-    yield "deep.xml", deep, ("no variable is a vector",)
-    yield "digits.m", b"p = [" + digits + b"];\nF = [1 2 3];\n", ("more than 131072 characters",)
-    yield "nested.yaml", b"a: " + b"[1," * 5000, ("not understood as YAML",)
-
-
-def _packed_tables() -> _Files:
-    yield "repeated.ods", _office('table:number-columns-repeated="x"'), ("sheet 'a'", "numbers where")
-    yield "digits.ods", _office(f'table:number-columns-repeated="{"9" * 6000}"'), ("sheet 'a'",)
-    many = _office('table:number-columns-repeated="1000"', 60_000)
-    yield "wide.ods", many, ("more than 4000000 cells",)
-    yield "words.ods", _office("", value="abc"), ("no sheet with rows",)
-    for name, kind in (("empty.npz", "|S0"), ("short.npz", "<f8")):  # texts of no length, too few bytes
-        form = f"{{'descr': '{kind}', 'fortran_order': False, 'shape': (999999999999,), }}"
-        array = b"\x93NUMPY\x01\x00v\x00" + form.encode().ljust(117) + b"\n"
-        yield name, archive({"a.npy": array}), ("its arrays hold no numbers",)
-
-
-def _office(attributes: str, cells: int = 1, value: str = "1") -> bytes:
-    """An OpenDocument spreadsheet with a row of equal cells."""
-    spaces = " ".join(
-        f'xmlns:{name}="urn:oasis:names:tc:opendocument:xmlns:{name}:1.0"' for name in ("office", "table")
-    )
-    cell = f'<table:table-cell {attributes} office:value-type="float" office:value="{value}"/>'
-    row = f"<table:table-row>{cell * cells}</table:table-row>"
-    content = f'<office:x {spaces}><table:table table:name="a">{row}</table:table></office:x>'
-    kind = b"application/vnd.oasis.opendocument.spreadsheet"
-    return archive({"mimetype": kind, "content.xml": content.encode()})

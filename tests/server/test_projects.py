@@ -13,7 +13,11 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
+from mckibben.application import projects
+from mckibben.server import long_work
 from mckibben.server.app import create_app
+from mckibben.server.jobs import JOBS
+from mckibben.server.routes import projects as routes
 from mckibben.server.settings import Settings
 from tests.application.test_study import STUDY
 from tests.server.conftest import CSV, URL, assert_error
@@ -162,6 +166,84 @@ def test_a_bomb_is_not_unpacked(client: TestClient) -> None:
         archive.writestr("zeros", bytes(600_000_000))
     error = assert_error(client.post("/api/projects/import", content=buffer.getvalue()), 422)
     assert "too large" in error["message"]
+
+
+def repeated(what: str, size: int) -> bytes:
+    """A project in which one part is named ten times, and so would be written ten times."""
+    document = {"text": "x" * size} if what == "history" else {}
+    many = {
+        "history": [
+            {"version": n, "saved": 1.6e9, "label": "", "automatic": False, "file": "history/1.json"}
+            for n in range(1, 11)
+        ],
+        "files": [
+            {"measurement": ID, "name": "run1.csv", "mapping": None, "file": "measurements/0.csv"}
+            for _ in range(10)
+        ],
+    }
+    content = CSV + b"# " + b"x" * size + b"\n"
+    return packed_project(document, {ID: content}, **{what: many[what]})
+
+
+@pytest.mark.parametrize("what", ["history", "files"])
+@pytest.mark.parametrize("limit", ["_MOST_BYTES", "_MOST_FILES"])
+def test_what_an_import_writes_is_counted_as_often_as_it_is_written(
+    client: TestClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, what: str, limit: str
+) -> None:
+    """The parts of a ZIP file were counted once each: 2.4 kB wrote 717 MB."""
+    before = everything(tmp_path)
+    monkeypatch.setattr(projects, limit, {"_MOST_BYTES": 40_000, "_MOST_FILES": 9}[limit])
+    error = assert_error(client.post("/api/projects/import", content=repeated(what, 10_000)), 422)
+    assert "too large" in error["message"]
+    assert "as often as it is named" in error["hint"]
+    assert client.get("/api/projects").json()["projects"] == []
+    assert everything(tmp_path) == before
+
+
+def test_an_import_that_fails_leaves_the_measurements_as_they_were(
+    client: TestClient, tmp_path: Path
+) -> None:
+    other, third = CSV + b"1.5,280.5,10.5\n", CSV + b"1.6,280.6,10.6\n"
+    ids = [hashlib.sha256(content).hexdigest() for content in (other, third)]
+    client.put("/api/measurements", params={"name": "mine.csv"}, content=CSV)
+    client.put("/api/measurements", params={"name": "binned.csv"}, content=other)
+    client.delete(f"/api/kept/files/{ids[0]}")
+    before = everything(tmp_path)
+    parts = {ID: CSV, ids[0]: other, ids[1]: third, "0" * 64: CSV + b"1.7,280.7,10.7\n"}
+    error = assert_error(client.post("/api/projects/import", content=packed_project({}, parts)), 422)
+    assert "was changed" in error["message"]
+    assert everything(tmp_path) == before
+    assert client.get(f"/api/measurements/{ID}").json()["name"] == "mine.csv"
+    assert client.get(f"/api/measurements/{ids[1]}").status_code == 404
+    del parts["0" * 64]
+    assert client.post("/api/projects/import", content=packed_project({}, parts)).status_code == 201
+    assert client.get(f"/api/measurements/{ids[1]}").status_code == 200
+
+
+def test_the_files_of_a_project_are_read_where_files_are_read(
+    client: TestClient, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    client.put("/api/measurements", params={"name": "run1.csv"}, content=CSV)
+    path = f"/api/projects/{made(client, {'case': ID})['project']['id']}"
+    asked: list[str] = []
+
+    async def whole(request: Any, kind: str, *arguments: Any) -> bytes:
+        asked.append(kind)
+        return await long_work.whole(request, kind, *arguments)
+
+    monkeypatch.setattr(routes, "whole", whole)
+    assert client.get(path).status_code == 200
+    assert asked == [], "nothing is missing"
+    shutil.rmtree(tmp_path / "data" / "measurements")
+    assert client.get(path).status_code == 200
+    assert asked == ["project files"]
+    assert JOBS["project files"].lane == JOBS["file upload"].lane == "files"
+
+
+def everything(folder: Path) -> dict[str, bytes]:
+    """The measurements on the disk: file -> content."""
+    kept = (folder / "data" / "measurements").rglob("*")
+    return {str(path): path.read_bytes() for path in kept if path.is_file() and not path.name.startswith(".")}
 
 
 def test_a_version_beyond_all_numbers_of_the_database(client: TestClient) -> None:

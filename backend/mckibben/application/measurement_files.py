@@ -19,7 +19,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 #: How values are named that stand in no file: as options of the command line, or as arguments of Python.
 OPTION, ARGUMENT = "--", ""
 STANDARD_INPUT = "standard input"  # its name in messages
-_MAX_BYTES = 200_000_000
+LARGEST_FILE = 200_000_000  # of a file; more are not even taken into memory
 _READING = ("sheet", "head", "column", "ignore")  # of an entry: how its file is read
 _LIST_EXAMPLE = '[{"file": "a.csv", "rest_length": "250 mm", "load": "3 kg"}]'
 
@@ -279,19 +279,25 @@ def read_file(name: str, correction: Correction, content: bytes | None = None) -
     path = Path(name)
     try:
         if content is not None:
-            return read_measurement(content, STANDARD_INPUT, correction)
+            return read_measurement(_within(content, STANDARD_INPUT), STANDARD_INPUT, correction)
         if not path.exists():
             raise InputError(f"{name}: there is no such file", hint=_near_file(path))
         if path.is_dir():
             raise InputError(f"{name}: is a folder", hint=f"name a file in it, e.g. {path / '*.csv'}")
-        if path.stat().st_size > _MAX_BYTES:
-            raise InputError(f"{name}: is larger than {_MAX_BYTES // 1_000_000} MB", hint="split the file")
-        return read_measurement(path.read_bytes(), path.name, correction)
+        with path.open("rb") as stream:
+            content = stream.read(LARGEST_FILE + 1)  # pipes and devices do not tell their size
+        return read_measurement(_within(content, name), path.name, correction)
     except (OSError, ValueError) as error:
         if isinstance(error, InputError):
             raise
         reason = getattr(error, "strerror", None) or error
         raise InputError(f"{name[:200]!r}: cannot be read: {reason}", hint="name a readable file") from error
+
+
+def _within(content: bytes, name: str) -> bytes:
+    if len(content) > LARGEST_FILE:
+        raise InputError(f"{name}: is larger than {LARGEST_FILE // 1_000_000} MB", hint="split the file")
+    return content
 
 
 def _near_file(path: Path) -> str | None:

@@ -54,7 +54,7 @@ def files_of(document: Document, measurements: MeasurementStore) -> list[StoredF
 
 def brought_back(projects: ProjectStore, project: Project, measurements: MeasurementStore) -> Project:
     """The project, the files of its measurements stored again where they are missing."""
-    missing = [each for each in project.measurements if measurements.original(each) is None]
+    missing = missing_files(project, measurements)
     if missing:
         for file in projects.files(project.summary.id):
             if file.measurement in missing:
@@ -62,9 +62,45 @@ def brought_back(projects: ProjectStore, project: Project, measurements: Measure
     return project
 
 
+def missing_files(project: Project, measurements: MeasurementStore) -> list[str]:
+    """Ids of the measurements of a project of which no file is stored."""
+    return [each for each in project.measurements if measurements.original(each) is None]
+
+
 def _store(file: StoredFile, measurements: MeasurementStore) -> str:
     correction = Correction() if file.mapping is None else read_correction(file.mapping)
     return measurements.put(file.content, file.name, correction).id
+
+
+class _Counted:
+    """The parts of a packed project; what is written of them is counted, however often one is named."""
+
+    def __init__(self, parts: Mapping[str, bytes]) -> None:
+        self._parts, self._left = parts, _MOST_BYTES
+        self._entries = 0
+
+    def content(self, name: str) -> bytes:
+        """A part that is written as it is."""
+        return self._count(self._parts[name], len(self._parts[name]))
+
+    def document(self, name: str) -> Document:
+        """A document; it may be longer when it is written than it was in the file."""
+        document = _document(self._parts[name], name)
+        return self._count(document, len(json.dumps(document, ensure_ascii=False)))
+
+    def _count(self, part: Any, size: int) -> Any:
+        self._entries, self._left = self._entries + 1, self._left - size
+        if self._left < 0 or self._entries > _MOST_FILES:
+            raise _too_large()
+        return part
+
+
+def _too_large() -> InputError:
+    return InputError(
+        "the packed project is too large",
+        hint=f"at most {_MOST_FILES} files and {_MOST_BYTES // 1_000_000} MB unpacked, "
+        "each as often as it is named",
+    )
 
 
 def packed(projects: ProjectStore, identity: str) -> tuple[str, bytes]:
@@ -130,38 +166,47 @@ def unpacked(content: bytes, projects: ProjectStore, measurements: MeasurementSt
         raise InputError(
             f"the file is not a packed project: {error}", hint="choose a file that 'Export project' wrote"
         ) from error
+    counted = _Counted(parts)
     try:
         history = [
             (
                 Revision(int(e["version"]), float(e["saved"]), str(e["label"]), bool(e["automatic"])),
-                _document(parts[str(e["file"])], str(e["file"])),
+                counted.document(str(e["file"])),
             )
             for e in about["history"]
         ]
         files = [
             StoredFile(
-                str(e["measurement"]), clean_name(str(e["name"])), parts[str(e["file"])],
+                str(e["measurement"]), clean_name(str(e["name"])), counted.content(str(e["file"])),
                 None if e["mapping"] is None else str(e["mapping"]),
             )
             for e in about["files"]
         ]  # fmt: skip
         # Files of earlier versions have no studies.
-        studies = [study_from(str(e["environment"]), parts[str(e["file"])]) for e in about.get("studies", [])]
+        studies = [
+            study_from(str(e["environment"]), counted.content(str(e["file"])))
+            for e in about.get("studies", [])
+        ]
         title, notes = str(about["title"]), str(about["notes"])
+    except InputError:
+        raise
     except (KeyError, TypeError, ValueError, OverflowError) as error:
         raise InputError(
             f"the packed project is damaged: {error}", hint="export it once more from where it came from"
         ) from error
-    for file in files:
-        if _store(file, measurements) != file.measurement:
-            raise InputError(f"the measurement {file.name} in the packed project was changed", field="files")
-    return projects.revive(history, title=title, notes=notes, files=files, studies=studies)
+    with measurements.all_or_none():
+        for file in files:
+            if _store(file, measurements) != file.measurement:
+                raise InputError(
+                    f"the measurement {file.name} in the packed project was changed", field="files"
+                )
+        return projects.revive(history, title=title, notes=notes, files=files, studies=studies)
 
 
 def _parts(archive: zipfile.ZipFile) -> tuple[Any, dict[str, bytes]]:
     entries = archive.infolist()
     if len(entries) > _MOST_FILES or sum(entry.file_size for entry in entries) > _MOST_BYTES:
-        raise InputError("the packed project is too large", hint="at most 1000 files and 512 MB unpacked")
+        raise _too_large()
     if "project.json" not in archive.namelist():
         raise InputError("the archive has no project.json", hint="choose a file that 'Export project' wrote")
     parts, left = {}, _MOST_BYTES
@@ -170,7 +215,7 @@ def _parts(archive: zipfile.ZipFile) -> tuple[Any, dict[str, bytes]]:
             parts[entry.filename] = stream.read(left + 1)  # the stated size may be wrong
         left -= len(parts[entry.filename])
         if left < 0:
-            raise InputError("the packed project is too large", hint="at most 512 MB unpacked")
+            raise _too_large()
     about = _document(parts["project.json"], "project.json")
     if about.get("schema") != SCHEMA:
         raise InputError(

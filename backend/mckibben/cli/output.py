@@ -42,7 +42,9 @@ def standard_input(names: Sequence[str]) -> dict[str, bytes]:
         raise InputError("-: standard input can be read once only", hint="name the other files")
     if sys.stdin.isatty():
         raise InputError("-: standard input is the terminal", hint="mckibben convert - < file.csv")
-    return {"-": sys.stdin.buffer.read()}
+    from mckibben.application.measurement_files import LARGEST_FILE
+
+    return {"-": sys.stdin.buffer.read(LARGEST_FILE + 1)}
 
 
 def check_folder(path: Path, option: str) -> None:

@@ -82,11 +82,11 @@ def _there_and_back(swept: Array, moved: Array, held: Array) -> RowOrder | None:
         return None  # it is not held
     new |= np.abs(np.diff(swept)) > _AT_ONCE * span
     starts = [0, *(np.flatnonzero(new) + 1).tolist()]
-    direction = np.zeros(rows)
+    direction, moves = np.zeros(rows), float(np.ptp(moved))
     returned = 0
     for first, last in zip(starts, [*starts[1:], rows], strict=True):
         returned += (last - first) * _comes_back(swept[first:last])
-        direction[first:last] = _ways(moved[first:last], float(np.ptp(moved)))
+        direction[first:last] = _ways(moved[first:last], moves)
     return RowOrder(direction, tuple(starts)) if returned >= _MOST * rows else None
 
 
@@ -96,20 +96,25 @@ def _comes_back(values: Array) -> bool:
     if len(values) < 2 * _STEPS + 1 or not span > 0.0:
         return False
     turns = np.flatnonzero(turning_points(values, threshold=_TURNS * span)).tolist()
-    good = sum(_is_turn(values, turn, span) for turn in turns)
+    later = np.minimum.accumulate(values[::-1])[::-1], np.maximum.accumulate(values[::-1])[::-1]
+    good = sum(_is_turn(values, turn, span, later) for turn in turns)
     # Scatter turns at every other row, and by chance a few times step by step.
     return good > 0 and 2 * good >= len(turns) and len(values) >= _STEPS * (len(turns) + 1)
 
 
-def _is_turn(values: Array, turn: int, span: float) -> bool:
-    """Whether several steps lead to a reversal and several lead back from it, most of the way."""
+def _is_turn(values: Array, turn: int, span: float, later: tuple[Array, Array]) -> bool:
+    """Whether several steps lead to a reversal and several lead back from it, most of the way.
+
+    ``later``: the lowest and the highest value from each row on.
+    """
     before, after = values[max(0, turn - _STEPS) : turn + 1], values[turn : turn + _STEPS + 1]
     if len(before) <= _STEPS or len(after) <= _STEPS:
         return False
     there, back = np.diff(before), np.diff(after)
     sign = np.sign(np.sum(there))
     steady = (sign * there >= -_MOVED * span).all() and (sign * back <= _MOVED * span).all()
-    return bool(steady and float(np.max(sign * (values[turn] - values[turn:]))) >= _BACK * span)
+    end = later[0] if sign > 0.0 else later[1]
+    return bool(steady and abs(float(values[turn] - end[turn])) >= _BACK * span and sign != 0.0)
 
 
 def _ways(moved: Array, span: float) -> Array:

@@ -18,6 +18,7 @@ import threading
 import time
 from collections import OrderedDict
 from collections.abc import Callable, Iterator
+from contextvars import ContextVar
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -78,6 +79,8 @@ class MeasurementStore:
         self._folder = folder / "measurements"
         self._recent: OrderedDict[str, Measurement] = OrderedDict()
         self._lock = threading.Lock()
+        #: What takes back each file that is stored within `all_or_none`, in its thread alone.
+        self._undo: ContextVar[list[Callable[[], None]] | None] = ContextVar("undo", default=None)
 
     def put(self, content: bytes, name: str, correction: Correction | None = None) -> Measurement:
         """Read and store a file; storing the same content (and mapping) again only changes the name.
@@ -86,6 +89,8 @@ class MeasurementStore:
             InputError: it is not a measurement (nothing is stored), or the folder cannot be written.
         """
         name, correction = clean_name(name), correction or Correction()
+        if (undo := self._undo.get()) is not None:
+            undo.append(self._as_it_was(correction.identity(content), hashlib.sha256(content).hexdigest()))
         measurement = read_measurement(content, name, correction)
         digest = hashlib.sha256(content).hexdigest()
         about = {"name": name}
@@ -101,6 +106,41 @@ class MeasurementStore:
             (folder / DELETED / f"{measurement.id}.json").unlink(missing_ok=True)
         self._remember(measurement.id, measurement)
         return measurement
+
+    @contextlib.contextmanager
+    def all_or_none(self) -> Iterator[None]:
+        """Store several files, or none: what the block has stored is as it was before if it raises."""
+        undo: list[Callable[[], None]] = []
+        token = self._undo.set(undo)
+        try:
+            yield
+        except BaseException:
+            with self._changing("removed"):
+                for step in reversed(undo):
+                    step()
+            raise
+        finally:
+            self._undo.reset(token)
+
+    def _as_it_was(self, identity: str, digest: str) -> Callable[[], None]:
+        """What brings a measurement back to its present state: kept, deleted, or not there at all."""
+        places = self._folder / f"{identity}.json", self._folder / DELETED / f"{identity}.json"
+        were = [path.read_bytes() if path.is_file() else None for path in places]
+        data = self._folder / f"{digest}.data"
+        stored = data.is_file()
+
+        def bring_back() -> None:
+            for path, content in zip(places, were, strict=True):
+                if content is None:
+                    path.unlink(missing_ok=True)
+                elif not path.is_file() or path.read_bytes() != content:
+                    _write(path, content)
+            if not stored and not self._is_named(digest):
+                data.unlink(missing_ok=True)
+            with self._lock:
+                self._recent.pop(identity, None)
+
+        return bring_back
 
     def get(self, identity: str) -> Measurement:
         """A measurement by its id.
@@ -260,11 +300,13 @@ class MeasurementStore:
                 continue
             content = str(_about(path).get("content", path.stem))
             path.unlink(missing_ok=True)
-            others = (*self._folder.glob("*.json"), *deleted(self._folder))
-            if _ID.fullmatch(content) and not any(
-                content == str(_about(other).get("content", other.stem)) for other in others
-            ):
+            if _ID.fullmatch(content) and not self._is_named(content):
                 (self._folder / f"{content}.data").unlink(missing_ok=True)
+
+    def _is_named(self, content: str) -> bool:
+        """Whether a kept or deleted measurement is of this content."""
+        others = (*self._folder.glob("*.json"), *deleted(self._folder))
+        return any(content == str(_about(other).get("content", other.stem)) for other in others)
 
     def original(self, identity: str) -> tuple[str, bytes, str | None] | None:
         """Name, content and mapping of a stored measurement, as uploaded; None if there is none."""

@@ -9,7 +9,8 @@ from __future__ import annotations
 import sys
 from types import TracebackType
 
-from mckibben.server.worker import load_readers
+from mckibben.measurement.read import load_readers
+from mckibben.server import worker  # noqa: F401 - loaded for the workers
 
 _LOCKS = "multiprocessing.synchronize"
 

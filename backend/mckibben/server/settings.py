@@ -6,6 +6,7 @@ import ipaddress
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from mckibben.measurement.read.limits import MOST_MEMORY
 from mckibben.resources import frontend_folder, presets_folder, user_folder
 
 LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "::1"})
@@ -63,7 +64,7 @@ class Settings:
     workers: int = 0
     queue: int = 16
     worker_memory: int = 3_000_000_000
-    reader_memory: int = 2_000_000_000
+    reader_memory: int = MOST_MEMORY
     quota: int = 4_000_000_000
     log_level: str = "warning"
     access_log: bool | None = None

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 from mckibben.application import simulate
 from mckibben.application.compare import compare
@@ -16,11 +17,12 @@ from mckibben.application.experiment_form import experiment_forms, preview_form
 from mckibben.application.inverse import answer
 from mckibben.application.json_text import to_json
 from mckibben.application.measurements import details_of, preview_of, summary_of
-from mckibben.application.projects import unpacked
+from mckibben.application.projects import brought_back, unpacked
 from mckibben.application.saved_model import present_model
 from mckibben.documents.studio import Studio
 from mckibben.export.use_case import export
 from mckibben.measurement.read import Correction, preview
+from mckibben.measurement.read.limits import MOST_SECONDS
 from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.server.job import Job, Prepared
@@ -38,7 +40,10 @@ from mckibben.server.schemas.presets import FittedMuscleRequest
 from mckibben.server.schemas.simulations import SimulationRequest
 from mckibben.simulation.outcome import Watch
 
-_READ_WITHIN = 60.0  # s; the largest file takes a third of it
+if TYPE_CHECKING:
+    from mckibben.projects.store import ProjectStore
+
+_READ_WITHIN = float(MOST_SECONDS)  # s; a file that takes longer is refused by its reader
 _COMPARE_WITHIN = 120.0  # s
 _COMPUTE_WITHIN = 20.0  # s
 _COMPILE_WITHIN = 1800.0  # s; the first FMU of a machine compiles the libraries of three systems
@@ -63,6 +68,21 @@ class FileRequest:
     name: str
     correction: Correction
     muscle: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class FilesOfProject:
+    """A project whose measurements are to be stored again where they are missing.
+
+    Attributes:
+        project: its id.
+        version: of its document, None = the last one.
+        database: of the projects: an address, or the folder of an SQLite file.
+    """
+
+    project: str
+    version: int | None
+    database: str | Path
 
 
 @dataclass(frozen=True, slots=True)
@@ -110,12 +130,26 @@ def _fitted_model(body: FittedMuscleRequest, studio: Studio, store: MeasurementS
 
 
 def _project_import(body: PackedProject, _studio: Studio, store: MeasurementStore) -> Prepared:
+    projects = _projects(body.database)
+    return lambda _: to_json({"id": unpacked(body.content, projects, store).summary.id})
+
+
+def _project_files(body: FilesOfProject, _studio: Studio, store: MeasurementStore) -> Prepared:
+    projects = _projects(body.database)
+
+    def bring_back(_: Watch) -> bytes:
+        brought_back(projects, projects.open(body.project, body.version), store)
+        return b"{}"
+
+    return bring_back
+
+
+def _projects(database: str | Path) -> ProjectStore:
     # Imported here: the database of the projects is nothing that the other files need.
     from mckibben.projects.database import Database
     from mckibben.projects.store import ProjectStore
 
-    projects = ProjectStore(Database(body.database))
-    return lambda _: to_json({"id": unpacked(body.content, projects, store).summary.id})
+    return ProjectStore(Database(database))
 
 
 def _curves(body: CurvesRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
@@ -154,10 +188,11 @@ def _export(body: ExportRequest, studio: Studio, _store: MeasurementStore) -> Pr
 
 
 SHORT_JOBS: Mapping[str, Job] = {
-    "file upload": Job(_upload, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
-    "preview": Job(_preview, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
+    "file upload": Job(_upload, _READ_WITHIN, "files", hint=_SMALLER),
+    "preview": Job(_preview, _READ_WITHIN, "files", hint=_SMALLER),
     "project import": Job(_project_import, _READ_WITHIN, "files", looks=False, hint=_SMALLER_PROJECT),
-    "measurement": Job(_details, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
+    "project files": Job(_project_files, _READ_WITHIN, "files", looks=False, hint=_SMALLER),
+    "measurement": Job(_details, _READ_WITHIN, "files", hint=_SMALLER),
     "comparison": Job(_comparison, _COMPARE_WITHIN, "models", looks=False, hint=_FEWER),
     "experiment form": Job(_experiments, _READ_WITHIN, "models", looks=False, hint=_SMALLER),
     "fitted model": Job(_fitted_model, _COMPARE_WITHIN, "models", looks=False, hint=_FEWER),

@@ -9,7 +9,6 @@ from __future__ import annotations
 import gc
 import os
 import signal
-import sys
 import threading
 import time
 from contextlib import suppress
@@ -19,7 +18,8 @@ from typing import Any, Literal
 
 from mckibben.application.json_text import to_json
 from mckibben.documents.studio import Studio
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.read import load_readers
+from mckibben.measurement.read.process import limit_memory
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.server.jobs import JOBS
@@ -30,7 +30,6 @@ from mckibben.simulation.outcome import Watch
 
 _NICE = 10  # requests of the page come first
 _KERNELS_WITHIN = 5.0  # s
-_ANY_FILE = b"# kind: static\npressure_bar;length_mm;force_N\n1;300;10\n1;290;5\n1;280;1\n"
 _LOOK_EVERY = 1.0  # s; whether the server is still there
 
 
@@ -73,11 +72,6 @@ class _Own:
 _own: _Own | None = None
 
 
-def load_readers() -> None:
-    """Import what every measurement file needs."""
-    read_measurement(_ANY_FILE, "any.csv")
-
-
 def begin(settings: Settings, memory: int, compiled: bool) -> None:
     """Open presets and store, and take the limits of a worker; called once in each process.
 
@@ -92,7 +86,7 @@ def begin(settings: Settings, memory: int, compiled: bool) -> None:
     )  # Ctrl+C reaches the whole group; the server ends its workers
     if hasattr(os, "nice"):
         os.nice(_NICE)
-    _limit_memory(memory)
+    limit_memory(memory)
     threading.Thread(target=_end_with_the_server, args=(os.getppid(),), daemon=True).start()
     studio = Studio(presets=settings.presets, user_presets=settings.user_presets, effects=settings.effects)
     # Loaded before the first job, so that each worker gives the same answer; compiling them the first time
@@ -167,16 +161,6 @@ def _listen(line: Connection, stop: threading.Event, speaking: threading.Lock) -
     stop.set()
     with speaking:
         line.close()
-
-
-def _limit_memory(most: int) -> None:
-    if sys.platform == "win32":
-        return  # the job has its deadline there, but no limit of memory
-    import resource
-
-    _, hard = resource.getrlimit(resource.RLIMIT_DATA)
-    least = most if hard == resource.RLIM_INFINITY else min(most, hard)
-    resource.setrlimit(resource.RLIMIT_DATA, (least, hard))
 
 
 def _end_with_the_server(parent: int) -> None:

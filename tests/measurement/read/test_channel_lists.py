@@ -63,18 +63,6 @@ def test_pages_with_units_in_brackets_below_the_names() -> None:
     assert found.columns["temperature"][0] == pytest.approx(293.15)  # 68 °F
 
 
-def test_messages_printed_one_after_the_other() -> None:
-    text = "".join(
-        f"header: \n  stamp: \n    secs: {1716200000 + int(t)}\n    nsecs: {int(1e9 * (t % 1)):9d}\n"
-        '  frame_id: "a"\n'
-        f"pressure_bar: {p}\nforce_N: {f}\nstroke_mm: {s}\nenabled: True\n---\n"
-        for t, p, f, s in zip(TIME, PRESSURE, FORCE, STROKE, strict=True)
-    )
-    found = read(f"{text}header: \n  stamp: \n", "echo.txt")  # the last message is cut off
-    assert_is_the_test(found, rest=False)
-    assert found.columns["time"].tolist() == TIME.tolist()
-
-
 def test_the_mass_of_the_load_in_every_row_is_a_condition() -> None:
     text = "time_s,pressure_bar,contraction_pct,load_mass_kg\n"
     found = read(text + table(TIME, PRESSURE, STROKE / 3.0, 0.0 * TIME + 12.0))

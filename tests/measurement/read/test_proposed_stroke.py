@@ -7,8 +7,7 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from mckibben.measurement.read import read_measurement, spoken_correction
-from mckibben.measurement.read.preview import preview
+from mckibben.measurement.read import preview, read_measurement, spoken_correction
 from mckibben.physics.errors import InputError
 from tests.measurement.read.muscle_test import Array, isobaric, isotonic
 

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections import Counter
+
 import pytest
 
+from mckibben.measurement.read import words
 from mckibben.measurement.read.head_text import taken_apart, without_run
 from mckibben.measurement.read.held import held_quantities
 from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.words import cells
 
 #: Head -> (channel, unit, absolute).
 HEADS = {
@@ -150,3 +154,19 @@ def test_two_units_within_a_head_are_none() -> None:
 )
 def test_the_number_of_the_run_is_no_part_of_the_name(head: str, name: str, run: str) -> None:
     assert without_run(head) == (name, run)
+
+
+def test_a_language_has_at_least_twenty_words() -> None:
+    """With fewer, files in it are hardly ever read, and its words are mistaken for those of others."""
+    tables = [
+        value for module in (words, cells) for value in vars(module).values() if isinstance(value, dict)
+    ]
+    counts: Counter[str] = Counter()
+    while tables:
+        table = tables.pop()
+        tables += [value for value in table.values() if isinstance(value, dict)]
+        by_language = {k: v for k, v in table.items() if isinstance(k, str) and isinstance(v, str)}
+        if "en" in by_language and "de" in by_language:
+            counts.update({language: len(text.split()) for language, text in by_language.items()})
+    assert {"en", "de", "zh", "bg"} <= counts.keys()
+    assert [language for language, count in counts.items() if count < 20] == []

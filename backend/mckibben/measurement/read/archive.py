@@ -1,23 +1,16 @@
-"""Measurements packed into an archive: texts in a .zip, arrays in an .npz, a LibreOffice sheet, a .gz."""
+"""Measurements packed into an archive: texts or one table in a .zip, a .gz."""
 
 from __future__ import annotations
 
 import io
-import math
 import zipfile
 import zlib
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import PurePosixPath
-from typing import Any
-from xml.etree.ElementTree import Element, ParseError, XMLParser
 
-import numpy as np
-
-from mckibben.measurement.read.cells import Cell
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.encodings import decoded_otherwise
-from mckibben.measurement.read.limits import MAX_UNPACKED, Allowance
+from mckibben.measurement.read.limits import MAX_UNPACKED, Allowance, no_table
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
@@ -25,13 +18,7 @@ _MOST_PARTS = 1000
 _MAX_RATIO = 200  # of one part; number tables reach about 20
 _RATIO_FROM = 1_000_000  # bytes
 _TEXTS = (".csv", ".txt", ".tsv", ".dat", ".asc", ".prn", ".log", ".md", ".lvm")
-_TABLES = (".xlsx", ".mat", ".h5", ".hdf5", ".json", ".tdms", ".xml", ".yaml", ".yml", ".jsonl", ".npz")
-_MOST_REPEATED = 1000  # rows or columns of one kind
-_MOST_CELLS = 4_000_000
-_DIGITS = 10  # of a number of repetitions
-_LONGEST_OFFICE = 40_000_000  # bytes
-_OFFICE = "{urn:oasis:names:tc:opendocument:xmlns:office:1.0}"
-_TABLE = "{urn:oasis:names:tc:opendocument:xmlns:table:1.0}"
+_TABLES = (".xlsx", ".mat", ".h5", ".hdf5", ".json", ".tdms", ".jsonl")
 
 
 #: How a file of an archive is opened: content, name, correction.
@@ -61,11 +48,9 @@ def open_archive(
             if "xl/workbook.xml" in names or any(one.startswith("xl/") for one in names):
                 return None
             if "content.xml" in names and "mimetype" in names:
-                _check(parts, name, len(data))
-                return _of_office(archive.read("content.xml"), name, correction)
+                raise no_table(name, "an OpenDocument file")
             if names and all(one.endswith(".npy") for one in names):
-                _check(parts, name, len(data))
-                return _of_arrays(archive, parts, name, correction)
+                raise no_table(name, "an archive of numpy's arrays (.npz)")
             wanted = [p for p in parts if PurePosixPath(p.filename).suffix.lower() in (*_TEXTS, *_TABLES)]
             if not wanted:
                 return None
@@ -131,112 +116,6 @@ def _decoded(data: bytes) -> str:
         return data.decode("utf-8-sig").replace("\r\n", "\n")
     except UnicodeDecodeError:
         return decoded_otherwise(data)[0].replace("\r\n", "\n")
-
-
-def _of_arrays(
-    archive: zipfile.ZipFile, parts: list[zipfile.ZipInfo], name: str, correction: Correction | None
-) -> RawTable:
-    """The arrays of numpy's ``savez``; nothing that needs unpickling is read."""
-    from mckibben.measurement.read.mat import choose
-
-    values: dict[str, Any] = {}
-    for part in parts:
-        key = part.filename.removesuffix(".npy")
-        try:
-            array = _array_of(archive.read(part))
-        except ValueError:
-            continue
-        if array.dtype.names:
-            values |= {field: array[field] for field in array.dtype.names}
-        elif array.dtype.kind in "US":
-            values[key] = (
-                str(array.reshape(-1)[0]) if array.size == 1 else [str(v) for v in array.reshape(-1)]
-            )
-        elif array.dtype.kind in "biuf":
-            values[key] = array
-    if not values:
-        raise _refused(name, "its arrays hold no numbers", "save vectors of numbers")
-    return choose(values, name, correction)
-
-
-def _array_of(content: bytes) -> np.ndarray:
-    """An array as numpy saves it, where its bytes are all there; raises ValueError."""
-    stream = io.BytesIO(content)
-    version = np.lib.format.read_magic(stream)
-    read = np.lib.format.read_array_header_1_0 if version == (1, 0) else np.lib.format.read_array_header_2_0
-    shape, _, kind = read(stream)
-    if kind.hasobject or math.prod(shape) * max(kind.itemsize, 1) > len(content):
-        raise ValueError("objects, or fewer bytes than its head says")
-    return np.load(io.BytesIO(content), allow_pickle=False)
-
-
-def _of_office(content: bytes, name: str, correction: Correction | None) -> RawTable:
-    """The sheets of an OpenDocument spreadsheet."""
-    from mckibben.measurement.read.xlsx import open_sheets
-
-    if len(content) > _LONGEST_OFFICE:
-        why = f"the document unpacks to more than {_LONGEST_OFFICE} bytes"
-        raise _refused(name, why, "save it as .xlsx or CSV")
-    if b"<!ENTITY" in content or b"<!DOCTYPE" in content:
-        raise _refused(name, "the document defines entities of its own", "save it as .xlsx or CSV")
-    try:
-        parser = XMLParser()
-        parser.feed(content)
-        root = parser.close()
-    except ParseError as error:
-        raise _refused(name, f"the document is damaged ({error})", "save it as .xlsx or CSV") from error
-    sheets = []
-    left = [_MOST_CELLS]
-    for table in root.iter(f"{_TABLE}table"):
-        rows = _rows_of(table, left)
-        if left[0] < 0:
-            raise _refused(name, f"the document has more than {_MOST_CELLS} cells", "save it as CSV")
-        if rows:
-            sheets.append((str(table.get(f"{_TABLE}name") or "sheet")[:40], rows))
-    if not sheets:
-        raise _refused(name, "the document holds no sheet with rows", "save it as .xlsx or CSV")
-    return open_sheets(sheets, name, correction)
-
-
-def _rows_of(table: Element, left: list[int]) -> list[tuple[int, tuple[Cell, ...]]]:
-    """Number and cells of the rows that are filled; ``left``: cells that may still be read."""
-    rows: list[tuple[int, tuple[Cell, ...]]] = []
-    number = 0
-    for row in table.iter(f"{_TABLE}table-row"):
-        cells: list[Cell] = []
-        for cell in row:
-            again = min(_times(cell.get(f"{_TABLE}number-columns-repeated")), _MOST_REPEATED)
-            if len(cells) + again > left[0]:
-                left[0] = -1
-                return rows
-            cells += [_cell(cell)] * again
-        while cells and cells[-1] in (None, ""):
-            cells.pop()
-        times = _times(row.get(f"{_TABLE}number-rows-repeated"))
-        left[0] -= len(cells) * min(times, _MOST_REPEATED)
-        if left[0] < 0:
-            return rows
-        if cells:
-            rows += [(number + k + 1, tuple(cells)) for k in range(min(times, _MOST_REPEATED))]
-        number += times
-    return rows
-
-
-def _times(text: str | None) -> int:
-    """How often a cell or row is repeated; once where that is no number."""
-    return int(text) if text is not None and text.isdecimal() and len(text) < _DIGITS else 1
-
-
-def _cell(cell: Element) -> Cell:
-    """A number, or the text that is shown."""
-    kind = cell.get(f"{_OFFICE}value-type")
-    if kind in ("float", "percentage", "currency"):
-        with suppress(ValueError):  # no number: what is shown then
-            return float(cell.get(f"{_OFFICE}value") or "nan")
-    if kind == "date":
-        return cell.get(f"{_OFFICE}date-value")
-    text = " ".join("".join(paragraph.itertext()) for paragraph in cell if paragraph.tag.endswith("}p"))
-    return text or None
 
 
 def unpacked_gzip(data: bytes, name: str) -> tuple[bytes, str]:

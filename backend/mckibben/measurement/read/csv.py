@@ -20,7 +20,6 @@ from mckibben.measurement.read.header import HEADER_EXAMPLE
 from mckibben.measurement.read.held import held_pressure
 from mckibben.measurement.read.json_file import is_json, open_json
 from mckibben.measurement.read.lines import located_text
-from mckibben.measurement.read.other_texts import other_text
 from mckibben.measurement.read.plain_head import plainly_known
 from mckibben.measurement.read.raw import RawRows, shown_rows
 from mckibben.measurement.read.recognise import recognise
@@ -74,10 +73,6 @@ def open_csv(data: bytes, name: str, correction: Correction | None = None) -> Ra
     messages: list[str] = []
     text = _decoded(data, name, messages)
     if is_json(text) and (found := open_json(text, name, correction)) is not None:
-        found.messages[:0] = messages
-        return found
-    text, found = other_text(text, name, correction)
-    if found is not None:
         found.messages[:0] = messages
         return found
     refusal: InputError | None = None

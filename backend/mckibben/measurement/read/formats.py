@@ -10,7 +10,7 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.csv import open_csv
 from mckibben.measurement.read.derived import with_derived
 from mckibben.measurement.read.legend import told_units
-from mckibben.measurement.read.limits import MAX_REMARKS
+from mckibben.measurement.read.limits import MAX_REMARKS, no_table
 from mckibben.measurement.read.source import RawTable
 from mckibben.physics.errors import InputError
 
@@ -32,6 +32,19 @@ _REFUSED = {
     b"7z\xbc\xaf": ("a 7z archive", "unpack it first"),
     b"MATLAB 4": ("a MATLAB 4 file", "save it with -v7"),
 }
+
+#: First bytes -> what the file is.
+_OTHER_KINDS = {
+    b"SQLite format 3\0": "an SQLite database",
+    b"\x93NUMPY": "an array of numpy",
+}
+#: Endings of texts that hold values and no table -> what the file is.
+_NO_TABLE = {
+    ".yaml": "a YAML text", ".yml": "a YAML text", ".toml": "a TOML text", ".xml": "an XML text",
+    ".html": "a web page", ".htm": "a web page", ".tex": "a LaTeX text",
+    ".m": "a script", ".py": "a script", ".r": "a script",
+}  # fmt: skip
+_MARKUP = re.compile(rb"(?i)(?:\xef\xbb\xbf)?\s*<(?:(\?xml)|!doctype html|html|table)\b")
 
 
 def open_source(data: bytes, name: str, correction: Correction | None = None) -> RawTable:
@@ -103,10 +116,9 @@ def _opened(data: bytes, name: str, correction: Correction | None = None) -> Raw
         source = _open_inner(inner, name_inside, correction)
         source.messages.append(f"the file is gzip-compressed: '{name_inside}' in it is read")
         return source
-    if data.startswith(b"SQLite format 3\0"):
-        from mckibben.measurement.read.sqlite_file import open_sqlite
-
-        return open_sqlite(data, name, correction)
+    for first, what in _OTHER_KINDS.items():
+        if data.startswith(first):
+            raise no_table(name, what)
     if data.startswith(b"TDSm"):
         from mckibben.measurement.read.tdms import open_tdms
 
@@ -119,7 +131,12 @@ def _opened(data: bytes, name: str, correction: Correction | None = None) -> Raw
         from mckibben.measurement.read.mat import open_mat
 
         return open_mat(data, name, correction)
-    expected = _BINARY.get(PurePath(name).suffix.lower())
+    suffix = PurePath(name).suffix.lower()
+    if markup := _MARKUP.match(data[:4096]):
+        raise no_table(name, _NO_TABLE[".xml" if markup[1] else ".html"])
+    if suffix in _NO_TABLE:
+        raise no_table(name, _NO_TABLE[suffix])
+    expected = _BINARY.get(suffix)
     if expected is not None and (control := _CONTROL.search(data[:4096])):
         raise InputError(
             f"{name}: no column can be read: the file does not begin as {expected} does "

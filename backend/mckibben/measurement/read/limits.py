@@ -1,8 +1,8 @@
-"""How much of a measurement file is read at most, whatever it says of itself, and the refusal of more.
+"""What of a measurement file is read at most, whatever it says of itself, and the refusal of anything else.
 
 A small file may unpack to any size. What one file becomes is counted before memory is taken for it, over
 all its parts, with 8 bytes for a number however short it is written; reading a file takes at most four times
-`MAX_UNPACKED`.
+`MAX_UNPACKED`. What the readers do not foresee ends at `MOST_SECONDS` or `MOST_MEMORY`, see `process.py`.
 """
 
 from __future__ import annotations
@@ -12,6 +12,8 @@ from collections.abc import Iterator
 
 from mckibben.physics.errors import InputError
 
+MOST_SECONDS = 60  # of processor time; the largest file takes a third of it
+MOST_MEMORY = 2_000_000_000  # bytes beside what the program has taken before
 MAX_UNPACKED = 256_000_000  # bytes
 MAX_ROWS = 6_000_000
 MAX_COLUMNS = 1000
@@ -21,12 +23,21 @@ MAX_BLOCKS = 1000  # of readings, one below the other
 MAX_REMARKS = 2000  # texts around a table that are searched for what they say of the test
 WORD = 64  # bytes that a short text takes
 _PIECE = 1_000_000  # bytes
-_SPLIT = "split the file, or keep every second row"
+SPLIT = "split the file, or keep every second row"
 
 
 def size_of(size: int) -> str:
     """A number of bytes for people: ``0.9 MB``."""
     return f"{size / 1e6:.3g} MB" if size < 1e9 else f"{size / 1e9:.3g} GB"
+
+
+def no_table(name: str, what: str) -> InputError:
+    """The refusal of a file of another kind."""
+    return InputError(
+        f"{name}: no column can be read: {what} is not a table that mckibben reads",
+        field="file",
+        hint="save it as CSV or XLSX",
+    )
 
 
 class Allowance:
@@ -54,7 +65,7 @@ class Allowance:
                 f"{self._name}, {part}: the file of {size_of(self._size)} unpacks to at least "
                 f"{size_of(self._taken)}, at most {size_of(MAX_UNPACKED)} are read",
                 field=part,
-                hint=f"{_SPLIT}; save only what belongs to the measurement",
+                hint=f"{SPLIT}; save only what belongs to the measurement",
             )
 
 
@@ -62,7 +73,7 @@ def check_rows(rows: int, place: str) -> None:
     """Refuse a table of too many rows."""
     if rows > MAX_ROWS:
         raise InputError(
-            f"{place}: the table has {rows} rows, at most {MAX_ROWS} rows are read", field="rows", hint=_SPLIT
+            f"{place}: the table has {rows} rows, at most {MAX_ROWS} rows are read", field="rows", hint=SPLIT
         )
 
 

@@ -43,13 +43,8 @@ def open_mat(data: bytes, name: str, correction: Correction | None = None) -> Ra
     return choose(values, name, correction)
 
 
-def choose(
-    values: dict[str, Any], name: str, correction: Correction | None = None,
-    texts: Sequence[tuple[str, str]] = (),
-) -> RawTable:  # fmt: skip
+def choose(values: dict[str, Any], name: str, correction: Correction | None = None) -> RawTable:
     """The source of a file's variables, or of the struct (array of structs, matrix) with most channels.
-
-    ``texts``: those beside the variables, and where they stand.
 
     Raises:
         InputError: vectors of different lengths, nothing that is a vector, no such struct.
@@ -86,7 +81,7 @@ def choose(
             field=f"{_NOUN}s", hint="e.g. pressure_bar = [0; 1; 2], length_mm = [300; 290; 280]",
         )  # fmt: skip
     rivals = [t for t in usable if t is not best and most >= 2 and t.known() >= most]
-    rest = [*(text for table in tables for text in table.rest), *texts]
+    rest = [text for table in tables for text in table.rest]
     notes = _notes_beside(best, tables)
     known_notes = in_known_words(notes)
     known = {note.key for note in known_notes}

@@ -55,7 +55,7 @@ def open_mat73(data: bytes, name: str, correction: Correction | None = None) -> 
         with h5py.File(io.BytesIO(data), "r") as file:
             by_matlab = b"MATLAB" in data[:128] or _of_matlab(file)
             values = _Mat73Reader(file, name, data, by_matlab=by_matlab).group(file)
-    except InputError:
+    except (InputError, MemoryError):
         raise
     except Exception as error:  # h5py raises whatever a damaged file leads to
         raise InputError(

@@ -136,8 +136,8 @@ class Preview:
     points: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
 
 
-def preview(data: bytes, name: str, correction: Correction | None = None) -> Preview:
-    """What a file would be read as; bad rows are counted, not refused.
+def preview_here(data: bytes, name: str, correction: Correction | None = None) -> Preview:
+    """What a file would be read as, found in this process: see `mckibben.measurement.read.preview`.
 
     Raises:
         InputError: no table can be found in the file at all, or the correction names what is not there.

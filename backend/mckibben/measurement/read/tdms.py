@@ -133,7 +133,7 @@ def _loaded(data: bytes, name: str) -> tuple[dict[str, tuple[dict[str, Any], dic
                 _add_time(values, group.channels(), f"{name}, group '{group.name}'")
                 groups[str(group.name)] = values, dict(group.properties)
             return groups, dict(file.properties)
-    except InputError:
+    except (InputError, MemoryError):
         raise
     except Exception as error:  # npTDMS raises whatever a damaged segment leads to
         raise InputError(

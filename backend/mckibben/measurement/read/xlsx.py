@@ -52,17 +52,7 @@ def open_xlsx(data: bytes, name: str, correction: Correction | None = None) -> R
         InputError: not a workbook, damaged, compressed too far, without a table, or without the sheet that
             the user names.
     """
-    return open_sheets(_sheets(data, name), name, correction)
-
-
-def open_sheets(
-    sheets: Sequence[tuple[str, Rows]], name: str, correction: Correction | None = None
-) -> RawTable:
-    """The table of sheets of cells, each with its title.
-
-    Raises:
-        InputError: no table, or not the sheet that the user names.
-    """
+    sheets = _sheets(data, name)
     correction = correction or Correction()
     wanted = correction.sheet
     tables: list[Table] = []
@@ -170,7 +160,7 @@ def _sheets(data: bytes, name: str) -> list[tuple[str, Rows]]:
                 if rows:
                     found.append((title, rows))
             book.close()
-    except InputError:
+    except (InputError, MemoryError):
         raise
     except Exception as error:  # openpyxl raises whatever a damaged part leads to
         raise InputError(

@@ -1,6 +1,6 @@
 """Projects: documents with their history, measurements and study tables, in a database.
 
-Each route is a transaction of the database and runs in a thread; an import, which reads files, in a process.
+Each route is a transaction of the database and runs in a thread; what reads files, in a process.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from fastapi import APIRouter, Path, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
 from mckibben.application.project_studies import give_back, table_of
-from mckibben.application.projects import brought_back, files_of, packed
+from mckibben.application.projects import files_of, missing_files, packed
 from mckibben.application.study_store import StudyStore
 from mckibben.projects.project import Project, ProjectSummary
 from mckibben.server import request_examples
@@ -31,7 +31,7 @@ from mckibben.server.schemas.projects import (
     ProjectsAnswer,
     ProjectState,
 )
-from mckibben.server.short_jobs import PackedProject
+from mckibben.server.short_jobs import FilesOfProject, PackedProject
 
 router = APIRouter(prefix="/api/projects", tags=["projects"], route_class=StrictRoute)
 
@@ -89,8 +89,14 @@ async def import_project(
     return await run_in_threadpool(lambda: JsonAnswer(_answer(projects.open(made)), status_code=201))
 
 
-@router.get("/{project_id}", response_model=ProjectAnswer, responses=errors(404, 409, 422))
-def open_project(
+@router.get(
+    "/{project_id}",
+    dependencies=[BeforeWork],
+    response_model=ProjectAnswer,
+    responses=errors(404, 409, 422, 429),
+)
+async def open_project(
+    request: Request,
     project_id: Id,
     projects: ProjectsDep,
     store: StoreDep,
@@ -98,9 +104,17 @@ def open_project(
     version: Annotated[int | None, Query(ge=1, description="An earlier version; left out: the last.")] = None,
 ) -> JsonAnswer:
     """A project; measurements and runs of studies that the server no longer has are stored again."""
-    project = brought_back(projects, projects.open(project_id, version), store)
-    studies = projects.studies(project_id) if project.studies else []
-    return JsonAnswer(_answer(project, give_back(studies, StudyStore(store.data), studio)))
+    project = await run_in_threadpool(projects.open, project_id, version)
+    if await run_in_threadpool(missing_files, project, store):
+        settings = request.app.state.settings
+        wanted = FilesOfProject(project_id, version, settings.projects or settings.data)
+        await whole(request, "project files", wanted, studio, store)
+
+    def answer() -> JsonAnswer:
+        studies = projects.studies(project_id) if project.studies else []
+        return JsonAnswer(_answer(project, give_back(studies, StudyStore(store.data), studio)))
+
+    return await run_in_threadpool(answer)
 
 
 @router.put(

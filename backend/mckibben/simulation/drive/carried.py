@@ -41,7 +41,7 @@ def _load() -> Any:
     with one_process_at_a_time("lane-kernels"):
         from mckibben.simulation.integrate.row_by_row import carry
 
-    return carry
+        return carry.compiled()
 
 
 carrying = Background(_load, "carry")

@@ -17,7 +17,7 @@ from mckibben.simulation.integrate.engine import (
     CompiledDrive,
     Outcome,
     compiled_driven,
-    engine_by_size,
+    engine_for_records,
     integrate,
 )
 from mckibben.simulation.integrate.many import integrate_many
@@ -65,11 +65,13 @@ def driven_states(
     temperature: float = ROOM_TEMPERATURE,
     tolerance: float = TOLERANCE,
     begin: Mapping[str, float] | None = None,
+    engine: str | None = None,
 ) -> dict[str, np.ndarray]:
     """The states ("effect.state") and readings that `driven_force` integrates, at each time of the record.
 
     Args:
         begin: states that do not begin at rest.
+        engine: see `mckibben.simulation.integrate.engine.integrate`; None = by the size of the record.
 
     Raises:
         InputError: as for `driven_force`.
@@ -77,7 +79,9 @@ def driven_states(
     compiled = compiled_driven(model.effects, motion=False)
     table = {"temperature": temperature, **_geometry(model), **_named(model)}
     inputs, start = _held_inputs(time, pressure, length), _start(compiled, time, begin or {})
-    return _run(compiled, table, inputs, start, time, tolerance)
+    return _run(
+        compiled, table, inputs, start, time, tolerance, engine or engine_for_records(len(time) - 1, runs=1)
+    )
 
 
 def driven_states_of_many(
@@ -106,11 +110,12 @@ def driven_states_of_many(
     Raises:
         InputError: as for `driven_force`.
     """
-    if engine_by_size(max(len(time), among) - 1) != "rodas":
+    engine = engine_for_records(len(time) - 1, runs=len(models), among=among - 1)
+    if engine != "rodas":
         return [
             driven_states(
                 model, time=time, pressure=pressure, length=length, temperature=temperature,
-                tolerance=tolerance, begin=begin,
+                tolerance=tolerance, begin=begin, engine=engine,
             )
             for model, begin in zip(models, begins, strict=True)
         ]  # fmt: skip
@@ -271,6 +276,7 @@ def _run(
     start: np.ndarray,
     time: np.ndarray,
     tolerance: float,
+    engine: str,
 ) -> dict[str, np.ndarray]:
     model = compiled.model
     parameters = np.array([table[name] for name in model.parameters])
@@ -284,7 +290,7 @@ def _run(
         inputs=packed_inputs,
         grid=np.ascontiguousarray(time, dtype=float),
         tolerance=tolerance,
-        engine=engine_by_size(len(packed_inputs)),
+        engine=engine,
     )
     if solution.outcome is not Outcome.COMPLETED:
         raise _unfollowed(time, len(solution.rows), solution.outcome.advice())

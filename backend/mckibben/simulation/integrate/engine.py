@@ -7,6 +7,8 @@ the same equations run under scipy's LSODA.
 
 from __future__ import annotations
 
+import threading
+
 import numpy as np
 
 from mckibben.simulation.integrate.alone import Alone
@@ -44,12 +46,14 @@ __all__ = [
     "compiled_drive",
     "compiled_driven",
     "engine_by_size",
+    "engine_for_records",
     "integrate",
     "kernel",
     "outcome_of",
     "quick_drive",
 ]
 
+_BEFORE_COMPILING = 2000  # segments; some seconds of LSODA, where compiling takes half a minute
 _FEW_SEGMENTS = 20  # LSODA needs less for them than the 0.6 s that loading the kernel takes
 
 
@@ -60,6 +64,41 @@ def engine_by_size(segments: int) -> str:
         segments: of the inputs.
     """
     return "lsoda" if segments <= _FEW_SEGMENTS else "rodas"
+
+
+def engine_for_records(segments: int, *, runs: int, among: int = 0) -> str:
+    """The engine for runs along a measured record: by size, but no short work waits for a compilation.
+
+    Until the kernel has been compiled for this machine, LSODA follows the first `_BEFORE_COMPILING` segments
+    of a process: a comparison of a static map ends long before the compilation would. The results agree to
+    the tolerance.
+
+    Args:
+        segments: of the record.
+        runs: along it.
+        among: segments of all records that are followed again and again; many short ones are worth it.
+    """
+    chosen = engine_by_size(max(segments, among))
+    if chosen == "lsoda" or kernel.at_hand() or not _spared.take(segments * runs):
+        return chosen
+    return "lsoda"
+
+
+class _Spared:
+    """Segments that may still be followed without the kernel."""
+
+    def __init__(self, left: int) -> None:
+        self._left, self._lock = left, threading.Lock()
+
+    def take(self, segments: int) -> bool:
+        """Whether so many are left; then they are taken. Once there are not, none are left."""
+        with self._lock:
+            enough = segments <= self._left
+            self._left = self._left - segments if enough else 0
+        return enough
+
+
+_spared = _Spared(_BEFORE_COMPILING)
 
 
 def integrate(

@@ -78,23 +78,10 @@ from mckibben.simulation.integrate.lane_type import (
     store,
     where_positive,
 )
-from mckibben.simulation.integrate.stamp import stamped_with
+from mckibben.simulation.integrate.stamp import kernel
 from mckibben.simulation.integrate.switching import call
 
 _ALL = (1 << LANES) - 1
-_stamped = stamped_with(
-    pid,
-    coefficients,
-    switching,
-    lane_control,
-    lane_controller,
-    lane_events,
-    lane_rows,
-    lane_step,
-    lane_type,
-    lane_writer,
-    also=LANES,
-)
 
 
 class Status(IntEnum):
@@ -155,8 +142,20 @@ _SIGNATURE = (
 )
 
 
-@njit(_SIGNATURE, error_model="numpy", cache=True, nogil=True)
-@_stamped
+@kernel(
+    _SIGNATURE,
+    pid,
+    coefficients,
+    switching,
+    lane_control,
+    lane_controller,
+    lane_events,
+    lane_rows,
+    lane_step,
+    lane_type,
+    lane_writer,
+    also=LANES,
+)
 def rodas4_lanes(
     functions: tuple[int, int, int, int, int],
     guards: int,

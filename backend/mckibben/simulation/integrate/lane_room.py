@@ -42,12 +42,18 @@ def _load() -> LaneKernels:
         from mckibben.simulation.integrate.lane_type import LANES
         from mckibben.simulation.integrate.repeated import call_blocks, find_roots
 
-    return LaneKernels(
-        rodas4_lanes, call_blocks, find_roots, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS, NO_LOOP
-    )
+        run, call, find = rodas4_lanes.compiled(), call_blocks.compiled(), find_roots.compiled()
+    return LaneKernels(run, call, find, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS, NO_LOOP)
 
 
-lane_kernels = Background(_load, "lane-kernels")
+def _is_kept() -> bool:
+    from mckibben.simulation.integrate.lane_kernel import rodas4_lanes
+    from mckibben.simulation.integrate.repeated import call_blocks, find_roots
+
+    return all(kernel.is_kept() for kernel in (rodas4_lanes, call_blocks, find_roots))
+
+
+lane_kernels = Background(_load, "lane-kernels", _is_kept)
 
 
 class Columns:

@@ -6,12 +6,11 @@ import numpy as np
 from numba import njit
 
 from mckibben.simulation.integrate import switching
-from mckibben.simulation.integrate.stamp import stamped_with
+from mckibben.simulation.integrate.stamp import kernel
 from mckibben.simulation.integrate.switching import call
 
 
-@njit("void(int64,float64[:,:,::1],float64[:,:,::1])", error_model="numpy", cache=True, nogil=True)
-@stamped_with(switching)
+@kernel("void(int64,float64[:,:,::1],float64[:,:,::1])", switching)
 def call_blocks(address: int, given: np.ndarray, results: np.ndarray) -> None:
     """Call the function at an address for each block of arguments.
 
@@ -41,14 +40,11 @@ def _called(
         values[lane] = line[0] + line[1] * results[result, lane]
 
 
-@njit(
+@kernel(
     f"void(int64,int64,{_ROW},int64[::1],{_ROW},{_TABLE},{_TABLE},{_TABLE},float64[:,::1],float64[:,::1],"
     "boolean[:,::1],float64)",
-    error_model="numpy",
-    cache=True,
-    nogil=True,
+    switching,
 )
-@stamped_with(switching)
 def find_roots(
     address: int,
     result: int,

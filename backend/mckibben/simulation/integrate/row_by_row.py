@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 
 from mckibben.simulation.integrate import switching
-from mckibben.simulation.integrate.stamp import stamped_with
+from mckibben.simulation.integrate.stamp import kernel
 from mckibben.simulation.integrate.switching import call
 
 #: Arguments of the compiled functions: these, then the states, then constants.
@@ -142,14 +142,11 @@ def _carried(
     found[:] = new, way, slope, _FREE if slope > 0.0 else _AT_LIMIT
 
 
-@njit(
+@kernel(
     f"void(int64,int64,{_TABLE},float64[:,:,::1],{_TABLE},{_ROW},{_TABLE},{_ROW},int64[::1],float64[:,:,::1],"
     f"{_ROW},{_TABLE},{_ROW})",
-    error_model="numpy",
-    cache=True,
-    nogil=True,
+    switching,
 )
-@stamped_with(switching)
 def carry(
     balance: int,
     rates: int,

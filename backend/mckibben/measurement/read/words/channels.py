@@ -11,9 +11,7 @@ CHANNELS = {
         "cs": "čas času", "ru": "время времени", "tr": "zaman süre", "nl": "tijd tijdstip",
         "sv": "tid tidpunkt", "ja": "時刻 時間 経過時間 日時", "zh": "时间 時間 时刻", "ko": "시간",
         "da": "tid tidspunkt", "fi": "aika kello", "hu": "idő időpont", "ro": "timp", "el": "χρόνος ώρα",
-        "uk": "час", "bg": "време", "hr": "vrijeme vreme", "sk": "čas", "lt": "laikas", "lv": "laiks",
-        "et": "aeg", "id": "waktu", "vi": "gian", "ca": "temps", "fa": "زمان", "ar": "الزمن الوقت زمن",
-        "he": "זמן",
+        "uk": "час", "bg": "време", "hr": "vrijeme vreme", "sk": "čas",
     },
     "pressure": {
         "en": "pressure press", "de": "druck", "fr": "pression", "it": "pressione", "es": "presión",
@@ -22,8 +20,6 @@ CHANNELS = {
         "ja": "圧力 ゲージ圧 内圧 空気圧 圧", "zh": "压力 气压 压强 壓力 氣壓 表压",
         "ko": "압력 공압 내압 기압", "da": "tryk trykk", "fi": "paine", "hu": "nyomás",
         "ro": "presiune presiunea", "el": "πίεση", "uk": "тиск", "bg": "налягане", "hr": "pritisak",
-        "lt": "slėgis", "lv": "spiediens", "et": "rõhk", "id": "tekanan", "vi": "suất", "ca": "pressió",
-        "fa": "فشار", "ar": "الضغط ضغط", "he": "לחץ",
     },
     "force": {
         "en": "force load weight tension traction pull", "de": "kraft *last gewicht", "fr": "effort charge",
@@ -32,19 +28,15 @@ CHANNELS = {
         "nl": "kracht belasting trekkracht", "sv": "kraft belastning", "ja": "荷重 力 張力 引張力 発生力",
         "zh": "力 拉力 载荷 负载 推力 张力 拉伸力 載荷", "ko": "하중 장력 힘 인장력 당김력",
         "da": "kraften", "fi": "voima", "hu": "erő húzóerő", "ro": "forță forța", "el": "δύναμη",
-        "uk": "зусилля", "bg": "усилие", "hr": "vlak", "sk": "sila", "lt": "jėga", "lv": "spēks",
-        "et": "jõud", "id": "gaya", "vi": "lực", "ca": "força", "fa": "نیرو", "ar": "القوة قوة",
-        "he": "כוח",
+        "uk": "зусилля", "bg": "усилие", "hr": "vlak", "sk": "sila",
     },
     "length": {
         "en": "length", "de": "länge laenge", "fr": "longueur", "it": "lunghezza", "es": "longitud",
         "pt": "comprimento", "pl": "długość długości", "cs": "délka délky", "ru": "длина длины",
         "tr": "uzunluk boy", "nl": "lengte", "sv": "längd", "ja": "長さ 全長 長", "zh": "长度 全长 長度",
-        "ko": "길이", "da": "længde længden", "no": "lengde", "fi": "pituus", "hu": "hossz hossza",
+        "ko": "길이", "da": "længde længden", "fi": "pituus", "hu": "hossz hossza",
         "ro": "lungime lungimea", "el": "μήκος", "uk": "довжина довжини", "bg": "дължина",
-        "hr": "duljina dužina duzina", "sl": "dolžina", "sk": "dĺžka", "lt": "ilgis", "lv": "garums",
-        "et": "pikkus", "id": "panjang", "vi": "dài", "ca": "llargada", "fa": "طول", "ar": "الطول",
-        "he": "אורך",
+        "hr": "duljina dužina duzina", "sl": "dolžina", "sk": "dĺžka",
     },
     "displacement": {
         "en": "displacement displ disp stroke travel position shortening",
@@ -62,8 +54,6 @@ CHANNELS = {
         "ro": "deplasare scurtare cursă", "el": "μετατόπιση βράχυνση διαδρομή",
         "uk": "переміщення укорочення вкорочення хід", "bg": "преместване скъсяване",
         "hr": "pomak skraćenje skracenje hod", "sl": "pomik premik skrajšanje", "sk": "skrátenie posuv",
-        "lt": "poslinkis sutrumpėjimas", "lv": "pārvietojums saīsinājums", "et": "nihe lühenemine",
-        "id": "perpindahan pemendekan langkah", "vi": "trình", "ca": "escurçament desplaçament",
     },
     "extension": {
         "en": "extension elongation", "de": "längenänderung dehnung verlängerung verlaengerung",
@@ -72,7 +62,7 @@ CHANNELS = {
         "sv": "förlängning", "ja": "伸び", "zh": "伸长 伸长量", "da": "forlængelse",
         "fi": "venymä pidentymä", "hu": "megnyúlás nyúlás", "ro": "alungire", "el": "επιμήκυνση",
         "uk": "видовження подовження", "bg": "удължение", "hr": "produljenje istezanje", "sl": "raztezek",
-        "sk": "predĺženie", "ca": "allargament", "ko": "신장량",
+        "sk": "predĺženie", "ko": "신장량",
     },
     "contraction": {
         "en": "contraction strain kappa eps epsilon", "de": "kontraktion", "it": "contrazione",
@@ -80,7 +70,7 @@ CHANNELS = {
         "tr": "kasılma büzülme", "nl": "contractie", "ja": "収縮率 ひずみ", "zh": "收缩率 应变 收缩比",
         "ko": "수축률", "sv": "kontraktion", "da": "sammentrækning sammentrekning", "fi": "supistuma",
         "hu": "összehúzódás kontrakció", "ro": "contracție", "el": "συστολή", "uk": "скорочення",
-        "hr": "kontrakcija", "sl": "skrček", "sk": "kontrakcia", "id": "kontraksi", "ca": "contracció",
+        "hr": "kontrakcija", "sl": "skrček", "sk": "kontrakcia",
         "fr": "contraction",
     },
     "diameter": {
@@ -109,7 +99,7 @@ CHANNELS = {
         "ru": "температура", "tr": "sıcaklık", "nl": "temperatuur", "ja": "温度", "zh": "温度",
         "ko": "온도", "fr": "température", "es": "temperatura", "fi": "lämpötila", "hu": "hőmérséklet",
         "ro": "temperatură", "el": "θερμοκρασία", "uk": "температура", "da": "temperatur",
-        "lt": "temperatūra", "id": "suhu", "pl": "temperatura",
+        "pl": "temperatura",
     },
     "group": {
         "en": "cycle sweep trial repetition repeat run series",

@@ -26,7 +26,7 @@ DIRECTIONS = {
         "da": "fyldning fylling oppumpning forkortning", "fi": "täyttö paineistus lyheneminen",
         "hu": "feltöltés töltés felfújás rövidülés", "ro": "umflare umplere contracție",
         "el": "πλήρωση φούσκωμα συστολή", "ja": "加圧 昇圧 給気 充填 収縮",
-        "zh": "加压 充气 升压 收缩 充压 进气", "ko": "가압 충전 급기 수축 팽창가압", "id": "pengisian",
+        "zh": "加压 充气 升压 收缩 充压 进气", "ko": "가압 충전 급기 수축 팽창가압",
     },
     "lengthening": {
         "en": (
@@ -49,7 +49,7 @@ DIRECTIONS = {
         "sv": "tömning tömma avluftning förlängning", "da": "tømning tømming udluftning forlængelse",
         "fi": "tyhjennys paineenpoisto piteneminen", "hu": "leeresztés ürítés leengedés",
         "ro": "dezumflare golire", "el": "εκκένωση ξεφούσκωμα επιμήκυνση", "ja": "減圧 排気 降圧 伸長",
-        "zh": "减压 放气 降压 伸长 泄压 排气", "ko": "감압 배기 신장", "id": "pengosongan",
+        "zh": "减压 放气 降压 伸长 泄压 排气", "ko": "감압 배기 신장",
     },
 }  # fmt: skip
 
