@@ -9,7 +9,7 @@ from typing import Any, get_type_hints
 
 import pytest
 
-from mckibben.application.curves import CurvesResult
+from mckibben.application.curves.curves import CurvesResult
 from tests.benchmarks.paper import equations, table
 from tests.benchmarks.paper_figures import figures
 

@@ -7,7 +7,7 @@ from math import atan
 import numpy as np
 import pytest
 
-from mckibben.application.curves import CurvesQuestion, curves
+from mckibben.application.curves.curves import CurvesQuestion, curves
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
 from tests.shipped import shipped_studio

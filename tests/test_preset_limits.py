@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from mckibben.application.curves import CurvesQuestion, curves
-from mckibben.application.inverse import MuscleCondition, PressureForStroke, answer
-from mckibben.application.simulate import SimulationQuestion, simulate
-from mckibben.application.size import prepare, sizing_question
+from mckibben.application.curves.curves import CurvesQuestion, curves
+from mckibben.application.curves.inverse import MuscleCondition, PressureForStroke, answer
+from mckibben.application.run.simulate import SimulationQuestion, simulate
+from mckibben.application.size.size import prepare, sizing_question
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.start_model import StatedMuscle

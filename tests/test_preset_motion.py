@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mckibben.application.curves import CurvesQuestion, curves
-from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
+from mckibben.application.curves.curves import CurvesQuestion, curves
+from mckibben.application.run.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.start_model import StatedMuscle

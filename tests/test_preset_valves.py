@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from scipy.linalg import expm
 
-from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
+from mckibben.application.run.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.physics import gas

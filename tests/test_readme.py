@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pytest
 
-from mckibben.application.simulate import SimulationQuestion, simulate
+from mckibben.application.run.simulate import SimulationQuestion, simulate
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio

@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-from mckibben.application.curves import CurvesQuestion, curves
-from mckibben.application.inverse import ContractionForForce, MuscleCondition, answer
+from mckibben.application.curves.curves import CurvesQuestion, curves
+from mckibben.application.curves.inverse import ContractionForForce, MuscleCondition, answer
 from mckibben.application.operating_limits import pressure_notices
-from mckibben.application.simulate import SimulationQuestion, simulate
-from mckibben.application.size import prepare, sizing_question
+from mckibben.application.run.simulate import SimulationQuestion, simulate
+from mckibben.application.size.size import prepare, sizing_question
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.start_model import StatedMuscle

@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.application.curves import CurvesQuestion, CurvesResult, curves
-from mckibben.application.drive_run import run_drive
+from mckibben.application.curves.curves import CurvesQuestion, CurvesResult, curves
 from mckibben.application.prediction_interval import SHARE
-from mckibben.application.simulate import SimulationQuestion, simulate
+from mckibben.application.run.drive_run import run_drive
+from mckibben.application.run.simulate import SimulationQuestion, simulate
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.start_model import StartModel, StatedMuscle

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from mckibben.application.compare import compare
-from mckibben.application.measurements import UnreadColumn
+from mckibben.application.compare.compare import compare
+from mckibben.application.measurement.summary import UnreadColumn
 from mckibben.documents.studio import Studio
-from tests.application.test_experiment import asked, diagnosed
+from tests.application.measurement.test_experiment import asked, diagnosed
 from tests.application.truths import specimen
 from tests.shipped import shipped_studio
 

@@ -16,7 +16,7 @@ from pathlib import Path
 
 import numpy as np
 
-from mckibben.application.linearise import LinearQuestion, linear_view
+from mckibben.application.linear.linearise import LinearQuestion, linear_view
 from mckibben.documents.drive_files import preset_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.door.figures.linear import bode_figure

@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.application.curves import CurvesQuestion, CurvesResult, curves
+from mckibben.application.curves.curves import CurvesQuestion, CurvesResult, curves
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.presets.schema import DesignPreset

@@ -12,8 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.application.drive_run import run_drive
-from mckibben.application.simulate import SimulationResult, result_of
+from mckibben.application.run.drive_run import run_drive
+from mckibben.application.run.simulate import SimulationResult, result_of
 from mckibben.documents.drive_files import preset_document
 from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.studio import Studio

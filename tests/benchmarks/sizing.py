@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import odeint
 
-from mckibben.application.task_reading import catalogue_of, task_of
+from mckibben.application.size.task import catalogue_of, task_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder

@@ -12,6 +12,7 @@ import time
 import urllib.request
 from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -304,11 +305,15 @@ def test_a_bad_muscle_file_is_named_with_its_field(run: Run, content: str, words
 
 
 def test_a_file_without_permission_is_said(run: Run, monkeypatch: pytest.MonkeyPatch) -> None:
-    def denied(path: Path) -> bytes:
-        raise PermissionError(13, "Permission denied", str(path))
+    name, opened = write("a.csv", CSV), Path.open
 
-    monkeypatch.setattr(Path, "read_bytes", denied)  # a real one would not stop root
-    line = refused(run("compare", write("a.csv", CSV), "--muscle", "DMSP-20"))
+    def denied(path: Path, *args: Any, **kwargs: Any) -> Any:
+        if path.name == "a.csv":
+            raise PermissionError(13, "Permission denied", str(path))
+        return opened(path, *args, **kwargs)
+
+    monkeypatch.setattr(Path, "open", denied)  # a real one would not stop root
+    line = refused(run("compare", name, "--muscle", "DMSP-20"))
     assert "a.csv" in line
     assert "Permission denied" in line
 

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.diagnose.result import DiagnosisResult
 from tests.cli.conftest import Run, result_of, write
 from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text, truth
 from tests.server.answers import valid

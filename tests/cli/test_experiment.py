@@ -8,8 +8,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mckibben.application.compare import ComparisonResult
-from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.diagnose.result import DiagnosisResult
 from tests.application.truths import document, plateaus, specimen
 from tests.cli.conftest import Run, result_of
 from tests.server.answers import valid

@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from tests.application.test_study import STUDY
+from tests.application.study.test_study import STUDY
 from tests.cli.conftest import Run, result_of, write
 
 

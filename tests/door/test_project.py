@@ -44,7 +44,7 @@ def test_a_project_is_kept_opened_and_taken_along(tmp_path: Path, capsys: pytest
 def test_its_measurements_are_read_as_they_were(tmp_path: Path) -> None:
     store = MeasurementStore(tmp_path / "data")
     identity = store.put(CSV, "map.csv").id
-    from mckibben.application.projects import files_of
+    from mckibben.application.project.projects import files_of
     from mckibben.projects.database import Database
     from mckibben.projects.store import ProjectStore
 

@@ -9,7 +9,7 @@ import pytest
 
 import mckibben as mk
 from mckibben.door.study import Study
-from tests.application.test_study import SHORT, STUDY
+from tests.application.study.test_study import SHORT, STUDY
 
 GOALS = [
     {"figure": "timing.extend.rise_time"},

@@ -14,7 +14,7 @@ import pytest
 from pydantic import BaseModel, TypeAdapter, ValidationError
 
 import mckibben
-from mckibben.application.curves import CurvesResult
+from mckibben.application.curves.curves import CurvesResult
 from mckibben.facts.result import Number, Rows, Series, described, result_class
 from mckibben.physics.units import si
 from mckibben.server import schemas

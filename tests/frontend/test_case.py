@@ -13,7 +13,7 @@ from typing import Any
 import pytest
 from playwright.sync_api import FilePayload, Page, Route, expect
 
-from mckibben.application.diagnose import prepare
+from mckibben.application.diagnose.diagnose import prepare
 from mckibben.application.json_text import to_json
 from mckibben.measurement.store import MeasurementStore
 from mckibben.server.questions.models import model_question

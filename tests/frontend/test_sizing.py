@@ -13,7 +13,7 @@ import pytest
 from playwright.sync_api import Locator, Page, Route, expect
 
 from mckibben.application.json_text import to_json
-from mckibben.application.size import prepare, sizing_question
+from mckibben.application.size.size import prepare, sizing_question
 from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
 from mckibben.simulation.integrate.many import lane_kernels

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mckibben.application.order_code import ordered_muscle
+from mckibben.application.model.order_code import ordered_muscle
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.physics.errors import InputError
 from mckibben.presets.order_code import OrderCode, begin_of_order_code, order_code

@@ -7,7 +7,7 @@ import math
 import numpy as np
 import pytest
 
-from mckibben.application.compared_series import ComparedSeries
+from mckibben.application.compare.series import ComparedSeries
 from mckibben.report.diagnosis.levels import level_map
 
 NOISE = 0.01  # N

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 
 import pytest
 
-from mckibben.application.size import RejectedParts, SizingResult
+from mckibben.application.size.size import RejectedParts, SizingResult
 from mckibben.documents.task import TaskOperation
 from mckibben.report.sizing import Command, Entry, Margin, SizingMaterial, SpecimenSpread, sizing_report
 from mckibben.report.sizing.inputs import task_section

@@ -26,7 +26,7 @@ import json, resource, sys
 from pathlib import Path
 import h5py, nptdms, openpyxl, pandas, scipy.io
 from mckibben.application.json_text import to_json
-from mckibben.application.measurements import summary_of
+from mckibben.application.measurement.summary import summary_of
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.compare import ComparisonResult
-from mckibben.application.compared_series import MAX_POINTS_PER_SERIES
+from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.compare.series import MAX_POINTS_PER_SERIES
 from tests.identification.synthetic import CYCLE_HEADER, cycle_rows, text
 from tests.server.answers import valid
 from tests.server.conftest import CSV, assert_error, post

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.curves import CurvesResult
+from mckibben.application.curves.curves import CurvesResult
 from tests.server.answers import valid
 from tests.server.conftest import post
 

@@ -11,8 +11,8 @@ import pytest
 from fastapi import FastAPI
 from fastapi.testclient import TestClient
 
-from mckibben.application.diagnose import prepare
-from mckibben.application.diagnosis_result import CandidateResult, DiagnosisResult
+from mckibben.application.diagnose.diagnose import prepare
+from mckibben.application.diagnose.result import CandidateResult, DiagnosisResult
 from mckibben.physics.errors import InputError
 from mckibben.server import long_work
 from mckibben.server.app import create_app

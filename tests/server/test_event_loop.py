@@ -19,7 +19,8 @@ from fastapi import FastAPI, Request
 from fastapi.testclient import TestClient
 from starlette.requests import ClientDisconnect
 
-from mckibben.application import diagnose, specimens
+from mckibben.application.compare import specimens
+from mckibben.application.diagnose import diagnose
 from mckibben.documents.studio import Studio
 from mckibben.measurement import store
 from mckibben.measurement.store import MeasurementStore

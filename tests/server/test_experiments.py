@@ -10,10 +10,10 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.compare import ComparisonResult
-from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.application.experiment_form import ExperimentForms
-from mckibben.application.measurements import PreviewResult
+from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.diagnose.result import DiagnosisResult
+from mckibben.application.measurement.form import ExperimentForms
+from mckibben.application.measurement.summary import PreviewResult
 from mckibben.measurement.experiment import FIELDS
 from tests.application.truths import document, plateaus, specimen
 from tests.measurement.read.open_files import WRITERS, OpenFile

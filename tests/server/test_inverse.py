@@ -7,7 +7,7 @@ from concurrent.futures import ThreadPoolExecutor
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.inverse import InverseFinding
+from mckibben.application.curves.inverse import InverseFinding
 from tests.server.answers import valid
 from tests.server.conftest import post
 

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.linear_result import LinearResult
+from mckibben.application.linear.result import LinearResult
 from tests.server.answers import valid
 from tests.server.conftest import assert_error, post
 from tests.simulation.linear.drives import DOCUMENTS

@@ -10,7 +10,7 @@ import pytest
 from fastapi.testclient import TestClient
 from httpx2 import Response
 
-from mckibben.application.measurements import MeasurementDetails, MeasurementSummary, PreviewResult
+from mckibben.application.measurement.summary import MeasurementDetails, MeasurementSummary, PreviewResult
 from mckibben.measurement.measurement import build
 from mckibben.measurement.points import Points, joined
 from mckibben.measurement.store import clean_name

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.compare import ComparisonResult
-from mckibben.application.mysteries import MysterySummary, Reveal, matched
+from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.diagnose.mysteries import MysterySummary, Reveal, matched
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.custom import CUSTOM
 from mckibben.presets import MysteryPreset, PresetLibrary

@@ -9,7 +9,7 @@ import numpy as np
 from fastapi.testclient import TestClient
 from openpyxl import Workbook
 
-from mckibben.application.measurements import PreviewResult
+from mckibben.application.measurement.summary import PreviewResult
 from tests.server.answers import valid
 from tests.server.conftest import assert_error
 

@@ -13,13 +13,13 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application import projects
+from mckibben.application.project import projects
 from mckibben.server import long_work
 from mckibben.server.app import create_app
 from mckibben.server.jobs import JOBS
 from mckibben.server.routes import projects as routes
 from mckibben.server.settings import Settings
-from tests.application.test_study import STUDY
+from tests.application.study.test_study import STUDY
 from tests.server.conftest import CSV, URL, assert_error
 from tests.server.packed_projects import packed_project
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.measurements import MeasurementSummary, PreviewResult
+from mckibben.application.measurement.summary import MeasurementSummary, PreviewResult
 from tests.measurement.read.open_files import WRITERS, OpenFile
 from tests.measurement.read.sealed_files import three_heads
 from tests.server.answers import valid

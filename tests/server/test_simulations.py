@@ -17,7 +17,7 @@ import pytest
 from fastapi import Request
 from fastapi.testclient import TestClient
 
-from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
+from mckibben.application.run.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.facts.timing import TIMING as FIGURES

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application.size import TIME_LIMIT, SizingResult
+from mckibben.application.size.size import TIME_LIMIT, SizingResult
 from mckibben.server import long_work
 from mckibben.server.jobs import JOBS
 from mckibben.simulation.integrate.many import lane_kernels

@@ -8,14 +8,14 @@ from pathlib import Path
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.application import study_file
-from mckibben.application.study import StudyResult, prepare, study_question
-from mckibben.application.study_store import StudyStore
+from mckibben.application.study import file as study_file
+from mckibben.application.study.store import StudyStore
+from mckibben.application.study.study import StudyResult, prepare, study_question
 from mckibben.documents.study_files import read_study
 from mckibben.server.app import create_app
 from mckibben.server.settings import Settings
 from mckibben.simulation.outcome import Watch
-from tests.application.test_study import STUDY
+from tests.application.study.test_study import STUDY
 from tests.server.answers import valid
 from tests.server.conftest import assert_error, post
 from tests.server.test_simulations import events_of

@@ -8,8 +8,8 @@ from typing import Any
 import pytest
 
 from mckibben.application.json_text import to_json
-from mckibben.application.size import prepare, sizing_question
-from mckibben.application.task_reading import catalogue_of, task_of
+from mckibben.application.size.size import prepare, sizing_question
+from mckibben.application.size.task import catalogue_of, task_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.simulation.outcome import Watch

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from mckibben.application.drive_of_design import drive_document
-from mckibben.application.simulate import SimulationQuestion, simulate
-from mckibben.application.size import SizingResult, prepare, sizing_question
+from mckibben.application.run.simulate import SimulationQuestion, simulate
+from mckibben.application.size.drive import drive_document
+from mckibben.application.size.size import SizingResult, prepare, sizing_question
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio

@@ -8,8 +8,8 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.application.compare.specimens import Specimen, Specimens
 from mckibben.application.muscle_summary import Notice
-from mckibben.application.specimens import Specimen, Specimens
 from mckibben.facts.result import result_class
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel

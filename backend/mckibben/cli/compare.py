@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from mckibben.application.compare import compare
-from mckibben.application.measurement_files import measurements_of
+from mckibben.application.compare.compare import compare
+from mckibben.application.measurement.files import measurements_of
 from mckibben.cli.model import model_question, muscle_length
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import progress, standard_input, write_json, write_summary

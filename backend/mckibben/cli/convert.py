@@ -6,8 +6,8 @@ from pathlib import Path
 
 import typer
 
-from mckibben.application.convert import converted
-from mckibben.application.measurement_files import read_file
+from mckibben.application.measurement.convert import converted
+from mckibben.application.measurement.files import read_file
 from mckibben.application.text_file import write_text
 from mckibben.cli.output import progress, remark, standard_input
 from mckibben.measurement.read import Correction

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from mckibben.application.curves import CurvesQuestion, curves, pressures_of
+from mckibben.application.curves.curves import CurvesQuestion, curves, pressures_of
 from mckibben.cli.options import ModelOptions, start_model
 from mckibben.cli.output import write_json, write_summary
 from mckibben.documents.studio import Studio

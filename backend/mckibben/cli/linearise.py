@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mckibben.application.linear_text import condition_of, goals_of
-from mckibben.application.linearise import LinearQuestion, linear_view
+from mckibben.application.linear.linearise import LinearQuestion, linear_view
+from mckibben.application.linear.text import condition_of, goals_of
 from mckibben.cli.output import progress, write_json, write_summary
 from mckibben.documents.drive_files import named_document
 from mckibben.documents.drive_reading import drive_of

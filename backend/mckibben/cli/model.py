@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
-from mckibben.application.experiment import SaidMeasurement, SaidModel
-from mckibben.application.model_question import ModelQuestion
-from mckibben.application.stated_question import SavedStart, stated_question
+from mckibben.application.compare.question import ModelQuestion
+from mckibben.application.compare.stated_question import SavedStart, stated_question
+from mckibben.application.measurement.experiment import SaidMeasurement, SaidModel
 from mckibben.cli.options import ModelOptions, start_model, stated_model
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import read_document

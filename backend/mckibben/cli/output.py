@@ -42,7 +42,7 @@ def standard_input(names: Sequence[str]) -> dict[str, bytes]:
         raise InputError("-: standard input can be read once only", hint="name the other files")
     if sys.stdin.isatty():
         raise InputError("-: standard input is the terminal", hint="mckibben convert - < file.csv")
-    from mckibben.application.measurement_files import LARGEST_FILE
+    from mckibben.application.measurement.files import LARGEST_FILE
 
     return {"-": sys.stdin.buffer.read(LARGEST_FILE + 1)}
 

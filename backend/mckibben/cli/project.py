@@ -6,7 +6,7 @@ from dataclasses import asdict
 from datetime import UTC, datetime
 from pathlib import Path
 
-from mckibben.application.projects import found_project, packed, unpacked
+from mckibben.application.project.projects import found_project, packed, unpacked
 from mckibben.cli.options import folders
 from mckibben.cli.output import check_folder, remark, write_json, write_summary
 from mckibben.measurement.store import MeasurementStore

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.application.model_question import ModelQuestion
+from mckibben.application.compare.question import ModelQuestion
+from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.cli.output import write_file
 from mckibben.documents.studio import Studio
 from mckibben.report.diagnosis.gather import ReportOptions, report_of

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-from mckibben.application.size import Searched, prepare_search, sizing_question
+from mckibben.application.size.size import Searched, prepare_search, sizing_question
 from mckibben.cli.output import progress, remark, write_json, write_summary
 from mckibben.documents.located import located
 from mckibben.documents.studio import Studio

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mckibben.application.study import prepare, study_question
-from mckibben.application.study_file import check_out, journal_of, prepare_file
+from mckibben.application.study.file import check_out, journal_of, prepare_file
+from mckibben.application.study.study import prepare, study_question
 from mckibben.cli.output import progress, remark, write_json, write_summary
 from mckibben.documents.studio import Studio
 from mckibben.documents.study_files import in_file, read_study_file
@@ -40,7 +40,7 @@ def run(
         raise in_file(study, error) from error
     workers = None
     if scheduler is not None:
-        from mckibben.application.study_cluster import on_cluster
+        from mckibben.application.study.cluster import on_cluster
 
         workers = on_cluster(question, scheduler)
     if out is None:

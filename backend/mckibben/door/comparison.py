@@ -8,8 +8,8 @@ from collections.abc import Mapping, Sequence
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Generic
 
-from mckibben.application.compare import Compared, ComparisonResult
-from mckibben.application.compared_series import rows_of
+from mckibben.application.compare.compare import Compared, ComparisonResult
+from mckibben.application.compare.series import rows_of
 from mckibben.door.frames import frame_of
 from mckibben.door.result import ModelT, Result
 from mckibben.identification.fit.comparison import Correlation, ParameterValue

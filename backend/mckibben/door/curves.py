@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mckibben.application.curves import CurveLimits, CurvesResult, OverPressure
+from mckibben.application.curves.curves import CurveLimits, CurvesResult, OverPressure
 from mckibben.door.frames import frame_of
 from mckibben.door.result import Result
 from mckibben.door.values import FloatArray, read_only

@@ -9,7 +9,9 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Generic
 
-from mckibben.application.diagnosis_result import (
+from mckibben.application.compare.question import ModelQuestion
+from mckibben.application.diagnose.doubts import DoubtfulEntry
+from mckibben.application.diagnose.result import (
     Baseline,
     CandidateResult,
     DiagnosisResult,
@@ -17,8 +19,6 @@ from mckibben.application.diagnosis_result import (
     PathPoint,
     Verdict,
 )
-from mckibben.application.doubts import DoubtfulEntry
-from mckibben.application.model_question import ModelQuestion
 from mckibben.documents.studio import Studio
 from mckibben.door.comparison import Parameters, parameters_of
 from mckibben.door.frames import frame_of_rows

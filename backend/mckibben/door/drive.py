@@ -9,10 +9,10 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
-from mckibben.application.drive_run import single_run_engine
-from mckibben.application.linear_text import condition_of, goals_of
-from mckibben.application.linearise import LinearQuestion, linear_view
-from mckibben.application.simulate import POINTS, SimulationQuestion, prepare
+from mckibben.application.linear.linearise import LinearQuestion, linear_view
+from mckibben.application.linear.text import condition_of, goals_of
+from mckibben.application.run.drive_run import single_run_engine
+from mckibben.application.run.simulate import POINTS, SimulationQuestion, prepare
 from mckibben.application.text_file import write_text
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import named_document, preset_document, read_document

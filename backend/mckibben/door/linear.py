@@ -12,8 +12,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 import numpy as np
 
-from mckibben.application.linear_matlab import mat_file, matrices_of
-from mckibben.application.linear_result import DesignResult, LinearResult, LoopResult, ModelResult
+from mckibben.application.linear.matlab import mat_file, matrices_of
+from mckibben.application.linear.result import DesignResult, LinearResult, LoopResult, ModelResult
 from mckibben.door.frames import frame_of
 from mckibben.door.problem import reported
 from mckibben.door.result import Result

@@ -13,13 +13,13 @@ from typing import TYPE_CHECKING, Any
 
 from numpy.typing import ArrayLike, NDArray
 
-from mckibben.application.convert import CHANNEL_HEADERS, converted
-from mckibben.application.experiment import SaidMeasurement, stated_in
-from mckibben.application.file_options import FileOptions, file_options
 from mckibben.application.json_text import to_json
-from mckibben.application.measurement_files import ARGUMENT, measurements_of
-from mckibben.application.measurements import MeasurementSummary, details_of
-from mckibben.application.measurements import summary_of as facts_of
+from mckibben.application.measurement.convert import CHANNEL_HEADERS, converted
+from mckibben.application.measurement.experiment import SaidMeasurement, stated_in
+from mckibben.application.measurement.files import ARGUMENT, measurements_of
+from mckibben.application.measurement.options import FileOptions, file_options
+from mckibben.application.measurement.summary import MeasurementSummary, details_of
+from mckibben.application.measurement.summary import summary_of as facts_of
 from mckibben.door.frames import csv_of, frame_of
 from mckibben.door.problem import reported
 from mckibben.door.result import Result, unknown_ending

@@ -7,11 +7,11 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any, Self
 
-from mckibben.application.compare import compared_whole
-from mckibben.application.curves import DEFAULT_PRESSURES, CurvesQuestion, curves
-from mckibben.application.diagnose import prepare
+from mckibben.application.compare.compare import compared_whole
+from mckibben.application.curves.curves import DEFAULT_PRESSURES, CurvesQuestion, curves
+from mckibben.application.diagnose.diagnose import prepare
+from mckibben.application.model.saved import fitted_model, model_text, saved_model
 from mckibben.application.muscle_summary import GeometrySummary, geometry_of
-from mckibben.application.saved_model import fitted_model, model_text, saved_model
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio

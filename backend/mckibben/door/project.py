@@ -9,8 +9,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mckibben.application.experiment import SaidMeasurement
-from mckibben.application.projects import found_project, packed, unpacked
+from mckibben.application.measurement.experiment import SaidMeasurement
+from mckibben.application.project.projects import found_project, packed, unpacked
 from mckibben.door.frames import frame_of_rows
 from mckibben.door.measurement import Measurement
 from mckibben.door.problem import reported

@@ -10,10 +10,10 @@ from os import PathLike
 from pathlib import Path
 from typing import Any, Protocol, TypeAlias, cast
 
-from mckibben.application.experiment import SaidModel
-from mckibben.application.measurement_files import ARGUMENT
-from mckibben.application.model_question import EffectDocument, ModelQuestion
-from mckibben.application.stated_question import SavedStart, stated_question
+from mckibben.application.compare.question import EffectDocument, ModelQuestion
+from mckibben.application.compare.stated_question import SavedStart, stated_question
+from mckibben.application.measurement.experiment import SaidModel
+from mckibben.application.measurement.files import ARGUMENT
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.located import at_file
 from mckibben.documents.model_files import drive_document, saved_model

@@ -9,7 +9,7 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mckibben.application.size import (
+from mckibben.application.size.size import (
     ProposedDrive,
     RejectedParts,
     Searched,
@@ -17,7 +17,7 @@ from mckibben.application.size import (
     prepare_search,
     sizing_question,
 )
-from mckibben.application.task_reading import heading_of
+from mckibben.application.size.task import heading_of
 from mckibben.application.text_file import write_text
 from mckibben.documents.located import at_file
 from mckibben.documents.studio import Studio

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mckibben.application.curves import pressures_of
+from mckibben.application.curves.curves import pressures_of
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.door.values import FloatArray, Quantities, Quantity, array_of, number_of

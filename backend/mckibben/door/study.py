@@ -9,8 +9,8 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, cast
 
-from mckibben.application.study import StudyQuestion, StudyResult, prepare, study_question
-from mckibben.application.study_file import prepare_file, table_text
+from mckibben.application.study.file import prepare_file, table_text
+from mckibben.application.study.study import StudyQuestion, StudyResult, prepare, study_question
 from mckibben.documents.drive_files import read_document
 from mckibben.documents.study_files import in_file, read_study, read_study_file
 from mckibben.door.drive import Drive
@@ -142,7 +142,7 @@ def study(
     watch = Watch(progress=None if progress is None else tell, time_limit=float("inf"))
     workers = None
     if scheduler is not None:
-        from mckibben.application.study_cluster import on_cluster
+        from mckibben.application.study.cluster import on_cluster
 
         workers = on_cluster(question, scheduler, again="call it again with resume=True when it is back")
     if out is None:

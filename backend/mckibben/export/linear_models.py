@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from mckibben.application.linear_result import ModelResult, PointResult, model_result, point_of
+from mckibben.application.linear.result import ModelResult, PointResult, model_result, point_of
 from mckibben.export.subject import RunnableDrive
 from mckibben.physics.errors import InputError
 from mckibben.simulation.linear.bound import BoundDrive

@@ -8,9 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from mckibben.application import diagnose, linearise, size, study
+from mckibben.application.diagnose import diagnose
 from mckibben.application.json_text import to_json
-from mckibben.application.study_store import StudyStore
+from mckibben.application.linear import linearise
+from mckibben.application.size import size
+from mckibben.application.study import study
+from mckibben.application.study.store import StudyStore
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.study import StudyDocument

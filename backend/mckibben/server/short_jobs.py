@@ -10,15 +10,15 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mckibben.application import simulate
-from mckibben.application.compare import compare
-from mckibben.application.curves import curves
-from mckibben.application.experiment_form import experiment_forms, preview_form
-from mckibben.application.inverse import answer
+from mckibben.application.compare.compare import compare
+from mckibben.application.curves.curves import curves
+from mckibben.application.curves.inverse import answer
 from mckibben.application.json_text import to_json
-from mckibben.application.measurements import details_of, preview_of, summary_of
-from mckibben.application.projects import brought_back, unpacked
-from mckibben.application.saved_model import present_model
+from mckibben.application.measurement.form import experiment_forms, preview_form
+from mckibben.application.measurement.summary import details_of, preview_of, summary_of
+from mckibben.application.model.saved import present_model
+from mckibben.application.project.projects import brought_back, unpacked
+from mckibben.application.run import simulate
 from mckibben.documents.studio import Studio
 from mckibben.export.use_case import export
 from mckibben.measurement.read import Correction, preview

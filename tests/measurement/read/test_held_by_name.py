@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mckibben.application.measurement_files import measurements_of
+from mckibben.application.measurement.files import measurements_of
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read import Correction, read_measurement
 from mckibben.measurement.read.held_by_name import length_of_name

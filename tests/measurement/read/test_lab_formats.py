@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import pytest
 
-from mckibben.application.convert import converted
+from mckibben.application.measurement.convert import converted
 from mckibben.measurement.read import read_measurement
 from tests.benchmarks.formats import CORPUS, corpus_scores, score_own
 from tests.measurement.read.sealed_files import WRITERS, LabFile

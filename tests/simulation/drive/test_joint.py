@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mckibben.application.simulate import SimulationQuestion, SimulationResult, simulate
+from mckibben.application.run.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.physics.errors import InputError

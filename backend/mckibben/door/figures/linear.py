@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mckibben.application.linear_result import LinearResult
+from mckibben.application.linear.result import LinearResult
 from mckibben.door.figures.style import (
     ACCENT,
     LOAD,

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
-from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.application.simulate import SimulationResult
-from mckibben.application.size import SizingResult
+from mckibben.application.diagnose.result import DiagnosisResult
+from mckibben.application.run.simulate import SimulationResult
+from mckibben.application.size.size import SizingResult
 from mckibben.door.figures.style import ACCENT, LOAD, SECOND, SOFT, add_line, add_points, blank, name_axes
 from mckibben.report.summary.parts import error_unit
 

@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mckibben.application.compare import ComparisonResult
-from mckibben.application.curves import CurvesResult
+from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.curves.curves import CurvesResult
 from mckibben.door.figures.style import ACCENT, SECOND, add_line, add_points, blank, colours, name_axes
 from mckibben.measurement.measurement import Measurement
 from mckibben.report.figures import variable

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from mckibben.application.study import StudyResult
+from mckibben.application.study.study import StudyResult
 from mckibben.door.figures.style import ACCENT, SECOND, SOFT, add_points, blank, name_axes
 
 if TYPE_CHECKING:

@@ -6,8 +6,8 @@ import json
 from dataclasses import asdict
 from typing import Any
 
-from mckibben.application.linear_matlab import mat_file, matrices_of, point_fields, structures
-from mckibben.application.linear_result import ModelResult
+from mckibben.application.linear.matlab import mat_file, matrices_of, point_fields, structures
+from mckibben.application.linear.result import ModelResult
 from mckibben.export.linear_models import LinearPoint, linear_points, main_point
 from mckibben.export.registry import ExportedFile, Format
 from mckibben.export.subject import Subject

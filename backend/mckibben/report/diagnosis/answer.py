@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from itertools import pairwise
 
-from mckibben.application.compare import ComparisonResult
-from mckibben.application.diagnosis_result import DiagnosisResult, PathPoint, Verdict
+from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.diagnose.result import DiagnosisResult, PathPoint, Verdict
 from mckibben.identification.diagnose.design import APART
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.bars import Bar, bars

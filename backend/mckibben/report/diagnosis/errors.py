@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mckibben.application.compare import ComparisonResult
+from mckibben.application.compare.compare import ComparisonResult
 from mckibben.report.diagnosis.map import residual_map
 from mckibben.report.diagnosis.units import error_scale
 from mckibben.report.document import Head, bullets, paragraph, table

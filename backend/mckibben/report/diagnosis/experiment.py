@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mckibben.application.experiment_result import SpecimenResult
+from mckibben.application.measurement.specimen_result import SpecimenResult
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.measurement.experiment import place_of, shown_value, title_of
 from mckibben.report.diagnosis.material import DiagnosisMaterial

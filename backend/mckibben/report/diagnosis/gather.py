@@ -9,13 +9,13 @@ from dataclasses import replace
 from datetime import datetime
 from typing import NamedTuple
 
-from mckibben.application.compare import ComparisonResult, compare
-from mckibben.application.diagnose import prepare as prepare_diagnosis
-from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.application.experiment_result import common_experiment
+from mckibben.application.compare.compare import ComparisonResult, compare
+from mckibben.application.compare.question import ModelQuestion, with_model
+from mckibben.application.diagnose.diagnose import prepare as prepare_diagnosis
+from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.application.json_text import to_json
-from mckibben.application.measurements import summary_of
-from mckibben.application.model_question import ModelQuestion, with_model
+from mckibben.application.measurement.specimen_result import common_experiment
+from mckibben.application.measurement.summary import summary_of
 from mckibben.documents.start_model import PresetFacts, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.documents.value_names import value_names, value_words

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from mckibben.application.measurements import ChannelSummary
+from mckibben.application.measurement.summary import ChannelSummary
 from mckibben.report.diagnosis.material import DataSource, DiagnosisMaterial
 from mckibben.report.diagnosis.model import named
 from mckibben.report.document import Head, bullets, facts, heading, paragraph, table

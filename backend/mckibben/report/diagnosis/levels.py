@@ -8,7 +8,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from mckibben.application.compared_series import Array, ComparedSeries
+from mckibben.application.compare.series import Array, ComparedSeries
 
 _COLUMNS = 8
 _MOST_LEVELS = 14

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from mckibben.application.compare import ComparisonResult
+from mckibben.application.compare.compare import ComparisonResult
 from mckibben.report.diagnosis.levels import LevelMap, level_map
 from mckibben.report.diagnosis.units import TIMES_NOISE, error_scale
 from mckibben.report.document import figure_of

@@ -7,9 +7,9 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from typing import NamedTuple
 
-from mckibben.application.compare import ComparisonResult
-from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.application.measurements import MeasurementSummary
+from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.diagnose.result import DiagnosisResult
+from mckibben.application.measurement.summary import MeasurementSummary
 from mckibben.physics.effect import Effect
 from mckibben.report.command import Command
 from mckibben.report.sources import Figure

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from mckibben.application.compare import ComparisonResult
-from mckibben.application.diagnosis_result import DiagnosisResult
-from mckibben.application.model_question import EffectDocument
+from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.compare.question import EffectDocument
+from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.identification.fit.comparison import ParameterTable, ParameterValue
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter

@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.application.compare import ComparisonResult
-from mckibben.application.compared_series import ComparedSeries
+from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.compare.series import ComparedSeries
 from mckibben.report.chart import chart, family
 from mckibben.report.document import figure_of
 from mckibben.report.figures import variable

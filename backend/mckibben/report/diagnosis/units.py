@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from mckibben.application.compare import ComparisonResult
-from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.report.figures import Scale, variable
 
 #: Unit of an error that combines several channels.

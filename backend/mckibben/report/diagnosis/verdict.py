@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mckibben.application.diagnosis_result import DiagnosisResult, Verdict
+from mckibben.application.diagnose.result import DiagnosisResult, Verdict
 from mckibben.report.chart import chart
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.diagnosis.units import error_scale

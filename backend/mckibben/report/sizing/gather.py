@@ -9,11 +9,11 @@ from collections.abc import Callable, Mapping
 from datetime import datetime
 from math import ceil
 
-from mckibben.application.drive_run import run_drive
 from mckibben.application.json_text import to_json
-from mckibben.application.simulate import result_of
-from mckibben.application.size import Searched, prepare_search, sizing_question
-from mckibben.application.task_reading import heading_of
+from mckibben.application.run.drive_run import run_drive
+from mckibben.application.run.simulate import result_of
+from mckibben.application.size.size import Searched, prepare_search, sizing_question
+from mckibben.application.size.task import heading_of
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask

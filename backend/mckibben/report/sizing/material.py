@@ -7,8 +7,8 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from typing import NamedTuple
 
-from mckibben.application.simulate import SimulationResult
-from mckibben.application.size import ProposedDrive, SizingResult
+from mckibben.application.run.simulate import SimulationResult
+from mckibben.application.size.size import ProposedDrive, SizingResult
 from mckibben.documents.task import TaskOperation
 from mckibben.physics.effect import Effect
 from mckibben.report.command import Command

@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.application.simulate import SimulationResult
+from mckibben.application.run.simulate import SimulationResult
 from mckibben.facts.timing import TIMING
 from mckibben.report.document import Head, figure_of, mark, paragraph, table
 from mckibben.report.figures import Scale, figure, percent

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mckibben.application.size import ExploredDrive, ProposedDrive, RejectedParts
+from mckibben.application.size.size import ExploredDrive, ProposedDrive, RejectedParts
 from mckibben.report.chart import chart
 from mckibben.report.document import Head, figure_of, paragraph, table
 from mckibben.report.figures import figure, percent, plain

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mckibben.application.size import nothing_words
+from mckibben.application.size.size import nothing_words
 from mckibben.documents.task import TaskOperation
 from mckibben.report.document import Tone, bullets, callout, paragraph, tiles
 from mckibben.report.figures import figure, percent, plain

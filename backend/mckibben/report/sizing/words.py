@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mckibben.application.size import ProposedDrive, RejectedParts
+from mckibben.application.size.size import ProposedDrive, RejectedParts
 from mckibben.report.figures import Scale, figure, plain, scale_of, variable
 from mckibben.report.html import Html, html, tag
 from mckibben.report.sizing.material import Entry

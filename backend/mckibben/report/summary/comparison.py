@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mckibben.application.compare import ComparisonResult
+from mckibben.application.compare.compare import ComparisonResult
 from mckibben.report.summary.parts import (
     Summary,
     Table,

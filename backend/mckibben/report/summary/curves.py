@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.application.curves import CurvesResult
+from mckibben.application.curves.curves import CurvesResult
 from mckibben.report.summary.parts import Summary, Table, figure
 
 _TABLE_ROWS = 11

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mckibben.application.diagnosis_result import DiagnosisResult, PathPoint
+from mckibben.application.diagnose.result import DiagnosisResult, PathPoint
 from mckibben.report.summary.parts import (
     Summary,
     Table,

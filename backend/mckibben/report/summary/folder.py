@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mckibben.application.diagnose_folder import FileVerdict
+from mckibben.application.diagnose.folder import FileVerdict
 from mckibben.report.summary.parts import Summary, Table, error_unit, figure
 
 

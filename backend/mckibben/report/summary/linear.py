@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from mckibben.application.linear_result import LinearResult, ModelResult, TrialResult
+from mckibben.application.linear.result import LinearResult, ModelResult, TrialResult
 from mckibben.report.summary.parts import Summary, Table, figure
 from mckibben.simulation.linear.loop import Margins
 from mckibben.simulation.linear.response import Pole

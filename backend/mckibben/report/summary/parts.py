@@ -10,7 +10,7 @@ from mckibben.identification.fit.comparison import ParameterTable
 from mckibben.measurement.experiment import place_of, shown_value, title_of
 
 if TYPE_CHECKING:
-    from mckibben.application.experiment_result import SpecimenResult
+    from mckibben.application.measurement.specimen_result import SpecimenResult
 
 
 @dataclass(frozen=True, slots=True)

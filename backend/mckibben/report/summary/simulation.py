@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from math import pi
 
-from mckibben.application.simulate import SimulationResult
+from mckibben.application.run.simulate import SimulationResult
 from mckibben.facts.run import JOINT, TRACKING
 from mckibben.facts.timing import PHASES, PRESSURE_FIGURES, TIMING
 from mckibben.facts.units import Scale

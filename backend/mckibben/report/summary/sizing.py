@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from mckibben.application.size import SizingResult, nothing_words
-from mckibben.application.task_reading import heading_of
+from mckibben.application.size.size import SizingResult, nothing_words
+from mckibben.application.size.task import heading_of
 from mckibben.report.summary.parts import Summary, Table, figure
 
 _REJECTED_SHOWN = 12

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from mckibben.application.study import StudyResult
+from mckibben.application.study.study import StudyResult
 from mckibben.report.summary.parts import Summary, Table, figure
 from mckibben.studies.statistics import Estimate, Probability
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from mckibben.application.inverse import (
+from mckibben.application.curves.inverse import (
     ContractionForForce,
     InverseQuestion,
     MuscleCondition,

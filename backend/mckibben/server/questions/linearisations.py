@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from mckibben.application.linear_text import checked, stated_condition
-from mckibben.application.linearise import LinearQuestion
+from mckibben.application.linear.linearise import LinearQuestion
+from mckibben.application.linear.text import checked, stated_condition
 from mckibben.documents.drive_files import preset_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio

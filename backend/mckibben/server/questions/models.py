@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from mckibben.application.doubts import deciding
-from mckibben.application.experiment import SaidMeasurement, SaidModel
-from mckibben.application.model_question import ModelQuestion, question_of
-from mckibben.application.stated_noise import with_noise
+from mckibben.application.compare.noise import with_noise
+from mckibben.application.compare.question import ModelQuestion, question_of
+from mckibben.application.diagnose.doubts import deciding
+from mckibben.application.measurement.experiment import SaidMeasurement, SaidModel
 from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from mckibben.application.simulate import SimulationQuestion
+from mckibben.application.run.simulate import SimulationQuestion
 from mckibben.documents.drive_files import preset_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio

@@ -5,7 +5,7 @@ from __future__ import annotations
 from fastapi import APIRouter, Request
 from fastapi.concurrency import run_in_threadpool
 
-from mckibben.application.curves import CurvesResult, curves
+from mckibben.application.curves.curves import CurvesResult, curves
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
-from mckibben.application.diagnosis_result import DiagnosisResult
+from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.server import request_examples
 from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep

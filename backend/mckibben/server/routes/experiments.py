@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request
 
-from mckibben.application.experiment_form import ExperimentForms
+from mckibben.application.measurement.form import ExperimentForms
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request
 
-from mckibben.application.inverse import InverseFinding
+from mckibben.application.curves.inverse import InverseFinding
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep

@@ -6,8 +6,8 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path
 
-from mckibben.application import kept
-from mckibben.application.kept import KeptData, KeptKind
+from mckibben.application.project import stored as kept
+from mckibben.application.project.stored import KeptData, KeptKind
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep

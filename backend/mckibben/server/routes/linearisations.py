@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
-from mckibben.application.linear_result import LinearResult
+from mckibben.application.linear.result import LinearResult
 from mckibben.server import request_examples
 from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep

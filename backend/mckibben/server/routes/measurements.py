@@ -7,7 +7,7 @@ from typing import Annotated
 from fastapi import APIRouter, Path, Query, Request
 from starlette.exceptions import HTTPException
 
-from mckibben.application.measurements import MeasurementDetails, MeasurementSummary, PreviewResult
+from mckibben.application.measurement.summary import MeasurementDetails, MeasurementSummary, PreviewResult
 from mckibben.measurement.read import Correction, read_correction
 from mckibben.measurement.read.correction import MAX_LENGTH
 from mckibben.measurement.store import MAX_NAME

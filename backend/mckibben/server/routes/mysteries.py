@@ -6,7 +6,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path
 
-from mckibben.application.mysteries import MysterySummary, Reveal, mysteries, reveal
+from mckibben.application.diagnose.mysteries import MysterySummary, Reveal, mysteries, reveal
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import BeforeWork, StudioDep

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Path
 
-from mckibben.application.order_code import OrderedMuscle, ordered_muscle
+from mckibben.application.model.order_code import OrderedMuscle, ordered_muscle
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.schemas.common import errors

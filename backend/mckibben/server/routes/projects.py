@@ -13,9 +13,9 @@ import orjson
 from fastapi import APIRouter, Path, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 
-from mckibben.application.project_studies import give_back, table_of
-from mckibben.application.projects import files_of, missing_files, packed
-from mckibben.application.study_store import StudyStore
+from mckibben.application.project.projects import files_of, missing_files, packed
+from mckibben.application.project.studies import give_back, table_of
+from mckibben.application.study.store import StudyStore
 from mckibben.projects.project import Project, ProjectSummary
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute

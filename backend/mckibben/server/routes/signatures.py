@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter
 
-from mckibben.application.atlas import AtlasQuestion, Signatures, signatures
+from mckibben.application.diagnose.signatures import AtlasQuestion, Signatures, signatures
 from mckibben.documents.convert import stated_muscle
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
-from mckibben.application.simulate import SimulationResult
+from mckibben.application.run.simulate import SimulationResult
 from mckibben.server import request_examples
 from mckibben.server.answer import StrictRoute
 from mckibben.server.context import StoreDep, StudioDep

@@ -7,7 +7,7 @@ from typing import Any
 from fastapi import APIRouter, Request, Response
 from fastapi.responses import HTMLResponse
 
-from mckibben.application.size import SizingResult
+from mckibben.application.size.size import SizingResult
 from mckibben.documents.task import SizingTask
 from mckibben.server import request_examples
 from mckibben.server.answer import StrictRoute

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from fastapi import APIRouter, Request, Response
 
-from mckibben.application.study import StudyResult, study_question
-from mckibben.application.study_file import parquet_bytes
-from mckibben.application.study_options import StudyOptions, study_options
-from mckibben.application.study_store import StudyStore
+from mckibben.application.study.file import parquet_bytes
+from mckibben.application.study.options import StudyOptions, study_options
+from mckibben.application.study.store import StudyStore
+from mckibben.application.study.study import StudyResult, study_question
 from mckibben.documents.study import StudyDocument
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute

@@ -6,7 +6,7 @@ from typing import Any
 
 from pydantic import Field
 
-from mckibben.application.measurements import UnreadableFile
+from mckibben.application.measurement.summary import UnreadableFile
 from mckibben.documents.strict import Strict
 
 

@@ -6,7 +6,7 @@ from typing import Annotated
 
 from pydantic import Field
 
-from mckibben.application.linearise import MOST_AMPLITUDES
+from mckibben.application.linear.linearise import MOST_AMPLITUDES
 from mckibben.documents.drive import DriveOrId, Position
 from mckibben.documents.quantity import Contraction, Pressure, QuantityField
 from mckibben.documents.strict import Strict

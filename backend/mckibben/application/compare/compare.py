@@ -1,0 +1,328 @@
+"""Comparison of a model with measurements: the error, where the model fails, and curves for plots."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.application.compare.question import EffectDocument, ModelQuestion
+from mckibben.application.compare.series import (
+    MAX_POINTS_PER_SERIES,
+    MAX_SERIES,
+    ComparedSeries,
+    series_of,
+)
+from mckibben.application.compare.specimens import Specimens
+from mckibben.application.diagnose.doubts import with_accepted
+from mckibben.application.envelope import Envelope, MeasuredRange, beyond, envelope_of
+from mckibben.application.measurement.preconditioned import used_before
+from mckibben.application.measurement.specimen_result import (
+    SpecimenResult,
+    absorbed_message,
+    common_experiment,
+    specimen_results,
+)
+from mckibben.application.measurement.summary import UnreadColumn
+from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
+from mckibben.facts.result import Number, result_class
+from mckibben.identification.fit.comparison import (
+    ChannelMisfit,
+    Comparison,
+    Correlation,
+    ParameterTable,
+    compared,
+    correlations_of,
+)
+from mckibben.identification.predict.predictor import StoppedRun
+from mckibben.identification.predict.reading_errors import AbsorbedError
+from mckibben.identification.predict.specimens import own_muscle
+from mckibben.identification.residual.cross import CrossCorrelation, cross_correlation
+from mckibben.identification.residual.digits import brief
+from mckibben.identification.residual.parts import ResidualPart, residual_parts
+from mckibben.identification.residual.profiles import (
+    Profile,
+    ResidualLoop,
+    ResidualMap,
+    Whiteness,
+    heat_map,
+    loops,
+    profiles,
+    variables_of,
+    whiteness,
+)
+from mckibben.measurement.experiment import Experiment
+
+_TELLING = 0.05  # share of the error from which a variable is mentioned
+
+Array = NDArray[np.float64]
+
+
+@result_class
+class ModelDocument:
+    """A model in the form of a request."""
+
+    effects: EffectDocument
+    """Effect id -> its parameters, SI."""
+
+
+@result_class
+class ValidationResult:
+    """The error of the model for measurements that it was not fitted to."""
+
+    rmse: Number
+    """Root mean square of the residual."""
+    nrmse_percent: Number
+    """RMSE over the largest measured magnitude."""
+    rows_used: int
+    """Number of compared rows."""
+    series: list[ComparedSeries]
+    """The points, curve by curve."""
+
+
+@result_class
+class ComparisonResult:
+    """The model's error, where it fails, and the points; SI."""
+
+    kind: str
+    """Measurement kind."""
+    rows: int
+    """Number of rows of the measurements."""
+    rows_used: int
+    """Number of compared rows."""
+    excluded: dict[str, int]
+    """Reason for leaving rows out -> number of rows."""
+    predicted: str
+    """The predicted channel, or several."""
+    unit: str
+    """SI unit of the error; "1" = relative to the noise of each channel."""
+    rmse: Number
+    """Root mean square of the residual."""
+    nrmse_percent: Number
+    """RMSE over the largest measured magnitude."""
+    full_scale: Number
+    """The largest measured magnitude."""
+    holdout_rmse: float | None
+    """With whole groups left out of the fit; None with one group."""
+    fitted: int
+    """Number of fitted values; with 0 no group was left out of anything."""
+    noise_floor: float | None
+    """Noise of the data, if it can be estimated."""
+    noise_how: str
+    """How the noise was estimated."""
+    residual_mean: Number
+    """Mean of the residual over its scale."""
+    channels: dict[str, ChannelMisfit]
+    """Error of each channel when there are several."""
+    parameters: ParameterTable
+    """Effect -> parameter -> value."""
+    correlations: list[Correlation]
+    """Correlations of the fitted parameters."""
+    geometry: GeometrySummary
+    """Geometry of the muscle, fitted where it was free."""
+    where: list[Profile]
+    """The residual over each variable that it may depend on."""
+    heat_map: ResidualMap | None
+    """The residual over two variables; None where there are too few points."""
+    parts: list[ResidualPart]
+    """What the squared residual is made of; the shares add up to 1."""
+    whiteness: Whiteness
+    """Autocorrelation and runs of the residual: that is, whether it looks like noise."""
+    cross: list[CrossCorrelation]
+    """Correlation of the residual with the input that drove the test, of rows with times."""
+    loops: list[ResidualLoop]
+    """Loops of the force residual, with the energy that the model misses."""
+    sentences: list[str]
+    """Where the model fails, as sentences."""
+    series: list[ComparedSeries]
+    """The points, curve by curve."""
+    validation: ValidationResult | None
+    """The error on measurements not used for the fit; None without them."""
+    model: ModelDocument
+    """Effects and values in the form of a request."""
+    messages: list[str]
+    """Remarks on the data."""
+    flags: list[Notice]
+    """Remarks on the muscle."""
+    rmse_beyond_accuracy: Number
+    """RMSE of what the accuracy of the readings does not explain; a diagnosis counts with it."""
+    experiment: Experiment
+    """Values of the experiment in which all measurements agree, each with its origin."""
+    assumptions: list[str]
+    """What nobody said and was assumed; the messages begin with it too."""
+    specimens: list[SpecimenResult]
+    """Each measurement, with its own experiment."""
+    absorbed: list[AbsorbedError]
+    """Errors of readings within the accuracy, which a fit allows for."""
+    unread: list[UnreadColumn]
+    """Columns of the files that nothing is read from, and why."""
+    stopped: list[StoppedRun]
+    """Runs of the model that ended early; all figures are of the rows that they reached."""
+
+
+@dataclass(frozen=True, slots=True)
+class Compared:
+    """The result with what it was made from.
+
+    Attributes:
+        result: the answer.
+        comparison: the compared model and all rows.
+        envelope: quantity -> range in which the data lie.
+    """
+
+    result: ComparisonResult
+    comparison: Comparison
+    envelope: dict[str, MeasuredRange]
+
+
+def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
+    """Compare a model with measurements; see `compared_whole`."""
+    return compared_whole(question, fit=fit).result
+
+
+def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
+    """Compare a model with measurements.
+
+    Args:
+        question: the model and the measurements.
+        fit: fit the parameters that the effects declare as fitted, and those freed by the question.
+
+    Raises:
+        InputError: the measurement does not allow the comparison, or a geometry field cannot be freed.
+    """
+    start, points = question.start, question.points
+    comparison = compared(
+        question.predictor,
+        question.fit_model(),
+        rows=points.measurement.rows,
+        fit=fit,
+        geometry=question.free_geometry(),
+        freed=question.freed,
+        noise=question.noise,
+    )
+    predictor, left_out = comparison.predictor, sum(points.left_out.values())
+    series, thinned = series_of(comparison, "fit")
+    data = envelope_of(question.specimens, predictor, comparison.fit_model)
+    messages = [
+        *question.opening,
+        *question.unread_messages,
+        *beyond(question.envelope, data),
+        *comparison.messages,
+        *absorbed_message(comparison.absorbed, predictor.unit),
+    ]
+    validation, stopped = None, list(comparison.stopped)
+    if question.validation is not None:
+        validation, thin, remark, others = _validation(question, question.validation, comparison, data)
+        stopped += others
+        thinned = thinned or thin
+        messages += [remark] if remark else []
+    if thinned:
+        messages.append(f"curves show at most {MAX_POINTS_PER_SERIES} points each; the figures use all rows")
+    # A quantity that is accepted as wrong has another value only after a fit.
+    accepted = [entry for entry in question.accepted if fit or entry.reading is not None]
+    residual = comparison.residual / predictor.scale
+    variables = variables_of(predictor, comparison.fit_model)
+    where = profiles(residual, variables, predictor.folds[0])
+    white = whiteness(residual, predictor.sweeps)
+    result = ComparisonResult(
+        kind=predictor.kind,
+        rows=comparison.rows + left_out,
+        rows_used=predictor.rows_used,
+        excluded=points.left_out | dict(comparison.excluded),
+        predicted=predictor.predicted,
+        unit=predictor.unit,
+        rmse=comparison.rmse,
+        nrmse_percent=comparison.nrmse_percent,
+        full_scale=comparison.full_scale,
+        holdout_rmse=comparison.holdout_rmse,
+        fitted=0 if comparison.fit is None else len(comparison.fit.numbers),
+        noise_floor=comparison.noise,
+        noise_how=comparison.noise_how,
+        residual_mean=comparison.residual_mean,
+        channels=comparison.channels,
+        parameters=comparison.parameters,
+        correlations=correlations_of(comparison.fit),
+        geometry=geometry_of(start, comparison.fit_model.muscle),
+        where=where,
+        heat_map=heat_map(residual, variables),
+        parts=residual_parts(residual, variables),
+        whiteness=white,
+        cross=_cross(comparison, residual, variables),
+        loops=_loops(comparison, residual),
+        sentences=[*(run.sentence for run in stopped), *_sentences(where, white, predictor.unit)],
+        series=series,
+        validation=validation,
+        model=ModelDocument(question.effect_document(comparison.fit_model)),
+        messages=messages,
+        flags=start_notices(start),
+        rmse_beyond_accuracy=comparison.rmse_beyond_accuracy,
+        experiment=with_accepted(common_experiment(question), accepted, comparison.fit_model),
+        unread=question.unread,
+        assumptions=[assumption.message for assumption in question.assumptions],
+        specimens=specimen_results(question, predictor, residual),
+        absorbed=list(comparison.absorbed),
+        stopped=stopped,
+    )
+    return Compared(result, comparison, data)
+
+
+def _cross(
+    comparison: Comparison, residual: Array, variables: Mapping[str, np.ndarray]
+) -> list[CrossCorrelation]:
+    """Correlation of each channel's residual with its input, for rows in the order of time."""
+    predictor = comparison.predictor
+    if "time" not in predictor.inputs:
+        return []
+    found = []
+    for channel in predictor.channels:
+        inside = np.zeros(len(residual), dtype=bool)
+        inside[channel.rows] = True
+        sweeps = [rows for rows in predictor.sweeps if inside[rows[0]]]
+        found.append(cross_correlation(channel.name, residual, variables, sweeps))
+    return [one for one in found if one is not None]
+
+
+def _loops(comparison: Comparison, residual: Array) -> list[ResidualLoop]:
+    """Loop areas of the residual, for a force measured over time."""
+    predictor = comparison.predictor
+    if predictor.predicted != "force" or not {"length", "time"} <= predictor.inputs.keys():
+        return []
+    return loops(residual, predictor.inputs["length"], predictor.groups)[:MAX_SERIES]
+
+
+def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
+    """Where the model fails, and whether the residual is noise, in words."""
+    factor, shown = (1e3, " mm") if unit == "m" else (1.0, "" if unit == "1" else f" {unit}")
+    words = [
+        f"{profile.worst}: {brief(factor * profile.rmse)}{shown} rms; this variable alone predicts "
+        f"{100.0 * profile.share_explained:.0f} % of the error"
+        for profile in where[:3]
+        if profile.share_explained > _TELLING
+    ]
+    words.append(
+        "the residual looks like noise" if white.white else "the residual is not noise: it has structure"
+    )
+    return words
+
+
+def _validation(
+    question: ModelQuestion, specimens: Specimens, fitted: Comparison, envelope: Envelope
+) -> tuple[ValidationResult, bool, str, list[StoppedRun]]:
+    """The error of the fitted model for validation data, whether the curves were thinned, a remark, and the
+    runs that ended early.
+    """
+    muscle = fitted.fit_model.muscle
+    own = own_muscle(muscle, reference=specimens.reference, own=specimens.each[0].muscle)
+    predictor = specimens.predictor(muscle if specimens.several else own)[0]
+    model = fitted.fit_model if specimens.several else replace(fitted.fit_model, muscle=own)
+    model, remark = used_before(predictor, model, envelope)
+    rows = specimens.points.measurement.rows
+    validation = compared(predictor, model, rows=rows, noise=question.noise)
+    series, thinned = series_of(validation, "validation")
+    rows_used = validation.predictor.rows_used
+    result = ValidationResult(validation.rmse, validation.nrmse_percent, rows_used, series)
+    names = [f"validation, {run.of}" if run.of else "validation" for run in validation.stopped]
+    stopped = [replace(run, of=name) for run, name in zip(validation.stopped, names, strict=True)]
+    return result, thinned, f"validation: {remark}" if remark else "", stopped

@@ -1,0 +1,421 @@
+"""Diagnosis of a model: candidates, path, verdict, and models that can be used in further requests."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field, replace
+from typing import Literal
+
+import numpy as np
+
+from mckibben.application.compare.compare import ModelDocument
+from mckibben.application.compare.noise import of_one_channel
+from mckibben.application.compare.question import ModelQuestion
+from mckibben.application.diagnose.doubts import (
+    doubtful_entries,
+    notes_of,
+    questions_of,
+    statements_of,
+    with_accepted,
+)
+from mckibben.application.diagnose.next_experiment import next_experiment, next_measurement, proposal
+from mckibben.application.diagnose.result import (
+    Baseline,
+    CandidateResult,
+    CorrectionResult,
+    DiagnosedModel,
+    DiagnosisResult,
+    NoiseFloor,
+    PathPoint,
+    RepetitionResult,
+    SamePeriod,
+    TermCurve,
+    TermProposal,
+    Verdict,
+)
+from mckibben.application.envelope import beyond, envelope_of
+from mckibben.application.measurement.specimen_result import (
+    absorbed_message,
+    common_experiment,
+    specimen_results,
+)
+from mckibben.application.model.saved import drive_of_model
+from mckibben.application.muscle_summary import geometry_of
+from mckibben.documents.studio import Studio
+from mckibben.identification.diagnose.diagnosis import FEWEST_VALUES, Diagnosis
+from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
+from mckibben.identification.diagnose.next_measurement import declared
+from mckibben.identification.diagnose.search import ended
+from mckibben.identification.diagnose.steps import SingleAddition
+from mckibben.identification.diagnose.swept_rows import Coordinate
+from mckibben.identification.diagnose.verdict import unexplained_share
+from mckibben.identification.diagnose.words import (
+    applied_reasons,
+    bounds_sentence,
+    corrections_sentence,
+    left_out_sentence,
+    repeats,
+    sentence_of,
+    title_of,
+    where_to_look,
+)
+from mckibben.identification.fit.comparison import (
+    ParameterValue,
+    channel_misfits,
+    check_finite,
+    correlations_of,
+    parameter_table,
+)
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.fit.fitter import CancelledError
+from mckibben.identification.predict import Predictor
+from mckibben.identification.residual.profiles import variables_of
+from mckibben.identification.residual.term import SYMBOLS
+from mckibben.physics.custom import CUSTOM, TERM
+from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
+from mckibben.simulation.outcome import Outcome, Watch
+
+_MOST_ROWS = 3000  # of a diagnosis; longer measurements are reduced
+_UNITS: dict[Coordinate, Literal["m", "Pa", "s"]] = {"length": "m", "pressure": "Pa", "time": "s"}
+_CURVE = 200  # points of the curve of a proposed term
+
+#: A diagnosis that takes longer ends with what it has found [s].
+TIME_LIMIT = 300.0
+#: How it would take less time.
+HINT = "give fewer rows of the measurement, or start with fewer effects"
+
+
+@dataclass(frozen=True)
+class _Data:
+    """The data of a diagnosis: all rows, or fewer with the same information."""
+
+    predictor: Predictor
+    rows: int
+    excluded: dict[str, int]
+    notes: list[str] = field(default_factory=list)
+    most_rows: int | None = None
+
+
+def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], DiagnosisResult]:
+    """The diagnosis of a question, ready to start; the watch receives each candidate when it is fitted.
+
+    Raises:
+        InputError: the measurement does not allow a diagnosis.
+    """
+    start = question.fit_model()
+    data = _data(question)
+    doubtful = statements_of(question, data.most_rows)
+    check_finite(data.predictor, start)
+    if stopped := data.predictor.stopped(start):
+        raise InputError(
+            f"no diagnosis can be made: {stopped[0].event}",
+            field="measurement",
+            hint="what a model predicts of a part of a run says nothing about entries or effects; 'compare' "
+            "shows the error of the rows before",
+        )
+    if len(data.predictor.measured) < FEWEST_VALUES:
+        name = question.points.measurement.name
+        raise InputError(
+            f"{name}: {len(data.predictor.measured)} values are too few for a diagnosis",
+            field="measurement",
+            hint=f"measure at least {FEWEST_VALUES}, at several pressures or lengths; 'compare' takes fewer",
+        )
+    geometry = question.free_geometry()
+    if question.noise is not None:
+        of_one_channel(data.predictor)
+    # A custom term is not a candidate, but stays in a model that has it.
+    catalogue = {**studio.catalogue, **question.start.catalogue}
+
+    def work(watch: Watch) -> DiagnosisResult:
+        def report_candidate(candidate: SingleAddition) -> None:
+            if watch.found is not None:
+                watch.found(_candidate(question, candidate, catalogue))
+
+        try:
+            diagnosis = search_effects(
+                data.predictor,
+                start,
+                catalogue=catalogue,
+                geometry=geometry,
+                freed=question.freed,
+                noise=question.noise,
+                statements=doubtful,
+                load=question.free_load,
+                watch=watch,
+                on_candidate=report_candidate,
+            )
+        except CancelledError as stop:
+            if stop.outcome is Outcome.CANCELLED:
+                raise InputError("the diagnosis was cancelled", code="stopped") from stop
+            raise InputError(
+                f"the limit of {watch.time_limit:g} s ended the diagnosis before the start model was fitted",
+                hint=HINT,
+                code="stopped",
+            ) from stop
+        return _result(question, data, diagnosis, catalogue, studio)
+
+    return work
+
+
+def _data(question: ModelQuestion) -> _Data:
+    """The data of a question; long measurements are reduced."""
+    most = None if question.points.measurement.kind == "transient" else _MOST_ROWS
+    total = sum(specimen.points.measurement.rows for specimen in question.specimens.each)
+    excluded, notes = dict(question.points.left_out), []
+    if most is not None and total > most:
+        predictor, notes, reduced_away = question.specimens.predictor(question.start.muscle, most)
+        excluded |= reduced_away
+    else:
+        predictor = question.predictor
+    rows = total + sum(question.points.left_out.values())
+    excluded |= predictor.excluded
+    if averaged := rows - predictor.rows_used - sum(excluded.values()):
+        excluded["averaged into the others"] = averaged
+    return _Data(predictor, rows, excluded, notes, most if most is not None and total > most else None)
+
+
+def _result(
+    question: ModelQuestion,
+    data: _Data,
+    diagnosis: Diagnosis,
+    catalogue: Mapping[str, Effect],
+    studio: Studio,
+) -> DiagnosisResult:
+    titles = {name: effect.title for name, effect in catalogue.items()}
+    predictor, best, start = diagnosis.predictor, diagnosis.best, question.start
+    residual = diagnosis.path[-1].fitted_model.residual  # of the best model, as a comparison shows it
+    full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
+    muscle = best.fit_model.muscle
+    envelope = envelope_of(question.specimens, predictor, best.fit_model)
+    return DiagnosisResult(
+        rows=data.rows,
+        rows_used=predictor.rows_used,
+        excluded=data.excluded,
+        kind=predictor.kind,
+        predicted=predictor.predicted,
+        unit=predictor.unit,
+        baseline=Baseline(
+            rmse=diagnosis.start.rmse,
+            nrmse_percent=100.0 * diagnosis.start.rmse / full_scale if full_scale else None,
+            holdout_rmse=diagnosis.start.holdout_rmse,
+        ),
+        noise_floor=NoiseFloor(
+            diagnosis.noise,
+            diagnosis.noise_how,
+            None if diagnosis.noise_interval is None else list(diagnosis.noise_interval),
+        ),
+        channels=channel_misfits(predictor, residual * predictor.scale),
+        where=list(diagnosis.where),
+        candidates=[
+            replace(
+                _candidate(question, candidate, catalogue),
+                probability=None if diagnosis.unfinished else diagnosis.probability_of(candidate.effect.id),
+            )
+            for candidate in diagnosis.candidates
+        ],
+        path=[
+            PathPoint(
+                added=step.added,
+                refitted=step.refitted,
+                correction=step.correction,
+                rmse=step.fitted_model.rmse,
+                holdout_rmse=step.fitted_model.holdout_rmse,
+                model=_model(question, step.fitted_model),
+                freed=sorted(step.fitted_model.freed),
+                fitted=len(step.fitted_model.free),
+            )
+            for step in diagnosis.path
+        ],
+        verdict=_verdict(question, diagnosis, catalogue),
+        parameters=parameter_table(best.fit_model, diagnosis.fit),
+        correlations=correlations_of(diagnosis.fit),
+        geometry=geometry_of(start, muscle),
+        model=DiagnosedModel(
+            muscle={
+                name: float(value)
+                for name, value in muscle._asdict().items()
+                if value and (name != "nominal_length" or question.specimens.one_length)
+            },
+            effects=question.effect_document(best.fit_model),
+            drive=drive_of_model(question, best.fit_model, studio),
+        ),
+        freed=sorted({*best.freed, *ended(best, diagnosis.added)}),
+        not_tried=list(diagnosis.not_tried),
+        messages=[
+            *question.opening,
+            *question.unread_messages,
+            *beyond(question.envelope, envelope),
+            *question.points.measurement.messages,
+            *data.notes,
+            *diagnosis.messages,
+            *notes_of(diagnosis.context, titles),
+            *absorbed_message(diagnosis.absorbed, predictor.unit),
+        ],
+        experiment=with_accepted(common_experiment(question), question.accepted, best.fit_model),
+        unread=question.unread,
+        assumptions=[assumption.message for assumption in question.assumptions],
+        specimens=specimen_results(question, predictor, residual, best, diagnosis.left_out),
+        absorbed=list(diagnosis.absorbed),
+        context=doubtful_entries(diagnosis.context, titles),
+        envelope=envelope,
+        covariance=None if diagnosis.fit is None else diagnosis.fit.covariance,
+    )
+
+
+def _model(question: ModelQuestion, fitted: FittedModel) -> ModelDocument:
+    return ModelDocument(question.effect_document(fitted.fit_model))
+
+
+def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[str, Effect]) -> Verdict:
+    titles = {name: effect.title for name, effect in catalogue.items()}
+    bounds = bounds_sentence(diagnosis, catalogue)
+    return Verdict(
+        status=diagnosis.status,
+        title=title_of(
+            diagnosis.status,
+            added=bool(diagnosis.added),
+            doubted=any(entry.stands for entry in diagnosis.context),
+            none_likely=diagnosis.none_likely,
+        ),
+        effects=list(diagnosis.added),
+        indistinguishable=groups_of(diagnosis),
+        probabilities={name: item.probability for item in diagnosis.evidence for name in item.group},
+        applied=applied_reasons(diagnosis, catalogue),
+        corrections=[
+            CorrectionResult(item.effect, item.before, item.after, item.probability, item.kept)
+            for item in diagnosis.corrections
+        ],
+        unexplained_share=unexplained_share(
+            diagnosis.status, diagnosis.best, diagnosis.noise, diagnosis.structure
+        ),
+        unexplained_in=[name for name, _ in diagnosis.structure.variables],
+        repeats=_repetition(diagnosis),
+        proposed_term=_term(question, diagnosis),
+        where_to_look=where_to_look(diagnosis) or None,
+        at_bounds=bounds or None,
+        next_measurement=next_measurement(diagnosis, titles),
+        experiments=[proposal(pair) for pair in diagnosis.proposals],
+        next_experiments=[next_experiment(design) for design in diagnosis.designs if design.decided()],
+        sentence=" ".join(
+            text
+            for text in (
+                *(assumption.sentence for assumption in question.assumptions),
+                questions_of(diagnosis.context, titles),
+                sentence_of(diagnosis, catalogue),
+                bounds,
+                corrections_sentence(diagnosis, titles),
+                left_out_sentence(diagnosis),
+            )
+            if text
+        ),
+    )
+
+
+def _repetition(diagnosis: Diagnosis) -> RepetitionResult | None:
+    found = diagnosis.repetition
+    if found is None:
+        return None
+    return RepetitionResult(
+        over=found.over,
+        unit=_UNITS[found.over],
+        period=found.period,
+        share=found.share,
+        amplitude=found.amplitude,
+        grows_with_pressure=found.grows,
+        false_alarm=found.false_alarm,
+        left_out_share=found.left_out,
+        parts=found.parts,
+        shown=found.shown,
+        parts_are="sweeps" if found.of_sweeps else "records",
+        also=[SamePeriod(over, period) for over, period in found.also],
+        text=repeats(diagnosis),
+    )
+
+
+def groups_of(diagnosis: Diagnosis) -> list[list[str]]:
+    """Groups of effects that the data cannot distinguish: each added effect with its alternatives."""
+    groups = []
+    for added in diagnosis.added:
+        others = [other.effect for other in diagnosis.alternatives if other.of == added]
+        if others:
+            groups.append([added, *others])
+    return groups
+
+
+def _candidate(
+    question: ModelQuestion, candidate: SingleAddition, catalogue: Mapping[str, Effect]
+) -> CandidateResult:
+    fitted, effect = candidate.fitted_model, candidate.effect
+    other = catalogue.get(candidate.twins[0]) if candidate.twins else None
+    twin = None if other is None else declared(effect, other)
+    return CandidateResult(
+        effect=effect.id,
+        title=effect.title,
+        rmse=fitted.rmse,
+        holdout_rmse=fitted.holdout_rmse,
+        gain_percent=100.0 * candidate.gain,
+        score_change=candidate.score,
+        parameters=_parameters(fitted, effect),
+        twins=list(candidate.twins),
+        why=candidate.why,
+        equation=effect.equation,
+        freed=sorted(fitted.freed),
+        next_measurement=None if twin is None else twin.separated_by,
+        model=_model(question, fitted),
+    )
+
+
+def _parameters(fitted: FittedModel, effect: Effect) -> dict[str, ParameterValue]:
+    errors = fitted.standard_errors
+    places = {p.name: number for number, p in enumerate(fitted.free)}
+    values = {}
+    for p in effect.parameters:
+        place = places.get(f"{effect.id}.{p.name}")
+        values[p.name] = ParameterValue(
+            value=fitted.fit_model.values[effect.id][p.name],
+            stderr=None if place is None else errors[place],
+            unit=p.unit,
+            at_bound=place is not None and bool(fitted.at_bound[place]),
+            fitted=place is not None,
+        )
+    return values
+
+
+def _term(question: ModelQuestion, diagnosis: Diagnosis) -> TermProposal | None:
+    """The proposed term, a model with it, and a curve over its most important variable."""
+    term = diagnosis.term
+    if term is None:
+        return None
+    effects = question.effect_document(diagnosis.best.fit_model)
+    formula, coefficients = term.formula, dict(term.coefficients)
+    if CUSTOM in effects:  # a model has only one custom term: the new one is added to it
+        formula, coefficients = _joined(effects[CUSTOM], formula, coefficients)
+    variables = variables_of(diagnosis.predictor, diagnosis.best.fit_model)
+    name = next(
+        (n for n, _ in diagnosis.structure.variables if n in SYMBOLS.values()),
+        next(n for n in SYMBOLS.values() if n in variables),
+    )
+    x = variables[name]
+    rows = np.argsort(x, kind="stable")
+    rows = rows[np.unique(np.linspace(0, len(rows) - 1, _CURVE).astype(int))]
+    return TermProposal(
+        formula=formula,
+        coefficients=coefficients,
+        share=term.share,
+        model=ModelDocument({**effects, CUSTOM: {TERM: formula, **coefficients}}),
+        curve=TermCurve(name, x[rows], term.values[rows], diagnosis.best.residual[rows]),
+    )
+
+
+def _joined(
+    old: Mapping[str, float | str], formula: str, coefficients: Mapping[str, float]
+) -> tuple[str, dict[str, float]]:
+    """The sum of a custom term and a proposed one; the coefficients of the proposed one are renamed."""
+    renamed = {name: f"d{name[1:]}" for name in coefficients}
+    for name, other in renamed.items():
+        formula = re.sub(rf"\b{name}\b", other, formula)
+    values = {renamed[name]: value for name, value in coefficients.items()}
+    values |= {name: float(value) for name, value in old.items() if name != TERM}
+    return f"{old[TERM]} + {formula}", values

@@ -1,0 +1,1 @@
+"""The linear view of a drive."""

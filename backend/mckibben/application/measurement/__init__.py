@@ -1,0 +1,1 @@
+"""Measurement files, and the experiment behind each."""

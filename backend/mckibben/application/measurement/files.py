@@ -1,0 +1,308 @@
+"""Measurement files named by the user, each with what is said about its experiment."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import Any
+
+from mckibben.application.measurement.experiment import SaidMeasurement
+from mckibben.documents.experiment import ExperimentInput, stated_experiment
+from mckibben.documents.studio import Studio
+from mckibben.measurement.experiment import FIELDS, ExperimentValue
+from mckibben.measurement.measurement import Measurement
+from mckibben.measurement.points import POINT_PRESETS, Points, find_preset, is_preset, points_of
+from mckibben.measurement.read import Correction, read_measurement, spoken_correction
+from mckibben.physics.errors import InputError, did_you_mean
+
+#: How values are named that stand in no file: as options of the command line, or as arguments of Python.
+OPTION, ARGUMENT = "--", ""
+STANDARD_INPUT = "standard input"  # its name in messages
+LARGEST_FILE = 200_000_000  # of a file; more are not even taken into memory
+_READING = ("sheet", "head", "column", "ignore")  # of an entry: how its file is read
+_LIST_EXAMPLE = '[{"file": "a.csv", "rest_length": "250 mm", "load": "3 kg"}]'
+
+
+def measurements_of(
+    files: Sequence[str],
+    studio: Studio,
+    correction: Correction | None = None,
+    said: Mapping[str, ExperimentValue] | None = None,
+    given: Mapping[str, bytes] | None = None,
+    *,
+    muscle_length: float | None = None,
+) -> list[SaidMeasurement]:
+    """Files, presets where there is no such file, and lists of files in JSON.
+
+    Args:
+        files: names.
+        studio: for presets.
+        correction: how the files are to be read; it is for files, not for presets.
+        said: about the experiment of all of them.
+        given: name -> content, of names that are no files: standard input.
+        muscle_length: rest length of the muscle that is stated beside the files [m], if it is.
+
+    Raises:
+        InputError: names the file, the row or field, what is wrong and what would be right.
+    """
+    found = []
+    entries = [(name, entry) for name in files for entry in _entries(name)]
+    names = [Path(entry.name).name for _, entry in entries]
+    for place, (name, entry) in enumerate(entries):
+        others = (*names[:place], *names[place + 1 :])
+        reading = replace(correction or Correction(), beside=others, muscle_length=muscle_length)
+        own = dict(said or {})
+        if entry.words:
+            reading = _read_as(entry.words, name, reading)
+            own |= _said_in(entry.words, name)
+        found.append(SaidMeasurement(_read(entry, studio, reading, given or {}), own))
+    return found
+
+
+@dataclass(frozen=True)
+class _Entry:
+    """One file or preset: its name, what a list says about it, and its document where it is a preset file."""
+
+    name: str
+    words: Mapping[str, Any] = field(default_factory=dict)
+    preset: dict[str, Any] | None = None
+
+
+def _holds_readings(document: Any) -> bool:
+    """Whether a JSON document is a measurement itself: lists in an object, or objects that name no file."""
+    if isinstance(document, dict):
+        return any(isinstance(value, list) for value in document.values())
+    return isinstance(document, list) and bool(document) and not any(
+        isinstance(entry, str) or (isinstance(entry, dict) and "file" in entry) for entry in document
+    ) and any(isinstance(entry, (dict, list)) and len(entry) > 1 for entry in document)  # fmt: skip
+
+
+def _entries(name: str) -> list[_Entry]:
+    """The files of a list in JSON with what it says about each; a single file otherwise.
+
+    Raises:
+        InputError: the list cannot be used.
+    """
+    from mckibben.presets.reading import BadDocumentError
+
+    try:
+        document = _small_document(name)
+    except BadDocumentError as bad:
+        raise InputError(f"{name}: {bad.findings[0].message}", hint=bad.findings[0].hint) from bad
+    if is_preset(document):
+        return [_Entry(name, preset=document)]
+    if document is None or _holds_readings(document):
+        return [_Entry(name)]
+    if not isinstance(document, list) or not document:
+        raise InputError(f"{name}: is no list of measurements", hint=_LIST_EXAMPLE)
+    entries = []
+    known = ("file", *_READING, *ExperimentInput.model_fields)
+    for place, entry in enumerate(document):
+        if not isinstance(entry, dict) or not isinstance(entry.get("file"), str):
+            raise InputError(f"{name}: entry {place + 1} names no file", hint=_LIST_EXAMPLE)
+        for key in entry:
+            if key not in known:
+                raise InputError(
+                    f"{name}: entry {place + 1}: {key} is not known", hint=did_you_mean(str(key), known)
+                )
+        beside = Path(name).parent / entry["file"]
+        file = str(beside) if beside.exists() else entry["file"]
+        try:
+            inner = _small_document(file)
+        except BadDocumentError:
+            inner = None  # told when it is read as a measurement
+        words = {key: value for key, value in entry.items() if key != "file"}
+        entries.append(_Entry(file, words, inner if is_preset(inner) else None))
+    return entries
+
+
+def _small_document(name: str) -> object:
+    """The content of a JSON file that can be a list of files or a preset; None for everything else.
+
+    Raises:
+        BadDocumentError: it is not JSON.
+    """
+    from mckibben.presets.reading import MAX_BYTES, read_file
+
+    path = Path(name)
+    if not name.lower().endswith(".json") or not _exists(name) or path.stat().st_size > MAX_BYTES:
+        return None
+    return read_file(path, follow_links=True)
+
+
+def _read_as(entry: Mapping[str, Any], source: str, correction: Correction) -> Correction:
+    """How the file of an entry is to be read: as the options say, with the entry's own words over them."""
+    words = {name: entry[name] for name in _READING if name in entry}
+    load = entry.get("load")
+    if isinstance(load, Mapping):
+        load = load.get("value")
+    if not words and load is None:
+        return correction
+    many = {"column", "ignore"} & words.keys()
+    for name in many:
+        if not isinstance(words[name], list):
+            words[name] = [words[name]]
+    spoken = spoken_correction(
+        sheet=words.get("sheet"),
+        head=words.get("head"),
+        columns=words.get("column", ()),
+        ignore=words.get("ignore", ()),
+        load=load,  # decides the kind of a recording
+        prefix=f"{source}: ",
+    )
+    return Correction(
+        columns={**correction.columns, **spoken.columns},
+        kind=correction.kind,
+        conditions={**correction.conditions, **spoken.conditions},
+        skip_bad_rows=correction.skip_bad_rows,
+        sheet=spoken.sheet or correction.sheet,
+        head=spoken.head or correction.head,
+        strict=correction.strict,
+        beside=correction.beside,
+        muscle_length=correction.muscle_length,
+    )
+
+
+def _said_in(entry: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
+    given = {key: value for key, value in entry.items() if key not in ("file", *_READING)}
+    return said_values(given, source)
+
+
+def said_values(given: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
+    """The values of an experiment from JSON or options.
+
+    Args:
+        given: field -> value.
+        source: a file, `OPTION` or `ARGUMENT`, for messages and as the place of the values.
+
+    Raises:
+        InputError: a value that cannot be used, naming field or option.
+    """
+    from pydantic import ValidationError
+
+    from mckibben.documents.problems import first_problem
+
+    try:
+        read = ExperimentInput.model_validate(dict(given))
+    except ValidationError as error:
+        problem = first_problem(error.errors(), ExperimentInput, dict(given), "the experiment")
+        name = str(problem.field or "").partition(".")[0]
+        raise InputError(f"{_place(name, source)}: {problem.message}", hint=problem.hint) from error
+    except InputError as error:
+        raise InputError(f"{source or 'experiment'}: {error.message}", hint=error.hint) from error
+    try:
+        found = stated_experiment(read, source)
+    except InputError as error:
+        raise InputError(f"{_place('accuracy', source)}: {error.message}", hint=error.hint) from error
+    return {
+        name: ExperimentValue(
+            value.value, value.unit, value.origin, source if _is_file(source) else _place(name, source)
+        )
+        for name, value in found.items()
+    }
+
+
+def _is_file(source: str) -> bool:
+    return source not in (OPTION, ARGUMENT)
+
+
+def _place(name: str, source: str) -> str:
+    """What says a field of the experiment: an option, an argument, or the field of a file."""
+    if source == OPTION:
+        return option_of(name)
+    return f"{source}: {name}" if _is_file(source) else name
+
+
+def option_of(name: str) -> str:
+    """The option that says a field of the experiment."""
+    if name not in FIELDS:
+        return "--accuracy" if name == "accuracy" else f"--experiment {name}"
+    option = FIELDS[name].option.partition(" ")[0]
+    return f"--experiment {name}" if option == "--experiment" else option
+
+
+def _read(entry: _Entry, studio: Studio, correction: Correction, given: Mapping[str, bytes]) -> Points:
+    """A file, the file of a preset with points, or a preset of the catalogue when there is no such file."""
+    name = entry.name
+    if name in given:
+        return Points(read_file(name, correction, given[name]))
+    if entry.preset is not None:
+        preset = _points_in(entry.preset, name, studio)
+    else:
+        preset = None if _exists(name) else find_preset(name, studio.library)
+    if preset is None:
+        return Points(read_file(name, correction))
+    if correction.columns or correction.sheet or correction.head:
+        raise InputError(
+            f"{name}: a preset states how it is read", hint="leave --column, --sheet and the like out"
+        )
+    return preset
+
+
+def _points_in(document: dict[str, Any], name: str, studio: Studio) -> Points | None:
+    """The points of the document of a preset file.
+
+    Raises:
+        InputError: a preset that cannot be used, or of a kind without points.
+    """
+    from mckibben.presets.reading import BadDocumentError, parse
+
+    kind = document["kind"]
+    model = POINT_PRESETS.get(kind)
+    if model is None:
+        raise InputError(
+            f"{name}: is a preset of kind '{kind}' and holds no measured points",
+            hint=f"a file of kind {', '.join(POINT_PRESETS)}, or a table",
+        )
+    try:
+        return points_of(parse(model, document, studio.effect_table))
+    except BadDocumentError as bad:
+        finding = bad.findings[0]
+        where = f"{name}: {finding.field}" if finding.field else name
+        raise InputError(f"{where}: {finding.message}", hint=finding.hint) from bad
+
+
+def _exists(name: str) -> bool:
+    try:
+        return Path(name).exists()
+    except (OSError, ValueError):  # no name of a file
+        return False
+
+
+def read_file(name: str, correction: Correction, content: bytes | None = None) -> Measurement:
+    """The measurement in a file, or in the content that standard input gave.
+
+    Raises:
+        InputError: names the file, the row or field, what is wrong and what would be right.
+    """
+    path = Path(name)
+    try:
+        if content is not None:
+            return read_measurement(_within(content, STANDARD_INPUT), STANDARD_INPUT, correction)
+        if not path.exists():
+            raise InputError(f"{name}: there is no such file", hint=_near_file(path))
+        if path.is_dir():
+            raise InputError(f"{name}: is a folder", hint=f"name a file in it, e.g. {path / '*.csv'}")
+        with path.open("rb") as stream:
+            content = stream.read(LARGEST_FILE + 1)  # pipes and devices do not tell their size
+        return read_measurement(_within(content, name), path.name, correction)
+    except (OSError, ValueError) as error:
+        if isinstance(error, InputError):
+            raise
+        reason = getattr(error, "strerror", None) or error
+        raise InputError(f"{name[:200]!r}: cannot be read: {reason}", hint="name a readable file") from error
+
+
+def _within(content: bytes, name: str) -> bytes:
+    if len(content) > LARGEST_FILE:
+        raise InputError(f"{name}: is larger than {LARGEST_FILE // 1_000_000} MB", hint="split the file")
+    return content
+
+
+def _near_file(path: Path) -> str | None:
+    folder = path.parent
+    if not folder.is_dir():
+        return f"there is no folder {folder}"
+    names = [entry.name for entry in folder.iterdir() if entry.suffix == path.suffix]
+    return did_you_mean(path.name, names)

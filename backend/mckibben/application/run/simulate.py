@@ -1,0 +1,359 @@
+"""Simulation of a drive: columns on the requested grid, timing from a finer grid, limits, notes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable
+from dataclasses import asdict, dataclass
+from typing import ClassVar, Literal
+
+import numpy as np
+
+from mckibben.application.curves.curves import EffectSettings
+from mckibben.application.envelope import use_notices
+from mckibben.application.muscle_summary import (
+    GeometrySummary,
+    MakerLimits,
+    Notice,
+    geometry_of,
+    limit_notices,
+    start_notices,
+    unverified_notice,
+)
+from mckibben.application.operating_limits import (
+    pressure_notices,
+    suspended_notices,
+    temperature_notices,
+    valve_notices,
+)
+from mckibben.application.prediction_interval import PositionInterval
+from mckibben.application.run.drive_run import measured_interval, run_drive, use_of_run
+from mckibben.application.run.joint import JointMotion, joint_of
+from mckibben.documents.drive_reading import AnnotatedDrive
+from mckibben.facts.result import Booleans, FiniteSeries, Series, result_class
+from mckibben.facts.run import RUN
+from mckibben.physics.errors import InputError
+from mckibben.physics.gas import ANR_DENSITY
+from mckibben.physics.model import Model
+from mckibben.simulation.drive.transient import Run
+from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
+from mckibben.simulation.statics.limits import FlagCode, LimitFlag
+from mckibben.simulation.timing.of_run import (
+    ChokedInterval,
+    Grid,
+    choked_of,
+    grid_of,
+    stops_of,
+    timing_of,
+    trace_of,
+    tracking_of,
+)
+from mckibben.simulation.timing.table import TimingTable
+from mckibben.simulation.timing.tracking import Tracking
+
+Array = np.ndarray
+
+POINTS = 2001
+_SLACK = 1e-6  # m; a muscle longer than its fittings are apart by more than this hangs slack
+# Field of the document for each limit.
+_FIELDS = {FlagCode.OVER_PRESSURE: "supply.pressure", FlagCode.OVER_FORCE_LIMIT: "load"}
+_ABOVE = 1.001  # value over limit up to which the excess may be an integration error
+
+
+@dataclass(frozen=True, slots=True)
+class SimulationQuestion:
+    """A drive, and the part of its run to return.
+
+    Attributes:
+        annotated: the drive with notes on its parts.
+        points: rows of the result, at least two.
+        begin, end: times of the first and last row [s]; None = the whole run.
+        engine: "rodas", "lsoda", or "auto" (rodas as soon as its kernel is compiled).
+    """
+
+    annotated: AnnotatedDrive
+    points: int = POINTS
+    begin: float | None = None
+    end: float | None = None
+    engine: str = "auto"
+
+
+@result_class
+class SensorReadings:
+    """Readings of the sensors: gauge pressure [Pa], force [N], position of the load [m]."""
+
+    pressure: Series
+    """Gauge pressure [Pa]."""
+    force: Series
+    """Force [N]."""
+    position: Series
+    """Position of the load [m]."""
+
+
+@result_class
+class StartPosition:
+    """Position of the load [m] and contraction of the muscle [-] at t = 0, and why the run starts there."""
+
+    position: float
+    """Position of the load at t = 0 [m]."""
+    contraction: float
+    """Contraction of the muscle at t = 0 [-]."""
+    reason: str
+    """Why the run starts there, as a sentence."""
+
+
+@result_class
+class DriveBounds(MakerLimits):
+    """Limits stated by the maker, and positions of the load at the end stops; SI."""
+
+    position_min: float
+    """Lower stop as a position of the load [m]."""
+    position_max: float
+    """Upper stop as a position of the load [m]."""
+
+
+@result_class
+class SimulationResult:
+    """Columns over time, SI; pressures gauge, positions positive = muscle shorter."""
+
+    FIGURES: ClassVar = RUN.name
+
+    time: FiniteSeries
+    position: Series
+    velocity: Series
+    acceleration: Series
+    pressure: Series
+    force: Series
+    mass_flow: Series
+    command: Series
+    opening: Series
+    reference: Series | None
+    supply_flow: Series
+    exhaust_flow: Series
+    tube_pressure: Series | None
+    regulator_pressure: Series | None
+    volume: Series
+    diameter: Series
+    length: Series
+    contraction: Series
+    load_force: Series
+    temperature: Series
+    contact: Booleans
+    """Whether the load rests on an end stop."""
+    slack: Booleans
+    """Whether the muscle hangs slack: it is then longer than its fittings are apart."""
+    start: StartPosition
+    """Where the load is at t = 0, and why there."""
+    gas: str
+    """How the air in the muscle is modelled."""
+    readings: SensorReadings | None
+    """None if no effect changes the sensor readings."""
+    joint: JointMotion | None
+    """Joint of an antagonist pair."""
+    interval: PositionInterval | None
+    """Where new readings of the position are expected; None where the model was not fitted."""
+    choked: list[ChokedInterval]
+    """Choked intervals of the whole run, whatever rows are requested."""
+    timing: TimingTable
+    """Times, speeds and air of the first fill and the exhaust after it."""
+    tracking: Tracking | None
+    """Tracking figures of a controlled run."""
+    outcome: OutcomeName
+    """How the run ended; only a completed one has all rows."""
+    message: str | None
+    """Advice if the run did not complete."""
+    wall_ms: float
+    """Computing time of the integration in ms."""
+    engine: Literal["rodas", "lsoda"]
+    """The integrator used."""
+    steps: int
+    """Steps of the integrator."""
+    flags: list[Notice]
+    """Remarks on the run."""
+    notes: dict[str, str]
+    """Field -> remark, including those of timing and tracking."""
+    limits: DriveBounds
+    """Limits stated by the maker, and the end stops."""
+    geometry: GeometrySummary
+    """Geometry of the muscle at rest, in all forms."""
+    model: EffectSettings
+    """The effects used, with all their values."""
+    duration: float
+    supplied_volume_anr: float | None
+
+
+def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]:
+    """The run of a question, ready to start.
+
+    Raises:
+        InputError: the rows do not lie within the run; field "from" or "to".
+    """
+    duration = question.annotated.drive.duration
+    begin = 0.0 if question.begin is None else question.begin
+    end = duration if question.end is None else question.end
+    if not 0.0 <= begin < end <= duration:
+        raise InputError(
+            f"the rows from {begin:g} s to {end:g} s do not lie within the run",
+            field="from" if question.begin is not None else "to",
+            hint=f"0 to {duration:g} s",
+        )
+    grid = grid_of(duration=duration, begin=begin, end=end, points=question.points)
+
+    def work(watch: Watch) -> SimulationResult:
+        run = run_drive(question.annotated, grid, watch, question.engine)
+        return result_of(
+            question.annotated,
+            grid,
+            run,
+            measured_interval(question.annotated, grid, run, watch, question.engine),
+        )
+
+    return work
+
+
+def simulate(question: SimulationQuestion, watch: Watch | None = None) -> SimulationResult:
+    """Simulate the drive.
+
+    Raises:
+        InputError: the rows do not lie within the run, or there is no equilibrium to start from.
+    """
+    return prepare(question)(watch or Watch())
+
+
+def result_of(
+    annotated: AnnotatedDrive, grid: Grid, run: Run, interval: PositionInterval | None = None
+) -> SimulationResult:
+    """The complete result of a run."""
+    drive, out, states = run.drive, run.outputs, run.states
+    rows = grid.rows[grid.rows < len(run.time)]
+    lever, rest = drive.load.lever_ratio, drive.muscle.nominal_length
+    contraction = states["stroke"] / rest + drive.precontraction
+    command = drive.command if drive.reference is None else run.command
+    reference = None if drive.reference is None else drive.reference.value(run.time)[rows]
+    trace = trace_of(run)
+    table, follows = timing_of(drive, trace), tracking_of(run, trace)
+
+    def gauge(name: str) -> Array | None:
+        return states[name][rows] - drive.ambient_pressure if name in states else None
+
+    notes = dict(annotated.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
+    if follows is not None:
+        notes |= {f"tracking.{name}": why for name, why in follows.notes.items()}
+    return SimulationResult(
+        time=run.time[rows],
+        position=states["stroke"][rows] / lever,
+        velocity=states["speed"][rows] / lever,
+        acceleration=out["acceleration"][rows] / lever,
+        pressure=run.pressure[rows],
+        force=out["force"][rows],
+        mass_flow=out["mass_flow"][rows],
+        command=command.value(run.time)[rows],
+        opening=out["opening"][rows],
+        reference=reference,
+        supply_flow=out["supply_flow"][rows],
+        exhaust_flow=out["exhaust_flow"][rows],
+        tube_pressure=gauge("tube_pressure"),
+        regulator_pressure=gauge("regulator_pressure"),
+        volume=out["volume"][rows],
+        diameter=out["diameter"][rows],
+        length=rest * (1.0 - contraction[rows]),
+        contraction=contraction[rows],
+        load_force=out["external_force"][rows],
+        temperature=out["gas_temperature"][rows],
+        contact=out["contact"][rows] != 0.0,
+        slack=states["length"][rows] > rest * (1.0 - contraction[rows]) + _SLACK,
+        start=StartPosition(
+            run.start.stroke / lever, run.start.stroke / rest + drive.precontraction, run.start.why.value
+        ),
+        gas=drive.gas_closure,
+        readings=_readings(run, rows),
+        joint=joint_of(run, rows),
+        interval=interval,
+        choked=choked_of(run),
+        timing=table,
+        tracking=follows,
+        outcome=run.outcome.label,
+        message=None if run.outcome is Outcome.COMPLETED else run.outcome.advice(),
+        wall_ms=run.wall_seconds * 1e3,
+        engine=run.engine,
+        steps=run.steps,
+        flags=[
+            *start_notices(annotated.start),
+            *_part_notices(annotated),
+            *limit_notices(_crossed(run)),
+            *pressure_notices(_stated_pressures(annotated)),
+            *suspended_notices(annotated.start, drive.load),
+            *temperature_notices(annotated.start, drive.temperature, "gas.temperature"),
+            *valve_notices(annotated),
+            *use_notices(annotated.start.fit, use_of_run(run)),
+        ],
+        notes=notes,
+        limits=_bounds(annotated),
+        geometry=geometry_of(annotated.start),
+        model=EffectSettings(drive.model.values),
+        duration=drive.duration,
+        supplied_volume_anr=None if trace is None else float(np.ptp(trace.supplied)) / ANR_DENSITY,
+    )
+
+
+def _stated_pressures(annotated: AnnotatedDrive) -> dict[str, float]:
+    drive = annotated.drive
+    stated = {"supply.pressure": drive.supply_pressure, "start_pressure": drive.start_pressure}
+    return stated if drive.regulator is None else {**stated, "regulator.range": drive.regulator.range}
+
+
+def _bounds(annotated: AnnotatedDrive) -> DriveBounds:
+    low, high = stops_of(annotated.drive)
+    return DriveBounds(**asdict(annotated.drive.model.limits), position_min=low, position_max=high)
+
+
+def _readings(run: Run, rows: Array) -> SensorReadings | None:
+    model = Model(run.drive.model.effects)
+    slots = (
+        "pressure_sensor", "force_sensor", "length_sensor",
+        "pressure_reading", "force_reading", "stroke_reading",
+    )  # fmt: skip
+    if not any(model.has(slot) for slot in slots):
+        return None
+    return SensorReadings(
+        pressure=run.outputs["pressure_reading"][rows],
+        force=run.outputs["force_reading"][rows],
+        position=run.outputs["stroke_reading"][rows] / run.drive.load.lever_ratio,
+    )
+
+
+def _part_notices(annotated: AnnotatedDrive) -> list[Notice]:
+    notices = [
+        unverified_notice(f"{part}: {', '.join(names)}", "valve")
+        for part, names in annotated.unverified.items()
+    ]
+    if (text := annotated.drive.tube_assumption) is not None:
+        notices.append(Notice("assumed", text, "tube"))
+    return notices
+
+
+def _crossed(run: Run) -> Iterable[LimitFlag]:
+    """The limits that the run exceeds."""
+    if not len(run.time):
+        return
+    drive = run.drive
+    contraction = np.clip(
+        run.states["stroke"] / drive.muscle.nominal_length + drive.precontraction,
+        drive.min_contraction,
+        drive.max_contraction,
+    )
+    limits = drive.model.limits
+    # The smallest contraction is checked for the pretension limit, the largest for all others.
+    for pick, stretch in ((np.nanmax, False), (np.nanmin, True)):
+        crossed = limits.flags(
+            pressure=_at_most(float(np.nanmax(run.pressure)), limits.max_pressure),
+            force=_at_most(float(np.nanmax(run.outputs["force"])), limits.max_force),
+            contraction=float(pick(contraction)),
+        )
+        for flag in crossed:
+            if (flag.code is FlagCode.OVER_PRETENSION_LIMIT) is stretch:
+                yield LimitFlag(flag.code, flag.message, _FIELDS.get(flag.code, "stops"))
+
+
+def _at_most(value: float, limit: float | None) -> float:
+    """The value, or the limit if the value exceeds it only by an integration error."""
+    return value if limit is None or value > limit * _ABOVE else min(value, limit)

@@ -1,0 +1,436 @@
+"""From a task to ranked drives: the proposals with their drives, and the rejected parts with reasons."""
+
+from __future__ import annotations
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+from mckibben.application.envelope import MeasuredRange, range_of, use_notices
+from mckibben.application.muscle_summary import Notice, unverified_notice
+from mckibben.application.operating_limits import pressure_notices
+from mckibben.application.size.drive import drive_document
+from mckibben.application.size.task import about_task, catalogue_of, task_of
+from mckibben.documents.drive import DriveDocument
+from mckibben.documents.studio import Studio
+from mckibben.documents.task import SizingTask
+from mckibben.facts.result import Number, result_class
+from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
+from mckibben.sizing import PartsCatalogue, Proposal, Rejection, Sizing, Task
+from mckibben.sizing import size as search_designs
+from mckibben.sizing.ranking import joint_front, why_first
+from mckibben.sizing.statics import LimitName
+from mckibben.sizing.trial import Trial
+
+#: A search that takes longer ends with the drives found so far [s]; it consists of many runs.
+TIME_LIMIT = 30.0
+#: How it would take less time.
+HINT = "name fewer muscles, valves or tubes, or ask for fewer specimens"
+
+
+@dataclass(frozen=True)
+class SizingQuestion:
+    """A task, and the parts available for it.
+
+    Attributes:
+        document: the task as given by the caller.
+        task: the same in SI.
+        catalogue: available muscles, valves and tubes.
+    """
+
+    document: SizingTask
+    task: Task
+    catalogue: PartsCatalogue
+
+
+@result_class
+class ProposedDrive:
+    """A drive that fulfils the task; SI, gauge pressures."""
+
+    muscle: str
+    """Id of the preset."""
+    nominal_length: float
+    """Nominal length of each muscle [m]."""
+    parallel: int
+    """Number of parallel muscles (on each side of a pair)."""
+    muscles: int
+    """Number of all muscles of the drive."""
+    valve: str
+    """Id of the preset; one for all parallel muscles, one on each side of a pair."""
+    tube: str | None
+    """Id of the preset; one tube from the valve to each muscle."""
+    tube_length: float
+    """Length of the tube [m]; 0 without one."""
+    pulley_radius: float | None
+    """Pulley radius of a pair [m]."""
+    pressure: float
+    """Gauge pressure of the supply at the valve [Pa], set by a regulator."""
+    time: float
+    """Time for the stroke to the end stop [s]."""
+    time_down: float | None
+    """Time for the return [s]; None if not reached in the simulated time."""
+    contraction: float
+    """Contraction ratio at the end of the stroke [-]."""
+    force_reserve: float
+    """Least share by which the static force exceeds the load [-]."""
+    needed_pressure: Number
+    """Pressure that just carries the load at the end of the stroke [Pa]."""
+    pressure_start: float
+    """Pressure in the muscle when the load leaves its stop [Pa]."""
+    pressure_end: float
+    """Pressure in the muscle on arrival [Pa]."""
+    air_volume_anr: float
+    """Air of all muscles per cycle at ANR [m^3]."""
+    air_cost: float
+    """Cost of the air of a cycle, in the currency of the task."""
+    air_cost_year: float
+    """Cost of the air of a year, in the currency of the task."""
+    impact_energy: float
+    """Kinetic energy of the whole load at the end stop [J]."""
+    end_speed: float
+    """Speed of the load there [m/s]."""
+    max_speed: float
+    """Largest speed of the load [m/s]."""
+    peak_force: float
+    """Largest tension of a muscle [N]."""
+    stiffness: float
+    """Stiffness at the load at the end of the stroke [N/m], valve open."""
+    stiffness_closed: float
+    """The same with the valve closed [N/m]."""
+    installed_length: float
+    """Nominal length and end fittings [m]."""
+    diameter: float
+    """Outside diameter at the end of the stroke [m]."""
+    life: float
+    """Load cycles [-]; an estimate, not verified."""
+    probability: float | None
+    """Probability that a built drive fulfils the task [-]; None without specimens."""
+    probability_error: float | None
+    """Its standard error [-]."""
+    specimens: int
+    """Number of specimens simulated for it."""
+    margins: dict[LimitName, float]
+    """Limit -> margin as a share of the limit; limits that are not set are left out."""
+    binding: LimitName
+    """The limit with the least margin."""
+    reservations: list[str]
+    """What costs it rank: margins below 5 %, an impact above limits.max_impact_energy."""
+    reason: str
+    """Explanation of its rank."""
+    front: bool
+    """Whether no other proposal and no explored drive is better in every respect."""
+    notes: list[str]
+    """Remarks for building it."""
+    unverified: list[str]
+    """Unverified figures it depends on, by preset."""
+    drive: DriveDocument
+    """Drive document for /api/simulations, of one of the muscles."""
+
+
+@result_class
+class RejectedParts:
+    """Parts that do not fulfil the task; valve and tube None = any."""
+
+    muscle: str
+    """Id of the preset."""
+    parallel: int
+    """Number of parallel muscles."""
+    valve: str | None
+    """None = with any valve."""
+    tube: str | None
+    """None = with any tube."""
+    why: str
+    """The reason, with figures."""
+    binding: LimitName
+    """The limit that must move by the least share when no other moves."""
+    would_work_if: str
+    """What would help, least change first."""
+    combinations: int
+    """Number of combinations this entry covers."""
+
+
+@result_class
+class ExploredDrive:
+    """A simulated design that fulfils the task; approximate values, SI, for a plot of the alternatives."""
+
+    muscle: str
+    """Id of the preset."""
+    nominal_length: float
+    """Nominal length of each muscle [m]."""
+    parallel: int
+    """Number of parallel muscles."""
+    valve: str
+    """Id of the preset."""
+    tube: str | None
+    """Id of the preset; None without a tube."""
+    pressure: float
+    """Gauge pressure of the supply [Pa]."""
+    time: float
+    """Time for the stroke [s]."""
+    air_volume_anr: float
+    """Air per cycle at ANR [m^3]."""
+    force_reserve: float
+    """Share by which the static force exceeds the load [-]."""
+    stiffness: float
+    """Stiffness at the load [N/m], valve open."""
+    front: bool
+    """On the Pareto front of the explored designs."""
+
+
+@result_class
+class SizingResult:
+    """The proposals, the best first, and all rejected parts with reasons."""
+
+    about: str
+    """The task in one sentence, from its figures."""
+    proposals: list[ProposedDrive]
+    """Best first; empty if no candidate fulfils the task."""
+    ranking: str | None
+    """Why the first proposal comes before the second; None for less than two."""
+    rejected: list[RejectedParts]
+    """The nearest to the task first."""
+    explored: list[ExploredDrive]
+    """The best design of each choice of parts that fulfils the task."""
+    combinations: int
+    """Combinations of muscle, length, number, pressure, valve and tube within the limits."""
+    pruned: int
+    """Number of them ruled out in closed form."""
+    simulated: int
+    """Number of transient runs, without those of specimens."""
+    specimens: int
+    """Number of transient runs for probabilities."""
+    outcome: OutcomeName
+    """How the search ended; unless completed, the answer is what was found until then."""
+    message: str | None
+    """How far a search came that did not complete, or what a completed one left out."""
+    flags: list[Notice]
+    """Remarks on the task."""
+    wall_ms: float
+    """Computing time of the search in ms."""
+
+
+def nothing_words(result: SizingResult) -> str:
+    """What a search without a proposal says: only a complete one speaks of the whole catalogue."""
+    if result.outcome == Outcome.COMPLETED.label:
+        return "no drive in the catalogue fulfils this task"
+    return "none of the drives that were tried fulfils this task"
+
+
+@dataclass(frozen=True)
+class Searched:
+    """A question, the outcome of the search, and the result."""
+
+    question: SizingQuestion
+    sizing: Sizing
+    result: SizingResult
+
+
+def sizing_question(document: SizingTask, studio: Studio) -> SizingQuestion:
+    """The question of a task.
+
+    Raises:
+        InputError: invalid task; names the field.
+    """
+    return SizingQuestion(document, task_of(document), catalogue_of(document, studio))
+
+
+def prepare_search(question: SizingQuestion) -> Callable[[Watch], Searched]:
+    """The search, ready to start; it returns question, outcome and result."""
+
+    def work(watch: Watch) -> Searched:
+        began = time.perf_counter()
+        sizing = search_designs(question.task, question.catalogue, watch)
+        wall_ms = (time.perf_counter() - began) * 1e3
+        return Searched(question, sizing, _result(sizing, question, watch.time_limit, wall_ms))
+
+    return work
+
+
+def prepare(question: SizingQuestion) -> Callable[[Watch], SizingResult]:
+    """The search, ready to start."""
+    search = prepare_search(question)
+    return lambda watch: search(watch).result
+
+
+def _result(sizing: Sizing, question: SizingQuestion, limit: float, wall_ms: float) -> SizingResult:
+    listed, explored = joint_front(sizing.proposals, sizing.explored)
+    proposals = [
+        _proposal(replace(proposal, front=on), question)
+        for proposal, on in zip(sizing.proposals, listed, strict=True)
+    ]
+    return SizingResult(
+        about=about_task(question.document),
+        proposals=proposals,
+        ranking=why_first(sizing.proposals, question.task),
+        rejected=[_rejected(item) for item in sizing.rejected],
+        explored=[_explored(trial, on) for trial, on in zip(sizing.explored, explored, strict=True)],
+        combinations=sizing.combinations,
+        pruned=sizing.pruned,
+        simulated=sizing.simulated,
+        specimens=sum(proposal.specimens for proposal in proposals),
+        outcome=sizing.outcome.label,
+        message=_message(sizing, question.document.uncertainty.specimens, limit),
+        flags=_notices(proposals, question.document),
+        wall_ms=wall_ms,
+    )
+
+
+def _message(sizing: Sizing, specimens: int, limit: float) -> str | None:
+    """What was not tried; None when everything was."""
+    if sizing.outcome is not Outcome.COMPLETED:
+        return _so_far(sizing, specimens, limit)
+    if not sizing.untried:
+        return None
+    return (
+        f"{sizing.untried} choices of parts that need more air and space were not simulated; "
+        "name fewer parts."
+    )
+
+
+def _so_far(sizing: Sizing, specimens: int, limit: float) -> str:
+    """How far a search came that was ended, and what the drives of it are not."""
+    timed = sizing.outcome is Outcome.TIMED_OUT
+    ended = f"The limit of {limit:g} s ended the search" if timed else "The search was cancelled"
+    more = f" To try all, {HINT}." if timed else ""
+    tried = sizing.choices - sizing.untried
+    if not tried:
+        return f"{ended} before any drive was simulated: nothing was tried.{more}"
+    done = [
+        f"{tried} of {sizing.choices} choices of parts that the static calculation leaves were simulated"
+        + ("; the others were not tried" if sizing.untried else "")
+    ]
+    if sizing.proposals:
+        if not sizing.refined:
+            done.append("length and pressure of the drives were not searched to the end")
+        known = sum(proposal.chance is not None for proposal in sizing.proposals)
+        if specimens and known < len(sizing.proposals):
+            done.append(f"{known} of {len(sizing.proposals)} probabilities were computed")
+    return f"Partial result. {ended}: {'; '.join(done)}.{more}"
+
+
+def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
+    task = question.task
+    trial, design, rest = proposal.trial, proposal.design, proposal.trial.rest
+    group, figures, chance = design.group, trial.figures, proposal.chance
+    tube, operation = group.tube.tube, question.document.operation
+    return ProposedDrive(
+        muscle=group.muscle.id,
+        nominal_length=design.length,
+        parallel=group.parallel,
+        muscles=group.muscles,
+        valve=group.valve.id,
+        tube=group.tube.id or None,
+        tube_length=0.0 if tube is None else tube.length,
+        pulley_radius=group.duty.pulley_radius,
+        pressure=design.pressure,
+        time=trial.time,
+        time_down=figures.time_down,
+        contraction=design.contraction,
+        force_reserve=trial.force_reserve,
+        needed_pressure=float(rest.needed[0]),
+        pressure_start=proposal.pressure_start,
+        pressure_end=proposal.pressure_end,
+        air_volume_anr=trial.air,
+        air_cost=trial.air * operation.air_price,
+        air_cost_year=trial.air * operation.air_price * operation.cycles_per_year,
+        impact_energy=proposal.impact_energy,
+        end_speed=proposal.end_speed,
+        max_speed=proposal.max_speed,
+        peak_force=figures.peak_force,
+        stiffness=float(rest.stiffness[0]),
+        stiffness_closed=float(rest.stiffness_closed[0]),
+        installed_length=design.length + task.limits.end_fittings,
+        diameter=float(rest.diameter[0]),
+        life=float(rest.life[0]),
+        probability=None if chance is None else chance.probability,
+        probability_error=None if chance is None else chance.error,
+        specimens=0 if chance is None else chance.specimens,
+        margins=trial.margins,
+        binding=trial.binding,
+        reservations=list(proposal.reservations),
+        reason=proposal.reason,
+        front=proposal.front,
+        notes=_notes(proposal, task, question.document),
+        unverified=[
+            f"{part.id}: {', '.join(part.unverified)}"
+            for part in (group.muscle, group.valve, group.tube)
+            if part.unverified
+        ],
+        drive=drive_document(design, task),
+    )
+
+
+def _notes(proposal: Proposal, task: Task, document: SizingTask) -> list[str]:
+    group = proposal.design.group
+    notes: list[str] = []
+    if group.parallel > 1:
+        notes.append(
+            f"The drive document is that of one of {group.parallel} parallel muscles: it has its share of "
+            "the load and of the valve's flow. Equal muscles move alike."
+        )
+    if group.duty.pair:
+        notes.append(
+            "Each muscle has its nominal length at one end of the swing. The run first fills the second "
+            "muscle, then swings."
+        )
+    if group.muscle.extrapolated is not None:
+        notes.append(f"Test a sample of {group.muscle.id} first: {group.muscle.extrapolated}.")
+    if left := use_notices(group.muscle.fit, _use(proposal, document)):
+        outside = "; ".join(notice.message for notice in left)
+        notes.append(f"{group.muscle.id} is used where it was not measured: {outside}.")
+    if document.load.force_over_stroke is not None:
+        notes.append("The simulation uses a straight line above the force over the stroke.")
+    if proposal.trial.figures.time_down is None:
+        notes.append(f"The load does not return within {task.vent_time:.3g} s.")
+    return notes
+
+
+def _use(proposal: Proposal, document: SizingTask) -> dict[str, MeasuredRange]:
+    """The ranges in which a proposal uses the model of its muscle."""
+    design, lever = proposal.design, document.load.lever_ratio
+    return (
+        range_of("rest_length", design.length)
+        | range_of("pressure", design.pressure)
+        | range_of("contraction", design.contraction)
+        | range_of("speed", 0.0, proposal.max_speed * lever)
+    )
+
+
+def _rejected(item: Rejection) -> RejectedParts:
+    return RejectedParts(
+        muscle=item.muscle,
+        parallel=item.parallel,
+        valve=item.valve,
+        tube=item.tube or None,
+        why=item.why,
+        binding=item.binding,
+        would_work_if=item.would_work_if,
+        combinations=item.combinations,
+    )
+
+
+def _explored(trial: Trial, front: bool) -> ExploredDrive:
+    group = trial.design.group
+    return ExploredDrive(
+        muscle=group.muscle.id,
+        nominal_length=trial.design.length,
+        parallel=group.parallel,
+        valve=group.valve.id,
+        tube=group.tube.id or None,
+        pressure=trial.design.pressure,
+        time=trial.time,
+        air_volume_anr=trial.air,
+        force_reserve=trial.force_reserve,
+        stiffness=float(trial.rest.stiffness[0]),
+        front=front,
+    )
+
+
+def _notices(proposals: list[ProposedDrive], document: SizingTask) -> list[Notice]:
+    parts = dict.fromkeys(text for proposal in proposals for text in proposal.unverified)
+    notices = [unverified_notice(text, "catalogue") for text in parts]
+    notices += pressure_notices({"supply_pressure": document.supply_pressure})
+    if document.limits.life is not None:
+        text = "the life is an estimate between 100 000 and 10 million cycles; no maker's curve is known"
+        notices.append(Notice("unverified", text, "limits.life"))
+    return notices
