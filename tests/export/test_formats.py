@@ -136,7 +136,7 @@ def test_json_gives_the_same_model_again(tmp_path: Path):
 
 def test_tables_interpolate_as_well_as_they_say():
     model = subject("together_0").statics
-    from mckibben.export.lookup import lookup_of, pressures_for
+    from mckibben.export.formats.table import lookup_of, pressures_for
     from mckibben.simulation.statics.inverse import pressure_for_force
 
     table = lookup_of(model)
@@ -185,7 +185,7 @@ def test_the_csv_of_a_table_holds_the_force_of_the_model():
 
 def test_tables_over_pressure_are_those_of_the_inverse_questions():
     """Blocked force and free contraction, and how exact a line between two rows is."""
-    from mckibben.export.lookup import lookup_of
+    from mckibben.export.formats.table import lookup_of
     from mckibben.simulation.statics.inverse import contraction_for_force
 
     stated = stated_source("DMSP-20", studio())

@@ -11,9 +11,9 @@ import numpy as np
 import pytest
 
 from mckibben.export.formats import linear, python, table
+from mckibben.export.formats.linear import linear_points, main_point
 from mckibben.export.formats.matlab import write
-from mckibben.export.linear_models import linear_points, main_point
-from mckibben.export.lookup import lookup_of
+from mckibben.export.formats.table import lookup_of
 from mckibben.simulation.integrate.system import compiled_drive
 from tests.export.fmus import our_run
 from tests.export.models import assert_equal, cases, our_rates, ours, random_inputs, subject

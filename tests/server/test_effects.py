@@ -10,7 +10,7 @@ from fastapi.testclient import TestClient
 from mckibben.physics.catalogue import BUILT_IN_FOLDER
 from mckibben.physics.errors import InputError
 from mckibben.server.app import create_app
-from mckibben.server.schemas.effects import EffectsAnswer
+from mckibben.server.routes.effects import EffectsAnswer
 from mckibben.server.settings import Settings
 from tests.server.answers import valid
 from tests.server.conftest import URL, assert_error, post

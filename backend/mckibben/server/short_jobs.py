@@ -27,11 +27,9 @@ from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.server.job import Job, Prepared
 from mckibben.server.questions.curves import curves_question
-from mckibben.server.questions.exports import export_question
 from mckibben.server.questions.inverse import Body as InverseBody
 from mckibben.server.questions.inverse import inverse_question
 from mckibben.server.questions.models import model_question, said_measurements
-from mckibben.server.questions.simulations import simulation_question
 from mckibben.server.schemas.comparisons import ComparisonRequest
 from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.server.schemas.diagnoses import DiagnosisRequest
@@ -42,6 +40,61 @@ from mckibben.simulation.outcome import Watch
 
 if TYPE_CHECKING:
     from mckibben.projects.store import ProjectStore
+from dataclasses import replace
+
+from mckibben.application.run.simulate import SimulationQuestion
+from mckibben.documents.convert import stated_muscle
+from mckibben.documents.drive_files import preset_document
+from mckibben.documents.drive_reading import drive_of
+from mckibben.export.source import of_drive, of_saved, stated_source
+from mckibben.export.subject import Stated
+from mckibben.export.use_case import ExportQuestion
+
+
+def simulation_question(body: SimulationRequest, studio: Studio) -> SimulationQuestion:
+    """The question of a request.
+
+    Raises:
+        InputError: the drive cannot be used; fields begin with ``drive``.
+    """
+    with fields_inside("drive"):
+        document = body.drive if not isinstance(body.drive, str) else preset_document(body.drive, studio)
+        annotated = drive_of(document, studio)
+    return SimulationQuestion(annotated, points=body.points, begin=body.begin, end=body.end)
+
+
+def export_question(body: ExportRequest, studio: Studio) -> ExportQuestion:
+    """The question of a request.
+
+    Raises:
+        InputError: not exactly one of muscle, model and drive, or one that cannot be used.
+    """
+    given = [name for name in ("muscle", "model", "drive") if getattr(body, name) is not None]
+    if len(given) != 1:
+        what = "nothing to take along" if not given else f"{' and '.join(given)} at once"
+        raise InputError(what, field=given[1] if given else "muscle", hint="give muscle, model or drive")
+    if body.effects is not None and body.muscle is None:
+        raise InputError(f"the {given[0]} has its own effects", field="effects", hint="leave it out")
+    stated = _stated(body, studio)
+    if body.title:
+        stated = replace(stated, title=body.title)
+    return ExportQuestion(stated, body.format_id, body.name)
+
+
+def _stated(body: ExportRequest, studio: Studio) -> Stated:
+    if body.muscle is not None:
+        return Stated(studio.start_model(stated_muscle(body.muscle), body.effects))
+    if body.model is not None:
+        with fields_inside("model"):
+            return of_saved(body.model, studio, "")
+    assert body.drive is not None  # noqa: S101 - one of the three is given
+    with fields_inside("drive"):
+        if isinstance(body.drive, str):
+            if body.drive not in {preset.id for preset in studio.library.list("drives")}:
+                studio.library.get("drives", body.drive)  # raises with the nearest match
+            return stated_source(body.drive, studio)
+        return of_drive(body.drive, studio, "")
+
 
 _READ_WITHIN = float(MOST_SECONDS)  # s; a file that takes longer is refused by its reader
 _COMPARE_WITHIN = 120.0  # s

@@ -85,6 +85,6 @@ def test_what_is_no_compiled_function_is_not_loaded(
     chosen = effects("prestress")
     CompiledState(chosen)
     spoilt = b"cos\nsystem\n(S'exit 1'\ntR."
-    monkeypatch.setattr("mckibben.simulation.statics.kept_structures.kept", lambda key: spoilt)
+    monkeypatch.setattr("mckibben.simulation.statics.compiled.kept", lambda key: spoilt)
     assert np.all(np.isfinite(values(CompiledState(chosen))))
     assert len(compilations) == 2

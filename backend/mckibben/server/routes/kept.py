@@ -5,14 +5,28 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import APIRouter, Path
+from pydantic import Field
 
 from mckibben.application.project import stored as kept
 from mckibben.application.project.stored import KeptData, KeptKind
+from mckibben.documents.strict import Strict
+from mckibben.measurement.store import MAX_NAME
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.kept import RenameRequest
+
+
+class RenameRequest(Strict):
+    """A new name."""
+
+    name: str = Field(
+        min_length=1, max_length=MAX_NAME, description="The new name.", examples=["bench 3, 300 mm"]
+    )
+    was: str | None = Field(
+        None, max_length=MAX_NAME, description="The name that the user saw; refused if it is another by now."
+    )
+
 
 router = APIRouter(prefix="/api/kept", tags=["kept"], route_class=StrictRoute)
 

@@ -5,13 +5,23 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import APIRouter, Path
+from pydantic import Field
 
 from mckibben.application.diagnose.mysteries import MysterySummary, Reveal, mysteries, reveal
+from mckibben.documents.strict import Name, Strict
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import BeforeWork, StudioDep
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.mysteries import RevealRequest
+
+
+class RevealRequest(Strict):
+    """The user's diagnosis."""
+
+    effects: list[Name] = Field(
+        default=[], max_length=64, description="Ids of the effects of the user's model.", examples=[[]]
+    )
+
 
 router = APIRouter(prefix="/api/mysteries", tags=["mysteries"], route_class=StrictRoute)
 

@@ -3,14 +3,31 @@
 from __future__ import annotations
 
 from fastapi import APIRouter
+from pydantic import Field
 
 from mckibben.application.diagnose.signatures import AtlasQuestion, Signatures, signatures
 from mckibben.documents.convert import stated_muscle
+from mckibben.documents.muscle import MuscleInput
+from mckibben.documents.quantity import PositivePressure
+from mckibben.documents.strict import Strict
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StudioDep
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.signatures import SignatureRequest
+
+
+class SignatureRequest(Strict):
+    """An effect on a muscle."""
+
+    muscle: MuscleInput = Field(description="The muscle.")
+    effect: str = Field(description="Id of the effect.")
+    values: dict[str, float] = Field(
+        default_factory=dict, description="Its parameters in SI; missing ones take their usual size."
+    )
+    pressure: PositivePressure | None = Field(
+        None, description="Largest gauge pressure of the tests; null: the muscle's limit, else 6 bar."
+    )
+
 
 router = APIRouter(prefix="/api/signatures", tags=["effects"], route_class=StrictRoute)
 
