@@ -15,7 +15,7 @@ from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
 from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.presets.fit import Covariance, FitRecord, MeasuredSpan
-from mckibben.simulation.timing.of_run import grid_of
+from mckibben.simulation.timing.evaluation import grid_of
 from tests.identification.synthetic import LIFT, MUSCLE
 from tests.shipped import shipped_studio
 

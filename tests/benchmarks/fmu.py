@@ -19,7 +19,7 @@ from mckibben.documents.drive_files import read_document
 from mckibben.export.fmu.dialects import FMI2, FMI3, Dialect
 from mckibben.export.source import of_drive, stated_source
 from mckibben.export.subject import Subject, subject_of
-from mckibben.simulation.timing.of_run import time_step
+from mckibben.simulation.timing.evaluation import time_step
 from tests.benchmarks.diagnosis import say, subject_and_start
 from tests.export.fmus import KINDS, fmu_of, our_run, position_error, simulated, timing_error
 from tests.export.models import studio

@@ -20,7 +20,7 @@ from mckibben.documents.studio import Studio
 from mckibben.presets import DrivePreset
 from mckibben.resources import presets_folder
 from mckibben.simulation.drive.transient import Run, dead_times
-from mckibben.simulation.timing.of_run import grid_of, trace_of
+from mckibben.simulation.timing.evaluation import grid_of, trace_of
 from mckibben.simulation.timing.trace import Trace
 
 SCENARIOS = (

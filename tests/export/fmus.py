@@ -15,7 +15,7 @@ from mckibben.export.fmu.package import packed
 from mckibben.export.fmu.variables import PLAY, Plant
 from mckibben.export.subject import Subject
 from mckibben.simulation.drive.transient import Run, simulate
-from mckibben.simulation.timing.of_run import timing_of, trace_of
+from mckibben.simulation.timing.evaluation import timing_of, trace_of
 from tests.one_at_a_time import one_at_a_time
 
 STRICT = Compiler("linux64", (("", ("gcc", "-Wall", "-Wextra", "-Werror", "-pedantic")),))

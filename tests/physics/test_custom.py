@@ -20,7 +20,7 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import Muscle
 from mckibben.server.app import create_app
 from mckibben.server.settings import Settings
-from mckibben.simulation.drive.driven import driven_force
+from mckibben.simulation.drive.records import force_of_record
 from mckibben.simulation.statics.model import StaticModel
 
 MUSCLE = Muscle(0.3, 0.0218, 0.4625, 0.0018, 0.02)
@@ -265,8 +265,8 @@ def test_time_is_a_state_that_runs_with_the_record():
     assert "rates" in effect.slots
     time = np.linspace(3.0, 9.0, 61)  # a record need not begin at 0 s
     rows = {"time": time, "pressure": np.full(61, 3e5), "length": np.full(61, 0.28)}
-    force = driven_force(StaticModel(MUSCLE, {"custom": {}}, catalogue={"custom": effect}), **rows)
-    bare = driven_force(StaticModel(MUSCLE), **rows)
+    force = force_of_record(StaticModel(MUSCLE, {"custom": {}}, catalogue={"custom": effect}), **rows)
+    bare = force_of_record(StaticModel(MUSCLE), **rows)
     assert force - bare == pytest.approx(20.0 * (1 - np.exp(-(time - 3.0) / 2.0)), abs=1e-3)
     assert custom_effect("c*P").states == ()
 

@@ -11,8 +11,8 @@ import symengine as se
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.drive import DriveModel
 from mckibben.physics.drive_terms import COUNTER, OUTPUTS, DriveStructure
-from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
+from mckibben.physics.record_model import RecordModel
 from mckibben.simulation.integrate.machine_code import machine_code
 from tests.physics.contract_states import MUSCLE
 
@@ -103,7 +103,7 @@ def defaults(effects: Iterable[Effect]) -> dict[str, dict[str, float]]:
     return {effect.id: effect.defaults for effect in effects}
 
 
-def jacobian(model: DriveModel | DrivenModel) -> list[se.Basic]:
+def jacobian(model: DriveModel | RecordModel) -> list[se.Basic]:
     """The derivatives that are not zero at first sight."""
     return [
         rate.diff(symbol)
@@ -173,7 +173,7 @@ def test_all_effects_at_once_give_a_finite_jacobian(tube: bool, regulator: bool,
     ],
 )
 def test_all_effects_at_once_with_the_muscle_measured(motion: bool) -> None:
-    model = DrivenModel(tuple(EFFECTS), motion=motion)
+    model = RecordModel(tuple(EFFECTS), motion=motion)
     expressions = [*model.rates, *model.outputs, *jacobian(model)]
     table = {**CONSTANTS, **MUSCLE._asdict(), "temperature": 293.15}
     table |= {f"{effect.id}.{p.name}": p.default for effect in EFFECTS for p in effect.parameters}

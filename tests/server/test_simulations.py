@@ -24,7 +24,7 @@ from mckibben.facts.timing import TIMING as FIGURES
 from mckibben.server.long_work import events, finished
 from mckibben.simulation.integrate.engine import kernel
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.simulation.timing.of_run import ChokedInterval, choked_intervals, grid_of
+from mckibben.simulation.timing.evaluation import ChokedInterval, choked_intervals, grid_of
 from tests.running_server import RunningServer
 from tests.server.answers import valid
 from tests.server.conftest import assert_error, post, run_async

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.compare.stated_question import SavedStart, stated_question
-from mckibben.application.measurement.experiment import SaidMeasurement, SaidModel
+from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
 from mckibben.cli.options import ModelOptions, start_model, stated_model
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import read_document
@@ -25,7 +25,7 @@ from mckibben.presets.order_code import order_code
 
 def model_question(
     studio: Studio,
-    measurements: Sequence[SaidMeasurement],
+    measurements: Sequence[QuestionMeasurement],
     options: ModelOptions,
     *,
     free: Sequence[str],
@@ -49,7 +49,7 @@ def model_question(
         document = saved_model(options.model)
         saved = SavedStart(document, options.model, _effects_of(options, document))
     return stated_question(
-        said_model(studio, options),
+        model_of_question(studio, options),
         measurements,
         studio,
         saved=saved,
@@ -69,7 +69,7 @@ def _effects_of(options: ModelOptions, saved: SavedModel) -> frozenset[str]:
     return frozenset(saved.effects) & frozenset(options.effects or saved.effects)
 
 
-def said_model(studio: Studio, options: ModelOptions) -> SaidModel:
+def model_of_question(studio: Studio, options: ModelOptions) -> QuestionModel:
     """What the options say about muscle, effects and drive.
 
     Raises:
@@ -86,7 +86,7 @@ def said_model(studio: Studio, options: ModelOptions) -> SaidModel:
         preset = saved_model(options.model).muscle.preset
         muscle = None if preset is None else ExperimentValue(preset, "", "you", f"--model {options.model}")
     length = _said_length(studio, options)
-    return SaidModel(start, length, muscle, *_drive(options))
+    return QuestionModel(start, length, muscle, *_drive(options))
 
 
 def muscle_length(studio: Studio, options: ModelOptions) -> float | None:

@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from mckibben.application.json_text import to_json
 from mckibben.application.measurement.convert import CHANNEL_HEADERS, converted
-from mckibben.application.measurement.experiment import SaidMeasurement, stated_in
+from mckibben.application.measurement.experiment import QuestionMeasurement, stated_in
 from mckibben.application.measurement.files import ARGUMENT, measurements_of
 from mckibben.application.measurement.options import FileOptions, file_options
 from mckibben.application.measurement.summary import MeasurementSummary, details_of
@@ -50,9 +50,9 @@ class Measurement(Result):
 
     __slots__ = ("_said",)
 
-    _said: SaidMeasurement
+    _said: QuestionMeasurement
 
-    def __init__(self, said: SaidMeasurement) -> None:
+    def __init__(self, said: QuestionMeasurement) -> None:
         self._set(_said=said)
 
     @classmethod
@@ -204,7 +204,7 @@ class Measurement(Result):
         return facts_of(self._data)
 
     @property
-    def said(self) -> SaidMeasurement:
+    def said(self) -> QuestionMeasurement:
         """The measurement as the use cases take it."""
         return self._said
 
@@ -322,6 +322,6 @@ def _length_of(channel: str, values: ArrayLike) -> int:
         raise InputError(f"{channel}: is no array", hint="one value for each row") from None
 
 
-def _read_text(text: str, name: str, options: FileOptions, kind: str | None) -> SaidMeasurement:
+def _read_text(text: str, name: str, options: FileOptions, kind: str | None) -> QuestionMeasurement:
     correction = options.correction if kind is None else replace(options.correction, kind=kind)
-    return SaidMeasurement(Points(read_measurement(text.encode(), name, correction)), dict(options.said))
+    return QuestionMeasurement(Points(read_measurement(text.encode(), name, correction)), dict(options.said))

@@ -9,7 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from mckibben.application.measurement.experiment import SaidMeasurement
+from mckibben.application.measurement.experiment import QuestionMeasurement
 from mckibben.application.project.projects import found_project, packed, unpacked
 from mckibben.door.frames import frame_of_rows
 from mckibben.door.measurement import Measurement
@@ -137,7 +137,7 @@ class Project:
             read_measurement(file.content, file.name, read_correction(file.mapping or "{}"))
             for file in self._projects.files(self.id)
         ]
-        return tuple(Measurement(SaidMeasurement(Points(measurement))) for measurement in found)
+        return tuple(Measurement(QuestionMeasurement(Points(measurement))) for measurement in found)
 
     @reported
     def history(self) -> pd.DataFrame:

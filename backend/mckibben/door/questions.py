@@ -12,7 +12,7 @@ from typing import Any, Protocol, TypeAlias, cast
 
 from mckibben.application.compare.question import EffectDocument, ModelQuestion
 from mckibben.application.compare.stated_question import SavedStart, stated_question
-from mckibben.application.measurement.experiment import SaidModel
+from mckibben.application.measurement.experiment import QuestionModel
 from mckibben.application.measurement.files import ARGUMENT
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.located import at_file
@@ -189,7 +189,7 @@ class StatedModel:
             return dict(self.muscle)
         return {name: float(value) for name, value in zip(GEOMETRY, start.muscle, strict=True) if value}
 
-    def said(self, studio: Studio, drive: DriveDocument | None) -> SaidModel:
+    def said(self, studio: Studio, drive: DriveDocument | None) -> QuestionModel:
         """Muscle, effects and drive as a question takes them."""
         name = self.source or _NAME
         preset, length = self.muscle.get("preset"), self.muscle.get("nominal_length")
@@ -205,7 +205,7 @@ class StatedModel:
         if self.saved is not None:
             own = self.saved.drive if own is None else own
         where = "drive" if drive is not None else name
-        return SaidModel(start, said_length, muscle, own, where)
+        return QuestionModel(start, said_length, muscle, own, where)
 
 
 def _is_saved(content: object) -> bool:

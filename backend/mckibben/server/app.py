@@ -45,7 +45,7 @@ from mckibben.server.routes import (
 from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
 from mckibben.server.server_timing import TimingMiddleware
 from mckibben.server.settings import Settings
-from mckibben.simulation.drive.carried import carrying
+from mckibben.simulation.drive.isotonic import carrying
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.version import __version__
 

@@ -17,7 +17,7 @@ from mckibben.application.json_text import to_json
 from mckibben.application.measurement.form import experiment_forms, preview_form
 from mckibben.application.measurement.summary import details_of, preview_of, summary_of
 from mckibben.application.model.saved import present_model
-from mckibben.application.project.projects import brought_back, unpacked
+from mckibben.application.project.projects import restore_files, unpacked
 from mckibben.application.run import simulate
 from mckibben.documents.studio import Studio
 from mckibben.export.use_case import export
@@ -29,7 +29,7 @@ from mckibben.server.job import Job, Prepared
 from mckibben.server.questions.curves import curves_question
 from mckibben.server.questions.inverse import Body as InverseBody
 from mckibben.server.questions.inverse import inverse_question
-from mckibben.server.questions.models import model_question, said_measurements
+from mckibben.server.questions.models import measurements_of_question, model_question
 from mckibben.server.schemas.comparisons import ComparisonRequest
 from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.server.schemas.diagnoses import DiagnosisRequest
@@ -172,7 +172,7 @@ def _comparison(body: ComparisonRequest, studio: Studio, store: MeasurementStore
 
 
 def _experiments(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) -> Prepared:
-    measurements = said_measurements(body, studio, store)
+    measurements = measurements_of_question(body, studio, store)
     ids = [item.id for item in body.chosen()]
     pairs = list(zip(ids, measurements, strict=True))
     return lambda _: to_json(experiment_forms(pairs, lambda: model_question(body, studio, store), studio))
@@ -191,7 +191,7 @@ def _project_files(body: FilesOfProject, _studio: Studio, store: MeasurementStor
     projects = _projects(body.database)
 
     def bring_back(_: Watch) -> bytes:
-        brought_back(projects, projects.open(body.project, body.version), store)
+        restore_files(projects, projects.open(body.project, body.version), store)
         return b"{}"
 
     return bring_back

@@ -24,7 +24,7 @@ from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.server.jobs import JOBS
 from mckibben.server.settings import Settings
-from mckibben.simulation.drive.carried import carrying
+from mckibben.simulation.drive.isotonic import carrying
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Watch
 

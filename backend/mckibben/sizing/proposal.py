@@ -11,7 +11,7 @@ from mckibben.physics.drive_terms import HIGH_STOP
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.simulation.drive.transient import dead_times, simulate
 from mckibben.simulation.outcome import Outcome
-from mckibben.simulation.timing.of_run import stops_of, time_step, trace_of
+from mckibben.simulation.timing.evaluation import stops_of, time_step, trace_of
 from mckibben.simulation.timing.table import timing
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design, switch_on

@@ -10,7 +10,7 @@ from mckibben.facts.run import RUN, TRACKING
 from mckibben.facts.timing import TIMING
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.simulation.drive.transient import Run
-from mckibben.simulation.timing.of_run import timing_of, trace_of, tracking_of
+from mckibben.simulation.timing.evaluation import timing_of, trace_of, tracking_of
 from mckibben.simulation.timing.trace import Trace
 from mckibben.studies.table import Figure
 

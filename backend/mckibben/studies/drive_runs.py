@@ -25,7 +25,7 @@ from mckibben.simulation.drive.transient import (
 from mckibben.simulation.integrate.engine import CompiledDrive, Solution, compiled_drive
 from mckibben.simulation.integrate.many import integrate_many
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.simulation.timing.of_run import grid_of
+from mckibben.simulation.timing.evaluation import grid_of
 from mckibben.studies.drive_figures import figures_of_run
 from mckibben.studies.table import COMPLETED, Row
 

@@ -14,7 +14,7 @@ from mckibben.application.compare.compare import compare
 from mckibben.application.compare.question import ModelQuestion, question_of
 from mckibben.application.diagnose.diagnose import prepare
 from mckibben.application.diagnose.result import DiagnosisResult
-from mckibben.application.measurement.experiment import SaidMeasurement, SaidModel
+from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
 from mckibben.documents.convert import stated_muscle
 from mckibben.documents.experiment import stated_accuracy
 from mckibben.documents.muscle import MuscleInput
@@ -37,9 +37,9 @@ def studio() -> Studio:
     return shipped_studio()
 
 
-def said_model(
+def model_of_question(
     studio: Studio, given: Mapping[str, Any], effects: Mapping[str, Any] | None = None
-) -> SaidModel:
+) -> QuestionModel:
     """A model as a door states it."""
 
     def start(named: str, length: float | None) -> StartModel:
@@ -49,7 +49,7 @@ def said_model(
             own.setdefault("nominal_length", length)
         return studio.start_model(stated_muscle(MuscleInput.model_validate(own)), effects or {})
 
-    return SaidModel(start)
+    return QuestionModel(start)
 
 
 def asked(
@@ -62,10 +62,12 @@ def asked(
 ) -> ModelQuestion:
     """The question of some files."""
     measurements = [
-        SaidMeasurement(Points(read_measurement(text.encode(), f"{number}.csv")), said or {})
+        QuestionMeasurement(Points(read_measurement(text.encode(), f"{number}.csv")), said or {})
         for number, text in enumerate(texts)
     ]
-    return question_of(said_model(studio, given or document(), effects), measurements, studio, **options)
+    return question_of(
+        model_of_question(studio, given or document(), effects), measurements, studio, **options
+    )
 
 
 def diagnosed(studio: Studio, question: ModelQuestion) -> DiagnosisResult:
@@ -156,9 +158,9 @@ def test_what_a_test_has_no_use_for_is_told(studio: Studio) -> None:
 
 def test_a_length_for_one_of_several_files_names_the_way_out(studio: Studio) -> None:
     length = ExperimentValue(0.2, "m", "you", "--muscle M:200mm")
-    model = replace(said_model(studio, document(0.2)), length=length)
+    model = replace(model_of_question(studio, document(0.2)), length=length)
     measurements = [
-        SaidMeasurement(Points(read_measurement(specimen(each).encode(), f"{each}.csv")))
+        QuestionMeasurement(Points(read_measurement(specimen(each).encode(), f"{each}.csv")))
         for each in (0.2, 0.3)
     ]
     with pytest.raises(InputError, match=r"0\.3\.csv says a rest length of 300 mm") as caught:
@@ -279,7 +281,7 @@ def test_a_preset_measurement_brings_its_own_length(studio: Studio) -> None:
     points = find_preset("martens-dmsp-10-250", studio.library)
     assert points is not None
     question = question_of(
-        said_model(studio, {"preset": "DMSP-10"}), [SaidMeasurement(points)], studio, strict=True
+        model_of_question(studio, {"preset": "DMSP-10"}), [QuestionMeasurement(points)], studio, strict=True
     )
     rest = question.specimens.each[0].experiment["rest_length"]
     assert (rest.value, rest.origin, rest.where) == (0.25, "preset", "martens-dmsp-10-250")
@@ -289,10 +291,10 @@ def test_a_preset_measurement_brings_its_own_length(studio: Studio) -> None:
 def test_a_specimen_of_another_preset_has_its_geometry(studio: Studio) -> None:
     said = {"muscle": ExperimentValue("DMSP-10", "", "you", "here")}
     measurements = [
-        SaidMeasurement(Points(read_measurement(specimen(0.25).encode(), "a.csv"))),
-        SaidMeasurement(Points(read_measurement(specimen(0.25).encode(), "b.csv")), said),
+        QuestionMeasurement(Points(read_measurement(specimen(0.25).encode(), "a.csv"))),
+        QuestionMeasurement(Points(read_measurement(specimen(0.25).encode(), "b.csv")), said),
     ]
-    question = question_of(said_model(studio, {"preset": "DMSP-20"}), measurements, studio)
+    question = question_of(model_of_question(studio, {"preset": "DMSP-20"}), measurements, studio)
     wide, thin = (each.muscle for each in question.specimens.each)
     assert wide.braid_diameter == studio.facts("DMSP-20").muscle.braid_diameter
     assert thin.braid_diameter == studio.facts("DMSP-10").muscle.braid_diameter

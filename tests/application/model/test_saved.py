@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 
 from mckibben.application.compare.question import ModelQuestion, question_of
-from mckibben.application.measurement.experiment import SaidMeasurement, SaidModel
+from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
 from mckibben.application.model.saved import drive_of_model
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_files import read_document
@@ -29,8 +29,8 @@ def trace(*conditions: str, command: bool = True) -> Measurement:
 
 def question(measurement: Measurement, drive: DriveDocument | None) -> ModelQuestion:
     stated = StatedMuscle(**MUSCLE._asdict())
-    model = SaidModel(lambda _named, _length: STUDIO.start_model(stated, {"prestress": {}}), drive=drive)
-    return question_of(model, [SaidMeasurement(Points(measurement))], STUDIO)
+    model = QuestionModel(lambda _named, _length: STUDIO.start_model(stated, {"prestress": {}}), drive=drive)
+    return question_of(model, [QuestionMeasurement(Points(measurement))], STUDIO)
 
 
 def test_load_and_supply_of_the_measurement_are_those_of_the_drive() -> None:

@@ -17,7 +17,7 @@ from mckibben.identification.predict.memory import HISTORIES, Memory, remembers
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.errors import InputError
-from mckibben.simulation.drive.driven import driven_force
+from mckibben.simulation.drive.records import force_of_record
 from mckibben.simulation.statics.model import StaticModel
 from tests.identification.synthetic import (
     CATALOGUE,
@@ -50,7 +50,7 @@ def test_states_along_a_record_give_the_driven_force(effect):
     states = Memory(task).states(model)
     assert set(states) == {f"{effect}.{state.name}" for state in CATALOGUE[effect].states}
     compiled = StaticModel.of(MUSCLE, model.effects, model.values)
-    expected = driven_force(compiled, **record(task))
+    expected = force_of_record(compiled, **record(task))
     found = QuasistaticPredictor(task).after(("rest",)).predict(model)
     # A driven run knows the rate between rows; at the rows themselves only terms of velocity differ.
     counted = ~task.turning
@@ -74,7 +74,7 @@ def test_what_went_before_a_record_is_found(effect, preamble, expected):
     )
     time, pressure = 0.1 * np.arange(len(length)), np.full(len(length), 4e5)
     compiled = StaticModel.of(MUSCLE, model.effects, model.values)
-    force = driven_force(compiled, time=time, pressure=pressure, length=length)
+    force = force_of_record(compiled, time=time, pressure=pressure, length=length)
     first = 60 * len(preamble)
     kept = slice(first, None)
     rows = zip(time[kept] - time[first], 1e3 * length[kept], force[kept], strict=True)
@@ -242,14 +242,14 @@ def test_a_trial_that_cannot_be_followed_is_lost_alone(monkeypatch: pytest.Monke
     task = comparable_rows(cycles(c10=0.4e6, each=40), MUSCLE)
     models = [fit_model(dahl={"break_strain": strain}) for strain in (0.002, 0.004)]
     alone = Memory(task).states(models[0])["dahl.presliding"]
-    followed = memory.driven_states_of_many
+    followed = memory.states_of_records
 
     def failing(given, *rest, **named):
         if any(model.values["dahl"]["break_strain"] == 0.004 for model in given):
             raise InputError("it does not follow this record")
         return followed(given, *rest, **named)
 
-    monkeypatch.setattr(memory, "driven_states_of_many", failing)
+    monkeypatch.setattr(memory, "states_of_records", failing)
     first, second = Memory(task).together([(model, HISTORIES["rest"]) for model in models])
     np.testing.assert_array_equal(first["dahl.presliding"], alone)
     assert np.isnan(second["dahl.presliding"]).all()

@@ -28,10 +28,10 @@ from mckibben.identification.predict.fit_model import SUPPLY, FitModel, free_num
 from mckibben.measurement.measurement import Measurement, build
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import signal_from
-from mckibben.simulation.drive.driven import driven_motion, driven_motions
 from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.drive.recorded_run import RecordedRun
+from mckibben.simulation.drive.records import motion_of_record, motions_of_records
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import MAX_STEPS
@@ -486,11 +486,13 @@ def test_motion_from_a_measured_pressure_is_that_of_the_kernel():
     predictor = predictor_of(measurement, MUSCLE)
     own = replace(predictor._records[0].drive, model=StaticModel(MUSCLE, HIDDEN))
     columns = measurement.columns
-    expected = driven_motion(own, time=GRID, pressure=columns["pressure"], stroke=columns["displacement"][0])
+    expected = motion_of_record(
+        own, time=GRID, pressure=columns["pressure"], stroke=columns["displacement"][0]
+    )
     # Its steps are longer: what that changes is far below what any sensor reads.
     assert predictor.predict(fit_model(HIDDEN)) == pytest.approx(expected["stroke_reading"], abs=1e-6)
     for tolerance, least in ((moving._TOLERANCE, 0.0), (1e-12, 1e-12)):
-        (alone,) = driven_motions(
+        (alone,) = motions_of_records(
             [own], time=GRID, pressure=columns["pressure"], stroke=columns["displacement"][0],
             tolerance=tolerance,
         )  # fmt: skip
@@ -628,9 +630,9 @@ def test_every_row_drives_the_model_although_a_part_is_compared() -> None:
     assert isinstance(predictor, TransientPredictor)
     assert predictor.rows_used == 1000
     own = replace(predictor._records[0].drive, model=StaticModel(MUSCLE, HIDDEN))
-    exact = driven_motion(own, time=time, pressure=pressure, stroke=0.01)["stroke_reading"]
+    exact = motion_of_record(own, time=time, pressure=pressure, stroke=0.01)["stroke_reading"]
     assert predictor.predict(fit_model(HIDDEN)) == pytest.approx(exact[predictor.rows], abs=2e-6)
-    thin = driven_motion(own, time=time[predictor.rows], pressure=pressure[predictor.rows], stroke=0.01)[
+    thin = motion_of_record(own, time=time[predictor.rows], pressure=pressure[predictor.rows], stroke=0.01)[
         "stroke_reading"
     ]
     assert np.max(np.abs(thin - exact[predictor.rows])) > 1e-4, "the rows between them matter"

@@ -8,7 +8,7 @@ import pytest
 from mckibben.identification.predict.comparable_rows import comparable_rows
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.sensor_dynamics import as_read, late
-from mckibben.simulation.drive.driven import driven_force
+from mckibben.simulation.drive.records import force_of_record
 from mckibben.simulation.statics.model import StaticModel
 from tests.identification.synthetic import CATALOGUE, MUSCLE, cycles
 
@@ -95,9 +95,9 @@ def test_it_is_what_the_integrated_record_shows():
     model = fit_model(sensor_lag={"force_time": TAU}, bladder_elasticity={})
     compiled = StaticModel.of(MUSCLE, model.effects, model.values)
     state = {"time": task.time, "pressure": task.state["pressure"], "length": task.state["length"]}
-    expected = driven_force(compiled, **state)
+    expected = force_of_record(compiled, **state)
     prompt = StaticModel.of(MUSCLE, model.effects[1:], model.values)
-    at_once = driven_force(prompt, **state)
+    at_once = force_of_record(prompt, **state)
     shown = as_read(model, time=task.time, records=[np.arange(len(at_once))], values=at_once)
     apart = np.max(np.abs(at_once - expected))
     # Between rows the force is a line here and follows the model there.

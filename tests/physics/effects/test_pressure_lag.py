@@ -5,7 +5,7 @@ import pytest
 
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.muscle import Muscle
-from mckibben.simulation.drive.driven import driven_states
+from mckibben.simulation.drive.records import states_of_record
 from mckibben.simulation.statics.model import StaticModel
 
 LAG = default_catalogue()["pressure_lag"]
@@ -16,7 +16,7 @@ def behind(clock, pressure, *, length=0.3, **values):
     """The state along a record at a held length [Pa]."""
     start = {p.name: p.default for p in LAG.parameters}
     model = StaticModel.of(MUSCLE, (LAG,), {LAG.id: start | values})
-    states = driven_states(model, time=clock, pressure=pressure, length=np.full(len(clock), length))
+    states = states_of_record(model, time=clock, pressure=pressure, length=np.full(len(clock), length))
     return states["pressure_lag.behind"]
 
 

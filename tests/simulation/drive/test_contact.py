@@ -12,7 +12,7 @@ from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.simulation.drive.initial_state import Rest
 from mckibben.simulation.drive.transient import Run, simulate
-from mckibben.simulation.timing.of_run import timing_of, trace_of
+from mckibben.simulation.timing.evaluation import timing_of, trace_of
 from mckibben.simulation.timing.table import PhaseFigures, TimingTable
 from tests.shipped import shipped_studio
 from tests.simulation.drive.independent import AMBIENT, RHO0, T0, R, Rig

@@ -17,7 +17,7 @@ from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.linear.linearise import linearise
-from mckibben.simulation.timing.of_run import timing_of, trace_of
+from mckibben.simulation.timing.evaluation import timing_of, trace_of
 from tests.simulation.drive.test_muscle_valves import AMBIENT, HELD, STUDIO, SUPPLY, VALVE
 
 

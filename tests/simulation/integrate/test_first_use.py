@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 
 from mckibben.physics.muscle import Muscle
-from mckibben.simulation.drive.driven import driven_states_of_many
+from mckibben.simulation.drive.records import states_of_records
 from mckibben.simulation.integrate import engine
 from mckibben.simulation.statics.model import StaticModel
 
@@ -77,7 +77,7 @@ def test_the_states_are_those_of_the_kernel(monkeypatch: pytest.MonkeyPatch) -> 
     for at_hand in (True, False):
         monkeypatch.setattr(engine.kernel, "at_hand", lambda at_hand=at_hand: at_hand)
         monkeypatch.setattr(engine, "_spared", engine._Spared(1000))
-        found[at_hand] = driven_states_of_many(models, ["dahl.presliding"], begins=[{}, {}], **record)
+        found[at_hand] = states_of_records(models, ["dahl.presliding"], begins=[{}, {}], **record)
         assert (engine._spared._left < 1000) is not at_hand
     for one, other in zip(found[True], found[False], strict=True):
         assert np.ptp(one["dahl.presliding"]) > 0.1

@@ -18,7 +18,7 @@ from mckibben.application.compare.series import (
 from mckibben.application.compare.specimens import Specimens
 from mckibben.application.diagnose.doubts import with_accepted
 from mckibben.application.envelope import Envelope, MeasuredRange, beyond, envelope_of
-from mckibben.application.measurement.preconditioned import used_before
+from mckibben.application.measurement.preconditioned import preconditioned_model
 from mckibben.application.measurement.specimen_result import (
     SpecimenResult,
     absorbed_message,
@@ -317,7 +317,7 @@ def _validation(
     own = own_muscle(muscle, reference=specimens.reference, own=specimens.each[0].muscle)
     predictor = specimens.predictor(muscle if specimens.several else own)[0]
     model = fitted.fit_model if specimens.several else replace(fitted.fit_model, muscle=own)
-    model, remark = used_before(predictor, model, envelope)
+    model, remark = preconditioned_model(predictor, model, envelope)
     rows = specimens.points.measurement.rows
     validation = compared(predictor, model, rows=rows, noise=question.noise)
     series, thinned = series_of(validation, "validation")

@@ -10,7 +10,12 @@ import numpy as np
 
 from mckibben.application.compare.specimens import Specimens
 from mckibben.application.envelope import Envelope
-from mckibben.application.measurement.experiment import Assumption, SaidMeasurement, SaidModel, resolved
+from mckibben.application.measurement.experiment import (
+    Assumption,
+    QuestionMeasurement,
+    QuestionModel,
+    resolved,
+)
 from mckibben.application.measurement.summary import UnreadColumn, unread_sentence
 from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.documents.studio import Studio
@@ -181,8 +186,8 @@ class ModelQuestion:
 
 
 def question_of(
-    model: SaidModel,
-    measurements: Sequence[SaidMeasurement],
+    model: QuestionModel,
+    measurements: Sequence[QuestionMeasurement],
     studio: Studio,
     *,
     free: Sequence[str] = (),

@@ -7,11 +7,11 @@ from dataclasses import dataclass, replace
 
 from mckibben.application.compare.noise import with_noise
 from mckibben.application.compare.question import ModelQuestion, question_of
-from mckibben.application.diagnose.doubts import deciding
+from mckibben.application.diagnose.doubts import with_decisions
 from mckibben.application.envelope import Envelope, MeasuredRange
-from mckibben.application.measurement.experiment import SaidMeasurement, SaidModel
+from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
 from mckibben.application.measurement.files import OPTION
-from mckibben.application.measurement.preconditioned import used_before
+from mckibben.application.measurement.preconditioned import preconditioned_model
 from mckibben.documents.located import at_file
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.studio import Studio
@@ -35,8 +35,8 @@ class SavedStart:
 
 
 def stated_question(
-    model: SaidModel,
-    measurements: Sequence[SaidMeasurement],
+    model: QuestionModel,
+    measurements: Sequence[QuestionMeasurement],
     studio: Studio,
     *,
     saved: SavedStart | None = None,
@@ -59,7 +59,7 @@ def stated_question(
         noise: standard deviation of the predicted channel, if known: a number in SI or a text with a unit.
         strict: refuse instead of assuming.
         refit: whether the numbers of a saved model are fitted again; what was freed for it is freed again.
-        use, keep: decisions about entries that may be wrong, see `deciding`.
+        use, keep: decisions about entries that may be wrong, see `with_decisions`.
         prefix: of the names of options in messages, `OPTION` or `ARGUMENT`.
 
     Raises:
@@ -93,7 +93,7 @@ def stated_question(
             name: MeasuredRange(span.least, span.most, span.unit) for name, span in fit.envelope.items()
         })  # fmt: skip
     try:
-        decided = deciding(question, use=use, keep=keep)
+        decided = with_decisions(question, use=use, keep=keep)
     except InputError as error:
         if error.field in ("use", "keep"):
             raise InputError(f"{prefix}{error.field}: {error.message}", hint=error.hint) from error
@@ -145,7 +145,7 @@ def _going_on(question: ModelQuestion, ranges: Envelope) -> ModelQuestion:
     start = question.start
     if not any(state.lasting for name in start.effects for state in start.catalogue[name].states):
         return question  # without reading the data for it
-    model, remark = used_before(question.predictor, question.fit_model(), ranges)
+    model, remark = preconditioned_model(question.predictor, question.fit_model(), ranges)
     if not remark:
         return question
     # What is stated of the muscle's past is part of the start model, so that fits and answers hold it.

@@ -56,7 +56,9 @@ class DoubtfulEntry:
     """The evidence, as a sentence."""
 
 
-def deciding(question: ModelQuestion, *, use: Sequence[str] = (), keep: Sequence[str] = ()) -> ModelQuestion:
+def with_decisions(
+    question: ModelQuestion, *, use: Sequence[str] = (), keep: Sequence[str] = ()
+) -> ModelQuestion:
     """The question after decisions about statements that may be wrong.
 
     Args:

@@ -1,8 +1,8 @@
 """The experiment behind each measurement of a question: what is said, what contradicts, what is assumed.
 
-Every door states the same: a model (`SaidModel`) and measurements (`SaidMeasurement`). A value is taken from
-the first of: the user's word for this measurement, the file, muscle or drive of the request, an assumption.
-The rest length is the exception: a file and a muscle of which both state one must agree.
+Every door states the same: a model (`QuestionModel`) and measurements (`QuestionMeasurement`). A value is
+taken from the first of: the user's word for this measurement, the file, muscle or drive of the request, an
+assumption. The rest length is the exception: a file and a muscle of which both state one must agree.
 """
 
 from __future__ import annotations
@@ -48,7 +48,7 @@ _REMOUNTED = {
 
 
 @dataclass(frozen=True)
-class SaidModel:
+class QuestionModel:
     """Muscle, effects and drive as they were stated.
 
     Attributes:
@@ -69,7 +69,7 @@ class SaidModel:
 
 
 @dataclass(frozen=True)
-class SaidMeasurement:
+class QuestionMeasurement:
     """A measurement and what the user says about its experiment.
 
     Attributes:
@@ -107,7 +107,7 @@ class Resolved:
 class _One:
     """One measurement while its experiment is put together."""
 
-    said: SaidMeasurement
+    said: QuestionMeasurement
     values: dict[str, ExperimentValue]
     remarks: list[str] = field(default_factory=list)
 
@@ -140,7 +140,7 @@ def stated_in(points: Points) -> dict[str, ExperimentValue]:
 
 
 def resolved(
-    model: SaidModel, measurements: Sequence[SaidMeasurement], studio: Studio, *, strict: bool = False
+    model: QuestionModel, measurements: Sequence[QuestionMeasurement], studio: Studio, *, strict: bool = False
 ) -> Resolved:
     """The experiment of every measurement, and the start model.
 
@@ -189,7 +189,7 @@ def _shown(value: float) -> str:
 
 
 def _found_instead(
-    own: ExperimentValue | None, model: SaidModel, start: StartModel
+    own: ExperimentValue | None, model: QuestionModel, start: StartModel
 ) -> ExperimentValue | None:
     """The rest length that the data of a fitted model have shown, where the one they corrected is stated.
 
@@ -208,7 +208,7 @@ def _found_instead(
     return ExperimentValue(length, "m", "preset", f"the preset {start.preset.id}")
 
 
-def _rest_length(one: _One, model: SaidModel, start: StartModel, *, alone: bool) -> ExperimentValue:
+def _rest_length(one: _One, model: QuestionModel, start: StartModel, *, alone: bool) -> ExperimentValue:
     """The rest length of a measurement.
 
     Raises:
@@ -253,7 +253,7 @@ def _rest_length(one: _One, model: SaidModel, start: StartModel, *, alone: bool)
     return said
 
 
-def _name_muscle(one: _One, model: SaidModel, start: StartModel) -> None:
+def _name_muscle(one: _One, model: QuestionModel, start: StartModel) -> None:
     """The muscle of a measurement: the user's word for it, that of the request, else the file's."""
     own = one.values.get("muscle")
     if model.muscle is None or (own is not None and own.origin in ("you", "suggested")):
@@ -293,7 +293,7 @@ def _add_accuracy(one: _One) -> None:
         one.values.setdefault(f"{ACCURACY}{channel}", value)
 
 
-def _specimen(one: _One, model: SaidModel, start: StartModel, studio: Studio) -> Specimen:
+def _specimen(one: _One, model: QuestionModel, start: StartModel, studio: Studio) -> Specimen:
     points, values = one.said.points, one.values
     measurement = corrected(points.measurement, values)
     answered = {

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
-from mckibben.application.measurement.experiment import SaidMeasurement
+from mckibben.application.measurement.experiment import QuestionMeasurement
 from mckibben.documents.experiment import ExperimentInput, stated_experiment
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import FIELDS, ExperimentValue
@@ -32,7 +32,7 @@ def measurements_of(
     given: Mapping[str, bytes] | None = None,
     *,
     muscle_length: float | None = None,
-) -> list[SaidMeasurement]:
+) -> list[QuestionMeasurement]:
     """Files, presets where there is no such file, and lists of files in JSON.
 
     Args:
@@ -56,7 +56,7 @@ def measurements_of(
         if entry.words:
             reading = _read_as(entry.words, name, reading)
             own |= _said_in(entry.words, name)
-        found.append(SaidMeasurement(_read(entry, studio, reading, given or {}), own))
+        found.append(QuestionMeasurement(_read(entry, studio, reading, given or {}), own))
     return found
 
 

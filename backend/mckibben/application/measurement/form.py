@@ -8,7 +8,7 @@ from math import pi
 import numpy as np
 
 from mckibben.application.compare.question import ModelQuestion
-from mckibben.application.measurement.experiment import SaidMeasurement, stated_in
+from mckibben.application.measurement.experiment import QuestionMeasurement, stated_in
 from mckibben.application.measurement.form_field import FormField
 from mckibben.application.measurement.rig_drive import assumed_stops
 from mckibben.application.measurement.summary import UnreadableFile
@@ -81,7 +81,9 @@ def preview_form(preview: Preview, studio: Studio, muscle: str | None) -> list[F
 
 
 def experiment_forms(
-    measurements: Sequence[tuple[str, SaidMeasurement]], question: Callable[[], ModelQuestion], studio: Studio
+    measurements: Sequence[tuple[str, QuestionMeasurement]],
+    question: Callable[[], ModelQuestion],
+    studio: Studio,
 ) -> ExperimentForms:
     """The experiments of the measurements of a question, also of one that cannot be asked yet.
 

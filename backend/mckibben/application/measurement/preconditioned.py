@@ -10,7 +10,7 @@ from mckibben.identification.residual.digits import brief
 _CLOSER = 0.98  # largest error over that of a new muscle with which the muscle counts as used
 
 
-def used_before(predictor: Predictor, model: FitModel, envelope: Envelope) -> tuple[FitModel, str]:
+def preconditioned_model(predictor: Predictor, model: FitModel, envelope: Envelope) -> tuple[FitModel, str]:
     """The model of a muscle used before, as far as in earlier measurements, where data are closer to it.
 
     Files do not say whether a muscle is the one that was measured before or a new one of the same kind.

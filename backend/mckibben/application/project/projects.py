@@ -52,7 +52,7 @@ def files_of(document: Document, measurements: MeasurementStore) -> list[StoredF
     return [StoredFile(identity, *original) for identity, original in found if original is not None]
 
 
-def brought_back(projects: ProjectStore, project: Project, measurements: MeasurementStore) -> Project:
+def restore_files(projects: ProjectStore, project: Project, measurements: MeasurementStore) -> Project:
     """The project, the files of its measurements stored again where they are missing."""
     missing = missing_files(project, measurements)
     if missing:

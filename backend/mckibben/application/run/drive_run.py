@@ -15,7 +15,7 @@ from mckibben.simulation.drive.transient import Run, segments_of
 from mckibben.simulation.drive.transient import simulate as run_by_command
 from mckibben.simulation.integrate.engine import engine_by_size
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.simulation.timing.of_run import Grid
+from mckibben.simulation.timing.evaluation import Grid
 
 Array = np.ndarray
 

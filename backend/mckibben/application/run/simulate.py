@@ -37,7 +37,7 @@ from mckibben.physics.model import Model
 from mckibben.simulation.drive.transient import Run
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
-from mckibben.simulation.timing.of_run import (
+from mckibben.simulation.timing.evaluation import (
     ChokedInterval,
     Grid,
     choked_of,

@@ -7,7 +7,7 @@ record
 .. math:: L_t = \min(\max(L_{t-1}, L_l), L_s)
 
 so friction needs no measured direction, and the prediction of a sticking muscle is constant. With memory the
-muscle is followed row by row, see `mckibben.identification.predict.own_way`.
+muscle is followed row by row, see `mckibben.identification.predict.free_runs`.
 """
 
 from __future__ import annotations
@@ -18,10 +18,10 @@ import numpy as np
 
 from mckibben.identification.predict.evaluate import Evaluation, State
 from mckibben.identification.predict.fit_model import LOAD, FitModel
-from mckibben.identification.predict.own_way import acting_of, followed_lengths, remembered
+from mckibben.identification.predict.free_runs import acting_of, followed_lengths, remembered
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
-from mckibben.simulation.drive.carried import sliding
+from mckibben.simulation.drive.isotonic import sliding
 
 _NEWTON_STEPS = 40
 _TOLERANCE = 1e-8  # m; last step of Newton's method, whose error is its square

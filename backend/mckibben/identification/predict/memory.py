@@ -13,7 +13,7 @@ from mckibben.identification.predict.input_noise import without_input_noise
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
-from mckibben.simulation.drive.driven import driven_states_of_many
+from mckibben.simulation.drive.records import states_of_records
 from mckibben.simulation.statics.model import StaticModel
 
 _KEPT = 128  # trajectories in the cache; the oldest are dropped
@@ -87,7 +87,7 @@ class Memory:
     The states follow the measured length and pressure; each record begins after one of `HISTORIES`, all with
     the same. They depend only on the parameters in the rates of their effect and on the sensors. So each
     effect is integrated by itself, and a fit of other parameters does not integrate it again. Where lengths
-    are predicted they follow those instead, see `mckibben.identification.predict.own_way`.
+    are predicted they follow those instead, see `mckibben.identification.predict.free_runs`.
     """
 
     def __init__(self, task: ComparableRows) -> None:
@@ -252,7 +252,7 @@ class Memory:
         """The states of models along a record; NaN for one that cannot be followed: those rows are lost."""
         task = self._task
         try:
-            return driven_states_of_many(
+            return states_of_records(
                 models,
                 names,
                 time=clock[rows],

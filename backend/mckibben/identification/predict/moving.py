@@ -35,10 +35,10 @@ from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import Model
-from mckibben.simulation.drive.driven import driven_motions
 from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.recorded_run import RecordedRun
+from mckibben.simulation.drive.records import motions_of_records
 from mckibben.simulation.statics.model import StaticModel
 
 # Error per step of a motion under a measured pressure: below 0.1 um in all where something damps the motion,
@@ -421,7 +421,7 @@ class TransientPredictor(Predictor):
         assert record.driving is not None  # noqa: S101 - checked by the constructor
         time, pressure = record.driving
         try:
-            return driven_motions(
+            return motions_of_records(
                 drives,
                 time=time,
                 pressure=pressure,

@@ -14,10 +14,10 @@ from mckibben.identification.predict.evaluate import Evaluation, sorted_effects
 from mckibben.identification.predict.fit_model import LOAD, FitModel
 from mckibben.identification.predict.folds import folds_of, ranges_of, sweeps_of
 from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.free_runs import acting_of, remembered
 from mckibben.identification.predict.input_noise import with_smooth_pressure
 from mckibben.identification.predict.lengths import predicted_lengths
 from mckibben.identification.predict.memory import HISTORIES, remembers
-from mckibben.identification.predict.own_way import acting_of, remembered
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.predict.sensor_dynamics import as_read, late
 from mckibben.physics.effect import Effect

@@ -56,7 +56,7 @@ _LOOKED_AT = 20_000  # readings from which questions are asked
 
 
 class Read(NamedTuple):
-    """A table read: its measurement, and how it was come by."""
+    """A table read: its measurement, and how it was found."""
 
     measurement: Measurement
     columns: list[HeaderColumn]

@@ -27,7 +27,7 @@ _BEHIND_A_WORD = re.compile(r"([^\W\d_]+)[\s_#.-]*$")
 
 
 class NamedLength(NamedTuple):
-    """A length [m] that the name of a file says, as it stands there, and how it was come by."""
+    """A length [m] that the name of a file says, as it stands there, and how it was found."""
 
     value: float
     text: str

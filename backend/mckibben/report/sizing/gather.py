@@ -26,7 +26,7 @@ from mckibben.report.sizing.parts_list import effect_figures, parts_of
 from mckibben.report.sizing.writing import sizing_report
 from mckibben.report.versions import versions
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.simulation.timing.of_run import grid_of
+from mckibben.simulation.timing.evaluation import grid_of
 from mckibben.sizing.catalogue import switch_on
 
 # Time step [s] and number of rows: resolves a stroke of milliseconds in a run of seconds.

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from mckibben.application.compare.noise import with_noise
 from mckibben.application.compare.question import ModelQuestion, question_of
-from mckibben.application.diagnose.doubts import deciding
-from mckibben.application.measurement.experiment import SaidMeasurement, SaidModel
+from mckibben.application.diagnose.doubts import with_decisions
+from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
 from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
@@ -27,12 +27,12 @@ def model_question(body: ModelRequest, studio: Studio, store: MeasurementStore) 
         InputError: an unknown preset, effect, parameter or measurement, no model or data, statements that
             contradict each other, or a value that nobody stated and that cannot be assumed.
     """
-    model = said_model(body, studio)
+    model = model_of_question(body, studio)
     named = _named(body)
     # Errors of the model are reported before those of the data.
     if named is not None and (named.preset or named.nominal_length):
         studio.static_model(model.start("", None))
-    measurements = said_measurements(body, studio, store)
+    measurements = measurements_of_question(body, studio, store)
     if all(each.validation for each in measurements):
         raise InputError("no measurement to fit to", field="measurements", hint='give one the use "fit"')
     question = question_of(
@@ -43,10 +43,12 @@ def model_question(body: ModelRequest, studio: Studio, store: MeasurementStore) 
         freed=body.freed,
         strict=body.strict,
     )
-    return with_noise(deciding(question, use=body.use, keep=body.keep), body.noise)
+    return with_noise(with_decisions(question, use=body.use, keep=body.keep), body.noise)
 
 
-def said_measurements(body: ModelRequest, studio: Studio, store: MeasurementStore) -> list[SaidMeasurement]:
+def measurements_of_question(
+    body: ModelRequest, studio: Studio, store: MeasurementStore
+) -> list[QuestionMeasurement]:
     """The measurements of a request with what it says about each.
 
     Raises:
@@ -64,11 +66,11 @@ def said_measurements(body: ModelRequest, studio: Studio, store: MeasurementStor
         except InputError as error:
             raise error.at(field) from error
         own = stated_experiment(item.experiment, f"{inside}.experiment".removeprefix("."))
-        found.append(SaidMeasurement(points, shared | own, item.use == "validation", inside or "."))
+        found.append(QuestionMeasurement(points, shared | own, item.use == "validation", inside or "."))
     return found
 
 
-def said_model(body: ModelRequest, studio: Studio) -> SaidModel:
+def model_of_question(body: ModelRequest, studio: Studio) -> QuestionModel:
     """Muscle, effects and drive of a request; muscle and effects replace those of the drive.
 
     The length of a muscle is not said where it is the default of its preset: a form sends it unasked.
@@ -96,7 +98,7 @@ def said_model(body: ModelRequest, studio: Studio) -> SaidModel:
             chosen = chosen.model_copy(update={"nominal_length": length})
         return studio.start_model(stated_muscle(chosen), body.effects)
 
-    return SaidModel(
+    return QuestionModel(
         start,
         length=None if muscle is None else _said_length(muscle, where, studio),
         muscle=None

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.simulation.integrate.lane_room import columns_of, lane_kernels
+from mckibben.simulation.integrate.lane_buffers import columns_of, lane_kernels
 from mckibben.simulation.integrate.problem import (
     EVENT_WIDTH,
     MOST_EVENTS,

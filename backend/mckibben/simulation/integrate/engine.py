@@ -12,7 +12,7 @@ import threading
 import numpy as np
 
 from mckibben.simulation.integrate.alone import Alone
-from mckibben.simulation.integrate.lane_room import lane_kernels as kernel
+from mckibben.simulation.integrate.lane_buffers import lane_kernels as kernel
 from mckibben.simulation.integrate.lsoda import by_lsoda
 from mckibben.simulation.integrate.problem import (
     EVENT_WIDTH,

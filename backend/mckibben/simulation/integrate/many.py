@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mckibben.simulation.integrate.lane_room import Columns, LaneKernels, columns_of, lane_kernels
+from mckibben.simulation.integrate.lane_buffers import Columns, LaneKernels, columns_of, lane_kernels
 from mckibben.simulation.integrate.problem import (
     EVENT_WIDTH,
     FIRST_STEP,

@@ -1,4 +1,4 @@
-"""The way of a muscle that carries a load, row by row: the kernel of `mckibben.simulation.drive.carried`.
+"""The way of a muscle that carries a load, row by row: the kernel of `mckibben.simulation.drive.isotonic`.
 
 It holds no physics: balance and rates are compiled functions of the same arguments, which begin with the
 inputs below. States go from row to row by steps of Rosenbrock's exponential Euler method with the diagonal of

@@ -12,8 +12,8 @@ import numpy as np
 from mckibben.physics.custom import blamed_on_the_term
 from mckibben.physics.drive import DriveModel
 from mckibben.physics.drive_terms import DriveStructure
-from mckibben.physics.driven import DrivenModel
 from mckibben.physics.effect import Effect
+from mckibben.physics.record_model import RecordModel
 from mckibben.simulation.integrate.compiling import COMPILING, one_at_a_time
 from mckibben.simulation.integrate.elimination import Plan, plan_of
 from mckibben.simulation.integrate.invariants import Invariants
@@ -77,7 +77,7 @@ class CompiledDrive:
         quick: whether its code for lanes is compiled quickly, for few runs.
     """
 
-    model: DriveModel | DrivenModel
+    model: DriveModel | RecordModel
     codes: Codes
     scales: np.ndarray
     functions: Functions
@@ -90,7 +90,7 @@ class CompiledDrive:
 
     @cached_property
     def columns(self) -> dict[tuple[str, ...] | None, Any]:
-        """What `mckibben.simulation.integrate.lane_room.columns_of` has found."""
+        """What `mckibben.simulation.integrate.lane_buffers.columns_of` has found."""
         return {}
 
     @property
@@ -217,11 +217,11 @@ def compiled_driven(effects: tuple[Effect, ...], motion: bool, level: int = 0) -
         InputError: a typed term among the effects cannot be compiled.
     """
     with blamed_on_the_term(effects):
-        return compile_system(DrivenModel(effects, motion=motion), level, effects)
+        return compile_system(RecordModel(effects, motion=motion), level, effects)
 
 
 def compile_system(
-    model: DriveModel | DrivenModel, level: int = 0, effects: tuple[Effect, ...] = ()
+    model: DriveModel | RecordModel, level: int = 0, effects: tuple[Effect, ...] = ()
 ) -> CompiledDrive:
     """Machine code of a system and of its exact Jacobian; errors name a typed term among ``effects``."""
     states = list(model.symbols.values())

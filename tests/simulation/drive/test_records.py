@@ -10,8 +10,8 @@ import pytest
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.command.signals import signal_from
-from mckibben.simulation.drive.driven import driven_force, driven_motion
 from mckibben.simulation.drive.parts import Drive, Load, Valve
+from mckibben.simulation.drive.records import force_of_record, motion_of_record
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.statics.model import StaticModel
 
@@ -25,7 +25,7 @@ RECORD = {"time": TIME, "pressure": PRESSURE, "length": LENGTH}
 def test_without_memory_it_is_the_static_force():
     model = StaticModel(MUSCLE, {"bladder_elasticity": {}, "prestress": {}, "end_caps": {}})
     expected = model.force(pressure=PRESSURE, length=LENGTH)
-    assert driven_force(model, **RECORD) == pytest.approx(expected, rel=1e-9)
+    assert force_of_record(model, **RECORD) == pytest.approx(expected, rel=1e-9)
 
 
 def test_sensor_errors_reach_the_reading():
@@ -35,12 +35,12 @@ def test_sensor_errors_reach_the_reading():
         "length_offset": {"offset": 1e-3},
     }
     expected = 1.02 * StaticModel(MUSCLE).force(pressure=PRESSURE - 2e4, length=LENGTH - 1e-3)
-    assert driven_force(StaticModel(MUSCLE, errors), **RECORD) == pytest.approx(expected, rel=1e-9)
+    assert force_of_record(StaticModel(MUSCLE, errors), **RECORD) == pytest.approx(expected, rel=1e-9)
 
 
 def test_friction_follows_the_direction_of_motion():
-    plain = driven_force(StaticModel(MUSCLE), **RECORD)
-    rough = driven_force(StaticModel(MUSCLE, {"coulomb_friction": {"force": 15.0}}), **RECORD)
+    plain = force_of_record(StaticModel(MUSCLE), **RECORD)
+    rough = force_of_record(StaticModel(MUSCLE, {"coulomb_friction": {"force": 15.0}}), **RECORD)
     velocity = np.gradient(LENGTH, TIME)
     fast = np.abs(velocity) > 0.01
     assert (rough - plain)[fast] == pytest.approx(15.0 * np.sign(velocity[fast]), rel=0.01)
@@ -48,7 +48,7 @@ def test_friction_follows_the_direction_of_motion():
 
 def test_times_that_do_not_ascend_are_refused():
     with pytest.raises(InputError, match="ascend"):
-        driven_force(StaticModel(MUSCLE), time=TIME[::-1], pressure=PRESSURE, length=LENGTH)
+        force_of_record(StaticModel(MUSCLE), time=TIME[::-1], pressure=PRESSURE, length=LENGTH)
 
 
 def test_motion_under_the_pressure_of_a_free_run_repeats_it():
@@ -59,7 +59,7 @@ def test_motion_under_the_pressure_of_a_free_run_repeats_it():
     )
     drive = Drive(model, Valve(1e-8, 1e-8), Load(mass=8.0), command, 2.0, 6e5)
     free = simulate(drive, points=8001, tolerance=1e-7, engine="rodas")
-    driven = driven_motion(
+    driven = motion_of_record(
         drive, time=free.time, pressure=free.pressure, stroke=float(free.states["stroke"][0])
     )
     assert driven["stroke"] == pytest.approx(free.states["stroke"], abs=2e-5)

@@ -17,7 +17,7 @@ from mckibben.identification.predict.memory import remembers
 from mckibben.identification.predict.path import Path
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import GEOMETRY
-from mckibben.simulation.drive.carried import carried_lengths
+from mckibben.simulation.drive.isotonic import isotonic_lengths
 from mckibben.simulation.statics.model import StaticModel
 
 _STEP = 1e-4  # relative step of a difference by a parameter
@@ -67,7 +67,7 @@ def followed_lengths(
         for model, name in zip(models, ("", *names), strict=True)
     ]
     with np.errstate(all="ignore"):
-        lengths = carried_lengths(
+        lengths = isotonic_lengths(
             [StaticModel.of(model.muscle, effects, model.values) for model in models],
             time=clock[path.rows],
             pressure=task.state["pressure"][path.rows],

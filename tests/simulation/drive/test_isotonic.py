@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.muscle import Muscle
-from mckibben.simulation.drive.carried import carried_code, carried_lengths
+from mckibben.simulation.drive.isotonic import isotonic_code, isotonic_lengths
 from mckibben.simulation.statics.model import StaticModel
 
 CATALOGUE = default_catalogue()
@@ -39,7 +39,7 @@ def carried(
 ) -> np.ndarray:  # fmt: skip
     chosen = [models] if isinstance(models, StaticModel) else list(models)
     rows = len(time)
-    return carried_lengths(
+    return isotonic_lengths(
         chosen,
         time=time,
         pressure=pressure,
@@ -152,5 +152,5 @@ def test_a_load_that_is_too_large_stretches_the_muscle_to_its_lock() -> None:
 
 def test_a_structure_is_compiled_once() -> None:
     effects = (CATALOGUE["dahl"],)
-    assert carried_code(effects) is carried_code(effects)
-    assert carried_code(effects).states == ("dahl.presliding",)
+    assert isotonic_code(effects) is isotonic_code(effects)
+    assert isotonic_code(effects).states == ("dahl.presliding",)

@@ -31,7 +31,7 @@ MOTION_CONSTANTS = (
 )
 
 
-class DrivenModel:
+class RecordModel:
     """Equations on symbols of a muscle whose pressure is measured.
 
     Args:

@@ -47,7 +47,7 @@ def _load() -> Any:
 carrying = Background(_load, "carry")
 
 
-class CarriedCode(NamedTuple):
+class IsotonicCode(NamedTuple):
     """A structure as machine code.
 
     Attributes:
@@ -65,7 +65,7 @@ class CarriedCode(NamedTuple):
 
 @one_at_a_time
 @lru_cache(maxsize=256)
-def carried_code(effects: tuple[Effect, ...]) -> CarriedCode:
+def isotonic_code(effects: tuple[Effect, ...]) -> IsotonicCode:
     """The compiled structure of some effects, built once and kept.
 
     Raises:
@@ -89,7 +89,7 @@ def carried_code(effects: tuple[Effect, ...]) -> CarriedCode:
             },
             level=1,
         )
-    return CarriedCode(tuple(symbolic.states), tuple(symbolic.constants), codes["balance"], codes["rates"])
+    return IsotonicCode(tuple(symbolic.states), tuple(symbolic.constants), codes["balance"], codes["rates"])
 
 
 def _guide(symbolic: Any, load: Any) -> Any:
@@ -119,7 +119,7 @@ def sliding(effect: Effect, values: Mapping[str, Any], context: Mapping[str, Any
     return {s.name: low / (low - high) for s, low, high in zip(effect.states, empty, full, strict=True)}
 
 
-def carried_lengths(
+def isotonic_lengths(
     models: Sequence[StaticModel],
     *,
     time: np.ndarray,
@@ -142,7 +142,7 @@ def carried_lengths(
             (models, rows); other rows are ignored.
         begins: of each model row -> states that begin anew there, by "effect.state".
     """
-    code = carried_code(models[0].effects)
+    code = isotonic_code(models[0].effects)
     rows, count = len(time), len(code.states)
     new = np.concatenate([[True], np.diff(records) != 0])
     steps = np.where(new, 0.0, np.diff(time, prepend=time[0]))

@@ -28,7 +28,7 @@ TOLERANCE = 1e-6
 _MOTION = ("stroke_reading", "force_reading", "stroke", "speed")  # what a run under a measured pressure gives
 
 
-def driven_force(
+def force_of_record(
     model: StaticModel,
     *,
     time: np.ndarray,
@@ -50,13 +50,13 @@ def driven_force(
     Raises:
         InputError: times that do not ascend, or an effect whose states diverge on this record.
     """
-    outputs = driven_states(
+    outputs = states_of_record(
         model, time=time, pressure=pressure, length=length, temperature=temperature, tolerance=tolerance
     )
     return skewed(model, time, outputs["force_reading"])
 
 
-def driven_states(
+def states_of_record(
     model: StaticModel,
     *,
     time: np.ndarray,
@@ -67,14 +67,14 @@ def driven_states(
     begin: Mapping[str, float] | None = None,
     engine: str | None = None,
 ) -> dict[str, np.ndarray]:
-    """The states ("effect.state") and readings that `driven_force` integrates, at each time of the record.
+    """The states ("effect.state") and readings that `force_of_record` integrates, at each time of the record.
 
     Args:
         begin: states that do not begin at rest.
         engine: see `mckibben.simulation.integrate.engine.integrate`; None = by the size of the record.
 
     Raises:
-        InputError: as for `driven_force`.
+        InputError: as for `force_of_record`.
     """
     compiled = compiled_driven(model.effects, motion=False)
     table = {"temperature": temperature, **_geometry(model), **_named(model)}
@@ -84,7 +84,7 @@ def driven_states(
     )
 
 
-def driven_states_of_many(
+def states_of_records(
     models: Sequence[StaticModel],
     names: Sequence[str],
     *,
@@ -96,7 +96,7 @@ def driven_states_of_many(
     tolerance: float = TOLERANCE,
     among: int = 0,
 ) -> list[dict[str, np.ndarray]]:
-    """Some states along one record of models with the same effects: the numbers of `driven_states`, at once.
+    """Some states along one record of models with the same effects: as `states_of_record`, at once.
 
     Args:
         models: with the same effects.
@@ -108,12 +108,12 @@ def driven_states_of_many(
         among: rows of all records that are followed again and again; many short ones are worth the kernel.
 
     Raises:
-        InputError: as for `driven_force`.
+        InputError: as for `force_of_record`.
     """
     engine = engine_for_records(len(time) - 1, runs=len(models), among=among - 1)
     if engine != "rodas":
         return [
-            driven_states(
+            states_of_record(
                 model, time=time, pressure=pressure, length=length, temperature=temperature,
                 tolerance=tolerance, begin=begin, engine=engine,
             )
@@ -178,14 +178,14 @@ def _unfollowed(time: np.ndarray, written: int, why: str) -> InputError:
     )
 
 
-def driven_motion(
+def motion_of_record(
     drive: Drive, *, time: np.ndarray, pressure: np.ndarray, stroke: float, tolerance: float = TOLERANCE
 ) -> dict[str, np.ndarray]:
     """Stroke and force readings of a load under a measured gauge pressure [Pa].
 
     Args:
         drive: muscle, load and stops; its valve, tube and command are not used.
-        time, pressure: the record, see `driven_force`.
+        time, pressure: the record, see `force_of_record`.
         stroke: stroke of the muscle at the first row [m], where it is at rest.
 
     Returns:
@@ -194,13 +194,13 @@ def driven_motion(
     Raises:
         InputError: times that do not ascend, or a drive that does not follow the record to its end.
     """
-    (found,) = driven_motions([drive], time=time, pressure=pressure, stroke=stroke, tolerance=tolerance)
+    (found,) = motions_of_records([drive], time=time, pressure=pressure, stroke=stroke, tolerance=tolerance)
     if found.stop:
         raise _unfollowed(time, len(found["stroke"]), found.stop)
     return dict(found.readings)
 
 
-def driven_motions(
+def motions_of_records(
     drives: Sequence[Drive],
     *,
     time: np.ndarray,
@@ -210,11 +210,11 @@ def driven_motions(
     grid: np.ndarray | None = None,
     max_steps: int = MAX_STEPS,
 ) -> list[RecordedRun]:
-    """`driven_motion` of drives that differ in numbers only, side by side; each as it would be alone.
+    """`motion_of_record` of drives that differ in numbers only, side by side; each as it would be alone.
 
     Args:
         drives: of the same effects.
-        time, pressure, stroke: see `driven_motion`; every row of the record drives the motion.
+        time, pressure, stroke: see `motion_of_record`; every row of the record drives the motion.
         tolerance: relative error per step.
         grid: ascending times within the record at which readings are wanted [s]; default: those of its rows.
         max_steps: most accepted and rejected steps of a run, which stops there.
