@@ -216,8 +216,11 @@ def test_studies(run: Run) -> None:
 
 def test_a_result_is_itself_and_its_copies_are_whole() -> None:
     curves = mk.Model.preset("DMSP-20", length="300 mm").curves("1 bar")
+    run = mk.Drive.preset("propneu-20").run(points=11)
     assert curves in {curves}
     assert curves != mk.Model.preset("DMSP-20", length="300 mm").curves("1 bar")
+    assert copy.copy(run).timing is run.timing
+    assert str(pickle.loads(pickle.dumps(run))) == str(run)
     for again in (copy.copy(curves), copy.deepcopy(curves), pickle.loads(pickle.dumps(curves))):
         assert str(again) == str(curves)
         assert again.to_dict() == curves.to_dict()

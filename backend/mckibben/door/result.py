@@ -41,6 +41,15 @@ class Frozen:
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"a {type(self).__name__} does not change; make another one")
 
+    def __getstate__(self) -> object:
+        return object.__getstate__(self)  # all slots of all bases; a dataclass knows its fields alone
+
+    def __setstate__(
+        self, state: dict[str, object] | tuple[dict[str, object] | None, dict[str, object]]
+    ) -> None:
+        for values in state if isinstance(state, tuple) else (state,):
+            self._set(**(values or {}))
+
 
 #: The model of a comparison or diagnosis. `Model` makes these results, so they do not import it.
 ModelT = TypeVar("ModelT")
@@ -80,14 +89,6 @@ class Holding(Frozen, Generic[ResultT]):
     # Two of them with arrays cannot be compared; each is itself, and can be a key.
     __eq__ = object.__eq__
     __hash__ = object.__hash__
-
-    def __getstate__(self) -> dict[str, object]:
-        """All attributes, for ``copy`` and ``pickle``."""
-        names = [field.name for field in fields(cast(Any, self))]
-        return {**vars(self), **{name: getattr(self, name) for name in names}}
-
-    def __setstate__(self, state: dict[str, object]) -> None:
-        self._set(**state)
 
 
 class Result(Frozen, ABC):
