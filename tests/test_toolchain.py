@@ -57,7 +57,7 @@ def test_types(tmp_path: Path) -> None:
 
 def test_types_of_the_public_names(tmp_path: Path) -> None:
     """By pyright, strict where pyproject.toml says so; `python -m tests.benchmarks.types` does all files."""
-    public = ("backend/mckibben/__init__.py", "tests/door/script.py")
+    public = ("backend/mckibben/__init__.py", "tests/door/script.py", "tests/door/typed.py")
     check([sys.executable, "-m", "pyright", "--pythonpath", sys.executable, *public], tmp_path)
 
 

@@ -75,9 +75,11 @@ def test_the_designed_controller_runs_in_the_drive(view: LinearView) -> None:
 
 def test_where_it_switches_each_model_has_a_name() -> None:
     view = mk.Drive.preset("propneu-20").linearise(amplitudes=())
-    assert view.models == ("filling", "venting", "mean of filling and venting")
+    assert [model.name for model in view.models] == ["filling", "venting", "mean of filling and venting"]
     assert not view.smooth
     filling, venting = (view.matrices(name)[1][2, 0] for name in ("filling", "venting"))
+    assert [view.matrices(model)[1][2, 0] for model in view.models[:2]] == [filling, venting]
+    assert f"{view.models[0]}" == "filling"
     assert view.matrices()[1][2, 0] == pytest.approx(filling, rel=0.1)
     assert filling != venting
     with pytest.raises(mk.Problem, match="no model 'fillin'"):

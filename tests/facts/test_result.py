@@ -126,7 +126,12 @@ def test_other_answers_are_refused(text: str) -> None:
 
 
 def test_a_result_does_not_change() -> None:
-    result = Example(np.zeros(1), np.zeros((1, 1)), 0.0)
+    values = np.zeros(1)
+    result = Example(values, np.zeros((1, 1)), 0.0)
+    values[0] = 2.0  # who made it may go on with its own array
+    assert np.shares_memory(result.values, values)
     with pytest.raises(AttributeError):
         result.best = 1.0  # type: ignore[misc]
+    with pytest.raises(ValueError, match="read-only"):
+        result.rows[0, 0] = 1.0
     assert CurvesResult in CLASSES

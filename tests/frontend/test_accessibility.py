@@ -95,7 +95,7 @@ THINNED = """
 @pytest.mark.examination("test_axe_finds_nothing_in_a_view_as_it_opens")
 def test_axe_finds_nothing_in_the_help(page: Page) -> None:
     # The reference is written by a few patterns, thousands of times: axe reads some of each.
-    for path in ("/help", "/help/python", "/help/http"):
+    for path in ("/help", "/help/python", "/help/python/mckibben/door/curves.html", "/help/http"):
         page.goto(path)
         assert page.evaluate(THINNED) == [], path
         assert violations(page) == [], path

@@ -117,7 +117,7 @@ def test_timing_does_not_depend_on_the_rows_asked_for(
     assert len(few["time"]) == 21
     for phase in ("extend", "retract"):
         for name, value in lift["timing"][phase].items():
-            assert few["timing"][phase][name] == pytest.approx(value, rel=0.02, abs=2e-3), name
+            assert few["timing"][phase][name] == (value and pytest.approx(value, rel=0.02, abs=2e-3)), name
 
 
 def test_a_window_holds_the_same_run(shared_client: TestClient, lift: dict[str, Any]) -> None:

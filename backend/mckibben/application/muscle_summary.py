@@ -23,6 +23,9 @@ class Notice:
     field: str | None = None
     """The input that it refers to, e.g. "muscle.preset"."""
 
+    def __str__(self) -> str:
+        return self.message
+
 
 @result_class
 class MakerLimits:

@@ -10,11 +10,12 @@ that of a new reading, where the model was measured; beyond that it is only a lo
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from statistics import NormalDist
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mckibben.facts.result import Rows, Series, result_class
 from mckibben.physics.muscle import GEOMETRY
@@ -42,6 +43,10 @@ class ForceInterval:
     share: float = SHARE
     """Share of the readings between them [-]."""
 
+    def __iter__(self) -> Iterator[NDArray[np.float64]]:
+        """``low, high = interval``."""
+        return iter((self.low, self.high))
+
 
 @result_class
 class PositionInterval:
@@ -53,6 +58,10 @@ class PositionInterval:
     """Upper ends [m], shape (N,)."""
     share: float = SHARE
     """Share of the readings between them [-]."""
+
+    def __iter__(self) -> Iterator[NDArray[np.float64]]:
+        """``low, high = interval``."""
+        return iter((self.low, self.high))
 
 
 def force_interval(

@@ -6,23 +6,15 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from types import MappingProxyType
 from typing import TYPE_CHECKING, Generic
 
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.diagnose.doubts import DoubtfulEntry
-from mckibben.application.diagnose.result import (
-    Baseline,
-    CandidateResult,
-    DiagnosisResult,
-    NoiseFloor,
-    PathPoint,
-    Verdict,
-)
+from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.documents.studio import Studio
-from mckibben.door.comparison import Parameters, parameters_of
 from mckibben.door.frames import frame_of_rows
-from mckibben.door.result import ModelT, Result
+from mckibben.door.result import ModelT, ResultOf
+from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.summary import Summary
 from mckibben.report.summary.diagnosis import summary_of
 
@@ -31,105 +23,50 @@ if TYPE_CHECKING:
     from plotly.graph_objects import Figure
 
 
-class Diagnosis(Result, Generic[ModelT]):
+class Diagnosis(ResultOf[DiagnosisResult], DiagnosisResult, Generic[ModelT]):
     """The missing effects of a model with the evidence, from `Model.diagnose`; SI."""
 
-    __slots__ = ("_model", "_name", "_question", "_result", "_studio")
-
-    _result: DiagnosisResult
-    _model: ModelT
-    _name: str
+    model: ModelT  # type: ignore - its document is in to_dict()
+    """The best model: fitted muscle, effects and constants, of a transient with its drive."""
     _question: ModelQuestion
     _studio: Studio
-
-    def __init__(
-        self, result: DiagnosisResult, model: ModelT, name: str, question: ModelQuestion, of: Studio
-    ) -> None:
-        self._set(_result=result, _model=model, _name=name, _question=question, _studio=of)
 
     @property
     def sentence(self) -> str:
         """The verdict in words."""
-        return self._result.verdict.sentence
+        return self.verdict.sentence
 
     @property
-    def status(self) -> str:
-        """adequate, missing_effects, ambiguous, unknown_effect or unfinished."""
-        return self._result.verdict.status
+    def status(self) -> Status:
+        """adequate, missing_effects, ambiguous, unknown_effect or unfinished; see `verdict`."""
+        return self.verdict.status
 
     @property
     def effects(self) -> Sequence[str]:
         """Ids of the missing effects."""
-        return tuple(self._result.verdict.effects)
+        return tuple(self.verdict.effects)
 
     @property
     def probabilities(self) -> Mapping[str, float]:
-        """Effect id -> probability that it is missing, 0 to 1; effects that the data cannot distinguish share
-        theirs.
-        """
-        return MappingProxyType(dict(self._result.verdict.probabilities))
+        """Effect -> probability that it, or one of its group, is missing; a group shares one."""
+        return self.verdict.probabilities
 
     @property
     def indistinguishable(self) -> Sequence[Sequence[str]]:
         """Groups of effects that these data cannot distinguish."""
-        return tuple(tuple(group) for group in self._result.verdict.indistinguishable)
-
-    @property
-    def verdict(self) -> Verdict:
-        """The whole verdict: also the unexplained share, a proposed term, the next measurement."""
-        return self._result.verdict
-
-    @property
-    def baseline(self) -> Baseline:
-        """Error of the start model as given."""
-        return self._result.baseline
-
-    @property
-    def noise_floor(self) -> NoiseFloor:
-        """Noise of the data, and how it was obtained."""
-        return self._result.noise_floor
-
-    @property
-    def path(self) -> Sequence[PathPoint]:
-        """The error after each addition; the first is the start model."""
-        return tuple(self._result.path)
+        return self.verdict.indistinguishable
 
     @property
     def rmse(self) -> float:
         """Error of the best model, in `unit`."""
-        return self._result.path[-1].rmse
-
-    @property
-    def unit(self) -> str:
-        """SI unit of the errors; "1" = multiples of the noise, with several predicted channels."""
-        return self._result.unit
-
-    @property
-    def candidates(self) -> Sequence[CandidateResult]:
-        """Each effect added alone, the best first."""
-        return tuple(self._result.candidates)
-
-    @property
-    def parameters(self) -> Parameters:
-        """Parameters of the best model: effect -> parameter -> value, standard error."""
-        return parameters_of(self._result.parameters)
+        return self.path[-1].rmse
 
     @property
     def doubts(self) -> Sequence[DoubtfulEntry]:
-        """Entries that may be wrong instead (a length, a sign, a unit), the most convincing first; answered
-        by ``use`` or ``keep`` of another diagnosis.
+        """`context`: entries that may be wrong instead (a length, a sign, a unit), the most convincing first;
+        answered by ``use`` or ``keep`` of another diagnosis.
         """
-        return tuple(self._result.context)
-
-    @property
-    def messages(self) -> Sequence[str]:
-        """What was assumed, left out or noticed."""
-        return tuple(self._result.messages)
-
-    @property
-    def model(self) -> ModelT:
-        """The best model: fitted muscle, effects and constants, of a transient with its drive."""
-        return self._model
+        return self.context
 
     def to_frame(self) -> pd.DataFrame:
         """The candidates, the best first: effect, rmse, holdout_rmse, gain_percent, score_change,
@@ -144,7 +81,7 @@ class Diagnosis(Result, Generic[ModelT]):
                 c.effect, c.rmse, c.holdout_rmse, c.gain_percent, c.score_change, ", ".join(c.twins),
                 c.probability,
             ]
-            for c in self._result.candidates
+            for c in self.candidates
         ]  # fmt: skip
         return frame_of_rows(names, rows)
 
@@ -152,7 +89,7 @@ class Diagnosis(Result, Generic[ModelT]):
         """The error after each addition, beside the noise."""
         from mckibben.door.figures.others import diagnosis_figure
 
-        return diagnosis_figure(self._result, f"{self._name}: {self._result.verdict.title}")
+        return diagnosis_figure(self._result, f"{self._name}: {self.verdict.title}")
 
     def _files(self, path: Path) -> str:
         """Also ``.html``: the report of ``mckibben diagnose --report``."""
@@ -162,14 +99,11 @@ class Diagnosis(Result, Generic[ModelT]):
             return report_of(self._question, self._studio, ReportOptions(), self._result)
         return super()._files(path)
 
-    def _answer(self) -> object:
-        return self._result
-
     def _summary(self) -> Summary:
         return summary_of(self._result)
 
     def _title(self) -> str:
-        return f"Diagnosis of {self._name}: {self._result.verdict.title}"
+        return f"Diagnosis of {self._name}: {self.verdict.title}"
 
     def _lead(self) -> Sequence[str]:
         return (self.sentence,)

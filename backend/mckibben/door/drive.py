@@ -186,7 +186,7 @@ class Drive(Exportable):
             engine=single_run_engine(annotated),
         )
         result = prepare(question)(Watch(progress=None if progress is None else _teller(progress)))
-        return Run(result, self._document, self._name)
+        return Run.of(result, _document=self._document, _name=self._name)
 
     @reported
     def linearise(
@@ -224,7 +224,7 @@ class Drive(Exportable):
             else tuple(number_of(each, unit, "amplitudes") for each in amplitudes),
             goals=None if design is None else goals_of(design),
         )
-        return LinearView(linear_view(question, Watch(time_limit=float("inf"))), self._name)
+        return LinearView.of(linear_view(question, Watch(time_limit=float("inf"))), _name=self._name)
 
     def _annotated(self) -> AnnotatedDrive:
         return drive_of(self._document, self._studio)

@@ -13,11 +13,12 @@ from typing import TYPE_CHECKING, Any, cast
 import numpy as np
 
 from mckibben.application.linear.matlab import mat_file, matrices_of
-from mckibben.application.linear.result import DesignResult, LinearResult, LoopResult, ModelResult
+from mckibben.application.linear.result import LinearResult, ModelResult
 from mckibben.door.frames import frame_of
 from mckibben.door.problem import reported
-from mckibben.door.result import Result
-from mckibben.door.values import FloatArray, read_only
+from mckibben.door.result import ResultOf
+from mckibben.door.values import FloatArray
+from mckibben.facts.result import read_only
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.report.summary import Summary
 from mckibben.report.summary.linear import summary_of
@@ -27,96 +28,53 @@ if TYPE_CHECKING:
     from plotly.graph_objects import Figure
     from scipy.signal import StateSpace
 
-_ENDINGS = (".json", ".csv", ".mat")
 
-
-class LinearView(Result):
+class LinearView(ResultOf[LinearResult], LinearResult):
     """Linear models of a drive at an operating point, from `Drive.linearise`; SI, angles in rad.
 
-    One model where the equations are smooth, several where something sticks or switches; without a name the
-    methods take the one that loop and design use.
+    One model where the equations are smooth, several where something sticks or switches. The methods take one
+    of `models`, or its name; without it they take `primary`, the one that loop and design use.
     """
-
-    __slots__ = ("_name", "_result")
-
-    _result: LinearResult
-    _name: str
-
-    def __init__(self, result: LinearResult, name: str) -> None:
-        self._set(_result=result, _name=name)
-
-    @property
-    def models(self) -> Sequence[str]:
-        """Names of the models: "smooth", "mean of both sides", or "held", "filling" and the like."""
-        return tuple(model.name for model in self._result.models)
-
-    @property
-    def smooth(self) -> bool:
-        """Whether nothing sticks or switches at the operating point in a way that the motion shows."""
-        return self._result.smooth
-
-    @property
-    def lost(self) -> Sequence[str]:
-        """What the linear models do not contain, as sentences."""
-        return tuple(self._result.lost)
 
     @property
     def states(self) -> Sequence[str]:
         """Names of the states of the main model, in the order of its matrices."""
-        return tuple(state.name for state in self._result.primary.states)
+        return tuple(state.name for state in self.primary.states)
 
     @property
     def inputs(self) -> Sequence[str]:
         """Names of the inputs, in the order of the matrices."""
-        return tuple(port.name for port in self._result.primary.inputs)
+        return tuple(port.name for port in self.primary.inputs)
 
     @property
     def outputs(self) -> Sequence[str]:
         """Names of the outputs, in the order of the matrices."""
-        return tuple(port.name for port in self._result.primary.outputs)
+        return tuple(port.name for port in self.primary.outputs)
 
     @property
     def position(self) -> float:
         """Position of the load at the operating point [m]."""
-        return self._result.point.position
+        return self.point.position
 
     @property
     def pressure(self) -> float:
         """Gauge pressure in the (first) muscle at the operating point [Pa]."""
-        return self._result.point.pressure
-
-    @property
-    def frequency(self) -> FloatArray:
-        """Frequencies of the responses [Hz], shape (n,)."""
-        return read_only(self._result.frequency)
-
-    @property
-    def loop(self) -> LoopResult | None:
-        """The loop with the drive's controller: ``loop.margins.phase_margin`` and the like; None without."""
-        return self._result.loop
-
-    @property
-    def design(self) -> DesignResult | None:
-        """The designed controller: ``design.trials[-1].controller``; None unless it was asked for."""
-        return self._result.design
-
-    @property
-    def details(self) -> LinearResult:
-        """Everything else: poles, zeros, describing points, values at the operating point."""
-        return self._result
+        return self.point.pressure
 
     @reported
-    def matrices(self, model: str | None = None) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
+    def matrices(
+        self, model: str | ModelResult | None = None
+    ) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray]:
         """A, B, C and D of a model, for deviations from the operating point in SI.
 
         Raises:
             Problem: there is no model of this name, with the nearest match.
         """
         found = self._model(model)
-        return read_only(found.a), read_only(found.b), read_only(found.c), read_only(found.d)
+        return found.a, found.b, found.c, found.d
 
     @reported
-    def response(self, model: str | None = None) -> FloatArray:
+    def response(self, model: str | ModelResult | None = None) -> FloatArray:
         """Complex response of the chosen channel over `frequency`, with the dead time, shape (n,).
 
         Raises:
@@ -126,7 +84,7 @@ class LinearView(Result):
         return read_only(found.gain * np.exp(1j * found.phase))
 
     @reported
-    def to_scipy(self, model: str | None = None) -> StateSpace:
+    def to_scipy(self, model: str | ModelResult | None = None) -> StateSpace:
         """A model as ``scipy.signal.StateSpace``, with all inputs and outputs; without the dead time.
 
         Raises:
@@ -138,7 +96,7 @@ class LinearView(Result):
         return cast(Any, signal).StateSpace(found.a, found.b, found.c, found.d)
 
     @reported
-    def to_control(self, model: str | None = None) -> Any:
+    def to_control(self, model: str | ModelResult | None = None) -> Any:
         """A model as ``control.StateSpace`` of python-control, with all names; without the dead time.
 
         Raises:
@@ -164,17 +122,18 @@ class LinearView(Result):
 
     @reported
     def _controller(self) -> dict[str, str]:
-        if self._result.design is None:
+        if self.design is None:
             raise InputError("no controller was designed", hint='linearise(design="overshoot 5 %")')
-        return dict(self._result.design.trials[-1].controller.document)
+        return dict(self.design.trials[-1].controller.document)
 
-    def _model(self, name: str | None) -> ModelResult:
-        if name is None:
-            return self._result.primary
-        for model in self._result.models:
-            if model.name == name:
-                return model
-        raise InputError(f"there is no model '{name}'", hint=did_you_mean(name, self.models))
+    def _model(self, wanted: str | ModelResult | None) -> ModelResult:
+        if wanted is None:
+            return self.primary
+        name = wanted.name if isinstance(wanted, ModelResult) else wanted
+        known = {model.name: model for model in self.models}
+        if name not in known:
+            raise InputError(f"there is no model '{name}'", hint=did_you_mean(name, known))
+        return known[name]
 
     @reported
     def save(self, path: str | PathLike[str]) -> None:
@@ -187,15 +146,15 @@ class LinearView(Result):
             super().save(path)
             return
         try:
-            Path(path).write_bytes(mat_file(matrices_of(self._result.primary)))
+            Path(path).write_bytes(mat_file(matrices_of(self.primary)))
         except OSError as error:
             raise InputError(f"{fspath(path)}: cannot be written: {error.strerror or error}") from error
 
     def to_frame(self) -> pd.DataFrame:
         """One row for each frequency: frequency_Hz, and of each model gain and phase_rad."""
-        columns: dict[str, Any] = {"frequency_Hz": self._result.frequency}
-        for model in self._result.models:
-            suffix = "" if len(self._result.models) == 1 else f" {model.name}"
+        columns: dict[str, Any] = {"frequency_Hz": self.frequency}
+        for model in self.models:
+            suffix = "" if len(self.models) == 1 else f" {model.name}"
             columns[f"gain{suffix}"] = model.gain
             columns[f"phase_rad{suffix}"] = model.phase
         return frame_of(columns)
@@ -204,7 +163,7 @@ class LinearView(Result):
         """Bode diagram of all models, with the points of the nonlinear drive."""
         from mckibben.door.figures.linear import bode_figure
 
-        return bode_figure(self._result, self._title())
+        return bode_figure(self, self._title())
 
     def plot_design(self) -> Figure:
         """Steps of the controllers of a design on the nonlinear drive, and their commands.
@@ -215,14 +174,11 @@ class LinearView(Result):
         self._controller()
         from mckibben.door.figures.linear import design_figure
 
-        return design_figure(self._result, f"Controllers of {self._name}")
-
-    def _answer(self) -> object:
-        return self._result
+        return design_figure(self, f"Controllers of {self._name}")
 
     def _summary(self) -> Summary:
-        return summary_of(self._result, self._name)
+        return summary_of(self, self._name)
 
     def _title(self) -> str:
-        point = self._result.point
+        point = self.point
         return f"Linear view of {self._name} at {point.position * 1e3:.4g} mm, {point.pressure / 1e5:.3g} bar"

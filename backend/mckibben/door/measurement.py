@@ -23,8 +23,9 @@ from mckibben.application.measurement.summary import summary_of as facts_of
 from mckibben.door.frames import csv_of, frame_of
 from mckibben.door.problem import reported
 from mckibben.door.result import Result, unknown_ending
-from mckibben.door.values import Quantity, names_of, read_only
+from mckibben.door.values import Quantity, names_of
 from mckibben.door.workspace import studio
+from mckibben.facts.result import read_only
 from mckibben.measurement.experiment import Experiment
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.measurement import Measurement as Data

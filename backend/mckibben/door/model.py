@@ -283,7 +283,7 @@ class Model(Savable, Exportable):
             optional_number(fixed_length, "m", "fixed_length"),
             further_stiffness=further_stiffness,
         )
-        return Curves(curves(question, self._studio), self.name)
+        return Curves.of(curves(question, self._studio), _name=self.name)
 
     def plot(self, pressure: str | Sequence[Quantity] | FloatArray | None = None) -> Figure:
         """Force over contraction at some pressures; a Plotly figure."""
@@ -323,7 +323,7 @@ class Model(Savable, Exportable):
         if compared.comparison.fit is not None:
             saved = fitted_model(question, compared, self._studio)
             model = Model.of(StatedModel.of_saved(saved, "the fitted model"), self._studio)
-        return Comparison(compared, model, names)
+        return Comparison[Model].of(compared.result, model=model, _compared=compared.comparison, _name=names)
 
     @reported
     def diagnose(
@@ -355,7 +355,7 @@ class Model(Savable, Exportable):
         result = prepare(question, self._studio)(watch_of(progress))
         saved = saved_model(question, result, self._studio)
         model = Model.of(StatedModel.of_saved(saved, "the diagnosed model"), self._studio)
-        return Diagnosis(result, model, names, question, self._studio)
+        return Diagnosis[Model].of(result, model=model, _question=question, _studio=self._studio, _name=names)
 
     def _to_export(self) -> tuple[Stated, Studio]:
         return model_to_export(self._stated, self._studio, self.name)

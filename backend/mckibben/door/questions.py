@@ -32,7 +32,7 @@ from mckibben.presets.reading import BadDocumentError, read_file
 from mckibben.simulation.outcome import Watch
 
 #: What is compared with a model: a measurement, the path of a file, or several.
-Data: TypeAlias = "Measurement | str | PathLike[str] | Sequence[Measurement | str | PathLike[str]]"
+Data: TypeAlias = Measurement | str | PathLike[str] | Sequence[Measurement | str | PathLike[str]]
 
 
 class DocumentedDrive(Protocol):

@@ -7,9 +7,10 @@ from __future__ import annotations
 import json
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
+from dataclasses import fields
 from os import PathLike
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, cast
 
 from mckibben.application.json_text import answer_json
 from mckibben.application.text_file import write_text
@@ -40,9 +41,54 @@ class Frozen:
     def __delattr__(self, name: str) -> None:
         raise AttributeError(f"a {type(self).__name__} does not change; make another one")
 
+    def __getstate__(self) -> object:
+        return object.__getstate__(self)  # all slots of all bases; a dataclass knows its fields alone
+
+    def __setstate__(
+        self, state: dict[str, object] | tuple[dict[str, object] | None, dict[str, object]]
+    ) -> None:
+        for values in state if isinstance(state, tuple) else (state,):
+            self._set(**(values or {}))
+
 
 #: The model of a comparison or diagnosis. `Model` makes these results, so they do not import it.
 ModelT = TypeVar("ModelT")
+#: The result class of a use case.
+ResultT = TypeVar("ResultT")
+
+
+class Holding(Frozen, Generic[ResultT]):
+    """A result of a use case as an object of the door: all its fields, and what the door adds.
+
+    A subclass also derives from the result class, after this one, so that fields, types and docstrings are
+    declared there. It declares again what it has in another form, such as a model instead of its document.
+    """
+
+    __slots__ = ()
+
+    _result: ResultT
+
+    @classmethod
+    def of(cls, result: ResultT, **more: object) -> Self:
+        """The object with the fields of a result; arrays are shared, not copied.
+
+        Args:
+            result: of the use case.
+            more: further attributes, and fields in another form.
+        """
+        made = cls.__new__(cls)
+        known = {field.name: getattr(result, field.name) for field in fields(cast(Any, result))}
+        made._set(_result=result, **{**known, **more})
+        return made
+
+    @property
+    def details(self) -> ResultT:
+        """The result as the use case gave it, every field in the form of ``to_dict()``."""
+        return self._result
+
+    # Two of them with arrays cannot be compared; each is itself, and can be a key.
+    __eq__ = object.__eq__
+    __hash__ = object.__hash__
 
 
 class Result(Frozen, ABC):
@@ -64,7 +110,7 @@ class Result(Frozen, ABC):
 
     @abstractmethod
     def _answer(self) -> object:
-        """The result of the use case."""
+        """What ``--json`` prints."""
 
     @abstractmethod
     def _summary(self) -> Summary:
@@ -107,6 +153,17 @@ class Result(Frozen, ABC):
 
     def _repr_html_(self) -> str:
         return notebook_cell(self._title(), self._lead(), self._summary())
+
+
+class ResultOf(Result, Holding[ResultT]):
+    """A finished result with all fields of the result of a use case."""
+
+    __slots__ = ()
+
+    _name: str
+
+    def _answer(self) -> object:
+        return self._result
 
 
 def unknown_ending(path: Path, known: Sequence[str]) -> InputError:

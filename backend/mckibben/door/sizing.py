@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any
 
 from mckibben.application.size.size import (
     ProposedDrive,
-    RejectedParts,
     Searched,
     SizingResult,
     prepare_search,
@@ -26,7 +25,7 @@ from mckibben.documents.task_files import named_task, read_task
 from mckibben.door.drive import Drive
 from mckibben.door.frames import frame_of_rows
 from mckibben.door.problem import reported
-from mckibben.door.result import Frozen, Result
+from mckibben.door.result import Holding, ResultOf
 from mckibben.door.workspace import studio
 from mckibben.physics.errors import InputError
 from mckibben.presets.reading import BadDocumentError
@@ -44,132 +43,36 @@ _COLUMNS = (
 )  # fmt: skip
 
 
-class Proposal(Frozen):
+class Proposal(Holding[ProposedDrive], ProposedDrive):
     """A drive that fulfils the task; SI."""
 
-    __slots__ = ("_drive", "_proposed")
-
-    _proposed: ProposedDrive
-    _drive: Drive
-
-    def __init__(self, proposed: ProposedDrive, drive: Drive) -> None:
-        self._set(_proposed=proposed, _drive=drive)
-
-    @property
-    def drive(self) -> Drive:
-        """The drive, ready to be run; of parallel muscles that of one of them."""
-        return self._drive
-
-    @property
-    def muscle(self) -> str:
-        """Id of the muscle."""
-        return self._proposed.muscle
-
-    @property
-    def nominal_length(self) -> float:
-        """Length of the muscle at rest [m]."""
-        return self._proposed.nominal_length
-
-    @property
-    def parallel(self) -> int:
-        """Number of muscles side by side."""
-        return self._proposed.parallel
-
-    @property
-    def valve(self) -> str:
-        """Id of the valve."""
-        return self._proposed.valve
-
-    @property
-    def pressure(self) -> float:
-        """Supply pressure, gauge [Pa]."""
-        return self._proposed.pressure
-
-    @property
-    def time(self) -> float | None:
-        """Time of the stroke [s]; None without a stroke."""
-        return self._proposed.time
-
-    @property
-    def contraction(self) -> float:
-        """Contraction at the end of the stroke [-]."""
-        return self._proposed.contraction
-
-    @property
-    def air_volume_anr(self) -> float:
-        """Air per cycle at ANR [m³]."""
-        return self._proposed.air_volume_anr
-
-    @property
-    def probability(self) -> float | None:
-        """Probability that a real drive fulfils the task, 0 to 1; None where it was not computed."""
-        return self._proposed.probability
-
-    @property
-    def reason(self) -> str:
-        """Reason of its rank."""
-        return self._proposed.reason
-
-    @property
-    def details(self) -> ProposedDrive:
-        """All figures: margins of each limit, energy, stiffness, cost, notes for the builder."""
-        return self._proposed
+    drive: Drive  # type: ignore - its document is in `details`
+    """The drive, ready to be run; of parallel muscles that of one of them."""
 
     def __repr__(self) -> str:
         return f"<Proposal {self.muscle}, {self.nominal_length * 1e3:.4g} mm, {self.valve}>"
 
 
-class Sizing(Result):
+class Sizing(ResultOf[SizingResult], SizingResult):
     """Drives for a task, the best first, and why the other parts were rejected; from `mckibben.size`."""
 
-    __slots__ = ("_name", "_search", "_studio")
-
+    proposals: list[Proposal]  # type: ignore
+    """The drives, the best first; empty if no drive of the catalogue fulfils the task."""
     _search: Searched
-    _name: str
     _studio: Studio
-
-    def __init__(self, search: Searched, name: str, of: Studio) -> None:
-        self._set(_search=search, _name=name, _studio=of)
 
     @property
     def _heading(self) -> str:
-        return heading_of(self._result.about, self._name)
-
-    @property
-    def _result(self) -> SizingResult:
-        return self._search.result
-
-    @property
-    def proposals(self) -> Sequence[Proposal]:
-        """The drives, the best first; empty if no drive of the catalogue fulfils the task."""
-        return tuple(
-            Proposal(item, Drive.of(item.drive, f"{item.muscle}, proposal {rank}", self._studio))
-            for rank, item in enumerate(self._result.proposals, 1)
-        )
-
-    @property
-    def rejected(self) -> Sequence[RejectedParts]:
-        """The other parts: why they do not fulfil the task, and what would help."""
-        return tuple(self._result.rejected)
-
-    @property
-    def ranking(self) -> str | None:
-        """Why the first proposal comes before the second."""
-        return self._result.ranking
+        return heading_of(self.about, self._name)
 
     @property
     def messages(self) -> Sequence[str]:
         """Values that are not verified, and why a search did not complete."""
         return tuple(notices(self._result))
 
-    @property
-    def details(self) -> SizingResult:
-        """The whole result: also the explored alternatives and how many combinations were tried."""
-        return self._result
-
     def to_frame(self) -> pd.DataFrame:
         """One row for each proposal, the best first, SI."""
-        rows = [[getattr(item, name) for name in _COLUMNS] for item in self._result.proposals]
+        rows = [[getattr(item, name) for name in _COLUMNS] for item in self.proposals]
         return frame_of_rows(_COLUMNS, rows)
 
     def plot(self) -> Figure:
@@ -194,17 +97,14 @@ class Sizing(Result):
 
         write_text(Path(path), report_of(self._search, self._studio, proposal=proposal, title=title))
 
-    def _answer(self) -> object:
-        return self._result
-
     def _summary(self) -> Summary:
         return summary_of(self._result, self._name)
 
     def _title(self) -> str:
-        return f"{self._heading}: {len(self._result.proposals)} proposals"
+        return f"{self._heading}: {len(self.proposals)} proposals"
 
     def _lead(self) -> Sequence[str]:
-        return () if self._result.ranking is None else (self._result.ranking,)
+        return () if self.ranking is None else (self.ranking,)
 
 
 @reported
@@ -235,7 +135,11 @@ def size(
         except InputError as error:
             raise at_file(name, error.field, error.message, error.hint) from error
         name = Path(name).stem
-    return Sizing(search, name, of)
+    proposals = [
+        Proposal.of(item, drive=Drive.of(item.drive, f"{item.muscle}, proposal {rank}", of))
+        for rank, item in enumerate(search.result.proposals, 1)
+    ]
+    return Sizing.of(search.result, proposals=proposals, _search=search, _name=name, _studio=of)
 
 
 def _search(document: SizingTask, of: Studio, progress: Callable[[float], object] | None) -> Searched:

@@ -16,7 +16,7 @@ from mckibben.documents.study_files import in_file, read_study, read_study_file
 from mckibben.door.drive import Drive
 from mckibben.door.frames import frame_of
 from mckibben.door.problem import reported
-from mckibben.door.result import Result
+from mckibben.door.result import ResultOf
 from mckibben.door.workspace import studio
 from mckibben.physics.errors import InputError
 from mckibben.report.summary import Summary
@@ -28,32 +28,15 @@ if TYPE_CHECKING:
     from plotly.graph_objects import Figure
 
 
-class Study(Result):
+class Study(ResultOf[StudyResult], StudyResult):
     """A finished study, from `study`; SI. One row for each run, also of those that failed."""
 
-    __slots__ = ("_name", "_question", "_result")
-
     _question: StudyQuestion
-    _result: StudyResult
-    _name: str
-
-    def __init__(self, question: StudyQuestion, result: StudyResult, name: str) -> None:
-        self._set(_question=question, _result=result, _name=name)
-
-    @property
-    def details(self) -> StudyResult:
-        """Everything: summary, probabilities, sensitivity, front, designs, with confidence intervals."""
-        return self._result
-
-    @property
-    def front(self) -> Sequence[int]:
-        """Numbers of the runs on the Pareto front; of one goal the best run; empty without goals."""
-        return tuple(self._result.front)
 
     @property
     def messages(self) -> Sequence[str]:
         """Runs that failed, figures that are missing, why the study ended early."""
-        return tuple(notices(self._result))
+        return tuple(notices(self))
 
     @reported
     def drive(self, run: int) -> Drive:
@@ -64,41 +47,38 @@ class Study(Result):
         """
         if self._question.subject.kind != "drive":
             raise InputError("this is a study of a task, its runs have no drive", hint="see to_frame()")
-        if run not in self._result.table["run"]:
-            raise InputError(f"there is no run {run}", hint=f"0 to {self._result.planned - 1}")
+        if run not in self.table["run"]:
+            raise InputError(f"there is no run {run}", hint=f"0 to {self.planned - 1}")
         document = self._question.document_of(self._question_point(run))
         return Drive.of(read_document(document, "the drive"), f"run {run} of {self._name}", studio())
 
     def _question_point(self, run: int) -> Sequence[float]:
-        place = self._result.table["run"].index(run)
+        place = self.table["run"].index(run)
         point: list[float] = []
         for variable in self._question.variables:
-            value = self._result.table[variable.name][place]
+            value = self.table[variable.name][place]
             choices = variable.choices
             point.append(float(choices.index(str(value))) if choices else float(cast("float", value)))
         return point
 
     def to_frame(self) -> pd.DataFrame:
         """One row for each run: run, quantities, figures, outcome, message; NaN where a figure is missing."""
-        return frame_of(self._result.table)
+        return frame_of(self.table)
 
     def plot(self) -> Figure:
         """What the method asks for: the Pareto front, influences, or the distribution of the first figure."""
         from mckibben.door.figures.study import study_figure
 
-        return study_figure(self._result, self._result.title or self._name)
+        return study_figure(self, self.title or self._name)
 
     def _files(self, path: Path) -> str:
-        return table_text(self._result) if path.suffix.lower() == ".csv" else super()._files(path)
-
-    def _answer(self) -> object:
-        return self._result
+        return table_text(self) if path.suffix.lower() == ".csv" else super()._files(path)
 
     def _summary(self) -> Summary:
-        return summary_of(self._result, self._name)
+        return summary_of(self, self._name)
 
     def _title(self) -> str:
-        return f"Study {self._result.title or self._name}: {self._result.runs} runs"
+        return f"Study {self.title or self._name}: {self.runs} runs"
 
 
 @reported
@@ -149,4 +129,4 @@ def study(
         work = prepare(question, workers=workers)
     else:
         work = prepare_file(question, Path(out), resume=resume, workers=workers)
-    return Study(question, work(watch), name)
+    return Study.of(work(watch), _question=question, _name=name)

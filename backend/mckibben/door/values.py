@@ -70,10 +70,3 @@ def number_of(value: Quantity, unit: str, name: str, reference: Reference | None
 def names_of(value: str | Sequence[str]) -> tuple[str, ...]:
     """One name, or several."""
     return (value,) if isinstance(value, str) else tuple(value)
-
-
-def read_only(values: NDArray[Any]) -> NDArray[Any]:
-    """The values as a view that refuses to be written to."""
-    view = np.asarray(values).view()
-    view.flags.writeable = False
-    return view

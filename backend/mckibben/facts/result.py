@@ -37,7 +37,7 @@ _UNIT = re.compile(r" ?\[([^\[\]]+)\]")
 
 @dataclass_transform(frozen_default=True)
 def result_class(cls: type[ClassT]) -> type[ClassT]:
-    """A frozen dataclass with slots that describes itself by its attribute docstrings.
+    """A frozen dataclass with slots and read-only arrays that describes itself by its attribute docstrings.
 
     ``JSON_KEYS``, field -> key, renames what cannot be the name of a field, such as "from".
     """
@@ -53,7 +53,23 @@ def result_class(cls: type[ClassT]) -> type[ClassT]:
     }
     described_class: Any = cls
     described_class.__pydantic_config__ = config
+    described_class.__post_init__ = _freeze_arrays
     return dataclass(frozen=True, slots=True)(cls)
+
+
+def _freeze_arrays(result: Any) -> None:
+    """Replace the arrays of a new result by views that refuse to be written to; who made them keeps them."""
+    for field in fields(result):
+        value = getattr(result, field.name)
+        if isinstance(value, np.ndarray):
+            object.__setattr__(result, field.name, read_only(value))
+
+
+def read_only(values: NDArray[Any]) -> NDArray[Any]:
+    """The values as a view that refuses to be written to."""
+    view = values.view()
+    view.flags.writeable = False
+    return view
 
 
 class _List:

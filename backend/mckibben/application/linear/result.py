@@ -121,6 +121,9 @@ class ModelResult:
     phase: Series
     """Phase over `frequency` [rad], with the dead time."""
 
+    def __str__(self) -> str:
+        return self.name
+
 
 @result_class
 class ControllerResult:

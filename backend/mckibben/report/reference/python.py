@@ -1,127 +1,112 @@
-"""The reference of the Python names: signatures and docstrings."""
+"""The reference of the Python names; pdoc makes it from signatures, docstrings and attribute docstrings."""
 
 from __future__ import annotations
 
-import dataclasses
-import inspect
+import pkgutil
+import re
+import sys
+from collections.abc import Mapping
+from dataclasses import is_dataclass
+from functools import cache
+from importlib import import_module
+from pathlib import Path
 from types import ModuleType
+from typing import TYPE_CHECKING, Any
 
-from mckibben.report.html import Child, Html, html, tag
-from mckibben.report.reference.docstring import Anchors, rendered
-from mckibben.report.reference.names import Member, members, public_names, returned_classes, signature
-from mckibben.report.reference.page import entry, page
+from mckibben.facts.result import described
+from mckibben.report.html import Html, tag
+from mckibben.report.reference.page import page
+
+if TYPE_CHECKING:
+    from pdoc.doc import Module
+
+#: What pdoc writes -> what a page shows.
+_SHOWN = (
+    # Sections of a docstring are no headings, and have no anchors: the same word stands in many.
+    (re.compile(r'<h6 id="[^"]*">(.*?):</h6>'), r'<p class="label">\1</p>'),
+    (re.compile("<pre>"), '<pre tabindex="0">'),  # scrolled by keyboard
+    (re.compile(r"(?:typing\.)?Annotated\[(.*?), &lt;[\w.]+ object at \w+&gt;\]"), r"\1"),
+    (
+        re.compile(r"numpy\.ndarray\[tuple\[(?:typing\.)?Any, \.\.\.\], numpy\.dtype\[(.*?)\]\]"),
+        r"NDArray[\1]",
+    ),
+)
 
 
-def python_reference(package: ModuleType) -> str:
-    """A page with every public name of a package and every class that they return.
+def start_of(package: ModuleType) -> str:
+    """Address of the page of the package, below that of the reference."""
+    return f"{package.__name__}.html"
+
+
+def python_reference(package: ModuleType, address: str) -> str:
+    """A page of the reference.
+
+    The package has a page with its public names, each module of its door one with its classes, and each
+    module with result classes one with these.
 
     Args:
         package: has ``__all__`` and a docstring.
+        address: of the page, "mckibben/door/curves.html".
+
+    Raises:
+        LookupError: there is no such page.
     """
-    names = public_names(package)
-    public = {name: item for name, item in names.items() if callable(item)}
-    returned = {cls.__name__: cls for cls in returned_classes(package)}
-    known = {
-        anchor
-        for name, item in {**public, **returned}.items()
-        for anchor in (name, *(f"{name}.{member.name}" for member in _members(item)))
-    }
-    values = {name: item for name, item in names.items() if not callable(item)}
+    from pdoc import render
 
-    def anchors_in(scope: str) -> Anchors:
-        def anchor(name: str) -> str | None:
-            short = name.removeprefix(f"{package.__name__}.").removesuffix("()")
-            return next((found for found in (f"{scope}.{short}", short) if found in known), None)
-
-        return anchor
-
-    def described(name: str, item: object) -> Html:
-        return _entry(name, item, anchors_in(name))
-
-    return page(
-        "Python",
-        rendered(package.__doc__ or "", anchors_in("")),
-        tag("h2", "Names", id="names"),
-        *(described(name, item) for name, item in public.items()),
-        *(_value(name, item) for name, item in values.items()),
-        tag("h2", "What they return", id="returned"),
-        *(described(name, item) for name, item in returned.items()),
-        path="/help/python",
-        contents=[
-            entry("names", "Names", *(_listed(name, item) for name, item in names.items())),
-            entry("returned", "What they return", *(_listed(name, item) for name, item in returned.items())),
-        ],
+    modules = _documented(package)
+    name = address.removesuffix(".html").replace("/", ".")
+    if name not in modules or not address.endswith(".html"):
+        raise LookupError(address)
+    render.configure(
+        docformat="google",
+        search=False,
+        show_source=False,
+        template_directory=Path(__file__).parent / "templates",
     )
+    written = render.html_module(modules[name], modules)
+    for pattern, shown in _SHOWN:
+        written = pattern.sub(shown, written)
+    contents, text = written.split("\f")
+    listed = tag("li", tag("strong", name), Html(contents))
+    return page(name, tag("div", Html(text), class_="pdoc"), path="/help/python", contents=[listed])
 
 
-def _members(item: object) -> list[Member]:
-    return members(item) if isinstance(item, type) else []
+@cache
+def _documented(package: ModuleType) -> Mapping[str, Module]:
+    """What pdoc is to know of each module: its public names, its classes, its result classes."""
+    from pdoc.doc import Module
+
+    door = import_module(f"{package.__name__}.door")
+    for found in pkgutil.iter_modules(door.__path__, f"{door.__name__}."):
+        import_module(found.name)
+    shown = {package.__name__: {name: getattr(package, name) for name in package.__all__}}
+    for name, module in list(sys.modules.items()):
+        if name.startswith(f"{package.__name__}."):
+            inside = name.startswith(f"{door.__name__}.")
+            own = {
+                key: item
+                for key, item in vars(module).items()
+                if getattr(item, "__module__", None) == name
+                and isinstance(item, type)
+                and not key.startswith("_")
+                and (inside or "__pydantic_config__" in vars(item))
+            }
+            shown |= {name: own} if own else {}
+    modules = {name: Module(_view(sys.modules[name], members)) for name, members in shown.items()}
+    for entry in (cls for module in modules.values() for cls in module.classes):
+        # pdoc 16 lets bases of a generic class come before the class itself, which declares fields anew.
+        entry._bases = entry.obj.__mro__
+        if is_dataclass(entry.obj):  # its fields say all, and nobody makes it by hand
+            entry.members.pop("__init__", None)
+        if hasattr(entry.obj, "FIGURES"):  # whose texts are declared with the figures
+            for name, field in described(entry.obj).items():
+                unit = "" if field.unit is None else f" [{field.unit}]"
+                entry.members[name].docstring = entry.members[name].docstring or f"{field.text}{unit}"
+    return modules
 
 
-def _listed(name: str, item: object) -> Html:
-    below = [entry(f"{name}.{member.name}", member.name) for member in _members(item)]
-    return entry(name, name, *below)
-
-
-def _entry(name: str, item: object, anchors: Anchors) -> Html:
-    """A class with its members, or a function."""
-    if not isinstance(item, type):
-        return tag(
-            "section",
-            tag("h3", name, tag("small", " function"), id=name),
-            _call(name, item, bound=False),
-            rendered(inspect.getdoc(item) or "", anchors),
-        )
-    own = item.__init__ is not object.__init__ and "__init__" in vars(item)
-    made = _call(name, item.__init__, bound=True) if own and not dataclasses.is_dataclass(item) else None
-    return tag(
-        "section",
-        tag("h3", name, tag("small", " class"), id=name),
-        made,
-        rendered(inspect.getdoc(item) or "", anchors),
-        _fields(item),
-        *(_member(name, member, anchors) for member in members(item)),
-    )
-
-
-def _call(name: str, function: object, *, bound: bool) -> Html:
-    lines = signature(name, function, bound=bound)  # type: ignore
-    if function is not None and getattr(function, "__name__", "") == "__init__":
-        lines[-1] = lines[-1].removesuffix(" -> None")
-    return tag("pre", "\n".join(lines), class_="signature", tabindex="0")
-
-
-def _fields(cls: type) -> Html | None:
-    """The fields of a data class with their types; the docstring says what they are."""
-    if not dataclasses.is_dataclass(cls):
-        return None
-    shown: list[Child] = [
-        html(tag("dt", tag("code", field.name)), tag("dd", tag("code", str(field.type))))
-        for field in dataclasses.fields(cls)
-        if not field.name.startswith("_")
-    ]
-    return tag("div", tag("p", "Types", class_="label"), tag("dl", *shown), class_="section")
-
-
-def _member(owner: str, member: Member, anchors: Anchors) -> Html:
-    name = f"{owner}.{member.name}"
-    returns = inspect.unwrap(member.function).__annotations__.get("return", "")
-    if member.kind == "property":
-        call = tag("pre", f"{name}: {returns}", class_="signature", tabindex="0")
-    else:
-        call = _call(name, member.function, bound=member.kind != "static method")
-    return tag(
-        "div",
-        tag("h4", member.name, tag("small", f" {member.kind}"), id=name),
-        call,
-        rendered(inspect.getdoc(member.function) or "", anchors),
-        class_="member",
-    )
-
-
-def _value(name: str, item: object) -> Html:
-    return tag(
-        "section",
-        tag("h3", name, tag("small", " value"), id=name),
-        tag("pre", f"{name} = {item!r}", class_="signature", tabindex="0"),
-    )
+def _view(module: ModuleType, members: Mapping[str, Any]) -> ModuleType:
+    """A module with some members of another; no submodules."""
+    view = ModuleType(module.__name__, module.__doc__)
+    vars(view).update(members, __all__=list(members))
+    return view

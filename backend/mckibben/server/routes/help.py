@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from functools import cache
 from importlib import import_module
+from types import ModuleType
 
-from fastapi import APIRouter, Request
-from fastapi.responses import HTMLResponse
+from fastapi import APIRouter, HTTPException, Request
+from fastapi.responses import HTMLResponse, RedirectResponse
 
 from mckibben.report.reference.http import http_reference
 from mckibben.report.reference.page import overview
-from mckibben.report.reference.python import python_reference
+from mckibben.report.reference.python import python_reference, start_of
 from mckibben.version import __version__
 
 router = APIRouter(prefix="/help", include_in_schema=False)
@@ -26,15 +27,28 @@ def read_help() -> HTMLResponse:
 
 
 @router.get("/python")
-def read_python_reference() -> HTMLResponse:
-    """The public Python names."""
-    return HTMLResponse(_python(), headers=_REVALIDATE)
+def read_python_reference() -> RedirectResponse:
+    """To the public Python names."""
+    return RedirectResponse(f"/help/python/{start_of(_package())}")
+
+
+@router.get("/python/{address:path}")
+def read_python_page(address: str) -> HTMLResponse:
+    """The public Python names, or the classes of a module."""
+    try:
+        return HTMLResponse(_python(address), headers=_REVALIDATE)
+    except LookupError:
+        raise HTTPException(404) from None
+
+
+def _package() -> ModuleType:
+    # By its name: the server does not depend on the Python door, it only shows its docstrings.
+    return import_module("mckibben")
 
 
 @cache
-def _python() -> str:
-    # By its name: the server does not depend on the Python door, it only shows its docstrings.
-    return python_reference(import_module("mckibben"))
+def _python(address: str) -> str:
+    return python_reference(_package(), address)
 
 
 @router.get("/http")

@@ -9,7 +9,7 @@ pause: a note says from when to when it is within 0.1 % of the step. With a stat
 does not conserve mass, the air is counted from the states at begin and end of the phase at ambient
 temperature.
 
-A figure that does not exist is None; ``notes`` says why under "extend.<figure>".
+A figure that does not exist is None; ``notes`` says why under ``extend.<figure>``.
 """
 
 from __future__ import annotations
