@@ -27,7 +27,7 @@ PAGES = (
     "/help",
     "/help/python",
     "/help/python/mckibben/door/curves.html",
-    "/help/python/mckibben/application/diagnosis_result.html",
+    "/help/python/mckibben/application/diagnose/result.html",
     "/help/http",
 )
 EMPTY = {"meta", "link", "br", "wbr", "hr", "input"}
@@ -144,7 +144,7 @@ def test_every_public_name_has_an_entry(python: Callable[[type], Reading]) -> No
 
 def test_a_type_is_a_link_to_its_entry(python: Callable[[type], Reading]) -> None:
     assert "mckibben/door/curves.html#Curves" in python(mk.Model).links
-    assert "../application/curves.html#CurveLimits" in python(Curves).links
+    assert "../application/curves/curves.html#CurveLimits" in python(Curves).links
 
 
 @pytest.mark.parametrize("cls", CLASSES, ids=lambda cls: cls.__name__)
