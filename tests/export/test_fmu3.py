@@ -164,19 +164,20 @@ def test_prototypes_are_those_of_the_standard(dialect: Dialect, number: int, tmp
     fmpy = pytest.importorskip("fmpy", reason="FMPy is not installed")
     headers = Path(fmpy.__file__).parent / "c-code"
     texts = package.sources(subject("dahl"), "m", dialect)
-    for name in (f"fmi{number}.c", "access.h", "plant.h", "model.h"):
+    for name in ("fmi.c", "access.h", "plant.h", "model.h"):
         (tmp_path / name).write_text(texts[name], "utf-8")
-    (tmp_path / f"fmi{number}.h").write_text(
+    words = texts["fmi.h"].partition("/* The words of fmi.c. */")[2].rpartition("#endif")[0]
+    (tmp_path / "fmi.h").write_text(
         f'#include "fmi{number}Functions.h"\n#define FMI{number}(name) name\n'
-        f"#undef FMI{number}_EXPORT\n#define FMI{number}_EXPORT\n",
+        f"#undef FMI{number}_EXPORT\n#define FMI{number}_EXPORT\n{words}",
         "utf-8",
     )
-    command = ["gcc", "-std=c99", "-Werror", "-I", str(headers), "-c", f"fmi{number}.c"]
+    command = ["gcc", "-std=c99", "-Werror", "-I", str(headers), "-c", "fmi.c"]
     done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr
     said = (headers / f"fmi{number}Functions.h").read_text("utf-8")
     wanted = set(re.findall(rf"FMI{number}_Export\s+fmi{number}\w+TYPE\s+(fmi{number}\w+);", said))
-    symbols = subprocess.run(["nm", f"fmi{number}.o"], cwd=tmp_path, capture_output=True, text=True).stdout
+    symbols = subprocess.run(["nm", "fmi.o"], cwd=tmp_path, capture_output=True, text=True).stdout
     assert len(wanted) > 30
     assert wanted <= set(re.findall(r" T (\w+)", symbols))
 
@@ -186,8 +187,8 @@ def test_sources_are_listed_and_the_same_every_time(tmp_path):
     texts = package.sources(subject_of(hostile_saved(), studio()), "m", FMI3)
     assert not set("".join(texts.values())) & set("\x00\x1b\r\u2028\u202e")
     assert "<bad>" not in texts["index.html"] + texts["modelDescription.xml"]
-    file = package.packed(model, "fmi3", (), FMI3)
-    assert file == package.packed(model, "fmi3", (), FMI3)
+    file = package.packed(model, "fmi", (), FMI3)
+    assert file == package.packed(model, "fmi", (), FMI3)
     (tmp_path / file.name).write_bytes(file.content)
     with zipfile.ZipFile(tmp_path / file.name) as archive:
         names = archive.namelist()
@@ -195,7 +196,7 @@ def test_sources_are_listed_and_the_same_every_time(tmp_path):
         xml = ElementTree.fromstring(archive.read("modelDescription.xml"))
     listed = {each.get("name") for each in build.iter("SourceFile")}
     assert listed == {Path(n).name for n in names if n.startswith("sources/") and n.endswith(".c")}
-    assert "fmi3_model.c" in listed  # not the name of the interface's own file
+    assert "fmi_model.c" in listed  # not the name of the interface's own file
     references = [each.get("valueReference") for each in xml.find("ModelVariables") or ()]
     assert len(set(references)) == len(references)
     assert str(SWITCH) in references

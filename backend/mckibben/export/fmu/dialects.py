@@ -42,12 +42,12 @@ class Dialect(ABC):
     Attributes:
         version: "2.0" or "3.0".
         token: the attribute that holds the hash which the binary checks.
-        fixed: files of this version's interface.
+        header: types of this version's interface, which is ``fmi.h`` in the FMU.
     """
 
     version: str
     token: str
-    fixed: tuple[str, ...]
+    header: str
 
     def root(self, plant: Plant) -> dict[str, str]:
         """More attributes of the root."""
@@ -84,7 +84,7 @@ class Fmi2(Dialect):
     """FMI 2.0."""
 
     version, token = "2.0", "guid"
-    fixed = ("fmi2.c", "fmi2.h")
+    header = "fmi2.h"
 
     def root(self, plant: Plant) -> dict[str, str]:
         """The number of event indicators."""
@@ -140,7 +140,7 @@ class Fmi3(Dialect):
     """FMI 3.0."""
 
     version, token = "3.0", "instantiationToken"
-    fixed = ("fmi3.c", "fmi3.h")
+    header = "fmi3.h"
 
     def interfaces(self, root: Element, identifier: str, sources: Sequence[str]) -> None:
         """The sources are in ``buildDescription.xml``."""

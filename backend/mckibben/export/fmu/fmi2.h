@@ -62,4 +62,29 @@ typedef struct {
 #define FMI2(name) name
 #endif
 
+/* The words of fmi.c. */
+#define FMI_VERSION 2
+#define FMI(name) FMI2(fmi2##name)
+#define FMI_EXPORT FMI2_EXPORT
+#define FMI_TYPE(type) fmi2##type
+#define FMI_REAL(way) FMI2(fmi2##way##Real)
+#define FMI_STATE(way) FMI_STATE_OF(way)
+#define FMI_STATE_OF(way) FMI2(fmi2##way##FMUstate)
+#define FMI_STATE_SIZE FMI2(fmi2SerializedFMUstateSize)
+#define FMI_DESERIALIZE DeSerialize
+#define FMI_RATES FMI2(fmi2GetDerivatives)
+#define PLACES
+#define TOO_FEW(count) 0
+#define UNUSED_PLACES (void)0
+typedef fmi2Component fmiInstance;
+typedef fmi2Status fmiStatus;
+typedef fmi2ValueReference fmiValueReference;
+typedef fmi2Real fmiReal;
+typedef fmi2Boolean fmiBoolean;
+typedef fmi2String fmiString;
+typedef fmi2FMUstate fmiState;
+typedef fmi2Byte fmiByte;
+#define fmiOK fmi2OK
+#define fmiError fmi2Error
+
 #endif

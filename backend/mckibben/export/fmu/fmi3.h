@@ -72,4 +72,29 @@ typedef void (*fmi3UnlockPreemptionCallback)(void);
 #define FMI3(name) name
 #endif
 
+/* The words of fmi.c. */
+#define FMI_VERSION 3
+#define FMI(name) FMI3(fmi3##name)
+#define FMI_EXPORT FMI3_EXPORT
+#define FMI_TYPE(type) fmi3##type
+#define FMI_REAL(way) FMI3(fmi3##way##Float64)
+#define FMI_STATE(way) FMI_STATE_OF(way)
+#define FMI_STATE_OF(way) FMI3(fmi3##way##FMUState)
+#define FMI_STATE_SIZE FMI3(fmi3SerializedFMUStateSize)
+#define FMI_DESERIALIZE Deserialize
+#define FMI_RATES FMI3(fmi3GetContinuousStateDerivatives)
+#define PLACES , size_t places
+#define TOO_FEW(count) (places < (count))
+#define UNUSED_PLACES (void)places
+typedef fmi3Instance fmiInstance;
+typedef fmi3Status fmiStatus;
+typedef fmi3ValueReference fmiValueReference;
+typedef fmi3Float64 fmiReal;
+typedef fmi3Boolean fmiBoolean;
+typedef fmi3String fmiString;
+typedef fmi3FMUState fmiState;
+typedef fmi3Byte fmiByte;
+#define fmiOK fmi3OK
+#define fmiError fmi3Error
+
 #endif

@@ -18,7 +18,7 @@ from mckibben.export.language import C, words_of
 from mckibben.export.registry import ExportedFile, zipped
 from mckibben.export.subject import Subject
 
-_FIXED = ("access.c", "access.h", "plant.c", "plant.h", "solver.c")
+_FIXED = ("access.c", "access.h", "fmi.c", "plant.c", "plant.h", "solver.c")
 _GENERATED = ("model.c", "model.h", "rodas4.h")
 
 
@@ -50,7 +50,8 @@ def sources(subject: Subject, identifier: str, dialect: Dialect = FMI2) -> dict[
     own_header, own_source = equations(subject, identifier, tunable=subject.runnable is None)
     left_out = [STARTS] if plant.states else []
     texts = {
-        **{name: _fixed(name) for name in (*dialect.fixed, *_FIXED)},
+        **{name: _fixed(name) for name in _FIXED},
+        "fmi.h": _fixed(dialect.header),
         f"{identifier}.c": f"{own_source}\n",
         f"{identifier}.h": f"{own_header}\n",
         "model.c": _joined(model_c.source(plant)),
@@ -74,7 +75,7 @@ def compiled(texts: Iterable[str]) -> list[str]:
 def _identifier(stem: str) -> str:
     """Of the binaries and the model's functions; not one of the names of the other files."""
     name = words_of(stem)
-    files = (*FMI2.fixed, *FMI3.fixed, *_FIXED, *_GENERATED)
+    files = (*_FIXED, *_GENERATED)
     taken = {file.partition(".")[0] for file in files}
     return f"{name}_model" if name in C.reserved or name in taken else name
 
