@@ -1,4 +1,4 @@
-"""One name for one thing: no text on screen or in a report uses a word that WORDS.md rules out."""
+"""One name for one thing: no text of page, reports and messages uses a word that WORDS.md rules out."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from mckibben.physics.catalogue import default_catalogue
 ROOT = Path(__file__).resolve().parents[2]
 WORDS = ROOT / "frontend" / "WORDS.md"
 MODULES = ROOT / "frontend" / "app" / "js"
-REPORTS = ROOT / "backend" / "mckibben" / "report"
+BACKEND = ROOT / "backend" / "mckibben"
 MOST_LINES = 60
 
 _COMMENT = re.compile(r"/\*.*?\*/|(?<![:\"'`])//[^\n]*", re.DOTALL)
@@ -22,6 +22,8 @@ _INSIDE = re.compile(r"\$\{[^{}]*(?:\{[^{}]*\}[^{}]*)*\}")
 _LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"|\'((?:[^\'\\\n]|\\.)*)\'|`((?:[^`\\]|\\.)*)`')
 #: Literals that a reader never sees: names of files, attributes, classes, keys.
 _CODE = re.compile(r"[\w./:#\[\]=>*()-]*")
+#: Modules whose words are those of programming languages or of files.
+_LANGUAGES = {"export/language.py", "measurement/read/plain_head.py"}
 
 
 def table() -> list[tuple[str, str]]:
@@ -75,8 +77,11 @@ def texts() -> Iterator[tuple[str, str]]:
         yield from (
             (path.relative_to(ROOT).as_posix(), text) for text in of_javascript(path.read_text("utf-8"))
         )
-    for path in REPORTS.rglob("*.py"):
-        yield from ((path.relative_to(ROOT).as_posix(), text) for text in of_python(path.read_text("utf-8")))
+    for path in BACKEND.rglob("*.py"):
+        if path.relative_to(BACKEND).as_posix() in _LANGUAGES:
+            continue
+        seen = (text for text in of_python(path.read_text("utf-8")) if not _CODE.fullmatch(text))
+        yield from ((path.relative_to(ROOT).as_posix(), text) for text in seen)
     for effect in default_catalogue().values():
         twins = (twin.separated_by for twin in effect.confused_with)
         described = (parameter.description for parameter in effect.parameters)

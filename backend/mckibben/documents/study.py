@@ -297,7 +297,7 @@ class StudyDocument(Strict):
     )
     method: Method = Field(description="Which runs are made.")
     confidence: Annotated[float, Field(ge=0.5, le=0.9999)] = Field(
-        0.95, description="Confidence level of all intervals."
+        0.95, description="Confidence of all intervals."
     )
 
     def figure_paths(self) -> list[str]:

@@ -43,7 +43,7 @@ _FIELDS: Mapping[str, Any] = {
 
 
 def bounds_of(name: str) -> tuple[float | None, float | None]:
-    """Least and greatest value of a constant, where there are any; SI."""
+    """Smallest and largest value of a constant, where there are any; SI."""
     if name == "braid_angle":  # between thread and axis
         return 0.0, 0.5 * pi
     field = _FIELDS.get(name)

@@ -357,7 +357,7 @@ def _unknown(identity: str) -> InputError:
     return InputError(
         f"there is no measurement {identity[:12]}…",
         field="measurement",
-        hint="upload the file again with PUT /api/measurements",
+        hint="upload the file again",
         code="not_found",
     )
 

@@ -45,7 +45,7 @@ class Lanes:
             self._of[name].start()
 
     def end(self) -> None:
-        """The server ends: every job ends now, and who waits for one is told so. From any thread."""
+        """The server ends: every job ends now, and who waits for one hears so. From any thread."""
         for workers in self._of.values():
             workers.end()
 

@@ -126,7 +126,7 @@ class Workers:
             self._starter.submit(lambda: self._ready_pool()[0].active)
 
     def end(self) -> None:
-        """The server ends: every job ends now, and who waits for one is told so. From any thread."""
+        """The server ends: every job ends now, and who waits for one hears so. From any thread."""
         self.ending = True
         for running in list(self._running.values()):
             running.stopped = True

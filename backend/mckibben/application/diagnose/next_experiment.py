@@ -26,7 +26,7 @@ _COLUMNS: Mapping[str, tuple[str, str, float]] = {
 _TOLD = 4  # most pairs that the words name
 
 #: Why there may be none.
-NO_EXPERIMENT = "no two effects have to be told apart, or no experiment of this rig would do it"
+NO_EXPERIMENT = "no two effects have to be distinguished, or no experiment of this rig would do it"
 
 
 @result_class

@@ -31,7 +31,7 @@ Array = NDArray[np.float64]
 
 @result_class
 class Baseline:
-    """The start model as given: error, error in percent of full scale, hold-out error."""
+    """The start model as given: error, error in percent of full scale, held-out error."""
 
     rmse: float
     """Root mean square of the residual."""

@@ -16,7 +16,7 @@ class FormField:
     title: str
     """In words."""
     value: float | str | None
-    """In SI, or a text; None = nobody said it."""
+    """In SI, or a text; None = nobody states it."""
     unit: str
     """SI unit; "" of a text."""
     units: tuple[str, ...]

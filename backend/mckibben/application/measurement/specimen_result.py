@@ -60,7 +60,7 @@ def specimen_results(
         question: the measurements.
         predictor: the data used.
         residual: measured minus predicted over the scale, shape (values,).
-        fitted: the fitted model, for the hold-out error.
+        fitted: the fitted model, for the held-out error.
         left_out: the specimens predicted by the model fitted to the others, in the same order.
     """
     labels = question.specimens.labels(predictor)

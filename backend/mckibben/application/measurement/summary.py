@@ -261,7 +261,7 @@ class PreviewResult:
     measurement: MeasurementSummary | None
     """As it would be stored, without the skipped rows; None while the file cannot be used."""
     problem: UnreadableFile | None
-    """The error with which PUT would refuse the file."""
+    """The error with which an upload would refuse the file."""
     only_bad_rows: bool
     """The only problem are bad rows: the mapping {'bad_rows': 'skip'} leaves them out."""
     messages: list[str]

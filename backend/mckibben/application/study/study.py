@@ -140,7 +140,7 @@ class StudyResult:
     goals: list[str]
     """Figures of the goals."""
     confidence: float
-    """Confidence level of all intervals."""
+    """Confidence of all intervals."""
     seed: int | None
     """Seed of the random numbers; None without."""
     outcome: OutcomeName

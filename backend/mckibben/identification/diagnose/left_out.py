@@ -1,7 +1,7 @@
 r"""How well the model, fitted to the other specimens alone, predicts each specimen.
 
 The specimen is left out whole, its zero errors are not known, and what the others do not determine stays at
-its off value: the same prior as in the hold-out error of groups. With the normal equations of the others,
+its off value: the same prior as in the held-out error of groups. With the normal equations of the others,
 
 .. math:: \Delta\theta = (J^TJ + \Lambda)^{-1}\left(J^T r - \Lambda(\theta - \theta_{off})\right)
 

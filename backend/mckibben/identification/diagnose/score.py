@@ -1,4 +1,4 @@
-r"""Score of a model: the hold-out error of each fold, plus a penalty for every free parameter.
+r"""Score of a model: the held-out error of each fold, plus a penalty for every free parameter.
 
 The score of a model, lower is better, is
 

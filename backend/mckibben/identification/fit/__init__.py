@@ -1,1 +1,1 @@
-"""Fits: bounded least squares, derivatives, standard errors, hold-out error."""
+"""Fits: bounded least squares, derivatives, standard errors, held-out error."""

@@ -232,7 +232,7 @@ def compared(
     if choice:
         holdout = holdout_rmse(predictor, fit_model, choice)
         if holdout is None:
-            messages.append("only one group: there is no hold-out error")
+            messages.append("only one group: there is no held-out error")
     floor, how = noise_of(predictor, (predictor.measured - predicted) / predictor.scale, noise)
     if floor is None:
         messages.append("sweeps are too short to estimate the noise")

@@ -1,4 +1,4 @@
-"""A fitted model of a search: its parameters, its residual and its hold-out error."""
+"""A fitted model of a search: its parameters, its residual and its held-out error."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ class FittedModel:
         residual: measured minus predicted, weighted (over the scale, with allowance for reading errors),
             shape (values,).
         jacobian: derivatives of the prediction, weighted likewise, shape (values, free).
-        folds: folds of the hold-out error, see `mckibben.identification.predict.predictor.Predictor`.
+        folds: folds of the held-out error, see `mckibben.identification.predict.predictor.Predictor`.
         lost: number of values without a finite prediction, because a run stopped: their residual is the
             penalty of the optimiser, and no figure of this model may be shown.
     """

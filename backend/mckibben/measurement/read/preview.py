@@ -46,11 +46,11 @@ class PreviewColumn:
     header: str
     """Header of the file; the key of a mapping."""
     channel: str | None
-    """The guessed or chosen channel; None = not used."""
+    """The proposed or chosen channel; None = not used."""
     unit: str | None
-    """The guessed, given or chosen unit; None = not used."""
+    """The proposed, stated or chosen unit; None = not used."""
     unit_given: bool
-    """The unit is stated in the header or was chosen, not guessed."""
+    """The unit is stated in the header or was chosen, not proposed."""
     absolute: bool | None
     """An absolute pressure; None = not stated, gauge is assumed."""
     minimum: float | None

@@ -24,16 +24,16 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.units import convert
 
 PROPOSED = "proposed"  # origin of a column that only its unit and its numbers tell
-_SHORTEST = 0.5  # of its greatest length; no muscle shortens further
+_SHORTEST = 0.5  # of its largest length; no muscle shortens further
 _LONGEST = 1.15  # of the rest length, under load
-_FROM_ZERO = 0.5  # of its greatest value; a stroke begins lower
+_FROM_ZERO = 0.5  # of its largest value; a stroke begins lower
 
 
 def with_proposed_stroke(source: RawTable, meaning: Meaning, given: Mapping[str, object]) -> Meaning:
     """The meaning with a stroke, where exactly one column of lengths can be it.
 
     A pulled muscle becomes longer and air shortens it: a column that follows this from zero on is a
-    displacement, one that runs the other way and stays above half of its greatest value is a length; below
+    displacement, one that runs the other way and stays above half of its largest value is a length; below
     zero it is a displacement that counts the other way. A rest length in the file, or in ``given``, has to
     agree.
     """

@@ -190,7 +190,7 @@ def _strokes(evidence: Evidence) -> list[Question]:
 
 
 def _span(evidence: Evidence, index: int) -> tuple[float, float] | None:
-    """Least and greatest value of a column; None where it does not change."""
+    """Smallest and largest value of a column; None where it does not change."""
     both = evidence.pair(index, index)
     if both is None or not len(both[0]) or float(np.ptp(both[0])) == 0.0:
         return None
