@@ -53,7 +53,6 @@ def test_pow_loses_no_more_than_its_exponent_takes(lanes):
     assert np.all(np.abs(evaluated(X**Y, x, y, lanes) / exact - 1) < 3e-15 + 3e-16 * size)
 
 
-# Every second quotient or root may be computed in another way: each expression in both places.
 QUOTIENTS = [X / Y, se.sqrt(se.Abs(X)), Y / X, se.sqrt(se.Abs(Y)), 1 / X]
 BOTH_ORDERS = (QUOTIENTS, QUOTIENTS[1:] + QUOTIENTS[:1])
 

@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from mckibben.simulation.integrate.coefficients import GAMMA
 from mckibben.simulation.integrate.elimination import Plan
-from mckibben.simulation.integrate.lane_quotients import Quotients
-from mckibben.simulation.integrate.lane_writer import has_quotients
 from mckibben.simulation.integrate.machine_code import number
 
 
@@ -23,7 +21,6 @@ class _Code:
         self.lanes, self.real = lanes, f"<{lanes} x double>"
         self.lines: list[str] = []
         self.declared: set[str] = set()
-        self._quotients = Quotients(self.new, self.declared.add) if has_quotients(lanes) else None
 
     def new(self, text: str) -> str:
         name = f"%t{len(self.lines)}"
@@ -42,9 +39,6 @@ class _Code:
     def of(self, operation: str, a: str, b: str) -> str:
         return self.new(f"{operation} contract {self.real} {a}, {b}")
 
-    def quotient(self, a: str, b: str) -> str:
-        return self._quotients.quotient(a, b) if self._quotients else self.of("fdiv", a, b)
-
     def number(self, value: float) -> str:
         return f"splat (double {number(value)})"
 
@@ -54,7 +48,7 @@ class _Code:
 
     def factorise(self, plan: Plan) -> list[str]:
         absolute, truth = f"llvm.fabs.v{self.lanes}f64", f"<{self.lanes} x i1>"
-        shift = self.quotient(self.number(1.0 / GAMMA), self.load("data", 0))
+        shift = self.of("fdiv", self.number(1.0 / GAMMA), self.load("data", 0))
         matrix = {
             place: self.new(f"fneg {self.real} {self.load('in', entry)}")
             for entry, place in enumerate(plan.places.tolist())
@@ -67,7 +61,7 @@ class _Code:
             # A NaN is taken: it compares false later.
             keeps = self.new(f"fcmp oge {self.real} {size}, {least}")
             least = self.new(f"select {truth} {keeps}, {self.real} {least}, {self.real} {size}")
-            matrix[pivot] = self.quotient(self.number(1.0), matrix[pivot])
+            matrix[pivot] = self.of("fdiv", self.number(1.0), matrix[pivot])
             for place in plan.lower[low:low_end].tolist():
                 matrix[place] = self.of("fmul", matrix[place], matrix[pivot])
             for target, below, right in plan.updates[first:stop].tolist():

@@ -14,7 +14,6 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 from typing import Any
 
-from mckibben.simulation.integrate.lane_quotients import Quotients
 from mckibben.simulation.integrate.machine_code import Writer, number
 
 _LN2_HIGH, _LN2_LOW = 6.93147180369123816490e-01, 1.90821492927058770002e-10
@@ -43,11 +42,6 @@ def lanes_of_machine() -> int:
     return 4 if features.get("avx2") else 2
 
 
-def has_quotients(lanes: int) -> bool:
-    """Whether rows of this many lanes have `mckibben.simulation.integrate.lane_quotients`."""
-    return lanes == 8 and lanes_of_machine() == 8
-
-
 def has_blend(lanes: int) -> bool:
     """Whether rows of this many lanes are registers of AVX, which has a blending instruction."""
     return lanes == 4 and lanes_of_machine() == 4
@@ -65,12 +59,6 @@ class LaneWriter(Writer):
     def __init__(self, arguments: Sequence[Any], shared: Mapping[Any, Any]) -> None:
         super().__init__(arguments, shared)
         self._whole = f"<{self.lanes} x i64>"
-        self._quotients = Quotients(self._new, self.declared.add) if has_quotients(self.lanes) else None
-
-    def _binary(self, operation: str, a: str, b: str) -> str:
-        if operation == "fdiv" and self._quotients:
-            return self._quotients.quotient(a, b)
-        return super()._binary(operation, a, b)
 
     def _number(self, value: float) -> str:
         return f"splat (double {number(value)})"
@@ -91,8 +79,6 @@ class LaneWriter(Writer):
         return self._by_lane(name, *arguments)
 
     def _instruction(self, name: str, argument: str) -> str:
-        if name == "sqrt" and self._quotients:
-            return self._quotients.root(argument)
         full = f"llvm.{name}.v{self.lanes}f64"
         self.declared.add(f"declare {self.real} @{full}({self.real})")
         return self._new(f"call {self.real} @{full}({self.real} {argument})")
