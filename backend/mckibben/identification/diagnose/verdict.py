@@ -120,7 +120,8 @@ def status_of(
         others: effects that could replace them.
         rest: structure left in the residual.
         full_scale: largest measured magnitude over the scale of the residual.
-        doubted: whether a changed entry explains the data better: missing physics cannot be distinguished from it.
+        doubted: whether a changed entry explains the data better: missing physics cannot be distinguished
+            from it.
     """
     if doubted:
         return "ambiguous"
