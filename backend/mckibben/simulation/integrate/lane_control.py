@@ -14,7 +14,7 @@ from mckibben.simulation.integrate.lane_type import (
     magnitude,
     positive_bits,
     replaced,
-    root_estimate,
+    inverse_root,
     smaller,
     splat,
     store,
@@ -68,7 +68,7 @@ def judge(at: int, together: bool, control: np.ndarray) -> int:
         squared, t = splat(control[ERROR, 0]), splat(control[INSTANT, 0])
     # 0.9 times the fourth root of 1 / error, between 0.2 and 6; one step of Newton's for 8 digits
     sound = larger(squared, splat(1e-30))
-    root = root_estimate(root_estimate(root_estimate(sound)))
+    root = inverse_root(inverse_root(inverse_root(sound)))
     second = root * root
     fourth = second * second
     root = root + (0.125 * root) * (1.0 - sound * (fourth * fourth))

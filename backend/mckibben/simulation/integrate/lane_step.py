@@ -19,7 +19,7 @@ from mckibben.simulation.integrate.lane_type import (
     larger,
     load,
     magnitude,
-    reciprocal_estimate,
+    reciprocal,
     smaller,
     splat,
     store,
@@ -117,7 +117,7 @@ def attempt(
         store(at_trial, i, new)
         store(at_packed, i, new)
         scale = splat(atol[i]) + rtol * larger(magnitude(load(at_state, i)), magnitude(new))
-        estimate = reciprocal_estimate(scale)
+        estimate = reciprocal(scale)
         share = last * (estimate + estimate * (1.0 - scale * estimate))  # 8 digits
         errors = errors + share * share
     # A pivot close to zero, or a NaN: `smaller` gives its second argument.

@@ -16,7 +16,7 @@ from numba.core.typing import templates
 from numba.core.typing.templates import ConcreteTemplate, signature
 from numba.extending import intrinsic, lower_builtin, models, register_model
 
-from mckibben.simulation.integrate.lane_writer import has_blend, has_quotients, lanes_of_machine
+from mckibben.simulation.integrate.lane_writer import has_blend, lanes_of_machine
 
 LANES = lanes_of_machine()
 _REAL = ir.DoubleType()
@@ -155,17 +155,12 @@ def _of_row(name: str) -> Any:
     return typed
 
 
-def _estimated(name: str, exact: Any) -> Any:
-    """An instruction that estimates a function to 14 bits; without it, the function."""
+def _function(made: Any) -> Any:
+    """A function of one row."""
 
     def typed(_typing: Any, _value: Any) -> Any:
         def generate(_context: Any, builder: Any, _sig: Any, args: Any) -> Any:
-            if not has_quotients(LANES):
-                return exact(builder, args[0])
-            mask = ir.IntType(8)
-            kind = ir.FunctionType(_ROW, [_ROW, _ROW, mask])
-            function = cgutils.get_or_insert_function(builder.module, kind, f"llvm.x86.avx512.{name}.pd.512")
-            return builder.call(function, [args[0], ir.Constant(_ROW, [0.0] * LANES), ir.Constant(mask, -1)])
+            return made(builder, args[0])
 
         return lanes_type(lanes_type), generate
 
@@ -262,8 +257,8 @@ store_any: Any = intrinsic(_store_any)
 stream: Any = intrinsic(_stream)
 splat: Any = intrinsic(_splat)
 magnitude: Any = intrinsic(_of_row("fabs"))
-reciprocal_estimate: Any = intrinsic(_estimated("rcp14", _one_over))
-root_estimate: Any = intrinsic(_estimated("rsqrt14", _one_over_root))  # of 1 / sqrt(x)
+reciprocal: Any = intrinsic(_function(_one_over))
+inverse_root: Any = intrinsic(_function(_one_over_root))  # of 1 / sqrt(x)
 larger: Any = intrinsic(_picked(">"))
 smaller: Any = intrinsic(_picked("<"))
 where_positive: Any = intrinsic(_where_positive)
