@@ -39,6 +39,7 @@ class Figure:
         exists_when: the condition under which it exists.
         quantity: of `mckibben.facts.units.QUANTITIES`, which says how it is shown; "" for that of the unit.
         section: heading inside the table of its group; "" without one.
+        default: SI value of an input that is left out; None without one.
         group: set by `Group`.
     """
 
@@ -50,6 +51,7 @@ class Figure:
     exists_when: Condition = ALWAYS
     quantity: str = ""
     section: str = ""
+    default: float | None = None
     group: str = ""
 
     @property

@@ -7,11 +7,13 @@ from types import MappingProxyType
 
 from mckibben.facts.figure import Figure, Group
 from mckibben.facts.run import JOINT, RUN, STEP, TRACKING
+from mckibben.facts.sizing import LIMITS, SEARCH, SIZING
+from mckibben.facts.task import TASK
 from mckibben.facts.timing import TIMING
 
 #: Name of a group -> its figures.
 GROUPS: Mapping[str, Group] = MappingProxyType(
-    {group.name: group for group in (TIMING, RUN, TRACKING, STEP, JOINT)}
+    {group.name: group for group in (TIMING, RUN, TRACKING, STEP, JOINT, TASK, SIZING, LIMITS, SEARCH)}
 )
 
 #: Key -> figure: "timing.rise_time".
