@@ -86,8 +86,8 @@ class Proposal(Frozen):
         return self._proposed.pressure
 
     @property
-    def time(self) -> float | None:
-        """Time of the stroke [s]; None without a stroke."""
+    def time(self) -> float:
+        """Time for the stroke [s]."""
         return self._proposed.time
 
     @property
@@ -97,12 +97,12 @@ class Proposal(Frozen):
 
     @property
     def air_volume_anr(self) -> float:
-        """Air per cycle at ANR [m³]."""
+        """Air per cycle at ANR [m³], of all muscles, for stroke and return."""
         return self._proposed.air_volume_anr
 
     @property
     def probability(self) -> float | None:
-        """Probability that a real drive fulfils the task, 0 to 1; None where it was not computed."""
+        """Share of the simulated specimens that succeed, 0 to 1; None where none were simulated."""
         return self._proposed.probability
 
     @property

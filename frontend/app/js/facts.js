@@ -26,5 +26,8 @@ export function figure(key) {
   return found;
 }
 
+/** Whether a figure is declared. @param {string} key */
+export const hasFigure = (key) => FIGURES.has(key);
+
 /** The figures of a group, in the order of tables. @param {string} group */
 export const figuresOf = (group) => [...FIGURES.values()].filter((each) => each.group === group);
