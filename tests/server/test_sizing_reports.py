@@ -170,7 +170,7 @@ def test_margins_are_shares_of_the_limits(lifted: tuple[str, dict]) -> None:
     ):
         (cells,) = (cells for cells in rows[name] if words(cells[0]).startswith("at "))
         assert exact(cells[2]) == pytest.approx(share, rel=1e-6, abs=1e-9), name
-    assert f"nearest limit is {LIMITS[best['binding']].label.lower()}" in text
+    assert f"nearest limit is {LIMITS[best['binding']].words}" in text
 
 
 def test_probability_alternatives_and_rejections_are_those_of_the_answer(lifted: tuple[str, dict]) -> None:

@@ -60,6 +60,11 @@ class Figure:
         return f"{self.group}.{self.name}"
 
     @property
+    def words(self) -> str:
+        """The label inside a sentence."""
+        return f"{self.label[:1].lower()}{self.label[1:]}"
+
+    @property
     def shown_as(self) -> str | None:
         """The quantity that says how it is shown; None where its unit is shown as it is."""
         return self.quantity or quantity_of(self.unit, self.name)

@@ -57,7 +57,7 @@ def reservations(proposal: Proposal, task: Task) -> tuple[str, ...]:
     """What costs a drive rank although it keeps every limit."""
     trial, most = proposal.trial, task.limits.max_impact_energy
     found = [
-        f"only {margin * 100:.2g} % margin to the limit of {LIMITS[name].label.lower()}"
+        f"only {margin * 100:.2g} % margin to the limit of {LIMITS[name].words}"
         for name, margin in trial.margins.items()
         if margin < THIN
     ]
@@ -209,8 +209,8 @@ def _reason(proposal: Proposal, best: dict[str, float]) -> str:
         texts.append(f"{aims['air'] / best['air']:.2g} times the least air")
     texts += proposal.reservations
     margin = proposal.trial.margins[proposal.trial.binding]
-    limit = LIMITS[proposal.trial.binding].label.lower()
-    texts.append(f"{SIZING['binding'].label.lower()}: {limit}, {margin * 100:.2g} % left")
+    limit = LIMITS[proposal.trial.binding].words
+    texts.append(f"{SIZING['binding'].words}: {limit}, {margin * 100:.2g} % left")
     muscle = proposal.design.group.muscle
     if muscle.extrapolated is not None:
         texts.append(f"behind all others: {muscle.extrapolated}")

@@ -72,7 +72,7 @@ def _influences(result: StudyResult, title: str) -> Figure:
                 y=[one.quantity for one in shown],
                 error_x={"array": scale.all(getattr(one, f"{value}_error") for one in shown), "color": SOFT},
                 orientation="h",
-                name=INFLUENCE[value].label.lower(),
+                name=INFLUENCE[value].words,
                 marker_color=colour,
             )
         )

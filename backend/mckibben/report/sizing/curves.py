@@ -37,7 +37,7 @@ def curves_section(material: SizingMaterial, chosen: Chosen) -> Html:
         paragraph(
             "At the end of the stroke: ",
             [
-                html(SIZING[name].label.lower(), " ", of_proposal(chosen.proposal, name), end)
+                html(SIZING[name].words, " ", of_proposal(chosen.proposal, name), end)
                 for name, end in (("stiffness", "; "), ("stiffness_closed", "."))
             ],
         ),

@@ -65,10 +65,16 @@ def _picture(material: SizingMaterial, chosen: Chosen) -> Html:
     place = _places([chosen.proposal])
     marks.append(Dots(*place, f"proposal {chosen.rank}", SECOND, 11.0, [chosen_name]))
     return chart(
-        *(Axis(SIZING[name].label, SIZING[name].scale.unit, zero=True) for name in _AXES),
+        *map(_axis, _AXES),
         marks,
         title="Time over air of the designs that fulfil the task", height=280.0, room=140.0,
     )  # fmt: skip
+
+
+def _axis(name: str) -> Axis:
+    """That of a figure; its unit says ANR."""
+    each = SIZING[name]
+    return Axis(each.label.removesuffix(" (ANR)"), each.scale.unit, zero=True)
 
 
 def _names(proposals: list[ProposedDrive], explored: list[ExploredDrive], rank: int) -> dict[int, str]:
@@ -102,7 +108,7 @@ def _proposals(material: SizingMaterial, chosen: Chosen) -> Html:
     columns = [
         Head("", number=True), Head("Drive", wide=True),
         *(Head(SIZING[name].label, number=True) for name in ("pressure", *_AXES[::-1])),
-        Head(f"{SIZING['probability'].label} ± {SIZING['probability_error'].label.lower()}", number=True),
+        Head(f"{SIZING['probability'].label} ± {SIZING['probability_error'].words}", number=True),
         Head("Reason for its rank", wide=True),
     ]  # fmt: skip
     rows: list[list[Child]] = []
@@ -141,7 +147,7 @@ def rejected_section(material: SizingMaterial) -> Html:
         Head("What would help", wide=True),
     ]
     rows = [
-        [_why(items), LIMITS[binding].label.lower(), items[0].would_work_if]
+        [_why(items), LIMITS[binding].words, items[0].would_work_if]
         for (_, _, binding), items in groups.items()
     ]
     return table(columns, rows, caption=f"{_ORDER} {_GROUPED}", whole=False)

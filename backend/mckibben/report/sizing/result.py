@@ -75,7 +75,7 @@ def _tiles(chosen: Chosen, operation: TaskOperation) -> list[tuple[Child, Child]
     names = ["impact_energy_stroke", "impact_energy_return", "installed_length", "outer_diameter"]
     pairs += [(SIZING[name].label, of_proposal(proposal, name)) for name in names]
     remaining = percent(max(nearest.share, 0.0)) if nearest.share > _USED_UP else "used up"
-    pairs.append((f"{SIZING['binding'].label}: {LIMITS[nearest.name].label.lower()}", remaining))
+    pairs.append((f"{SIZING['binding'].label}: {LIMITS[nearest.name].words}", remaining))
     return pairs
 
 

@@ -29,7 +29,7 @@ def margins_section(chosen: Chosen) -> Html:
         level=_LONGEST if max(margin.share for margin in chosen.margins) < _LONGEST else None,
     )
     caption = (
-        f"The nearest limit is {LIMITS[nearest.name].label.lower()}. {SIZING['margins'].label}: "
+        f"The nearest limit is {LIMITS[nearest.name].words}. {SIZING['margins'].label}: "
         f"{SIZING['margins'].definition} A full bar is 100 % or more."
     )
     columns = [
@@ -110,7 +110,7 @@ def uncertainty_section(chosen: Chosen) -> Html:
 
 def _at_rest(margins: Sequence[Margin]) -> list[str]:
     """The limits that no specimen is asked for."""
-    names = [LIMITS[margin.name].label.lower() for margin in margins if margin.name not in _TIMES]
+    names = [LIMITS[margin.name].words for margin in margins if margin.name not in _TIMES]
     return [f"Limits at rest that no specimen is asked for: {', '.join(names)}."] if names else []
 
 

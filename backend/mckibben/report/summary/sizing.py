@@ -28,7 +28,7 @@ def summary_of(result: SizingResult, name: str) -> Summary:
         proposal_table(result, name),
         *([result.ranking] if result.proposals and result.ranking is not None else []),
         *(
-            f"– {item.why} [{LIMITS[item.binding].label.lower()}]; it would work with {item.would_work_if}"
+            f"– {item.why} [{LIMITS[item.binding].words}]; it would work with {item.would_work_if}"
             for item in shown
         ),
         *([f"– and {others} further choices of parts"] if others else []),
@@ -55,13 +55,13 @@ def proposal_table(result: SizingResult, name: str) -> Table:
             item.tube or "–",
             *(_shown(getattr(item, name), SIZING[name]) for name in _FIGURES),
             _shown(item.margins[item.binding], SIZING["margins"], 2),
-            LIMITS[item.binding].label.lower(),
+            LIMITS[item.binding].words,
         ]
         for item in result.proposals
     ]
     header = [
         "muscle", "valve", "tube",
-        *(SIZING[name].label.lower() for name in (*_FIGURES, "margins", "binding")),
+        *(SIZING[name].words for name in (*_FIGURES, "margins", "binding")),
     ]  # fmt: skip
     counted = f"{result.combinations} combinations, {result.simulated} simulated"
     heading = heading_of(result.about, name)

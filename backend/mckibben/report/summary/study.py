@@ -40,10 +40,10 @@ def notices(result: StudyResult) -> list[str]:
 def _figure_table(result: StudyResult, name: str) -> Table:
     shares = ("5", "50", "95")
     heads = [
-        "figure", "unit", SUMMARY["count"].label.lower(), SUMMARY["mean"].label.lower(),
+        "figure", "unit", SUMMARY["count"].words, SUMMARY["mean"].words,
         f"± ({_level(result)})",
-        *(SUMMARY[name].label.lower() for name in ("deviation", "least")),
-        *(f"{share} %" for share in shares), SUMMARY["most"].label.lower(),
+        *(SUMMARY[name].words for name in ("deviation", "least")),
+        *(f"{share} %" for share in shares), SUMMARY["most"].words,
     ]  # fmt: skip
     rows = [_figure_row(item, shares) for item in result.summary]
     made = (
@@ -128,7 +128,7 @@ def _influence_tables(result: StudyResult) -> list[Table]:
         difference = WATCHED[item.figure].scale._replace(offset=0.0)
         in_unit = names[0] == "mean_size"
         scale = difference if in_unit else INFLUENCE[names[0]].scale
-        heads = ["quantity", *(INFLUENCE[name].label.lower() for name in names)]
+        heads = ["quantity", *(INFLUENCE[name].words for name in names)]
         ordered = sorted(item.influences, key=lambda one: -(getattr(one, names[0]) or 0.0))
         rows = [[one.quantity, *(_shown(getattr(one, name), scale, 3) for name in names)] for one in ordered]
         unit = f" ({pretty(scale.unit)})" if scale.unit else ""
@@ -143,8 +143,8 @@ def _correlation_table(result: StudyResult) -> list[Table]:
     rows = [
         [item.quantity, _label(item.figure), figure(item.rank_correlation, 3)] for item in result.correlations
     ]
-    label = INFLUENCE["rank_correlation"].label
-    return [Table(f"{label}s", ["quantity", "figure", label.lower()], rows[: 2 * _ROWS])]
+    each = INFLUENCE["rank_correlation"]
+    return [Table(f"{each.label}s", ["quantity", "figure", each.words], rows[: 2 * _ROWS])]
 
 
 def _front_table(result: StudyResult) -> list[Table]:

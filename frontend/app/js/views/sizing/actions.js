@@ -1,5 +1,6 @@
 // @ts-check
 // What can be done with a proposal: open it in the Design or Transient view, write a report, save a table.
+import { inSentence } from "../../facts.js";
 import { signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { ApiError, postForText } from "../../server/client.js";
@@ -102,8 +103,8 @@ function proposalTable() {
   return {
     columns: [
       ...["rank", "muscle", "muscles", "valve", "tube"].map((title) => ({ title, text: true })),
-      ...figures.map(({ label }, i) => ({ title: label.toLowerCase(), unit: scales[i].unit })),
-      { title: sizingFigure("binding").label.toLowerCase(), text: true },
+      ...figures.map(({ label }, i) => ({ title: inSentence(label), unit: scales[i].unit })),
+      { title: inSentence(sizingFigure("binding").label), text: true },
     ],
     rows: proposals.peek().map((p, i) => [
       String(i + 1),

@@ -1,5 +1,6 @@
 // @ts-check
 // The inputs of a task in grouped cards; what is rarely changed is collapsed.
+import { inSentence } from "../../facts.js";
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { presets } from "../../store.js";
@@ -116,7 +117,7 @@ const card = (title, paths, ...body) =>
 function statedWords(paths) {
   const stated = paths.filter((path) => valueAt(path) !== undefined);
   return stated.map((path) => {
-    const { label, quantity, whole } = fieldOf(path), value = valueAt(path), name = label.toLowerCase();
+    const { label, quantity, whole } = fieldOf(path), value = valueAt(path), name = inSentence(label);
     if (Array.isArray(value)) return value.length > 2 ? `${value.length} ${name}` : value.join(", ");
     if (typeof value !== "number") return name;
     return `${name} ${quantity && !whole ? asText(value, quantity) : String(value)}`;
@@ -126,7 +127,7 @@ function statedWords(paths) {
 function usualWords(path) {
   const { label, quantity, default: usual } = fieldOf(path);
   if (!isNumber(path) || !quantity || !usual) return "defaults";
-  return `defaults: ${label.toLowerCase()} ${asText(usual, quantity)} …`;
+  return `defaults: ${inSentence(label)} ${asText(usual, quantity)} …`;
 }
 /** Fields that are rarely changed, collapsed; an error in one opens them.
  * @param {string} summary @param {string[]} paths @param {import("../../dom.js").Child[]} more */

@@ -1,5 +1,6 @@
 // @ts-check
 // The selected proposal in figures, what can be done with it, and how the search went.
+import { inSentence } from "../../facts.js";
 import { h, icon } from "../../dom.js";
 import { openPopover } from "../../ui/dialog.js";
 import { openInDesign, openInTransient, saveReport, writing } from "./actions.js";
@@ -24,7 +25,7 @@ function verdict(p) {
   }
   const grade = probability >= LIKELY ? "good" : probability >= DOUBTFUL ? "warn" : "bad";
   const { definition } = sizingFigure("probability"), { label } = sizingFigure("probability_error");
-  const range = error ? ` ± ${percent(error)} (${label.toLowerCase()})` : "";
+  const range = error ? ` ± ${percent(error)} (${inSentence(label)})` : "";
   return h(
     "p",
     { class: `verdict ${grade}` },

@@ -1,5 +1,6 @@
 // @ts-check
 // The fields of a task, each with its explanation and the server's message.
+import { inSentence } from "../../facts.js";
 import { h } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { commit, preview, units } from "../../state.js";
@@ -12,7 +13,7 @@ import { fieldOf } from "./specs.js";
 /** @param {string} path @param {{needed?: boolean}} [o] needed: it cannot be left at its default */
 export function taskField(path, { needed = false } = {}) {
   const { label, quantity, unit, bounds, default: usual, empty, whole, definition } = fieldOf(path);
-  const name = label.toLowerCase();
+  const name = inSentence(label);
   const entered = computed(() => valueAt(path));
   const reset = () => setTask(path, undefined, `default ${name}`);
   return h(

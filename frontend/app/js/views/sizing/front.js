@@ -1,5 +1,6 @@
 // @ts-check
 // Trade-offs: all drives that fulfil the task over two aims. A click selects a proposal.
+import { inSentence } from "../../facts.js";
 import { h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { units } from "../../state.js";
@@ -90,7 +91,7 @@ const axisChoice = (which, label) =>
     },
   }, () =>
     AIM_NAMES.map((aim) =>
-      h("option", { value: aim, selected: axes.value[which] === aim }, aimOf(aim).label.toLowerCase())
+      h("option", { value: aim, selected: axes.value[which] === aim }, inSentence(aimOf(aim).label))
     ));
 
 const legend = () =>
@@ -210,7 +211,7 @@ function pointedLine() {
   }
   const [ax, ay] = axes.value;
   const figure = (/** @type {Aim} */ aim) =>
-    `${aimOf(aim).label.toLowerCase()} ${asText(aimOf(aim).of(e), aimOf(aim).quantity)}`;
+    `${inSentence(aimOf(aim).label)} ${asText(aimOf(aim).of(e), aimOf(aim).quantity)}`;
   return [
     h("b", null, driveWords(e)),
     `, ${partsWords(e)}: ${figure(ax)}, ${figure(ay)}. Estimated coarsely; not among the proposals.`,

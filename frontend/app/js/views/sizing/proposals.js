@@ -1,5 +1,6 @@
 // @ts-check
 // The ranked list: one row per proposal, with its reasons and margins below it on request.
+import { inSentence } from "../../facts.js";
 import { capitalized, scaleOf, toShown } from "../../format.js";
 import { h, icon } from "../../dom.js";
 import { effect, signal } from "../../reactive.js";
@@ -213,7 +214,7 @@ export function proposalsCard() {
             h("th", { scope: "col", class: "text" }, "Drive"),
             ...COLUMNS.map(([kind, name]) => {
               const { label, definition } = sizingFigure(name), [title, note] = label.split(" (ANR)");
-              const small = name === "margins" ? sizingFigure("binding").label.toLowerCase() : "ANR";
+              const small = name === "margins" ? inSentence(sizingFigure("binding").label) : "ANR";
               return h(
                 "th",
                 { scope: "col", class: kind, title: definition },

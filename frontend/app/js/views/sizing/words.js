@@ -1,7 +1,7 @@
 // @ts-check
 // Drives, their figures, limits and aims in words, with the user's units.
 import { h } from "../../dom.js";
-import { figure } from "../../facts.js";
+import { figure, inSentence } from "../../facts.js";
 import { units } from "../../state.js";
 import { withUnit } from "../../format.js";
 
@@ -61,7 +61,7 @@ export const terms = (p, names) =>
   });
 
 /** @param {string} name */
-export const limitName = (name) => figure(`limit.${name}`).label.toLowerCase();
+export const limitName = (name) => inSentence(figure(`limit.${name}`).label);
 
 /** The figure of each aim. @type {Record<Aim, keyof Design>} */
 const AIMS = {

@@ -1,7 +1,7 @@
 // @ts-check
 // What the runs show: figures with their spread, probabilities of the limits, influences, designs.
 import { h } from "../../dom.js";
-import { figure } from "../../facts.js";
+import { figure, inSentence } from "../../facts.js";
 import { toShown } from "../../format.js";
 import { computed, signal } from "../../reactive.js";
 import { units } from "../../state.js";
@@ -183,7 +183,7 @@ function influences(a, path) {
     const error = isSobol ? i.total_error : i.mean_size_error, value = size(i);
     const text = (/** @type {number | null} */ v) => isSobol ? digits(v) : valueText(v, scale);
     const alone = isSobol
-      ? `, ${figure("influence.first").label.toLowerCase()} ${text(i.first)} ± ${text(i.first_error)}`
+      ? `, ${inSentence(figure("influence.first").label)} ${text(i.first)} ± ${text(i.first_error)}`
       : "";
     return bar({
       name: titleOf(i.quantity),
