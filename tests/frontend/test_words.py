@@ -14,7 +14,7 @@ from mckibben.physics.catalogue import default_catalogue
 ROOT = Path(__file__).resolve().parents[2]
 WORDS = ROOT / "frontend" / "WORDS.md"
 MODULES = ROOT / "frontend" / "app" / "js"
-REPORTS = ROOT / "backend" / "mckibben" / "report"
+SHOWN = [ROOT / "backend" / "mckibben" / folder for folder in ("report", "facts")]
 MOST_LINES = 60
 
 _COMMENT = re.compile(r"/\*.*?\*/|(?<![:\"'`])//[^\n]*", re.DOTALL)
@@ -75,7 +75,7 @@ def texts() -> Iterator[tuple[str, str]]:
         yield from (
             (path.relative_to(ROOT).as_posix(), text) for text in of_javascript(path.read_text("utf-8"))
         )
-    for path in REPORTS.rglob("*.py"):
+    for path in (path for folder in SHOWN for path in folder.rglob("*.py")):
         yield from ((path.relative_to(ROOT).as_posix(), text) for text in of_python(path.read_text("utf-8")))
     for effect in default_catalogue().values():
         twins = (twin.separated_by for twin in effect.confused_with)

@@ -94,7 +94,7 @@ def uncertainty_section(chosen: Chosen) -> Html:
         heading("What this share means"),
         bullets(
             [
-                f"{SIZING['probability'].definition}",
+                SIZING["probability"].definition,
                 html(
                     "The spread itself is an assumption ", mark("not measured on these parts"), "; "
                     "change it in the task if you know better.",
