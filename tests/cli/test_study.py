@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
+from mckibben.facts.study import WATCHED
 from tests.application.study.test_study import STUDY
 from tests.cli.conftest import Run, result_of, write
 
@@ -28,6 +29,14 @@ def test_the_summary_has_statistics_and_probabilities(run: Run) -> None:
     assert "Lift: monte carlo, 20 runs" in out
     assert "100 % (83.2 … 100)" in out  # 0.025^(1/20)
     assert "Rank correlations" in out
+    # Figures have their labels and units: the mean in ms is that of the result in s.
+    code, text, _ = run("study", "study.json", "--json")
+    assert code == 0
+    mean = next(i["mean"]["value"] for i in result_of(text)["summary"] if i["figure"].endswith("rise_time"))
+    row = next(line for line in out.splitlines() if WATCHED["timing.extend.rise_time"].label in line)
+    assert f"{1e3 * mean:.4g}" in row.split()
+    assert "ms" in row.split()
+    assert "± (95 %)" in out
 
 
 def test_what_is_wrong_is_one_line(run: Run) -> None:

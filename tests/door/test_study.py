@@ -52,7 +52,7 @@ def test_each_method_has_its_figure(monte_carlo: Study) -> None:
     assert [trace.name for trace in front.plot().data] == ["runs", "Pareto front"]
     assert len(front.plot().data[1].x) == len(front.front)
     bars = mk.study(STUDY | {"quantities": ranges, "method": {"type": "sobol", "samples": 8}}).plot()
-    assert [trace.name for trace in bars.data] == ["with interactions", "alone"]
+    assert [trace.name for trace in bars.data] == ["with all interactions", "alone"]
 
 
 def test_files_and_progress(tmp_path: Path, monte_carlo: Study) -> None:

@@ -42,6 +42,13 @@ def material(**changes: Any) -> SizingMaterial:
     return SizingMaterial(**(given | changes))
 
 
+MARGINS = [
+    Margin("time", 0.5, 0.4, True, 0.25),
+    Margin("force", 1.1, 1.65, False, 0.5),
+    Margin("life", 1e5, 1e6, False, 9.0),
+]
+
+
 class Picked:
     """The fields of a chosen proposal that a section reads."""
 
@@ -60,45 +67,41 @@ def cells(part: str) -> list[list[str]]:
 
 
 @pytest.mark.parametrize(
-    ("value", "unit", "shown"),
+    ("path", "value", "shown"),
     [
-        (0.06, "m", "60 mm"),
-        (6e5, "Pa", "6 bar"),
-        (293.15, "K", "20 °C"),
-        (0.2, "%", "20 %"),
-        (1.0471975511965976, "rad", "60°"),
-        (2000.0, "N/m", "2 N/mm"),
-        (2.0, "N*m", "2 N·m"),
-        (0.5, "1", "0.5"),
-        (2.0, "", "2"),
-        (1e6, "1", "1·10⁶"),
-        ("balanced", "", "balanced"),
-        (None, "s", "none"),
+        ("stroke", 0.06, "60 mm"),
+        ("supply_pressure", 6e5, "6 bar"),
+        ("ambient_temperature", 293.15, "20 °C"),
+        ("limits.max_contraction", 0.2, "20 %"),
+        ("load.pair.angle", 1.0471975511965976, "60°"),
+        ("stiffness", 2000.0, "2 N/mm"),
+        ("load.pair.torque", 2.0, "2 N·m"),
+        ("load.pair.inertia", 0.02, "0.02 kg·m²"),
+        ("load.lever_ratio", 0.5, "0.5"),
+        ("limits.max_parallel", 2.0, "2"),
+        ("operation.cycles_per_year", 1e6, "1·10⁶"),
+        ("rank_by", "balanced", "balanced"),
+        ("time", None, "none"),
     ],
 )
-def test_values_are_shown_as_people_write_them(value: float | str | None, unit: str, shown: str) -> None:
-    entry = Entry("stroke", value, unit, True, "")
+def test_values_are_shown_as_people_write_them(path: str, value: float | str | None, shown: str) -> None:
+    entry = Entry(path, value, True, "")
     assert text_of(entry_value(entry)).replace("\xa0", " ") == shown
 
 
 def test_a_task_tells_what_is_given_and_names_what_is_open() -> None:
     entries = [
-        Entry("load.mass", 20.0, "kg", True, "Moved mass. 0: only what is stated is moved."),
-        Entry("limits.force_reserve", 0.1, "%", False, "Share. 10 %: so much do specimens differ."),
-        Entry("time_down", None, "s", False, "For the way back."),
+        Entry("load.mass", 20.0, True, "Moved mass. 0: only what is stated is moved."),
+        Entry("limits.force_reserve", 0.1, False, "Share. 10 %: so much do specimens differ."),
+        Entry("time_down", None, False, "For the way back."),
     ]
     section = task_section(material(entries=entries))
-    assert cells(section) == [["Moved mass", "20\xa0kg", "Moved mass."]]
+    assert cells(section) == [["Mass", "20\xa0kg", "Moved mass."]]
     assert "Not stated: time for the return." in section
 
 
 def test_margins_are_drawn_to_scale_and_the_nearest_is_named() -> None:
-    margins = [
-        Margin("time", 0.5, 0.4, "s", True, 0.25),
-        Margin("force", 1.1, 1.65, "1", False, 0.5),
-        Margin("life", 1e5, 1e6, "1", False, 9.0),
-    ]
-    section = margins_section(Picked(margins=margins))  # pyright: ignore[reportArgumentType]
+    section = margins_section(Picked(margins=MARGINS))  # pyright: ignore[reportArgumentType]
     bars = [e for e in ElementTree.fromstring(f"<r>{section}</r>").iter() if e.tag.endswith("rect")]
     widths = [float(bar.attrib["width"]) for bar in bars]
     assert widths[1] == pytest.approx(2 * widths[0], rel=1e-3)
@@ -107,7 +110,7 @@ def test_margins_are_drawn_to_scale_and_the_nearest_is_named() -> None:
     assert "The nearest limit is time for the stroke" in section
     assert section.count("&gt; 100 %") == 2  # the table reads like the name of its bar
     rows = {row[0]: row[1:] for row in cells(section)}
-    assert rows["Force over load, at rest"] == [
+    assert rows["Force beyond the reserve"] == [
         "at least 1.10 × the load",
         "1.65 × the load",
         "50 %",
@@ -119,12 +122,14 @@ def test_margins_are_drawn_to_scale_and_the_nearest_is_named() -> None:
 def test_a_probability_says_what_it_is_a_share_of() -> None:
     spread = SpecimenSpread(0.1, 0.004, None, 0.0, 0.03, ["arrives"])
     proposal = Picked(probability=0.9, probability_error=0.03, specimens=100)
-    section = uncertainty_section(Picked(proposal=proposal, spread=spread))  # pyright: ignore[reportArgumentType]
+    section = uncertainty_section(Picked(proposal=proposal, spread=spread, margins=MARGINS))  # pyright: ignore[reportArgumentType]
     words = text_of(section).replace("\xa0", " ")
-    assert "90 % of 100 simulated specimens fulfil the task" in words
+    assert "90 % of 100 simulated specimens succeed" in words
     assert "between 84 and 96 %" in words  # two standard errors
     assert "± 0.80 % of the length" in words  # two standard deviations of the shift
-    assert "not a failure rate" in words
+    assert "wear and failures are not part of it" in words
+    # What no specimen is asked for is named; the times are not among it.
+    assert "Limits at rest that no specimen is asked for: force beyond the reserve, load" in words
     assert "unknown for this muscle" in words
     none = uncertainty_section(Picked(proposal=proposal, spread=None))  # pyright: ignore[reportArgumentType]
     assert "is unknown" in none
@@ -140,11 +145,11 @@ def test_rejections_of_the_same_muscles_are_told_once_and_counted() -> None:
         "V1 is slow. And 2 more with other valves and tubes.",
         "one A is too weak.",
     ]
-    assert [row[1] for row in rows] == ["time for the stroke", "force over load, at rest"]
+    assert [row[1] for row in rows] == ["time for the stroke", "force beyond the reserve"]
 
 
 def test_a_report_without_a_drive_is_well_formed_and_takes_texts_as_texts() -> None:
-    entry = Entry("load.mass", NASTY, "", True, NASTY)
+    entry = Entry("load.mass", NASTY, True, NASTY)
     rejected = replace(REJECTED, why=NASTY, would_work_if=NASTY)
     result = replace(NOTHING, about=NASTY, rejected=[rejected], message=NASTY)
     command = Command([NASTY], {NASTY: NASTY}, [NASTY])

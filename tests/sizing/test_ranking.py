@@ -23,7 +23,7 @@ def proposal(
     probability: float = 0.99,
     error: float = 0.01,
     margin: float = 0.3,
-    impact: float = 1.0,
+    impacts: tuple[float, float] = (1.0, 1.0),
     extrapolated: str | None = None,
     length: float = 0.3,
 ) -> Proposal:
@@ -41,7 +41,7 @@ def proposal(
         force_reserve=0.5,
         worth=lambda: air,
     )
-    return Proposal(trial, impact, 0.1, 0.2, 1e5, 2e5, chance=Chance(probability, error, 100))
+    return Proposal(trial, impacts, 0.1, 0.2, 1e5, 2e5, chance=Chance(probability, error, 100))
 
 
 def order(*proposals: Proposal, task: Task = AIR) -> list[str]:
@@ -55,7 +55,9 @@ def test_a_difference_within_the_uncertainty_is_a_tie_and_goes_by_what_the_task_
     assert order(dear, cheap) == order(cheap, dear) == ["cheap", "dear"]
     sentence = why_first(ranked([dear, cheap], AIR), AIR)
     assert sentence is not None
-    assert sentence.startswith("cheap comes before dear: their probabilities, 93 ± 2 % and 95 ± 2 %, do not")
+    assert sentence.startswith(
+        "cheap comes before dear: the shares of specimens that succeed, 93 ± 2 % and 95 ± 2 %, do not differ"
+    )
     assert "1.15 l of air a cycle, not 2.19 l" in sentence
 
 
@@ -63,7 +65,9 @@ def test_a_difference_beyond_the_uncertainty_counts() -> None:
     sure = proposal("sure", air=2e-3, probability=0.99, error=0.005)
     unsure = proposal("unsure", air=1e-3, probability=0.9, error=0.01)
     assert order(unsure, sure) == ["sure", "unsure"]
-    assert "99 ± 0.5 % probability, not 90 ± 1 %" in str(why_first(ranked([sure, unsure], AIR), AIR))
+    assert "99 ± 0.5 % of its specimens succeed, not 90 ± 1 %" in str(
+        why_first(ranked([sure, unsure], AIR), AIR)
+    )
 
 
 def test_a_drive_that_probably_fails_comes_last_even_without_reservations() -> None:
@@ -74,9 +78,13 @@ def test_a_drive_that_probably_fails_comes_last_even_without_reservations() -> N
 
 @pytest.mark.parametrize(
     ("changes", "words"),
-    [({"margin": 0.01}, "only 1 % margin to the limit of contraction"), ({"impact": 7.0}, "impact of 7 J")],
+    [
+        ({"margin": 0.01}, "only 1 % margin to the limit of contraction"),
+        ({"impacts": (7.0, 1.0)}, "impact of 7 J on the stroke"),
+        ({"impacts": (3.0, 7.0)}, "impact of 7 J on the return"),  # the stroke is gentle, the return is not
+    ],
 )
-def test_a_thin_margin_and_a_hard_impact_cost_rank(changes: dict[str, float], words: str) -> None:
+def test_a_thin_margin_and_a_hard_impact_cost_rank(changes: dict[str, Any], words: str) -> None:
     task = replace(AIR, limits=DesignLimits(max_impact_energy=5.0))
     worse = proposal("worse", air=1e-3, probability=0.999, error=1e-3, **changes)
     better = proposal("better", air=2e-3, probability=0.95, error=0.01)
@@ -87,7 +95,7 @@ def test_a_thin_margin_and_a_hard_impact_cost_rank(changes: dict[str, float], wo
 
 
 def test_an_impact_costs_nothing_where_the_task_states_no_limit() -> None:
-    assert reservations(proposal("hard", air=1e-3, impact=100.0), AIR) == ()
+    assert reservations(proposal("hard", air=1e-3, impacts=(100.0, 100.0)), AIR) == ()
 
 
 def test_a_muscle_whose_force_nobody_knows_is_never_first() -> None:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from dataclasses import replace
 from typing import Any
 
 import pytest
@@ -19,7 +20,11 @@ from mckibben.simulation.drive.transient import parameters_of
 from mckibben.simulation.integrate.engine import compiled_drive
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.sizing import size
+from mckibben.sizing import Design, Proposal, size
+from mckibben.sizing.batch import Bench
+from mckibben.sizing.catalogue import Group
+from mckibben.sizing.proposal import propose
+from mckibben.sizing.trial import trial_of
 from tests.looks import Looks
 from tests.server.answers import valid
 from tests.sizing.conftest import LIFT, sized, understood
@@ -67,10 +72,32 @@ def test_every_proposal_is_a_drive_that_runs_as_it_says(studio: Studio, name: st
         if proposal["time_down"] is not None:
             assert down.positioning_time == pytest.approx(proposal["time_down"], rel=5e-3)
         share = proposal["parallel"]
-        assert share * up.impact_energy == pytest.approx(proposal["impact_energy"], rel=0.02, abs=1e-3)
+        impacts = [share * (phase.impact_energy or 0.0) for phase in (up, down)]
+        for impact, figure in zip(impacts, ("impact_energy_stroke", "impact_energy_return"), strict=True):
+            assert impact == pytest.approx(proposal[figure], rel=0.02, abs=1e-3)
+        assert proposal["impact_energy"] == pytest.approx(max(impacts), rel=0.02, abs=1e-3)
+        assert proposal["max_speed"] == pytest.approx(max(up.max_speed, down.max_speed), rel=5e-3)
         if name != "pair":  # its second muscle takes air on the way back
             # The timing table sums rows, in which the jump of the flow at the begin is one row wide.
             assert share * up.air_volume_anr == pytest.approx(proposal["air_volume_anr"], rel=0.02)
+
+
+def test_the_impact_is_that_of_all_that_moves(studio: Studio) -> None:
+    # A balanced carriage of 3 kg moves with the load of 20 kg: E = (m + M) v^2/2 at the speed of arrival.
+    task, catalogue = understood(LIFT, studio)
+    plain, carriage = catalogue.muscles[1], studio.catalogue["moving_mass"]
+    muscle = replace(
+        plain,
+        effects=(*plain.effects, carriage),
+        values={**plain.values, "moving_mass": {"mass": 3.0, "hung": 0.0}},
+    )
+    group = Group(task.duties()[0], muscle, 1, catalogue.valves[0], catalogue.tubes[0])
+    bench = Bench(task, Watch())
+    found = propose(trial_of(Design(group, 0.4, 5e5), bench), bench)
+    assert isinstance(found, Proposal)
+    assert found.impacts[0] == pytest.approx(0.5 * 23.0 * found.end_speed**2, rel=1e-6)
+    assert found.impact_energy == max(found.impacts)
+    assert found.max_speed >= found.end_speed
 
 
 @pytest.mark.parametrize("name", TASKS)

@@ -67,7 +67,7 @@ def test_capacity_of_an_ideal_muscle(studio: Studio) -> None:
     slope = 6.0 * 5e5 * pi / 4.0 * 0.01**2 * 0.9 / (0.2 * tan(radians(25.0)) ** 2)
     assert rest.stiffness[0] == pytest.approx(2.0 * slope, rel=1e-9)
     wide = 0.01 * (1.0 - 0.81 * cos(radians(25.0)) ** 2) ** 0.5 / sin(radians(25.0))
-    assert rest.diameter[0] == pytest.approx(wide, rel=1e-9)
+    assert rest.outer_diameter[0] == pytest.approx(wide, rel=1e-9)
 
 
 def test_a_lever_changes_stroke_and_force(studio: Studio) -> None:
@@ -75,6 +75,7 @@ def test_a_lever_changes_stroke_and_force(studio: Studio) -> None:
     rest = at_rest(part, task.duties()[0], task, np.array([0.2]), np.array([5e5]), np.array([1.0]))
     assert rest.contraction[0] == pytest.approx(0.05)
     assert rest.tension[0] == pytest.approx(2.0 * 5.0 * GRAVITY, rel=1e-12)
+    assert rest.load[0] == pytest.approx(2.0 * 5.0 * GRAVITY, rel=1e-12)
     assert rest.capacity[0] == pytest.approx(5e5 * ideal_area(0.05) / (2.0 * 5.0 * GRAVITY), rel=1e-9)
 
 
@@ -85,6 +86,20 @@ def test_needed_pressure_is_that_of_the_inverse_question(studio: Studio) -> None
     model = filling_model(part, 0.4)
     answer = inverse.stroke_pressure(model, load=20.0 * GRAVITY, stroke=0.06)
     assert answer.value == pytest.approx(rest.needed[0], rel=1e-6)
+
+
+def test_the_needed_pressure_carries_the_load_on_the_whole_stroke(studio: Studio) -> None:
+    # The force falls faster than the muscle loses pull: what lifts the load decides, not what holds it.
+    profile = {"strokes": [0.0, 0.02], "forces": [100.0, 10.0]}
+    task, part = paper_muscle(studio, mass="1 kg", force_over_stroke=profile)
+    rest = at_rest(part, task.duties()[0], task, np.array([0.2]), np.array([5e5]), np.array([1.0]))
+    strokes = np.linspace(0.0, 0.02, 7)
+    loads = GRAVITY + 100.0 - 90.0 * strokes / 0.02
+    pressures = [load / ideal_area(stroke / 0.2) for load, stroke in zip(loads, strokes, strict=True)]
+    assert rest.needed[0] == pytest.approx(max(pressures), rel=1e-9)
+    assert rest.lifting[0] == pytest.approx(pressures[0], rel=1e-9)
+    assert rest.holding[0] == pytest.approx(pressures[-1], rel=1e-9)
+    assert rest.holding[0] < 0.5 * rest.needed[0]
 
 
 def test_a_force_over_the_stroke_is_never_below_its_straight_line() -> None:

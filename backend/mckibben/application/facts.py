@@ -31,6 +31,8 @@ class DeclaredFigure:
     """What is said where the condition does not hold; empty where it always holds."""
     quantity: str | None
     """Quantity of /api/units that says how it is shown; None for its SI unit."""
+    default: float | None
+    """SI value of an input that is left out; None without one."""
 
 
 @result_class
@@ -99,6 +101,7 @@ def figures() -> list[DeclaredFigure]:
             exists_when=figure.exists_when.name,
             otherwise=figure.exists_when.otherwise,
             quantity=figure.shown_as,
+            default=figure.default,
         )
         for figure in FIGURES.values()
     ]

@@ -10,6 +10,7 @@ from mckibben.documents.drive import DriveDocument, DriveOrId, OrPreset
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.strict import Strict
 from mckibben.documents.task import SizingTask
+from mckibben.facts.study import STUDY
 from mckibben.physics.errors import InputError
 
 TaskOrId = Annotated[SizingTask, OrPreset("task", "lift-20kg")]
@@ -297,7 +298,7 @@ class StudyDocument(Strict):
     )
     method: Method = Field(description="Which runs are made.")
     confidence: Annotated[float, Field(ge=0.5, le=0.9999)] = Field(
-        0.95, description="Confidence of all intervals."
+        0.95, description=STUDY["confidence"].definition
     )
 
     def figure_paths(self) -> list[str]:

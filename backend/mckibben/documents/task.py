@@ -1,4 +1,4 @@
-"""The task of ``/api/sizings`` and ``mckibben size``; the descriptions give the reason of each default."""
+"""The task of ``/api/sizings`` and ``mckibben size``; `mckibben.facts.task` says what each field is."""
 
 from __future__ import annotations
 
@@ -10,6 +10,7 @@ from mckibben.documents.drive import Inclination, LeverRatio, Mass, PulleyRadius
 from mckibben.documents.json_document import JsonDocument
 from mckibben.documents.quantity import Diameter, Force, PositivePressure, QuantityField, Temperature
 from mckibben.documents.strict import Id, Strict
+from mckibben.facts.task import TASK, usual
 
 Stroke = Annotated[float, QuantityField("m", "60 mm", above=1e-5, at_most=10.0)]
 TaskTime = Annotated[float, QuantityField("s", "0.5 s", above=1e-3, at_most=60.0)]
@@ -40,38 +41,29 @@ class ForceOverStroke(Strict):
 class PairInput(Strict):
     """Two equal muscles that pull a pulley in opposite directions."""
 
-    angle: Swing = Field(description="Total angle, from one end to the other.")
-    torque: Torque = Field(
-        0.0, description="Torque against the first muscle, over the whole angle. 0 = no torque."
-    )
-    inertia: Inertia = Field(0.0, description="Moment of inertia of all rotating parts. 0 = no inertia.")
-    pulley_radius: PulleyRadius | None = Field(
-        None, description="Radius of the pulley. Default: eight radii from 10 to 120 mm are tried."
-    )
+    angle: Swing = Field(description=TASK["load.pair.angle"].definition)
+    torque: Torque = Field(usual("load.pair.torque"), description=TASK["load.pair.torque"].definition)
+    inertia: Inertia = Field(usual("load.pair.inertia"), description=TASK["load.pair.inertia"].definition)
+    pulley_radius: PulleyRadius | None = Field(None, description=TASK["load.pair.pulley_radius"].definition)
 
 
 class TaskLoad(Strict):
     """The load. All values are those at the load; forces are positive against the pull."""
 
-    mass: Mass = Field(0.0, description="Mass moved by the muscle. 0 = no mass.")
+    mass: Mass = Field(usual("load.mass"), description=TASK["load.mass"].definition)
     inclination: Inclination = Field(
-        1.5707963267948966,
-        description="Angle between the motion and the horizontal. Default 90 deg: most loads hang.",
+        usual("load.inclination"), description=TASK["load.inclination"].definition
     )
-    force: Force = Field(0.0, description="Constant force in addition to the weight. 0 = no force.")
+    force: Force = Field(usual("load.force"), description=TASK["load.force"].definition)
     force_over_stroke: ForceOverStroke | None = Field(
-        None,
-        description="Additional force that depends on the stroke. Static calculations use it as it is; a "
-        "simulation uses the lowest straight line that is nowhere below it and does not fall.",
+        None, description=TASK["load.force_over_stroke"].definition
     )
-    spring: Stiffness = Field(
-        0.0, description="Spring against the contraction, relaxed at the start of the stroke. 0 = no spring."
-    )
+    spring: Stiffness = Field(usual("load.spring"), description=TASK["load.spring"].definition)
     counterweight: Mass = Field(
-        0.0, description="Mass on the other side of a pulley that pulls with the muscle. 0 = none."
+        usual("load.counterweight"), description=TASK["load.counterweight"].definition
     )
     lever_ratio: LeverRatio = Field(
-        1.0, description="Stroke of the muscle per stroke of the load. 1 = the muscle pulls directly."
+        usual("load.lever_ratio"), description=TASK["load.lever_ratio"].definition
     )
     pair: PairInput | None = Field(
         None, description="An antagonist pair on a pulley. No other field of the load may be given with it."
@@ -82,42 +74,24 @@ class TaskLimits(Strict):
     """Limits of a drive."""
 
     max_contraction: Reach = Field(
-        0.2,
-        description="Contraction at the end of the stroke. Default 20 %: makers allow 25 %, but there the "
-        "force is small. A lower limit of the maker takes precedence.",
+        usual("limits.max_contraction"), description=TASK["limits.max_contraction"].definition
     )
     force_reserve: Reserve = Field(
-        0.1,
-        description="Least excess of the static force over the load on the whole stroke, as a share of the "
-        "load. Default 10 %: specimens differ by this much.",
+        usual("limits.force_reserve"), description=TASK["limits.force_reserve"].definition
     )
     pressure_reserve: Share = Field(
-        0.0,
-        description="Unused share of the supply pressure. Default 0: its tolerance has a field of its own.",
+        usual("limits.pressure_reserve"), description=TASK["limits.pressure_reserve"].definition
     )
-    max_length: Room = Field(
-        1.0,
-        description="Installed length without pressure. Default 1 m. Longer muscles exist.",
-    )
+    max_length: Room = Field(usual("limits.max_length"), description=TASK["limits.max_length"].definition)
     end_fittings: Room = Field(
-        0.0, description="Length of both end fittings together. Default 0: no verified value is known."
+        usual("limits.end_fittings"), description=TASK["limits.end_fittings"].definition
     )
-    max_diameter: Diameter | None = Field(
-        None, description="Outside diameter at the end of the stroke. Leave empty for no limit."
-    )
+    max_diameter: Diameter | None = Field(None, description=TASK["limits.max_diameter"].definition)
     max_parallel: Annotated[int, Field(ge=1, le=6)] = Field(
-        2, description="Most parallel muscles. Default 2: more muscles rarely share a load evenly."
+        int(usual("limits.max_parallel")), description=TASK["limits.max_parallel"].definition
     )
-    max_impact_energy: Energy | None = Field(
-        None,
-        description="Kinetic energy of the load at the end stop that the stop can take. Leave empty for no "
-        "limit. A drive above it is proposed behind those below it.",
-    )
-    life: Cycles | None = Field(
-        None,
-        description="Load cycles. Leave empty for no limit. Makers publish no curve; the program uses an "
-        "unverified estimate (100 000 cycles at full force or contraction, 10 million without load).",
-    )
+    max_impact_energy: Energy | None = Field(None, description=TASK["limits.max_impact_energy"].definition)
+    life: Cycles | None = Field(None, description=TASK["limits.life"].definition)
 
 
 class TaskCatalogue(Strict):
@@ -126,53 +100,46 @@ class TaskCatalogue(Strict):
     muscles: list[Id] | None = Field(
         None,
         max_length=40,
-        description="Muscle presets. Default: all with complete catalogue data, because then every limit is "
-        "known.",
         examples=[["DMSP-10", "DMSP-20", "DMSP-40"]],
+        description=TASK["catalogue.muscles"].definition,
     )
     valves: list[Id] | None = Field(
-        None,
-        max_length=40,
-        description="Valve presets. Default: all switching and proportional valves with known flow.",
-        examples=[["MPYE-5-1/8-HF"]],
+        None, max_length=40, examples=[["MPYE-5-1/8-HF"]], description=TASK["catalogue.valves"].definition
     )
     tubes: list[Id] | None = Field(
-        None, max_length=20, description="Tube presets. Default: all.", examples=[["PUN-H-6x1"]]
+        None, max_length=20, examples=[["PUN-H-6x1"]], description=TASK["catalogue.tubes"].definition
     )
     tube_length: TubeLength = Field(
-        1.0, description="Tube length from the valve to each muscle; 0 for no tube. Default 1 m."
+        usual("catalogue.tube_length"), description=TASK["catalogue.tube_length"].definition
     )
 
 
 class TaskOperation(Strict):
     """How the drive is used, for the cost of its air."""
 
-    cycles_per_year: Cycles = Field(1e6, description="Cycles a year. Default one million.")
-    air_price: AirPrice = Field(
-        0.025,
-        description="Price of a cubic metre of compressed air at ANR. Default 0.025, a usual figure in euro "
-        "(general knowledge, not verified: 0.01 to 0.03).",
+    cycles_per_year: Cycles = Field(
+        usual("operation.cycles_per_year"), description=TASK["operation.cycles_per_year"].definition
     )
-    currency: Annotated[str, Field(max_length=12)] = Field("EUR", description="Currency of the price.")
+    air_price: AirPrice = Field(
+        usual("operation.air_price"), description=TASK["operation.air_price"].definition
+    )
+    currency: Annotated[str, Field(max_length=12)] = Field(
+        "EUR", description=TASK["operation.currency"].definition
+    )
 
 
 class TaskUncertainty(Strict):
     """Expected deviations of real drives from the calculation."""
 
     blocked_force: Share = Field(
-        0.1,
-        description="Two standard deviations of the blocked force between specimens. Default 10 %: published "
-        "curves of the same size differ by this much.",
+        usual("uncertainty.blocked_force"), description=TASK["uncertainty.blocked_force"].definition
     )
-    hysteresis: Share | None = Field(
-        None,
-        description="Largest width of the loop, share of the nominal length. Default: that of the catalogue.",
-    )
+    hysteresis: Share | None = Field(None, description=TASK["uncertainty.hysteresis"].definition)
     supply_pressure: Share = Field(
-        0.03, description="Largest deviation of the supply pressure. Default 3 %: a common service regulator."
+        usual("uncertainty.supply_pressure"), description=TASK["uncertainty.supply_pressure"].definition
     )
     specimens: Annotated[int, Field(ge=0, le=5000)] = Field(
-        100, description="Simulated specimens of each proposal. 100 give the probability within 5 %."
+        int(usual("uncertainty.specimens")), description=TASK["uncertainty.specimens"].definition
     )
 
 
@@ -221,24 +188,18 @@ class SizingTask(Strict):
         "", description="Name that its user gives the task, shown beside its figures."
     )
     load: TaskLoad = Field(description="The load.")
-    stroke: Stroke | None = Field(None, description="Stroke of the load; a pair has an angle instead.")
-    time: TaskTime | None = Field(None, description="Time for the stroke. Leave empty for no limit.")
-    time_down: TaskTime | None = Field(
-        None, description="Time for the return stroke. Leave empty for no limit."
-    )
-    cycle_time: TaskTime | None = Field(
-        None, description="Time for both strokes together. Leave empty for no limit."
-    )
-    speed: Speed | None = Field(None, description="Average speed of the stroke, instead of the time.")
-    stiffness: Stiffness | None = Field(
-        None,
-        description="Least stiffness at the load at the end of the stroke with an open valve (with a closed "
-        "valve it is higher). Leave empty for no limit.",
-    )
+    stroke: Stroke | None = Field(None, description=TASK["stroke"].definition)
+    time: TaskTime | None = Field(None, description=TASK["time"].definition)
+    time_down: TaskTime | None = Field(None, description=TASK["time_down"].definition)
+    cycle_time: TaskTime | None = Field(None, description=TASK["cycle_time"].definition)
+    speed: Speed | None = Field(None, description=TASK["speed"].definition)
+    stiffness: Stiffness | None = Field(None, description=TASK["stiffness"].definition)
     supply_pressure: PositivePressure = Field(
-        6e5, description="Gauge pressure of the supply. Default 6 bar, the limit of most muscles."
+        usual("supply_pressure"), description=TASK["supply_pressure"].definition
     )
-    ambient_temperature: Temperature = Field(293.15, description="Ambient temperature. Default 20 °C.")
+    ambient_temperature: Temperature = Field(
+        usual("ambient_temperature"), description=TASK["ambient_temperature"].definition
+    )
     limits: TaskLimits = Field(
         default_factory=lambda: TaskLimits.model_validate({}),
         description="What a proposed drive may need at most, and its reserves.",
@@ -256,11 +217,11 @@ class SizingTask(Strict):
         description="Expected deviations of real drives, for the probability of success.",
     )
     rank_by: Literal["balanced", "air", "time", "length", "reserve", "probability"] = Field(
-        "balanced",
-        description="Order of the proposals. Balanced: by air consumption times the square root of installed "
-        "length and number of muscles. Drives that probably fail come last in any order.",
+        "balanced", description=TASK["rank_by"].definition
     )
-    max_proposals: Annotated[int, Field(ge=1, le=30)] = Field(10, description="Most proposals. Default 10.")
+    max_proposals: Annotated[int, Field(ge=1, le=30)] = Field(
+        int(usual("max_proposals")), description=TASK["max_proposals"].definition
+    )
 
     def completed(self) -> JsonDocument:
         """The task in SI with all assumed values; reading it again gives the same search."""

@@ -39,6 +39,7 @@ class Figure:
         exists_when: the condition under which it exists.
         quantity: of `mckibben.facts.units.QUANTITIES`, which says how it is shown; "" for that of the unit.
         section: heading inside the table of its group; "" without one.
+        default: SI value of an input that is left out; None without one.
         group: set by `Group`.
     """
 
@@ -50,12 +51,18 @@ class Figure:
     exists_when: Condition = ALWAYS
     quantity: str = ""
     section: str = ""
+    default: float | None = None
     group: str = ""
 
     @property
     def key(self) -> str:
         """Key among all figures: "timing.rise_time"."""
         return f"{self.group}.{self.name}"
+
+    @property
+    def words(self) -> str:
+        """The label inside a sentence."""
+        return f"{self.label[:1].lower()}{self.label[1:]}"
 
     @property
     def shown_as(self) -> str | None:

@@ -7,12 +7,21 @@ from types import MappingProxyType
 
 from mckibben.facts.figure import Figure, Group
 from mckibben.facts.run import JOINT, RUN, STEP, TRACKING
+from mckibben.facts.sizing import LIMITS, SEARCH, SIZING
+from mckibben.facts.study import INFLUENCE, STUDY, SUMMARY, WATCHED
+from mckibben.facts.task import TASK
 from mckibben.facts.timing import TIMING
 
 #: Name of a group -> its figures.
 GROUPS: Mapping[str, Group] = MappingProxyType(
-    {group.name: group for group in (TIMING, RUN, TRACKING, STEP, JOINT)}
-)
+    {
+        group.name: group
+        for group in (
+            TIMING, RUN, TRACKING, STEP, JOINT, TASK, SIZING, LIMITS, SEARCH, WATCHED, SUMMARY, INFLUENCE,
+            STUDY,
+        )
+    }
+)  # fmt: skip
 
 #: Key -> figure: "timing.rise_time".
 FIGURES: Mapping[str, Figure] = MappingProxyType(

@@ -100,6 +100,7 @@ QUANTITIES: Mapping[str, Quantity] = MappingProxyType(
             _quantity("angle", "rad", Scale("°", _DEGREE, 2)),
             _quantity("ratio", "1", Scale("%", 0.01, 2)),
             _quantity("number", "1", Scale("", 1.0, 4)),
+            _quantity("cost", "1", Scale("per 1000 cycles", 1e-3, 4)),
             _quantity("time", "s", Scale("s", 1.0, 4)),
             _quantity("lapse", "s", Scale("ms", 1e-3, 1)),
             _quantity("frequency", "Hz", Scale("Hz", 1.0, 3)),
@@ -126,7 +127,7 @@ QUANTITIES: Mapping[str, Quantity] = MappingProxyType(
 )
 
 # Of a unit that several quantities have: the one that a value is shown as where nothing else is known.
-_NOT_THE_FIRST = {"modulus", "ratio", "lapse", "sweep", "air", "normal"}
+_NOT_THE_FIRST = {"modulus", "ratio", "cost", "lapse", "sweep", "air", "normal"}
 _OF_UNIT = {item.unit: item.name for item in QUANTITIES.values() if item.name not in _NOT_THE_FIRST}
 _MODULUS = re.compile("modulus|constant")
 

@@ -7,11 +7,12 @@ from math import ceil
 
 import numpy as np
 
+from mckibben.facts.sizing import LIFTED
 from mckibben.physics.drive_terms import HIGH_STOP
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.simulation.drive.transient import dead_times, simulate
 from mckibben.simulation.outcome import Outcome
-from mckibben.simulation.timing.evaluation import stops_of, time_step, trace_of
+from mckibben.simulation.timing.evaluation import moving_mass, stops_of, time_step, trace_of
 from mckibben.simulation.timing.table import timing
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design, switch_on
@@ -28,10 +29,10 @@ class Proposal:
 
     Attributes:
         trial: design, statics and figures of the run.
-        impact_energy: kinetic energy of the whole load at the end of the stroke [J].
-        end_speed: speed of the load there [m/s].
+        impacts: energy of all moving mass at the stop that ends the stroke, and at that of the return [J].
+        end_speed: speed of the load at the end of the stroke [m/s].
+        max_speed: largest speed of the load, of stroke and return [m/s].
         pressure_start, pressure_end: in the muscle when the load leaves its stop, and on arrival [Pa].
-        max_speed: largest speed of the load [m/s].
         chance: probability that it fulfils the task; None when no specimens were requested.
         reservations: what speaks against it although it keeps every limit.
         reason: explanation of its rank.
@@ -39,7 +40,7 @@ class Proposal:
     """
 
     trial: Trial
-    impact_energy: float
+    impacts: tuple[float, float]
     end_speed: float
     max_speed: float
     pressure_start: float
@@ -53,6 +54,11 @@ class Proposal:
     def design(self) -> Design:
         """The design."""
         return self.trial.design
+
+    @property
+    def impact_energy(self) -> float:
+        """The larger of the impacts: what the stops have to take [J]."""
+        return max(self.impacts)
 
 
 def propose(trial: Trial, bench: Bench) -> Proposal | Trial:
@@ -97,7 +103,7 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
         trace,
         fill=(on, off),
         exhaust=(off, drive.duration),
-        mass=group.duty.mass / group.parallel,
+        mass=moving_mass(drive),
         delays=dead_times(drive),
     )
     up, down = table.extend, table.retract
@@ -114,14 +120,17 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
         reached=float(np.max(trace.position[begin : end + 1])) - low,
     )
     filled = slice(begin, end + 1)
-    left = int(np.argmax(trace.position[filled] > low + 1e-5))
+    left = int(np.argmax(trace.position[filled] > low + LIFTED))
     pressures = trace.pressure[filled]
     arrived = 0.0 if time is None else float(np.interp(on + time, trace.time, trace.pressure))
     return Proposal(
         judged(design, figures, task),
-        float(up.impact_energy or 0.0) * group.parallel,
-        float(up.end_speed or 0.0),
-        float(up.max_speed or 0.0),
-        float(pressures[left]),
-        arrived,
+        impacts=(
+            float(up.impact_energy or 0.0) * group.parallel,
+            float(down.impact_energy or 0.0) * group.parallel,
+        ),
+        end_speed=float(up.end_speed or 0.0),
+        max_speed=max(float(up.max_speed or 0.0), float(down.max_speed or 0.0)),
+        pressure_start=float(pressures[left]),
+        pressure_end=arrived,
     )

@@ -7,6 +7,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mckibben.facts.sizing import LIMITS, SIZING
 from mckibben.sizing.proposal import Proposal
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial
@@ -24,8 +25,8 @@ def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
 
     1. muscles with a known curve before those whose force is extrapolated;
     2. drives that probably fulfil the task (80 % or more) before the others;
-    3. drives without a reservation before those with one: a margin below 5 %, or an impact above
-       ``limits.max_impact_energy``;
+    3. drives without a reservation before those with one: a margin below 5 %, or an impact of stroke or
+       return above ``limits.max_impact_energy``;
     4. the probability: drives within two standard errors of the best one left are a tie with it;
     5. within a tie what the task ranks by; the air if that is the probability.
     """
@@ -56,12 +57,13 @@ def reservations(proposal: Proposal, task: Task) -> tuple[str, ...]:
     """What costs a drive rank although it keeps every limit."""
     trial, most = proposal.trial, task.limits.max_impact_energy
     found = [
-        f"only {margin * 100:.2g} % margin to the limit of {name.replace('_', ' ')}"
+        f"only {margin * 100:.2g} % margin to the limit of {LIMITS[name].words}"
         for name, margin in trial.margins.items()
         if margin < THIN
     ]
     if most is not None and proposal.impact_energy > most:
-        found.append(f"an impact of {proposal.impact_energy:.3g} J, more than {most:.3g} J")
+        place = "the stroke" if proposal.impacts[0] == proposal.impact_energy else "the return"
+        found.append(f"an impact of {proposal.impact_energy:.3g} J on {place}, more than {most:.3g} J")
     return tuple(found)
 
 
@@ -77,20 +79,23 @@ def why_first(ordered: list[Proposal], task: Task) -> str | None:
     if (unknown := second.design.group.muscle.extrapolated) and not first.design.group.muscle.extrapolated:
         return f"{before}, because the force of the second is not known: {unknown}."
     if _likely(first) and not _likely(second):
-        return (
-            f"{before}, because it fulfils the task with {_share(first)} probability, not {_share(second)}."
-        )
+        return f"{before}, because {_more_succeed(first, second)}."
     if second.reservations and not first.reservations:
         return f"{before}, because the second has {second.reservations[0]}."
     reason = _by_aim(first, second, task)
     if first.chance is None or second.chance is None:
         return f"{before}, because {reason}."
     if _ties([first, second]) == [0, 0]:
-        equal = "both fulfil the task with the same probability"
+        equal = "as many specimens of both succeed"
         if _share(first) != _share(second):
-            equal = f"their probabilities, {_share(first)} and {_share(second)}, do not differ significantly"
+            shares = f"{_share(first)} and {_share(second)}"
+            equal = f"the shares of specimens that succeed, {shares}, do not differ significantly"
         return f"{before}: {equal}, and {reason}."
-    return f"{before}, because it fulfils the task with {_share(first)} probability, not {_share(second)}."
+    return f"{before}, because {_more_succeed(first, second)}."
+
+
+def _more_succeed(first: Proposal, second: Proposal) -> str:
+    return f"{_share(first)} of its specimens succeed, not {_share(second)} (± one standard error)"
 
 
 def _name(proposal: Proposal) -> str:
@@ -100,7 +105,11 @@ def _name(proposal: Proposal) -> str:
 
 def _share(proposal: Proposal) -> str:
     chance = proposal.chance
-    return "an unknown" if chance is None else f"{chance.probability * 100:.3g} ± {chance.error * 100:.1g} %"
+    return (
+        "an unknown share"
+        if chance is None
+        else f"{chance.probability * 100:.3g} ± {chance.error * 100:.1g} %"
+    )
 
 
 def _by_aim(first: Proposal, second: Proposal, task: Task) -> str:
@@ -108,7 +117,7 @@ def _by_aim(first: Proposal, second: Proposal, task: Task) -> str:
     a, b = first.trial, second.trial
     match task.rank_by:
         case "length":
-            return f"it is {a.design.length * 1e3:.0f} mm long, not {b.design.length * 1e3:.0f} mm"
+            return f"its rest length is {a.design.length * 1e3:.0f} mm, not {b.design.length * 1e3:.0f} mm"
         case "time":
             return f"it takes {a.figures.time or 0.0:.3g} s, not {b.figures.time or 0.0:.3g} s"
         case "reserve":
@@ -117,7 +126,7 @@ def _by_aim(first: Proposal, second: Proposal, task: Task) -> str:
             return f"it takes {a.air * 1e3:.3g} l of air a cycle, not {b.air * 1e3:.3g} l"
         case _:
             return (
-                f"air, length and number of muscles together are less: {a.air * 1e3:.3g} l and "
+                f"air, rest length and number of muscles together are less: {a.air * 1e3:.3g} l and "
                 f"{a.design.length * 1e3:.0f} mm, not {b.air * 1e3:.3g} l and {b.design.length * 1e3:.0f} mm"
             )
 
@@ -142,9 +151,7 @@ def _ties(proposals: list[Proposal]) -> list[int]:
 
 
 def front_of(trials: list[Trial]) -> list[bool]:
-    """Whether no other trial is at least as good in every aim and better in one: air, time, installed length,
-    force reserve, stiffness.
-    """
+    """Whether each is on the Pareto front of them, as `mckibben.facts.sizing` defines it."""
     if not trials:
         return []
     table = np.array([list(_aims(trial).values()) for trial in trials])
@@ -154,7 +161,7 @@ def front_of(trials: list[Trial]) -> list[bool]:
 
 
 def joint_front(proposals: Sequence[Proposal], explored: Sequence[Trial]) -> tuple[list[bool], list[bool]]:
-    """Whether nothing beats a proposal, and whether nothing beats an explored design: one front over both.
+    """Whether each proposal and each explored design is on the front of both together.
 
     Explored designs whose parts are proposed do not count: the proposal is the same drive, refined. They are
     on the front where it is.
@@ -200,11 +207,10 @@ def _reason(proposal: Proposal, best: dict[str, float]) -> str:
     texts = [", ".join(firsts)] if firsts else []
     if aims["air"] > best["air"] * 1.05:
         texts.append(f"{aims['air'] / best['air']:.2g} times the least air")
-    if proposal.chance is not None:
-        texts.append(f"fulfils the task with {proposal.chance.probability * 100:.0f} % probability")
     texts += proposal.reservations
     margin = proposal.trial.margins[proposal.trial.binding]
-    texts.append(f"nearest limit: {proposal.trial.binding.replace('_', ' ')}, {margin * 100:.2g} % left")
+    limit = LIMITS[proposal.trial.binding].words
+    texts.append(f"{SIZING['binding'].words}: {limit}, {margin * 100:.2g} % left")
     muscle = proposal.design.group.muscle
     if muscle.extrapolated is not None:
         texts.append(f"behind all others: {muscle.extrapolated}")

@@ -63,7 +63,9 @@ def why_at_rest(sheet: Sheet, parallel: int, lacking: Shortfall) -> str:
             return f"{who} {_carrying(task, part, parallel)}"
         case "diameter":
             room = task.limits.max_diameter or 0.0
-            return f"{at} bulges to {rest.diameter[index] * 1e3:.3g} mm; {room * 1e3:.3g} mm is available"
+            return (
+                f"{at} bulges to {rest.outer_diameter[index] * 1e3:.3g} mm; {room * 1e3:.3g} mm is available"
+            )
         case "stiffness":
             wanted = task.limits.stiffness or 0.0
             return f"{at} has a stiffness of {rest.stiffness[index]:.4g} N/m; {wanted:.4g} N/m is required"
@@ -102,8 +104,8 @@ def remedies_text(sheet: Sheet, parallel: int, lacking: Shortfall, others: tuple
                 else:
                     texts.append(f"{share / (1.0 + share) * 100:.2g} % less load")
             case "diameter":
-                more = rest.diameter[index] - (task.limits.max_diameter or 0.0)
-                texts.append(f"{rest.diameter[index] * 1e3:.3g} mm of diameter (+{more * 1e3:.2g} mm)")
+                more = rest.outer_diameter[index] - (task.limits.max_diameter or 0.0)
+                texts.append(f"{rest.outer_diameter[index] * 1e3:.3g} mm of diameter (+{more * 1e3:.2g} mm)")
             case "suspended_mass":
                 texts.append(f"{share / (1.0 + share) * 100:.2g} % less mass")
             case "stiffness":

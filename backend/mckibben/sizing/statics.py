@@ -70,11 +70,13 @@ class Rest:
         length, pressure, parallel: the designs.
         contraction: contraction ratio at the end of the stroke.
         capacity: least ratio of force to load over the stroke, of all parallel muscles together.
+        load: of one muscle at the end of the stroke, without the second muscle of a pair [N].
         tension: largest load of one muscle [N].
-        needed: pressure that just carries the load at the end of the stroke [Pa]; NaN where none does.
-        lifting: pressure that just carries it at the start [Pa].
+        lifting, holding: pressure that just carries the load at the start and at the end of the stroke [Pa];
+            NaN where none does.
+        needed: least pressure that carries it on the whole stroke [Pa]; NaN where none does.
         stiffness, stiffness_closed: at the load at the end of the stroke, valve open and closed [N/m].
-        diameter: outside diameter at the end of the stroke [m].
+        outer_diameter: at the end of the stroke [m].
         volume_start, volume: at the start and at the end of the stroke [m^3].
         blocked: force at the start of the stroke [N].
         life: load cycles, an estimate.
@@ -85,12 +87,14 @@ class Rest:
     parallel: Array
     contraction: Array
     capacity: Array
+    load: Array
     tension: Array
-    needed: Array
     lifting: Array
+    holding: Array
+    needed: Array
     stiffness: Array
     stiffness_closed: Array
-    diameter: Array
+    outer_diameter: Array
     volume_start: Array
     volume: Array
     blocked: Array
@@ -162,12 +166,14 @@ def at_rest(
         parallel=parallel,
         contraction=reach,
         capacity=np.minimum(ratio.min(axis=1), AMPLE),
+        load=share[:, -1],
         tension=tension,
-        needed=np.maximum(carrying[:, -1], 0.0),
         lifting=np.maximum(carrying[:, 0], 0.0),
+        holding=np.maximum(carrying[:, -1], 0.0),
+        needed=np.maximum(carrying.max(axis=1), 0.0),
         stiffness=at_load * (end["force_by_length"] + counter_stiffness) + duty.spring,
         stiffness_closed=at_load * (closed + counter_stiffness) + duty.spring,
-        diameter=end["outer_diameter"],
+        outer_diameter=end["outer_diameter"],
         volume_start=empty["volume"].reshape(count, stations)[:, 0],
         volume=end["volume"],
         blocked=force[:, 0],
@@ -176,7 +182,7 @@ def at_rest(
 
 
 def margins(rest: Rest, part: MusclePart, task: Task) -> dict[LimitName, Array]:
-    """Margin to each limit as a share of it, negative where it is violated; shape (designs,) each."""
+    """Margin to each limit, as `mckibben.facts.sizing` defines it; shape (designs,) each."""
     limits = task.limits
     most = contraction_limit(part, task)
     none = np.full(len(rest.length), AMPLE)
@@ -195,7 +201,7 @@ def margins(rest: Rest, part: MusclePart, task: Task) -> dict[LimitName, Array]:
         "force": rest.capacity / (1.0 + limits.force_reserve) - 1.0,
         "force_limit": tension,
         "suspended_mass": hanging,
-        "diameter": none if limits.max_diameter is None else limits.max_diameter / rest.diameter - 1.0,
+        "diameter": none if limits.max_diameter is None else limits.max_diameter / rest.outer_diameter - 1.0,
         "stiffness": stiffness,
         "life": none if limits.life is None else rest.life / limits.life - 1.0,
     }

@@ -3,19 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
-from math import radians, sin
+from math import sin
 
 import numpy as np
 
+from mckibben.facts.sizing import FILL_TIMES, SHORTEST_FILL, UNTIMED_FILL
+from mckibben.facts.sizing import STATIONS as COMPARED
+from mckibben.facts.task import usual
 from mckibben.physics.errors import InputError
 
 GRAVITY = 9.80665  # m/s2
 #: Shares of the stroke at which load and muscle are compared.
-STATIONS = np.linspace(0.0, 1.0, 7)
+STATIONS = np.linspace(0.0, 1.0, COMPARED)
 #: Pulley radii tried when the task does not fix one [m].
 _RADII = (0.01, 0.015, 0.02, 0.03, 0.04, 0.06, 0.08, 0.12)
-_UNTIMED = 4.0  # s; simulated fill when no time is required
-_SHORTEST_FILL = 0.2  # s; long enough for a valve's dead time and for the pressure to settle
 
 
 @dataclass(frozen=True, slots=True)
@@ -39,18 +40,18 @@ class DesignLimits:
         max_length, end_fittings: installed length, and the length of both end fittings within it [m].
         max_diameter: largest outside diameter, at the end of the stroke [m].
         max_parallel: largest number of parallel muscles (on each side of a pair).
-        max_impact_energy: kinetic energy of the load at the end stop that costs no rank [J].
+        max_impact_energy: impact energy at either end stop that costs no rank [J].
         stiffness: least stiffness at the load at the end of the stroke, valve open [N/m].
         life: least number of load cycles.
     """
 
-    max_contraction: float = 0.2
-    force_reserve: float = 0.1
-    pressure_reserve: float = 0.0
-    max_length: float = 1.0
-    end_fittings: float = 0.0
+    max_contraction: float = usual("limits.max_contraction")
+    force_reserve: float = usual("limits.force_reserve")
+    pressure_reserve: float = usual("limits.pressure_reserve")
+    max_length: float = usual("limits.max_length")
+    end_fittings: float = usual("limits.end_fittings")
     max_diameter: float | None = None
-    max_parallel: int = 2
+    max_parallel: int = int(usual("limits.max_parallel"))
     max_impact_energy: float | None = None
     stiffness: float | None = None
     life: float | None = None
@@ -67,10 +68,10 @@ class Uncertainty:
         specimens: number of specimens simulated for each proposal.
     """
 
-    blocked_force: float = 0.1
+    blocked_force: float = usual("uncertainty.blocked_force")
     hysteresis: float | None = None
-    supply_pressure: float = 0.03
-    specimens: int = 100
+    supply_pressure: float = usual("uncertainty.supply_pressure")
+    specimens: int = int(usual("uncertainty.specimens"))
 
 
 @dataclass(frozen=True, slots=True)
@@ -86,7 +87,7 @@ class Task:
 
     stroke: float = 0.0
     mass: float = 0.0
-    inclination: float = radians(90.0)
+    inclination: float = usual("load.inclination")
     force: float = 0.0
     force_over_stroke: tuple[tuple[float, ...], tuple[float, ...]] = ((), ())
     spring: float = 0.0
@@ -96,12 +97,12 @@ class Task:
     time: float | None = None
     time_down: float | None = None
     cycle_time: float | None = None
-    supply_pressure: float = 6e5
-    temperature: float = 293.15
+    supply_pressure: float = usual("supply_pressure")
+    temperature: float = usual("ambient_temperature")
     limits: DesignLimits = field(default_factory=DesignLimits)
     uncertainty: Uncertainty = field(default_factory=Uncertainty)
     rank_by: str = "balanced"
-    max_proposals: int = 10
+    max_proposals: int = int(usual("max_proposals"))
 
     @property
     def available_pressure(self) -> float:
@@ -110,15 +111,15 @@ class Task:
 
     @property
     def fill_time(self) -> float:
-        """Duration of the fill [s]: twice the required time, to see whether the load stays."""
+        """Duration of the fill [s]: longer than the required time, to see whether the load stays."""
         whole = _least(self.time, self.cycle_time)
-        return _UNTIMED if whole is None else max(2.0 * whole, _SHORTEST_FILL)
+        return UNTIMED_FILL if whole is None else _held(whole)
 
     @property
     def vent_time(self) -> float:
         """Duration of the venting after it [s]."""
         whole = _least(self.time_down, self.cycle_time)
-        return self.fill_time if whole is None else max(2.0 * whole, _SHORTEST_FILL)
+        return self.fill_time if whole is None else _held(whole)
 
     @property
     def returns(self) -> bool:
@@ -234,6 +235,11 @@ class Duty:
     def _profile(self, stroke: np.ndarray) -> np.ndarray:
         strokes, forces = self.profile
         return np.interp(stroke, strokes, forces) if strokes else np.zeros_like(stroke)
+
+
+def _held(required: float) -> float:
+    """Long enough also for the dead time of a valve and for the pressure to settle."""
+    return max(FILL_TIMES * required, SHORTEST_FILL)
 
 
 def _least(*times: float | None) -> float | None:

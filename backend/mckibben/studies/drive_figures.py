@@ -6,7 +6,8 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from mckibben.facts.run import RUN, TRACKING
+from mckibben.facts.run import TRACKING
+from mckibben.facts.study import WATCHED
 from mckibben.facts.timing import TIMING
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.simulation.drive.transient import Run
@@ -14,18 +15,13 @@ from mckibben.simulation.timing.evaluation import timing_of, trace_of, tracking_
 from mckibben.simulation.timing.trace import Trace
 from mckibben.studies.table import Figure
 
-_COLUMNS = ("position", "velocity", "acceleration", "pressure", "force")
 _PICKS = {"largest": np.max, "smallest": np.min, "last": lambda column: column[-1]}
 
 #: Path -> SI unit: the timing table, tracking of a reference, and extremes and last values of columns.
 DRIVE_FIGURES: dict[str, str] = {
-    **{
-        f"timing.{phase}.{figure.name}": figure.unit
-        for phase in ("extend", "retract")
-        for figure in TIMING.values()
-    },
-    **{figure.key: figure.unit for figure in TRACKING.values()},
-    **{f"{pick}.{name}": RUN[name].unit for pick in _PICKS for name in _COLUMNS},
+    path: figure.unit
+    for path, figure in WATCHED.items()
+    if path.partition(".")[0] in {TIMING.name, TRACKING.name, *_PICKS}
 }
 
 
@@ -55,15 +51,16 @@ def figures_of_run(run: Run, paths: Sequence[str]) -> tuple[tuple[float, ...], s
     reasons: dict[str, None] = {}
     for path in paths:
         first, _, rest = path.partition(".")
-        value, why = None, "there is no reference to follow"
+        value: float | None = None
         if first == "timing":
             phase, _, name = rest.partition(".")
             value, why = getattr(getattr(table, phase), name), table.notes.get(rest, "")
         elif first == "tracking":
+            why = TRACKING["rms"].exists_when.otherwise
             if follows is not None:
                 value, why = getattr(follows, rest), follows.notes.get(rest, "")
         else:
-            value, why = _picked(trace, first, rest), "the run has no rows"
+            value, why = _picked(trace, first, rest), WATCHED[path].exists_when.otherwise
         if value is None:
             reasons[f"{path}: {why}"] = None
         values.append(float("nan") if value is None else float(value))

@@ -11,11 +11,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 
 from mckibben.facts.result import result_class
+from mckibben.facts.study import INFLUENCE
 from mckibben.studies.plan import FixedPlan
 from mckibben.studies.table import StudyTable
 from mckibben.studies.variable import Variable, points_of
@@ -27,36 +28,22 @@ _LEAST_BLOCKS = 8  # fewer give no interval worth the name
 
 @result_class
 class Influence:
-    """Influence of a quantity on a figure; half widths of confidence intervals follow each estimate.
+    """Influence of a quantity on a figure, by Sobol or by Morris; effects are in the unit of the figure."""
 
-    Sobol: ``first`` is the share of the variance of the figure due to the quantity alone, ``total`` that
-    with all its interactions. Morris: ``mean`` of the elementary effects over the range of the quantity, in
-    the unit of the figure, ``mean_size`` that of their magnitudes (mu*), ``deviation`` their standard
-    deviation: large for an influence that is not linear or depends on other quantities.
-    """
+    FIGURES: ClassVar = INFLUENCE.name
 
     figure: str
     """Path of the figure."""
     quantity: str
     """Name of the quantity."""
     first: float | None = None
-    """Sobol: share of the variance due to the quantity alone."""
     first_error: float | None = None
-    """Its error."""
     total: float | None = None
-    """Sobol: share of the variance with all its interactions."""
     total_error: float | None = None
-    """Its error."""
     mean: float | None = None
-    """Morris: mean elementary effect, in the unit of the figure."""
     mean_size: float | None = None
-    """Morris: mean magnitude of the effects, in the unit of the figure."""
     mean_size_error: float | None = None
-    """Its error."""
     deviation: float | None = None
-    """Morris: standard deviation of the effects, in the unit of the figure; large where the influence is not
-    linear or depends on other quantities.
-    """
 
 
 @result_class

@@ -6,10 +6,12 @@ Intervals hold for independent runs, that is Monte Carlo studies; others have no
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import ClassVar
 
 import numpy as np
 
 from mckibben.facts.result import Number, result_class
+from mckibben.facts.study import INFLUENCE, STUDY, SUMMARY
 from mckibben.studies.optimise import FigureLimit, keeps
 from mckibben.studies.table import StudyTable
 
@@ -33,29 +35,26 @@ class Estimate:
 class FigureSummary:
     """A figure over all runs that have it; SI."""
 
+    FIGURES: ClassVar = SUMMARY.name
+
     figure: str
     """Path of the figure."""
     unit: str
     """Its SI unit."""
     count: int
-    """Runs that have it."""
     missing: int
-    """Runs that lack it."""
     mean: Estimate | None
-    """Mean, in the unit of the figure."""
     deviation: Estimate | None
-    """Standard deviation, in the unit of the figure."""
     least: float | None
-    """Smallest value, in the unit of the figure."""
     most: float | None
-    """Largest value, in the unit of the figure."""
     percentiles: dict[str, Estimate]
-    """Percent, 1 to 99 -> percentile, in the unit of the figure; its interval holds for any distribution."""
 
 
 @result_class
 class Probability:
     """Share of the runs that keep limits, with the exact interval of Clopper and Pearson."""
+
+    FIGURES: ClassVar = STUDY.name
 
     what: str
     """The figure of the limit, or 'all'."""
@@ -64,19 +63,19 @@ class Probability:
     runs: int
     """All runs."""
     probability: Estimate
-    """kept / runs, with the interval of Clopper and Pearson."""
 
 
 @result_class
 class FigureCorrelation:
     """Spearman's rank correlation of a quantity and a figure; None where one of them does not vary."""
 
+    FIGURES: ClassVar = INFLUENCE.name
+
     figure: str
     """Path of the figure."""
     quantity: str
     """Name of the quantity."""
     rank_correlation: float | None
-    """-1 to 1; None where one of them does not vary."""
 
 
 def summaries(table: StudyTable, confidence: float, independent: bool) -> list[FigureSummary]:

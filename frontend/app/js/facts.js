@@ -26,5 +26,11 @@ export function figure(key) {
   return found;
 }
 
+/** Whether a figure is declared. @param {string} key */
+export const hasFigure = (key) => FIGURES.has(key);
+
+/** A label inside a sentence. @param {string} label */
+export const inSentence = (label) => label.replace(/^./, (letter) => letter.toLowerCase());
+
 /** The figures of a group, in the order of tables. @param {string} group */
 export const figuresOf = (group) => [...FIGURES.values()].filter((each) => each.group === group);

@@ -8,7 +8,7 @@ import { referenceShift, splitReference } from "./quantities.js";
 /** SI = shown × factor + offset.
  * @typedef {{unit: string, factor: number, offset?: number, digits: number}} Scale */
 /** @typedef {"length" | "pressure" | "modulus" | "force" | "stiffness" | "volume" | "temperature" | "torque" | "rotary" |
- *   "energy" | "angle" | "ratio" | "number" | "time" | "lapse" | "frequency" | "mass" | "speed" | "sweep" | "acceleration" |
+ *   "energy" | "angle" | "ratio" | "number" | "cost" | "time" | "lapse" | "frequency" | "mass" | "speed" | "sweep" | "acceleration" |
  *   "conductance" | "rate" | "flow" | "air" | "normal" | "area" | "compliance" | "softness" | "damping" |
  *   "pressureDamping" | "perKelvin" | "resistance"} Quantity */
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 from mckibben.application.envelope import MeasuredRange, range_of, use_notices
 from mckibben.application.muscle_summary import Notice, unverified_notice
@@ -15,6 +16,7 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.facts.result import Number, result_class
+from mckibben.facts.sizing import SEARCH, SIZING
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.sizing import PartsCatalogue, Proposal, Rejection, Sizing, Task
 from mckibben.sizing import size as search_designs
@@ -47,78 +49,52 @@ class SizingQuestion:
 class ProposedDrive:
     """A drive that fulfils the task; SI, gauge pressures."""
 
+    FIGURES: ClassVar = SIZING.name
+
     muscle: str
     """Id of the preset."""
     nominal_length: float
-    """Nominal length of each muscle [m]."""
     parallel: int
-    """Number of parallel muscles (on each side of a pair)."""
     muscles: int
-    """Number of all muscles of the drive."""
     valve: str
     """Id of the preset; one for all parallel muscles, one on each side of a pair."""
     tube: str | None
     """Id of the preset; one tube from the valve to each muscle."""
     tube_length: float
-    """Length of the tube [m]; 0 without one."""
     pulley_radius: float | None
-    """Pulley radius of a pair [m]."""
     pressure: float
-    """Gauge pressure of the supply at the valve [Pa], set by a regulator."""
     time: float
-    """Time for the stroke to the end stop [s]."""
     time_down: float | None
-    """Time for the return [s]; None if not reached in the simulated time."""
     contraction: float
-    """Contraction ratio at the end of the stroke [-]."""
     force_reserve: float
-    """Least share by which the static force exceeds the load [-]."""
+    static_load: float
     needed_pressure: Number
-    """Pressure that just carries the load at the end of the stroke [Pa]."""
     pressure_start: float
-    """Pressure in the muscle when the load leaves its stop [Pa]."""
     pressure_end: float
-    """Pressure in the muscle on arrival [Pa]."""
     air_volume_anr: float
-    """Air of all muscles per cycle at ANR [m^3]."""
     air_cost: float
-    """Cost of the air of a cycle, in the currency of the task."""
     air_cost_year: float
-    """Cost of the air of a year, in the currency of the task."""
     impact_energy: float
-    """Kinetic energy of the whole load at the end stop [J]."""
+    impact_energy_stroke: float
+    impact_energy_return: float
     end_speed: float
-    """Speed of the load there [m/s]."""
     max_speed: float
-    """Largest speed of the load [m/s]."""
     peak_force: float
-    """Largest tension of a muscle [N]."""
     stiffness: float
-    """Stiffness at the load at the end of the stroke [N/m], valve open."""
     stiffness_closed: float
-    """The same with the valve closed [N/m]."""
     installed_length: float
-    """Nominal length and end fittings [m]."""
-    diameter: float
-    """Outside diameter at the end of the stroke [m]."""
+    outer_diameter: float
     life: float
-    """Load cycles [-]; an estimate, not verified."""
     probability: float | None
-    """Probability that a built drive fulfils the task [-]; None without specimens."""
     probability_error: float | None
-    """Its standard error [-]."""
     specimens: int
-    """Number of specimens simulated for it."""
     margins: dict[LimitName, float]
-    """Limit -> margin as a share of the limit; limits that are not set are left out."""
     binding: LimitName
-    """The limit with the least margin."""
     reservations: list[str]
-    """What costs it rank: margins below 5 %, an impact above limits.max_impact_energy."""
+    """What costs it rank: thin margins, an impact of stroke or return above limits.max_impact_energy."""
     reason: str
     """Explanation of its rank."""
     front: bool
-    """Whether no other proposal and no explored drive is better in every respect."""
     notes: list[str]
     """Remarks for building it."""
     unverified: list[str]
@@ -131,10 +107,11 @@ class ProposedDrive:
 class RejectedParts:
     """Parts that do not fulfil the task; valve and tube None = any."""
 
+    FIGURES: ClassVar = SIZING.name
+
     muscle: str
     """Id of the preset."""
     parallel: int
-    """Number of parallel muscles."""
     valve: str | None
     """None = with any valve."""
     tube: str | None
@@ -153,33 +130,30 @@ class RejectedParts:
 class ExploredDrive:
     """A simulated design that fulfils the task; approximate values, SI, for a plot of the alternatives."""
 
+    FIGURES: ClassVar = SIZING.name
+
     muscle: str
     """Id of the preset."""
     nominal_length: float
-    """Nominal length of each muscle [m]."""
     parallel: int
-    """Number of parallel muscles."""
     valve: str
     """Id of the preset."""
     tube: str | None
     """Id of the preset; None without a tube."""
     pressure: float
-    """Gauge pressure of the supply [Pa]."""
     time: float
-    """Time for the stroke [s]."""
     air_volume_anr: float
-    """Air per cycle at ANR [m^3]."""
     force_reserve: float
-    """Share by which the static force exceeds the load [-]."""
+    installed_length: float
     stiffness: float
-    """Stiffness at the load [N/m], valve open."""
     front: bool
-    """On the Pareto front of the explored designs."""
 
 
 @result_class
 class SizingResult:
     """The proposals, the best first, and all rejected parts with reasons."""
+
+    FIGURES: ClassVar = SEARCH.name
 
     about: str
     """The task in one sentence, from its figures."""
@@ -192,13 +166,9 @@ class SizingResult:
     explored: list[ExploredDrive]
     """The best design of each choice of parts that fulfils the task."""
     combinations: int
-    """Combinations of muscle, length, number, pressure, valve and tube within the limits."""
     pruned: int
-    """Number of them ruled out in closed form."""
     simulated: int
-    """Number of transient runs, without those of specimens."""
     specimens: int
-    """Number of transient runs for probabilities."""
     outcome: OutcomeName
     """How the search ended; unless completed, the answer is what was found until then."""
     message: str | None
@@ -263,7 +233,9 @@ def _result(sizing: Sizing, question: SizingQuestion, limit: float, wall_ms: flo
         proposals=proposals,
         ranking=why_first(sizing.proposals, question.task),
         rejected=[_rejected(item) for item in sizing.rejected],
-        explored=[_explored(trial, on) for trial, on in zip(sizing.explored, explored, strict=True)],
+        explored=[
+            _explored(trial, on, question.task) for trial, on in zip(sizing.explored, explored, strict=True)
+        ],
         combinations=sizing.combinations,
         pruned=sizing.pruned,
         simulated=sizing.simulated,
@@ -327,6 +299,7 @@ def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
         time_down=figures.time_down,
         contraction=design.contraction,
         force_reserve=trial.force_reserve,
+        static_load=float(rest.load[0]),
         needed_pressure=float(rest.needed[0]),
         pressure_start=proposal.pressure_start,
         pressure_end=proposal.pressure_end,
@@ -334,13 +307,15 @@ def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
         air_cost=trial.air * operation.air_price,
         air_cost_year=trial.air * operation.air_price * operation.cycles_per_year,
         impact_energy=proposal.impact_energy,
+        impact_energy_stroke=proposal.impacts[0],
+        impact_energy_return=proposal.impacts[1],
         end_speed=proposal.end_speed,
         max_speed=proposal.max_speed,
         peak_force=figures.peak_force,
         stiffness=float(rest.stiffness[0]),
         stiffness_closed=float(rest.stiffness_closed[0]),
         installed_length=design.length + task.limits.end_fittings,
-        diameter=float(rest.diameter[0]),
+        outer_diameter=float(rest.outer_diameter[0]),
         life=float(rest.life[0]),
         probability=None if chance is None else chance.probability,
         probability_error=None if chance is None else chance.error,
@@ -409,7 +384,7 @@ def _rejected(item: Rejection) -> RejectedParts:
     )
 
 
-def _explored(trial: Trial, front: bool) -> ExploredDrive:
+def _explored(trial: Trial, front: bool, task: Task) -> ExploredDrive:
     group = trial.design.group
     return ExploredDrive(
         muscle=group.muscle.id,
@@ -421,6 +396,7 @@ def _explored(trial: Trial, front: bool) -> ExploredDrive:
         time=trial.time,
         air_volume_anr=trial.air,
         force_reserve=trial.force_reserve,
+        installed_length=trial.design.length + task.limits.end_fittings,
         stiffness=float(trial.rest.stiffness[0]),
         front=front,
     )

@@ -7,7 +7,7 @@ import time
 from collections import Counter
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal, Protocol
+from typing import ClassVar, Literal, Protocol
 
 import numpy as np
 import orjson
@@ -18,6 +18,7 @@ from mckibben.documents.studio import Studio
 from mckibben.documents.study import MOST_RUNS, StudyDocument
 from mckibben.documents.study_fields import StudyField
 from mckibben.facts.result import result_class
+from mckibben.facts.study import STUDY
 from mckibben.physics.errors import fields_inside
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.studies.drive_figures import figures_named
@@ -107,6 +108,8 @@ class RobustDesign:
 class StudyResult:
     """All runs of a study, and what they show; SI."""
 
+    FIGURES: ClassVar = STUDY.name
+
     title: str
     """Title of the study."""
     method: str
@@ -126,23 +129,17 @@ class StudyResult:
     sensitivity: list[Sensitivity]
     """Of the methods sobol and morris."""
     front: list[int]
-    """Numbers of the runs on the Pareto front; of one goal the best run; empty without goals."""
     probabilities: list[Probability]
     """Of keeping the limits; of random runs alone with intervals."""
     designs: list[RobustDesign]
     """Of a robust study, the most probable to keep all first."""
     runs: int
-    """Runs that were made."""
     planned: int
-    """Runs of the plan."""
     kept: int
-    """How many of them were made before, by a study that was interrupted or asked before."""
     goals: list[str]
     """Figures of the goals."""
     confidence: float
-    """Confidence of all intervals."""
     seed: int | None
-    """Seed of the random numbers; None without."""
     outcome: OutcomeName
     """"completed", or how the study ended early."""
     message: str | None

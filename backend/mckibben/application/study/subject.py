@@ -19,6 +19,7 @@ from mckibben.documents.study import Subject, drive_content
 from mckibben.documents.study_fields import StudyField, field_at, with_values
 from mckibben.documents.task import SizingTask
 from mckibben.documents.task_files import named_task, read_task
+from mckibben.facts.study import WATCHED
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.outcome import Outcome, Watch
@@ -30,14 +31,8 @@ from mckibben.studies.variable import Variable
 
 Array = np.ndarray
 NO_PROPOSAL = "no_proposal"  # outcome of a task that no drive fulfils
-_BEST_UNITS = {
-    "nominal_length": "m", "parallel": "1", "pressure": "Pa", "time": "s", "time_down": "s",
-    "contraction": "1", "force_reserve": "1", "needed_pressure": "Pa", "air_volume_anr": "m^3",
-    "impact_energy": "J", "end_speed": "m/s", "max_speed": "m/s", "peak_force": "N", "stiffness": "N/m",
-    "installed_length": "m", "diameter": "m", "life": "1", "probability": "1",
-}  # fmt: skip
 #: Path -> SI unit of the figures of a task: those of its first proposal, and the number of proposals.
-TASK_FIGURES = {**{f"best.{name}": unit for name, unit in _BEST_UNITS.items()}, "proposals": "1"}
+TASK_FIGURES = {path: figure.unit for path, figure in WATCHED.items() if path not in DRIVE_FIGURES}
 
 
 @dataclass(frozen=True)
@@ -141,7 +136,9 @@ def _task_runs(content_at: Callable[[Array], object], paths: Sequence[str], stud
             return Row(result.outcome, (float("nan"),) * len(paths), result.message or "")
         if not result.proposals:
             why = result.rejected[0].why if result.rejected else "there are no parts"
-            return Row(NO_PROPOSAL, nothing, f"no drive fulfils the task; the nearest: {why}")
+            return Row(
+                NO_PROPOSAL, nothing, f"{WATCHED['best.time'].exists_when.otherwise}; the nearest: {why}"
+            )
         return Row(COMPLETED, tuple(_figure(result.proposals, path) for path in paths))
 
     def run(points: Array) -> list[Row]:

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import TYPE_CHECKING
 
 from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.application.run.simulate import SimulationResult
-from mckibben.application.size.size import SizingResult
+from mckibben.application.size.size import ExploredDrive, ProposedDrive, SizingResult
 from mckibben.door.figures.style import ACCENT, LOAD, SECOND, SOFT, add_line, add_points, blank, name_axes
+from mckibben.facts.sizing import SIZING
 from mckibben.report.summary.parts import error_unit
 
 if TYPE_CHECKING:
@@ -62,16 +64,20 @@ def run_figure(result: SimulationResult, title: str) -> Figure:
 
 def sizing_figure(result: SizingResult, title: str) -> Figure:
     """Air per cycle over the time of the stroke: all drives that fulfil the task, and the proposals."""
-    figure = blank(title)
-    others = [one for one in result.explored if one.time is not None]
-    add_points(
-        figure, [one.time or 0.0 for one in others], [1e3 * one.air_volume_anr for one in others],
-        "fulfils the task", colour=SOFT,
-    )  # fmt: skip
+    figure, (across, up) = blank(title), (SIZING["time"], SIZING["air_volume_anr"])
+
+    def points(drives: Sequence[ExploredDrive | ProposedDrive], name: str, colour: str) -> None:
+        x, y = ([getattr(one, each.name) for one in drives] for each in (across, up))
+        add_points(figure, across.scale.all(x), up.scale.all(y), name, colour=colour)
+
+    points(result.explored, "fulfils the task", SOFT)
+    length = SIZING["nominal_length"].scale
     for rank, one in enumerate(result.proposals, 1):
-        if one.time is not None:
-            name = f"{rank}. {one.muscle}, {1e3 * one.nominal_length:.4g} mm"
-            colour = ACCENT if rank == 1 else SECOND
-            add_points(figure, [one.time], [1e3 * one.air_volume_anr], name, colour=colour)
-    name_axes(figure, "Time of the stroke (s)", ["Air per cycle at ANR (l)"])
+        name = f"{rank}. {one.muscle}, {length.of(one.nominal_length):.4g} {length.unit}"
+        points([one], name, ACCENT if rank == 1 else SECOND)
+    name_axes(
+        figure,
+        f"{across.label} ({across.scale.unit})",
+        [f"{up.label.removesuffix(' (ANR)')} ({up.scale.unit})"],
+    )
     return figure

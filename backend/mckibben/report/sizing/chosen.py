@@ -44,7 +44,7 @@ def curves_of(proposal: Proposal, task: Task) -> ForceCurves:
         places=places.tolist(),
         demand=demand.tolist(),
         counter=counter.tolist(),
-        carrying=(float(rest.lifting[0]), float(rest.needed[0])),
+        carrying=(float(rest.lifting[0]), float(rest.holding[0])),
         run=() if np.allclose(straight, demand, rtol=1e-9, atol=1e-9) else straight.tolist(),
     )
 
@@ -79,30 +79,29 @@ def margins_of(proposal: Proposal, task: Task) -> list[Margin]:
     )
     part, limits = design.group.muscle, task.limits
     up, down = figures.time or 0.0, figures.time_down or 0.0
-    sides: dict[str, tuple[float | None, float, str, bool]] = {
-        "length": (limits.max_length, design.length + limits.end_fittings, "m", True),
-        "pressure": (task.available_pressure, design.pressure, "Pa", True),
-        "contraction": (contraction_limit(part, task), design.contraction, "%", True),
-        "force": (1.0 + limits.force_reserve, float(rest.capacity[0]), "1", False),
-        "force_limit": (part.limits.max_force, max(float(rest.tension[0]), figures.peak_force), "N", True),
+    sides: dict[str, tuple[float | None, float, bool]] = {
+        "length": (limits.max_length, design.length + limits.end_fittings, True),
+        "pressure": (task.available_pressure, design.pressure, True),
+        "contraction": (contraction_limit(part, task), design.contraction, True),
+        "force": (1.0 + limits.force_reserve, float(rest.capacity[0]), False),
+        "force_limit": (part.limits.max_force, max(float(rest.tension[0]), figures.peak_force), True),
         "suspended_mass": (
             part.suspended_mass,
             task.suspended_mass / (design.group.parallel * task.lever_ratio),
-            "kg",
             True,
         ),
-        "diameter": (limits.max_diameter, float(rest.diameter[0]), "m", True),
-        "stiffness": (limits.stiffness, float(rest.stiffness[0]), "N/m", False),
-        "life": (limits.life, float(rest.life[0]), "1", False),
-        "time": (task.time, up, "s", True),
-        "time_down": (task.time_down, down, "s", True),
-        "cycle_time": (task.cycle_time, up + down, "s", True),
+        "diameter": (limits.max_diameter, float(rest.outer_diameter[0]), True),
+        "stiffness": (limits.stiffness, float(rest.stiffness[0]), False),
+        "life": (limits.life, float(rest.life[0]), False),
+        "time": (task.time, up, True),
+        "time_down": (task.time_down, down, True),
+        "cycle_time": (task.cycle_time, up + down, True),
     }
     margins = []
     for name, share in sorted(trial.margins.items(), key=lambda item: item[1]):
-        allowed, actual, unit, upper = sides[name]
+        allowed, actual, upper = sides[name]
         if allowed is not None:
-            margins.append(Margin(name, allowed, actual, unit, upper, share))
+            margins.append(Margin(name, allowed, actual, upper, share))
     return margins
 
 

@@ -6,13 +6,14 @@ import math
 
 import numpy as np
 
+from mckibben.facts.sizing import SIZING
 from mckibben.report.chart import chart, family
 from mckibben.report.document import Head, figure_of, paragraph, table
 from mckibben.report.figures import figure, plain
 from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import EDGE, INK, SECOND, Axis, Dots, Line, Mark, Rule
 from mckibben.report.sizing.material import Chosen, SizingMaterial
-from mckibben.report.sizing.words import AMPLE, BAR, MILLIMETRES, NEWTON, PER_MILLIMETRE, SHARE
+from mckibben.report.sizing.words import AMPLE, BAR, MILLIMETRES, NEWTON, SHARE, of_proposal
 
 _FEW_ROWS = 300
 _HEIGHT = 330.0
@@ -34,11 +35,11 @@ def curves_section(material: SizingMaterial, chosen: Chosen) -> Html:
         figure_of(_drawing(chosen), caption),
         _table(material, chosen, who),
         paragraph(
-            "Stiffness at the end of the stroke, at the load: ",
-            figure(chosen.proposal.stiffness, PER_MILLIMETRE, 3),
-            " with the valve open, ",
-            figure(chosen.proposal.stiffness_closed, PER_MILLIMETRE, 3),
-            " with it closed.",
+            "At the end of the stroke: ",
+            [
+                html(SIZING[name].words, " ", of_proposal(chosen.proposal, name), end)
+                for name, end in (("stiffness", "; "), ("stiffness_closed", "."))
+            ],
         ),
     )
 
@@ -99,7 +100,7 @@ def _table(material: SizingMaterial, chosen: Chosen, who: str) -> Html:
     ]
     length = proposal.nominal_length
     rows: list[list[Child]] = [
-        ["Contraction", *(figure(curves.places[end], SHARE, 3) for end in (0, -1))],
+        [SIZING["contraction"].label, *(figure(curves.places[end], SHARE, 3) for end in (0, -1))],
         ["Length between the fittings", *(_length(length, curves.places[end]) for end in (0, -1))],
         [f"Force demanded of {who}", *(figure(value, NEWTON) for value in demand)],
     ]
@@ -113,9 +114,9 @@ def _table(material: SizingMaterial, chosen: Chosen, who: str) -> Html:
             *(figure(value, BAR, 3) for value in curves.carrying),
         ],
         [
-            "Pressure in the run when the load starts and arrives",
-            figure(proposal.pressure_start, BAR, 3),
-            figure(proposal.pressure_end, BAR, 3),
+            "Pressure in the run at lift-off and on arrival",
+            of_proposal(proposal, "pressure_start"),
+            of_proposal(proposal, "pressure_end"),
         ],
     ]
     columns = [

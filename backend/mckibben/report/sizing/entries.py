@@ -3,12 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from typing import Any, get_args
 
 from pydantic import BaseModel
-from pydantic.fields import FieldInfo
 
-from mckibben.documents.quantity import QuantityField
 from mckibben.documents.task import ForceOverStroke, SizingTask
 from mckibben.report.sizing.material import Entry
 
@@ -36,7 +33,7 @@ def entries_of(document: SizingTask, considered: Mapping[str, Sequence[str]]) ->
         if entry.value is None and entry.path in _DEFAULT_WORDS:
             entry = entry._replace(value=_DEFAULT_WORDS[entry.path])
         if entry.path == "operation.air_price":
-            entry = entry._replace(unit=f"{document.operation.currency}/m^3")
+            entry = entry._replace(value=f"{entry.value:g} {document.operation.currency}/m³")
         kind = entry.path.removeprefix("catalogue.")
         if kind in considered and entry.value is None:
             entry = entry._replace(value=", ".join(considered[kind]) or "none")
@@ -54,7 +51,7 @@ def _entries(model: BaseModel, prefix: str, *, parent_stated: bool = True) -> It
         if isinstance(value, BaseModel) and not isinstance(value, ForceOverStroke):
             yield from _entries(value, f"{path}.", parent_stated=is_stated)
         else:
-            yield Entry(path, _shown(value), _unit(field), is_stated, field.description or "")
+            yield Entry(path, _shown(value), is_stated, field.description or "")
 
 
 def _shown(value: object) -> float | str | None:
@@ -68,19 +65,3 @@ def _shown(value: object) -> float | str | None:
             return "; ".join(f"{force:.4g} N at {stroke * 1e3:.4g} mm" for stroke, force in points)
         case _:
             return ", ".join(map(str, value)) if isinstance(value, list) else str(value)
-
-
-def _unit(field: FieldInfo) -> str:
-    """SI unit of a quantity; "%" for a share that is usually written in percent."""
-    quantity_fields = [
-        item for item in (*field.metadata, *_inside(field.annotation)) if isinstance(item, QuantityField)
-    ]
-    if not quantity_fields:
-        return ""
-    return "%" if "%" in quantity_fields[0].example else quantity_fields[0].unit
-
-
-def _inside(annotation: Any) -> Iterator[Any]:
-    """Metadata of the parts of a union type."""
-    for part in get_args(annotation):
-        yield from getattr(part, "__metadata__", ())

@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import NamedTuple
 
+from mckibben.facts.sizing import SIZING
+from mckibben.physics.gas import ANR_DENSITY, ANR_TEMPERATURE
 from mckibben.report.document import Head, heading, paragraph, table
 from mckibben.report.figures import figure, scale_of
 from mckibben.report.formula import equation, formula
@@ -40,8 +42,8 @@ _BASE = (
             r"k_c = \frac{\partial F}{\partial L} - \frac{\partial F}{\partial P}"
             r"\frac{\gamma p\,\partial_L V}{V + \gamma p\,\partial_P V}",
         ),
-        "With the valve open (k), and closed (k_c, γ = 1.4). At the load: times the square of the lever "
-        "ratio and the number of muscles.",
+        "With the valve open (k), and closed (k_c, γ = 1.4, without the volume of the tube). At the load: "
+        "times the square of the lever ratio and the number of parallel muscles, plus the spring.",
     ),
     _Law(
         "Flow through valve and tube (ISO 6358)",
@@ -49,8 +51,8 @@ _BASE = (
             r"\dot m = C\,\rho_0\,p_1\sqrt{T_0/T_1}\;\psi(r), \quad r = p_2/p_1",
             r"\psi = 1\ (r \le b), \quad \psi = \sqrt{1 - \Bigl(\frac{r - b}{1 - b}\Bigr)^2}\ (r > b)",
         ),
-        "Sonic conductance C, critical pressure ratio b, absolute pressures; ρ₀ = 1.185 kg/m³ and T₀ = "
-        "293.15 K (ANR).",
+        f"Sonic conductance C, critical pressure ratio b, absolute pressures; ρ₀ = {ANR_DENSITY:g} kg/m³ and "
+        f"T₀ = {ANR_TEMPERATURE:g} K (ANR).",
     ),
     _Law(
         "Pressure",
@@ -77,23 +79,22 @@ _TUBE = _Law(
 )
 _SIZING = (
     _Law(
-        "Force reserve",
+        SIZING["force_reserve"].label,
         (r"\min_s \frac{N r\,F(P, \varepsilon(s))}{F_{load}(s)} - 1",),
-        "N parallel muscles, smallest value over the stroke, static while shortening; in a pair the empty "
-        "second muscle is part of the load.",
+        SIZING["force_reserve"].definition,
     ),
     _Law(
-        "Air per cycle",
+        SIZING["air_volume_anr"].label,
         (r"V_{ANR} = \frac{1}{\rho_0}\int \dot m_{supply}\,dt",),
-        "Of all muscles, for filling and venting once.",
+        SIZING["air_volume_anr"].definition,
     ),
     _Law(
-        "Life (an estimate)",
+        SIZING["life"].label,
         (
             r"N_{life} = 10^{7 - 2u}, \quad "
             r"u = \max\Bigl(\frac{\varepsilon}{\varepsilon_{max}}, \frac{F}{F_{max}}\Bigr)",
         ),
-        "General knowledge, not verified; not a curve of the maker.",
+        SIZING["life"].definition,
     ),
     _Law(
         "Specimens",

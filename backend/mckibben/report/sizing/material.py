@@ -21,14 +21,12 @@ class Entry(NamedTuple):
     Attributes:
         path: "limits.max_length".
         value: in SI, or text; None where nothing is demanded.
-        unit: SI unit, "" for text; "%" for a share that is usually written in percent.
         stated: whether the task states it; otherwise it is the default.
         about: its meaning, and the reason for the default.
     """
 
     path: str
     value: float | str | None
-    unit: str
     stated: bool
     about: str
 
@@ -74,17 +72,15 @@ class Margin(NamedTuple):
     """Distance to a limit.
 
     Attributes:
-        name: of the limit.
-        allowed, actual: its value and that of the drive, in ``unit``.
-        unit: SI unit; "%" for a share.
+        name: of the limit, of `mckibben.facts.sizing.LIMITS`.
+        allowed, actual: its value and that of the drive, SI.
         upper: whether it is an upper limit.
-        share: distance as a share of the limit, negative beyond it.
+        share: the margin, as `mckibben.facts.sizing` defines it.
     """
 
     name: str
     allowed: float
     actual: float
-    unit: str
     upper: bool
     share: float
 

@@ -5,23 +5,18 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mckibben.application.size.size import ExploredDrive, ProposedDrive, RejectedParts
+from mckibben.facts.sizing import LIMITS, SIZING
 from mckibben.report.chart import chart
 from mckibben.report.document import Head, figure_of, paragraph, table
-from mckibben.report.figures import figure, percent, plain
+from mckibben.report.figures import plain
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Dots, Mark
 from mckibben.report.sizing.material import Chosen, SizingMaterial
-from mckibben.report.sizing.words import (
-    BAR,
-    LITRES,
-    SECONDS,
-    drive_words,
-    limit_name,
-    parts_words,
-)
+from mckibben.report.sizing.words import drive_words, of_proposal, parts_words
 
 _ORDER = "Sorted by the change they would need, the smallest first."
 _GROUPED = "One row for each choice of muscles and limit."
+_AXES = ("air_volume_anr", "time")
 _TOUCHING = 0.03  # share of an axis below which dots share a label
 _FAR = 2.0  # times the largest air consumption of the proposals: designs beyond are not drawn
 
@@ -32,15 +27,16 @@ def alternatives_section(material: SizingMaterial, chosen: Chosen) -> Html:
     not_drawn = len(explored) - len(_near(material))
     caption = (
         f"{len(explored)} choices of parts fulfil the task, each shown at its best length and pressure in a "
-        "coarse first search. No design is better than one on the Pareto front in air, time, length, reserve "
-        "and stiffness at once. Numbers are the proposals of the table, refined and simulated accurately."
+        "coarse first search. None is at least as good as one on the Pareto front in every aim (air, time, "
+        "installed length, force reserve, stiffness) and better in one. Numbers are the "
+        "proposals of the table, refined and simulated accurately."
         + (f" {not_drawn} that use more air are not drawn." if not_drawn else "")
     )
     counts = (
         f"{material.result.combinations} combinations of muscle, length, number, pressure, valve and tube "
-        f"keep the limits of length and pressure. {material.result.pruned} were rejected in closed "
-        f"form, {material.result.simulated} transients and {material.result.specimens} specimens were "
-        "simulated."
+        f"keep the limits of length, pressure and contraction. {material.result.pruned} were rejected by the "
+        f"static calculation, {material.result.simulated} transients and {material.result.specimens} "
+        "specimens were simulated."
     )
     parts: list[Child] = [
         paragraph(counts),
@@ -69,10 +65,16 @@ def _picture(material: SizingMaterial, chosen: Chosen) -> Html:
     place = _places([chosen.proposal])
     marks.append(Dots(*place, f"proposal {chosen.rank}", SECOND, 11.0, [chosen_name]))
     return chart(
-        Axis("Air per cycle", "l ANR", zero=True), Axis("Time for the stroke", "s", zero=True),
+        *map(_axis, _AXES),
         marks,
         title="Time over air of the designs that fulfil the task", height=280.0, room=140.0,
     )  # fmt: skip
+
+
+def _axis(name: str) -> Axis:
+    """That of a figure; its unit says ANR."""
+    each = SIZING[name]
+    return Axis(each.label.removesuffix(" (ANR)"), each.scale.unit, zero=True)
 
 
 def _names(proposals: list[ProposedDrive], explored: list[ExploredDrive], rank: int) -> dict[int, str]:
@@ -97,15 +99,16 @@ def _near(material: SizingMaterial) -> list[ExploredDrive]:
 
 def _places(items: Sequence[ProposedDrive | ExploredDrive]) -> tuple[list[float], list[float]]:
     return (
-        LITRES.all([item.air_volume_anr for item in items]),
-        SECONDS.all([item.time for item in items if item.time is not None]),
+        SIZING[_AXES[0]].scale.all([item.air_volume_anr for item in items]),
+        SIZING[_AXES[1]].scale.all([item.time for item in items]),
     )
 
 
 def _proposals(material: SizingMaterial, chosen: Chosen) -> Html:
     columns = [
-        Head("", number=True), Head("Drive", wide=True), Head("Supply", number=True),
-        Head("Time", number=True), Head("Air per cycle", number=True), Head("Probability", number=True),
+        Head("", number=True), Head("Drive", wide=True),
+        *(Head(SIZING[name].label, number=True) for name in ("pressure", *_AXES[::-1])),
+        Head(f"{SIZING['probability'].label} ± {SIZING['probability_error'].words}", number=True),
         Head("Reason for its rank", wide=True),
     ]  # fmt: skip
     rows: list[list[Child]] = []
@@ -115,25 +118,18 @@ def _proposals(material: SizingMaterial, chosen: Chosen) -> Html:
             [
                 tag("b", f"{number}") if number == chosen.rank else f"{number}",
                 tag("b", name) if number == chosen.rank else html(name),
-                figure(item.pressure, BAR, 3),
-                figure(item.time, SECONDS, 3),
-                figure(item.air_volume_anr, LITRES, 3),
+                *(of_proposal(item, name) for name in ("pressure", *_AXES[::-1])),
                 _likely(item),
-                _reason(item),
+                item.reason,
             ]
         )
     return table(columns, rows, caption="Proposals, best first; this report describes the one in bold.")
 
 
-def _reason(item: ProposedDrive) -> str:
-    """The reason without the probability, which has its own column."""
-    return "; ".join(part for part in item.reason.split("; ") if not part.startswith("fulfils the task"))
-
-
 def _likely(item: ProposedDrive) -> Child:
     if item.probability is None or item.probability_error is None:
         return "–"
-    return html(percent(item.probability, 3), f" ± {plain(100.0 * item.probability_error, 2)}")
+    return html(of_proposal(item, "probability"), f" ± {plain(100.0 * item.probability_error, 2)}")
 
 
 def rejected_section(material: SizingMaterial) -> Html:
@@ -151,7 +147,7 @@ def rejected_section(material: SizingMaterial) -> Html:
         Head("What would help", wide=True),
     ]
     rows = [
-        [_why(items), limit_name(binding).lower(), items[0].would_work_if]
+        [_why(items), LIMITS[binding].words, items[0].would_work_if]
         for (_, _, binding), items in groups.items()
     ]
     return table(columns, rows, caption=f"{_ORDER} {_GROUPED}", whole=False)

@@ -6,7 +6,7 @@ from mckibben.report.document import Head, bullets, heading, mark, paragraph, ta
 from mckibben.report.figures import plain, pretty
 from mckibben.report.html import Child, Html, html
 from mckibben.report.sizing.material import Chosen, KnownFigure, Part, SizingMaterial
-from mckibben.report.sizing.words import BAR, JOULE, MILLIMETRES
+from mckibben.report.sizing.words import BAR, MILLIMETRES, of_proposal
 from mckibben.report.sources import grades_table
 
 _HAIR = 1e-6
@@ -71,17 +71,18 @@ def _further_parts(material: SizingMaterial, chosen: Chosen) -> list[Child]:
             f"{plain(BAR.of(proposal.pressure), 4, exact=True)} bar; the supply has "
             f"{plain(BAR.of(supply), 4, exact=True)} bar."
         )
-    energy = plain(JOULE.of(proposal.impact_energy), 3)
-    return_energy = chosen.run.timing.retract.impact_energy
-    lower_stop = (
-        ""
-        if return_energy is None
-        else f"; on return, the lower one with {plain(return_energy * chosen.count, 3)} J"
-    )
+    lower_stop: list[Child] = []
+    if proposal.impact_energy_return:
+        lower_stop = ["; on return, the lower one with ", of_proposal(proposal, "impact_energy_return")]
     end = MILLIMETRES.of(proposal.nominal_length * (1.0 - proposal.contraction))
     parts += [
-        f"End stops: the load hits the upper one with {energy} J, where each pulling muscle is {end:.4g} mm "
-        f"long{lower_stop}.",
+        html(
+            "End stops: the load hits the upper one with ",
+            of_proposal(proposal, "impact_energy_stroke"),
+            f", where each pulling muscle is {end:.4g} mm long",
+            lower_stop,
+            ".",
+        ),
         "Fittings between valve, tube and muscle, and silencers: the run neglects their volume and "
         "resistance.",
         "End fittings and joints of the muscle, a guide for the load, wiring of the valve.",

@@ -4,21 +4,12 @@ from __future__ import annotations
 
 from mckibben.application.size.size import nothing_words
 from mckibben.documents.task import TaskOperation
+from mckibben.facts.sizing import LIMITS, SEARCH, SIZING
 from mckibben.report.document import Tone, bullets, callout, paragraph, tiles
-from mckibben.report.figures import figure, percent, plain
+from mckibben.report.figures import percent
 from mckibben.report.html import Child, Html, html
 from mckibben.report.sizing.material import Chosen, SizingMaterial
-from mckibben.report.sizing.words import (
-    AMPLE,
-    BAR,
-    JOULE,
-    LITRES,
-    MILLIMETRES,
-    SECONDS,
-    drive_words,
-    limit_name,
-    parts_words,
-)
+from mckibben.report.sizing.words import AMPLE, drive_words, of_proposal, parts_words, pressure_words
 
 _GOOD, _FAIR = 0.9, 0.5  # probabilities from which the result is shown as good, or with a warning
 _USED_UP = 0.005  # margin below which a limit counts as used up
@@ -43,8 +34,7 @@ def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
         paragraph(f"Task: {material.result.about}."),
         *_left_out(material),
         callout(
-            f"{drive_words(proposal)}, with {parts_words(proposal)} at "
-            f"{plain(BAR.of(proposal.pressure), 3)} bar",
+            f"{drive_words(proposal)}, with {parts_words(proposal)} at {pressure_words(proposal)}",
             f"{rank}: {proposal.reason}.",
             _chance_words(chosen),
             tone=tone,
@@ -63,41 +53,40 @@ def _proposal(material: SizingMaterial, chosen: Chosen) -> Html:
 def _tiles(chosen: Chosen, operation: TaskOperation) -> list[tuple[Child, Child]]:
     proposal = chosen.proposal
     nearest = chosen.margins[0]
-    pairs: list[tuple[Child, Child]] = [
-        ("Time for the stroke", figure(proposal.time, SECONDS, 3)),
-        ("Time for the return", figure(proposal.time_down, SECONDS, 3)),
-        ("Supply pressure", figure(proposal.pressure, BAR, 3)),
-        ("Air per cycle (ANR)", figure(proposal.air_volume_anr, LITRES, 3)),
-        ("Air cost per 1000 cycles", f"{proposal.air_cost * 1e3:.3g} {operation.currency}"),
+    names = ["time", "time_down", "pressure", "air_volume_anr"]
+    if proposal.probability is not None:
+        names.insert(0, "probability")
+    pairs: list[tuple[Child, Child]] = [(SIZING[name].label, of_proposal(proposal, name)) for name in names]
+    cost = SIZING["air_cost"]
+    pairs += [
         (
-            f"Air cost per year ({operation.cycles_per_year:,.0f} cycles)",
+            f"{cost.label} {cost.scale.unit}",
+            f"{cost.scale.of(proposal.air_cost):.3g} {operation.currency}",
+        ),
+        (
+            f"{SIZING['air_cost_year'].label} ({operation.cycles_per_year:,.0f} cycles)",
             f"{proposal.air_cost_year:.3g} {operation.currency}",
         ),
         (
-            "Force reserve at rest",
-            "ample" if proposal.force_reserve > AMPLE else percent(proposal.force_reserve, 3),
+            SIZING["force_reserve"].label,
+            "ample" if proposal.force_reserve > AMPLE else of_proposal(proposal, "force_reserve"),
         ),
-        ("Energy at the end stop", figure(proposal.impact_energy, JOULE, 3)),
-        ("Installed length", figure(proposal.installed_length, MILLIMETRES, 4)),
-        ("Outer diameter", figure(proposal.diameter, MILLIMETRES, 3)),
     ]
-    if proposal.probability is not None:
-        pairs.insert(0, ("Probability to fulfil the task", percent(proposal.probability, 3)))
+    names = ["impact_energy_stroke", "impact_energy_return", "installed_length", "outer_diameter"]
+    pairs += [(SIZING[name].label, of_proposal(proposal, name)) for name in names]
     remaining = percent(max(nearest.share, 0.0)) if nearest.share > _USED_UP else "used up"
-    pairs.append((f"Nearest limit: {limit_name(nearest.name).lower()}", remaining))
+    pairs.append((f"{SIZING['binding'].label}: {LIMITS[nearest.name].words}", remaining))
     return pairs
 
 
 def _chance_words(chosen: Chosen) -> str:
     proposal = chosen.proposal
     if proposal.probability is None or proposal.probability_error is None:
-        return (
-            "No specimens were simulated, so the probability that a built drive fulfils the task is unknown."
-        )
+        return "No specimens were simulated: how many built drives would fulfil the task is unknown."
     share, error = 100.0 * proposal.probability, 100.0 * proposal.probability_error
     return (
-        f"Of {proposal.specimens} simulated specimens {share:.3g} % fulfil the task (standard error "
-        f"{error:.2g} %). Section “Uncertainty” says what varies between them."
+        f"Of {proposal.specimens} simulated specimens {share:.3g} % succeed (standard error {error:.2g} %): "
+        "they reach the end of the stroke in time and stay there. Section “Uncertainty” says what varies."
     )
 
 
@@ -146,9 +135,8 @@ def _nothing(material: SizingMaterial) -> Html:
         callout(f"{words[:1].upper()}{words[1:]}", *hints, tone="bad"),
     ]
     tiles_: list[tuple[Child, Child]] = [
-        ("Combinations", f"{material.result.combinations}"),
-        ("Rejected in closed form", f"{material.result.pruned}"),
-        ("Simulated", f"{material.result.simulated}"),
+        (SEARCH[name].label, f"{getattr(material.result, name)}")
+        for name in ("combinations", "pruned", "simulated")
     ]
     parts.append(tiles(tiles_))
     return html(parts)

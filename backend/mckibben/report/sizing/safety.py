@@ -2,15 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
+from mckibben.facts.sizing import LIMITS, SIZING
 from mckibben.report.bars import Bar, bars
 from mckibben.report.document import Head, bullets, callout, heading, mark, paragraph, table
 from mckibben.report.figures import figure, plain
 from mckibben.report.html import Child, Html, html, tag
 from mckibben.report.sizing.material import Chosen, Margin, SpecimenSpread
-from mckibben.report.sizing.words import NEWTON, SHARE, in_unit, limit_name
+from mckibben.report.sizing.words import NEWTON, SHARE, shown
 
 _USED_UP = 0.005  # margin below which a limit counts as used up
 _FREE = ("length", "pressure", "contraction")  # values chosen by the search
+_TIMES = ("time", "time_down", "cycle_time")  # limits that a specimen has to keep
 _LONGEST = 1.0  # longest bar: larger margins make no difference
 
 
@@ -25,16 +29,16 @@ def margins_section(chosen: Chosen) -> Html:
         level=_LONGEST if max(margin.share for margin in chosen.margins) < _LONGEST else None,
     )
     caption = (
-        f"The nearest limit is {limit_name(nearest.name).lower()}. 0 % is the limit itself; a full bar is "
-        "100 % or more."
+        f"The nearest limit is {LIMITS[nearest.name].words}. {SIZING['margins'].label}: "
+        f"{SIZING['margins'].definition} A full bar is 100 % or more."
     )
     columns = [
         Head("Limit"), Head("Required", number=True), Head("This drive", number=True),
-        Head("Margin", number=True), Head("", bar=True),
+        Head(SIZING["margins"].label, number=True), Head("", bar=True),
     ]  # fmt: skip
     body = [
         [
-            limit_name(margin.name),
+            LIMITS[margin.name].label,
             html("at most " if margin.upper else "at least ", _value(margin, margin.allowed)),
             _value(margin, margin.actual),
             tag("data", _left(margin), value=repr(float(margin.share))),
@@ -63,7 +67,7 @@ def _left(margin: Margin) -> str:
 def _value(margin: Margin, value: float) -> Html:
     if margin.name == "force":
         return html(figure(value, digits=3), " × the load")
-    return in_unit(value, margin.unit)
+    return shown(value, LIMITS[margin.name], exact=True)
 
 
 def uncertainty_section(chosen: Chosen) -> Html:
@@ -71,39 +75,43 @@ def uncertainty_section(chosen: Chosen) -> Html:
     proposal, spread = chosen.proposal, chosen.spread
     if spread is None or proposal.probability is None or proposal.probability_error is None:
         return paragraph(
-            "No specimens were simulated, because the task requests none. The probability that a built drive "
-            "fulfils the task is unknown."
+            "No specimens were simulated, because the task requests none. How many built drives would fulfil "
+            "the task is unknown."
         )
     share, error = 100.0 * proposal.probability, 100.0 * proposal.probability_error
     low, high = (max(share - 2.0 * error, 0.0), min(share + 2.0 * error, 100.0))
     parts: list[Child] = [
         callout(
-            f"{share:.3g} % of {proposal.specimens} simulated specimens fulfil the task",
+            f"{share:.3g} % of {proposal.specimens} simulated specimens succeed",
             f"Standard error {error:.2g} %: with many more specimens the share would be between {low:.3g} "
             f"and {high:.3g} % (two standard errors).",
         ),
-        paragraph("A specimen fulfils the task if"),
+        paragraph("A specimen succeeds if"),
         bullets(spread.demands),
         heading("What differs between specimens"),
         _spread_table(spread),
         paragraph("All muscles of a drive deviate equally, as in one batch: the worst case."),
-        heading("What the probability means"),
+        heading("What this share means"),
         bullets(
             [
-                "It is the share of simulated specimens, with the spread above, that keep the times and "
-                "reach the end of the stroke. It is not a failure rate and says nothing about wear.",
+                SIZING["probability"].definition,
                 html(
                     "The spread itself is an assumption ", mark("not measured on these parts"), "; "
                     "change it in the task if you know better.",
                 ),
                 "Not varied: flow of valve and tube, load, stroke, temperature, mounting. If their figures "
-                "are not verified, neither is the probability.",
-                "Static limits (length, diameter, largest force of the maker) are not part of it; see their "
-                "margins above.",
+                "are not verified, neither is the share.",
+                *_at_rest(chosen.margins),
             ]
         ),
     ]  # fmt: skip
     return html(parts)
+
+
+def _at_rest(margins: Sequence[Margin]) -> list[str]:
+    """The limits that no specimen is asked for."""
+    names = [LIMITS[margin.name].words for margin in margins if margin.name not in _TIMES]
+    return [f"Limits at rest that no specimen is asked for: {', '.join(names)}."] if names else []
 
 
 def _spread_table(spread: SpecimenSpread) -> Html:
@@ -129,7 +137,7 @@ def _spread_table(spread: SpecimenSpread) -> Html:
             mark("unknown for this muscle")
             if spread.hysteresis is None
             else html(figure(spread.hysteresis, SHARE, 3, exact=True), " of the nominal length wide"),
-            "assumed to be zero, so the probability is too high"
+            "assumed to be zero, so the share is too high"
             if spread.hysteresis is None
             else html(
                 "up to ", figure(spread.friction, NEWTON, 3),

@@ -4,9 +4,15 @@ from __future__ import annotations
 
 from mckibben.application.size.size import SizingResult, nothing_words
 from mckibben.application.size.task import heading_of
+from mckibben.facts.figure import Figure
+from mckibben.facts.sizing import LIMITS, SIZING
 from mckibben.report.summary.parts import Summary, Table, figure
 
 _REJECTED_SHOWN = 12
+_FIGURES = (
+    "nominal_length", "pressure", "time", "contraction", "force_reserve", "air_volume_anr", "impact_energy",
+    "probability",
+)  # fmt: skip
 
 
 def summary_of(result: SizingResult, name: str) -> Summary:
@@ -22,7 +28,7 @@ def summary_of(result: SizingResult, name: str) -> Summary:
         proposal_table(result, name),
         *([result.ranking] if result.proposals and result.ranking is not None else []),
         *(
-            f"– {item.why} [{item.binding.replace('_', ' ')}]; it would work with {item.would_work_if}"
+            f"– {item.why} [{LIMITS[item.binding].words}]; it would work with {item.would_work_if}"
             for item in shown
         ),
         *([f"– and {others} further choices of parts"] if others else []),
@@ -36,29 +42,26 @@ def notices(result: SizingResult) -> list[str]:
     return [*(notice.message for notice in result.flags), *ended]
 
 
+def _shown(value: float | None, each: Figure, digits: int = 3) -> str:
+    return figure(None if value is None else each.scale.of(value), digits, f" {each.scale.unit}")
+
+
 def proposal_table(result: SizingResult, name: str) -> Table:
     """The proposals, the best first."""
     rows = [
         [
             f"{item.parallel} × {item.muscle}" if item.parallel > 1 else item.muscle,
-            figure(item.nominal_length * 1e3, unit=" mm"),
             item.valve,
             item.tube or "–",
-            figure(item.pressure / 1e5, 3, " bar"),
-            figure(item.time, 3, " s"),
-            figure(item.contraction * 100.0, 3, " %"),
-            figure(item.force_reserve * 100.0, 3, " %"),
-            figure(item.air_volume_anr * 1e3, 3, " l"),
-            figure(item.impact_energy, 3, " J"),
-            "–" if item.probability is None else figure(item.probability * 100.0, 3, " %"),
-            figure(item.margins[item.binding] * 100.0, 2, " %"),
-            item.binding.replace("_", " "),
+            *(_shown(getattr(item, name), SIZING[name]) for name in _FIGURES),
+            _shown(item.margins[item.binding], SIZING["margins"], 2),
+            LIMITS[item.binding].words,
         ]
         for item in result.proposals
     ]
     header = [
-        "muscle", "length", "valve", "tube", "supply", "time", "contraction", "force reserve",
-        "air per cycle", "impact", "probability", "margin", "nearest limit",
+        "muscle", "valve", "tube",
+        *(SIZING[name].words for name in (*_FIGURES, "margins", "binding")),
     ]  # fmt: skip
     counted = f"{result.combinations} combinations, {result.simulated} simulated"
     heading = heading_of(result.about, name)

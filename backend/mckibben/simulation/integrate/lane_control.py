@@ -9,12 +9,12 @@ import numpy as np
 from numba import njit
 
 from mckibben.simulation.integrate.lane_type import (
+    inverse_root,
     larger,
     load,
     magnitude,
     positive_bits,
     replaced,
-    inverse_root,
     smaller,
     splat,
     store,

@@ -124,7 +124,7 @@ function verdict() {
   ];
 }
 
-/** How much of each limit is used, as one bar each. */
+/** What is left of each limit, as one bar each: empty at the limit, full at 100 % or more. */
 function margins() {
   const c = curves.value;
   if (!c) return h("div", { class: "margins" });
@@ -141,12 +141,12 @@ function margins() {
     "div",
     { class: "margins" },
     ...known.map(([name, used, limit, quantity]) => {
-      const share = used / (limit ?? 1);
+      const left = (limit ?? 0) / used - 1;
       return h(
         "div",
-        { class: share > 1.0001 ? "over" : "" },
+        { class: left < -1e-4 ? "over" : "" },
         h("span", null, name),
-        h("span", { class: "bar" }, h("i", { style: `width:${Math.min(100, share * 100)}%` })),
+        h("span", { class: "bar" }, h("i", { style: `width:${100 * Math.min(1, Math.max(0, left))}%` })),
         h(
           "span",
           { class: "num" },

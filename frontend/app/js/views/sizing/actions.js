@@ -1,5 +1,6 @@
 // @ts-check
 // What can be done with a proposal: open it in the Design or Transient view, write a report, save a table.
+import { inSentence } from "../../facts.js";
 import { signal } from "../../reactive.js";
 import { units } from "../../state.js";
 import { ApiError, postForText } from "../../server/client.js";
@@ -10,19 +11,12 @@ import { openDrive } from "../../drive/open.js";
 import { openDesign } from "../../muscle/document.js";
 import { answeredTask, proposals, sizing } from "./model.js";
 import { requestOf } from "../../drive/task.js";
-import { AIMS, driveWords, limitName } from "./words.js";
+import { driveWords, limitName, sizingFigure } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
+/** @typedef {import("../../format.js").Quantity} Quantity */
 
-const GRAVITY = 9.80665, NEAR = 0.3 * BAR;
-/** What one muscle holds at the end of the stroke at rest [N]. @param {Proposal} p */
-function staticLoad({ drive, nominal_length: length, contraction }) {
-  const { mass = 0, force = 0, spring = 0, inclination = 0, lever_ratio: ratio = 1 } =
-    /** @type {Record<string, number | undefined>} */ (drive.load);
-  const stroke = (length * contraction) / ratio;
-  return (mass * GRAVITY * Math.sin(inclination) + force + spring * stroke) / ratio;
-}
-
+const NEAR = 0.3 * BAR;
 /** Pressures of the curves: whole bars up to the pressure of the proposal, and that itself.
  * @param {number} most */
 function pressuresUpTo(most) {
@@ -45,7 +39,7 @@ export function openInDesign(p) {
     effects: null,
     reference: reference(p),
     pressures: pressuresUpTo(p.pressure),
-    load: Math.max(0, Number(staticLoad(p).toPrecision(5))),
+    load: Math.max(0, Number(p.static_load.toPrecision(5))),
     range: null,
   }, `proposal ${driveWords(p)}`);
   status.value = `${driveWords(p)} at its load at the end of the stroke.${oneOf(p)}`;
@@ -86,20 +80,31 @@ export function saveTask() {
   downloadText(fileName("task", "json"), text, "application/json");
 }
 
+/** Figures of the saved table. */
+const COLUMNS = [
+  "nominal_length",
+  "pressure",
+  "air_volume_anr",
+  "time",
+  "installed_length",
+  "force_reserve",
+  "stiffness",
+  "probability",
+  "impact_energy",
+  "impact_energy_stroke",
+  "impact_energy_return",
+  "outer_diameter",
+];
+
 /** @returns {import("../../ui/table.js").Table} */
 function proposalTable() {
-  const system = units.peek(), fittings = answeredTask().limits?.end_fittings ?? 0;
-  const aims = Object.values(AIMS), pressure = scaleOf("pressure", system);
-  const length = scaleOf("length", system);
+  const figures = COLUMNS.map(sizingFigure);
+  const scales = figures.map(({ quantity }) => scaleOf(/** @type {Quantity} */ (quantity), units.peek()));
   return {
     columns: [
       ...["rank", "muscle", "muscles", "valve", "tube"].map((title) => ({ title, text: true })),
-      { title: "nominal length", unit: length.unit },
-      { title: "supply pressure", unit: pressure.unit },
-      ...aims.map((a) => ({ title: a.title.toLowerCase(), unit: scaleOf(a.quantity, system).unit })),
-      { title: "probability", unit: "%" },
-      { title: "impact energy", unit: "J" },
-      { title: "binding limit", text: true },
+      ...figures.map(({ label }, i) => ({ title: inSentence(label), unit: scales[i].unit })),
+      { title: inSentence(sizingFigure("binding").label), text: true },
     ],
     rows: proposals.peek().map((p, i) => [
       String(i + 1),
@@ -107,11 +112,10 @@ function proposalTable() {
       String(p.muscles),
       p.valve,
       p.tube ?? "",
-      toShown(p.nominal_length, length),
-      toShown(p.pressure, pressure),
-      ...aims.map((a) => toShown(a.of(p, fittings), scaleOf(a.quantity, system))),
-      p.probability === null ? null : 100 * p.probability,
-      p.impact_energy,
+      ...COLUMNS.map((name, k) => {
+        const value = /** @type {Record<string, any>} */ (p)[name];
+        return value === null ? null : toShown(value, scales[k]);
+      }),
       limitName(p.binding),
     ]),
   };

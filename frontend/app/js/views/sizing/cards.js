@@ -1,5 +1,6 @@
 // @ts-check
 // The inputs of a task in grouped cards; what is rarely changed is collapsed.
+import { inSentence } from "../../facts.js";
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { presets } from "../../store.js";
@@ -19,7 +20,7 @@ import {
   valueAt,
 } from "./model.js";
 import { partsField } from "./parts.js";
-import { FIELDS, RANKING_WHY, RANKINGS, USUAL_RANKING } from "./specs.js";
+import { fieldOf, isNumber, RANKINGS, USUAL_RANKING } from "./specs.js";
 import { asText } from "./words.js";
 
 /** @typedef {import("../../types.js").TaskArrangement} Arrangement */
@@ -116,22 +117,18 @@ const card = (title, paths, ...body) =>
 function statedWords(paths) {
   const stated = paths.filter((path) => valueAt(path) !== undefined);
   return stated.map((path) => {
-    const field = FIELDS[path], value = valueAt(path);
-    if (Array.isArray(value)) return value.length > 2 ? `${value.length} ${nameOf(path)}` : value.join(", ");
-    if (!field || typeof value !== "number") return nameOf(path);
-    const shown = field.quantity && !field.whole ? asText(value, field.quantity) : String(value);
-    return `${field.label.toLowerCase()} ${shown}`;
+    const { label, quantity, whole } = fieldOf(path), value = valueAt(path), name = inSentence(label);
+    if (Array.isArray(value)) return value.length > 2 ? `${value.length} ${name}` : value.join(", ");
+    if (typeof value !== "number") return name;
+    return `${name} ${quantity && !whole ? asText(value, quantity) : String(value)}`;
   }).join(", ") || usualWords(paths[0]);
 }
 /** The first field of a card that states none. @param {string} path */
 function usualWords(path) {
-  const { label, quantity, usual = null } = FIELDS[path] ?? {};
-  if (!label || !quantity || !usual) return "defaults";
-  return `defaults: ${label.toLowerCase()} ${asText(usual, quantity)} …`;
+  const { label, quantity, default: usual } = fieldOf(path);
+  if (!isNumber(path) || !quantity || !usual) return "defaults";
+  return `defaults: ${inSentence(label)} ${asText(usual, quantity)} …`;
 }
-/** @param {string} path */
-const nameOf = (path) => path.slice(path.lastIndexOf(".") + 1).replaceAll("_", " ");
-
 /** Fields that are rarely changed, collapsed; an error in one opens them.
  * @param {string} summary @param {string[]} paths @param {import("../../dom.js").Child[]} more */
 const folded = (summary, paths, ...more) =>
@@ -180,7 +177,7 @@ function rankField() {
     h(
       "div",
       { class: "field-head" },
-      h("label", { for: "rank-by" }, "Ranked by"),
+      h("label", { for: "rank-by" }, fieldOf("rank_by").label),
       h(
         "select",
         {
@@ -195,7 +192,7 @@ function rankField() {
           ),
       ),
     ),
-    h("p", { class: "hint" }, RANKING_WHY),
+    h("p", { class: "hint" }, fieldOf("rank_by").definition),
   );
 }
 
@@ -233,14 +230,9 @@ export function taskCards() {
     card(
       "Catalogue",
       parts,
-      partsField("muscles", "Muscles", "all with complete data", "Others have limits that are not known."),
-      partsField(
-        "valves",
-        "Valves",
-        "all whose flow is known",
-        "Pressure regulators are left out: they switch too slowly.",
-      ),
-      partsField("tubes", "Tubes", "all", "Narrow tubes save air, wide tubes save time."),
+      partsField("muscles", "all with complete data"),
+      partsField("valves", "all whose flow is known"),
+      partsField("tubes", "all"),
       taskField("catalogue.tube_length"),
     ),
     card(

@@ -1,11 +1,12 @@
 // @ts-check
 // The selected proposal in figures, what can be done with it, and how the search went.
+import { inSentence } from "../../facts.js";
 import { h, icon } from "../../dom.js";
 import { openPopover } from "../../ui/dialog.js";
 import { openInDesign, openInTransient, saveReport, writing } from "./actions.js";
 import { marginBars } from "./margins.js";
 import { answer, chosen, chosenIndex, proposals } from "./model.js";
-import { asText, driveWords, partsWords, percent } from "./words.js";
+import { driveWords, partsWords, percent, sizingFigure, terms } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
 
@@ -19,44 +20,46 @@ function verdict(p) {
       "p",
       { class: "verdict warn" },
       icon("info"),
-      "Fulfils the task as computed. Its probability is not known: no specimens were simulated.",
+      "Fulfils the task as computed. How many built drives would is not known: no specimens were simulated.",
     );
   }
   const grade = probability >= LIKELY ? "good" : probability >= DOUBTFUL ? "warn" : "bad";
-  const range = error ? ` ± ${percent(error)}` : "";
+  const { definition } = sizingFigure("probability"), { label } = sizingFigure("probability_error");
+  const range = error ? ` ± ${percent(error)} (${inSentence(label)})` : "";
   return h(
     "p",
     { class: `verdict ${grade}` },
     icon(grade === "good" ? "check" : "warn"),
     h(
       "span",
-      null,
-      h("b", null, `${percent(probability)}${range}`),
-      ` probability that the real drive fulfils the task (${p.specimens} simulated specimens).`,
+      { title: definition },
+      h("b", null, percent(probability)),
+      `${range} of ${p.specimens} simulated specimens reach the end in time and stay there.`,
     ),
   );
 }
 
-/** @param {Proposal} p @returns {[string, string][]} */
-const figures = (p) => [
-  ["Time for the stroke", asText(p.time, "time")],
-  ["Time for the return", asText(p.time_down, "time")],
-  ["Air per cycle", asText(p.air_volume_anr, "normal")],
-  ["Supply pressure", asText(p.pressure, "pressure")],
-  ["Lowest sufficient pressure", asText(p.needed_pressure, "pressure")],
-  ["Pressure at the start", asText(p.pressure_start, "pressure")],
-  ["Pressure on arrival", asText(p.pressure_end, "pressure")],
-  ["Contraction", asText(p.contraction, "ratio")],
-  ["Force reserve", percent(p.force_reserve)],
-  ["Peak muscle force", asText(p.peak_force, "force")],
-  ["Stiffness, valve open", asText(p.stiffness, "stiffness")],
-  ["Stiffness, valve closed", asText(p.stiffness_closed, "stiffness")],
-  ["Energy at impact", asText(p.impact_energy, "energy")],
-  ["End speed", asText(p.end_speed, "speed")],
-  ["Largest speed", asText(p.max_speed, "speed")],
-  ["Installed length", asText(p.installed_length, "length")],
-  ["Diameter, contracted", asText(p.diameter, "length")],
-  ["Life, unverified", `${Number(p.life.toPrecision(2)).toLocaleString("en")} cycles`],
+/** @type {import("./words.js").Name[]} */
+const FIGURES = [
+  "time",
+  "time_down",
+  "air_volume_anr",
+  "pressure",
+  "needed_pressure",
+  "pressure_start",
+  "pressure_end",
+  "contraction",
+  "force_reserve",
+  "peak_force",
+  "stiffness",
+  "stiffness_closed",
+  "impact_energy_stroke",
+  "impact_energy_return",
+  "end_speed",
+  "max_speed",
+  "installed_length",
+  "outer_diameter",
+  "life",
 ];
 
 /** @param {Proposal} p */
@@ -112,9 +115,8 @@ function card(p) {
         () => writing.value ? "Writing…" : "Report",
       ),
     ),
-    h("dl", null, () => figures(p).flatMap(([name, text]) => [h("dt", null, name), h("dd", null, text)])),
-    h("h3", { class: "second" }, "Margins"),
-    marginBars(p),
+    h("dl", null, () => terms(p, FIGURES)),
+    ...marginBars(p),
     ...p.notes.map((note) => h("p", { class: "flag note" }, icon("info"), h("span", { title: note }, note))),
   ];
 }

@@ -1,5 +1,6 @@
 // @ts-check
 // The fields of a task, each with its explanation and the server's message.
+import { inSentence } from "../../facts.js";
 import { h } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { commit, preview, units } from "../../state.js";
@@ -7,12 +8,12 @@ import { number, plainScale, scaleOf, toShown, toSi } from "../../format.js";
 import { quantityField } from "../../ui/field.js";
 import { put } from "../../paths.js";
 import { messageFor, patchSizing, setTask, task, valueAt } from "./model.js";
-import { FIELDS } from "./specs.js";
+import { fieldOf } from "./specs.js";
 
 /** @param {string} path @param {{needed?: boolean}} [o] needed: it cannot be left at its default */
 export function taskField(path, { needed = false } = {}) {
-  const { label, quantity, unit = "1", bounds, usual, empty, whole, why } = FIELDS[path];
-  const name = label.toLowerCase();
+  const { label, quantity, unit, bounds, default: usual, empty, whole, definition } = fieldOf(path);
+  const name = inSentence(label);
   const entered = computed(() => valueAt(path));
   const reset = () => setTask(path, undefined, `default ${name}`);
   return h(
@@ -36,7 +37,7 @@ export function taskField(path, { needed = false } = {}) {
       reset,
       message: () => messageFor(path),
     }),
-    h("p", { class: "hint" }, why),
+    h("p", { class: "hint" }, definition),
   );
 }
 
@@ -48,7 +49,7 @@ export const openOnError = (paths) => (/** @type {HTMLElement} */ el) =>
 
 /** A force over the stroke as typed or pasted rows. */
 export function profileField() {
-  const path = "load.force_over_stroke";
+  const path = "load.force_over_stroke", { label, definition } = fieldOf(path);
   const wrong = signal("");
   const stroke = () => scaleOf("length", units.value), force = () => scaleOf("force", units.value);
   const text = computed(() => {
@@ -87,15 +88,14 @@ export function profileField() {
     h(
       "label",
       { class: "label", for: "force-over-stroke" },
-      () => `Force over stroke: rows of ${stroke().unit} and ${force().unit}`,
+      () => `${label}: rows of ${stroke().unit} and ${force().unit}`,
     ),
     area,
     h("p", { class: "error", id: "force-over-stroke-m", role: "alert" }, message),
     h(
       "p",
       { class: "hint" },
-      "A further force that depends on the stroke, interpolated linearly. Leave empty for none. Simulations replace " +
-        "it by the lowest straight line above it that does not fall.",
+      definition,
     ),
   );
 }

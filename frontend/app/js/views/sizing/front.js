@@ -1,5 +1,6 @@
 // @ts-check
 // Trade-offs: all drives that fulfil the task over two aims. A click selects a proposal.
+import { inSentence } from "../../facts.js";
 import { h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
 import { units } from "../../state.js";
@@ -11,8 +12,8 @@ import { menuButton } from "../../ui/menu.js";
 import { axisTitle, extent } from "../../plots/axes.js";
 import { plotlyReady } from "../../plots/library.js";
 import { AIM_NAMES, inTask } from "./document.js";
-import { answer, answeredTask, chosenIndex, lookSizing, proposals, sizing } from "./model.js";
-import { AIMS, asText, driveWords, partsWords } from "./words.js";
+import { answer, chosenIndex, lookSizing, proposals, sizing } from "./model.js";
+import { aimOf, asText, driveWords, partsWords, sizingFigure } from "./words.js";
 
 /** @typedef {import("../../types.js").Aim} Aim */
 /** @typedef {import("./words.js").Design} Design */
@@ -39,8 +40,8 @@ const others = computed(() => (answer.value?.explored ?? []).filter((e) => !isPr
 
 /** In shown units. @param {Aim} aim @param {Design} d */
 function valueOf(aim, d) {
-  const { quantity, of } = AIMS[aim];
-  return toShown(of(d, answeredTask().limits?.end_fittings ?? 0), scaleOf(quantity, units.value));
+  const { quantity, of } = aimOf(aim);
+  return toShown(of(d), scaleOf(quantity, units.value));
 }
 
 /** The range of an axis: all proposals, and those explored drives that lie near them.
@@ -66,7 +67,10 @@ function spec(p) {
   const best = marks(others.value.filter((e) => e.front), "front", "circle", p.accent, 7);
   const proposed = marks(proposals.value, "proposals", "circle", p.ink, 4);
   const title = (/** @type {Aim} */ aim) =>
-    axisTitle(AIMS[aim].title, AIMS[aim].quantity, units.value).replace("(ANR))", "ANR)");
+    axisTitle(aimOf(aim).label.replace(" (ANR)", ""), aimOf(aim).quantity, units.value).replace(
+      "(ANR))",
+      "ANR)",
+    );
   return {
     x: { title: title(ax), range: rangeOf(proposed.x, [...best.x, ...dominated.x]) },
     y: { title: title(ay), range: rangeOf(proposed.y, [...best.y, ...dominated.y]) },
@@ -87,14 +91,19 @@ const axisChoice = (which, label) =>
     },
   }, () =>
     AIM_NAMES.map((aim) =>
-      h("option", { value: aim, selected: axes.value[which] === aim }, AIMS[aim].title.toLowerCase())
+      h("option", { value: aim, selected: axes.value[which] === aim }, inSentence(aimOf(aim).label))
     ));
 
 const legend = () =>
   h(
     "ul",
     { class: "legend" },
-    h("li", null, h("i", { class: "dot full" }), "Pareto front: no drive found is better in every aim"),
+    h(
+      "li",
+      { title: sizingFigure("front").definition },
+      h("i", { class: "dot full" }),
+      sizingFigure("front").label,
+    ),
     h("li", null, h("i", { class: "dot" }), "others"),
     h("li", { class: "muted" }, "numbered: the proposals; not numbered: not among the best"),
     () => {
@@ -202,7 +211,7 @@ function pointedLine() {
   }
   const [ax, ay] = axes.value;
   const figure = (/** @type {Aim} */ aim) =>
-    `${AIMS[aim].title.toLowerCase()} ${asText(AIMS[aim].of(e, 0), AIMS[aim].quantity)}`;
+    `${inSentence(aimOf(aim).label)} ${asText(aimOf(aim).of(e), aimOf(aim).quantity)}`;
   return [
     h("b", null, driveWords(e)),
     `, ${partsWords(e)}: ${figure(ax)}, ${figure(ay)}. Estimated coarsely; not among the proposals.`,

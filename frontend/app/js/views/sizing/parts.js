@@ -4,6 +4,7 @@ import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { presets } from "../../store.js";
 import { openOnError } from "./fields.js";
+import { fieldOf } from "./specs.js";
 import { messageFor, setTask, valueAt } from "./model.js";
 
 /** @typedef {import("../../types.js").Preset} Preset */
@@ -12,10 +13,9 @@ import { messageFor, setTask, valueAt } from "./model.js";
 const usable = (p) =>
   p.kind !== "valve" || (!("regulator" in p) && Boolean(p.data?.sonic_conductance ?? p.data?.nominal_flow));
 
-/** @param {"muscles" | "valves" | "tubes"} kind @param {string} title @param {string} usual the default choice
- * @param {string} why */
-export function partsField(kind, title, usual, why) {
-  const path = `catalogue.${kind}`;
+/** @param {"muscles" | "valves" | "tubes"} kind @param {string} usual the default choice */
+export function partsField(kind, usual) {
+  const path = `catalogue.${kind}`, { label: title, definition } = fieldOf(path);
   const chosen = computed(() => /** @type {string[]} */ (valueAt(path) ?? []));
   const offered = computed(() => (presets.value[kind] ?? []).filter(usable));
   /** @param {string} id @param {boolean} on */
@@ -37,7 +37,7 @@ export function partsField(kind, title, usual, why) {
     h(
       "fieldset",
       null,
-      h("legend", { class: "hint" }, `None selected: ${usual}. ${why}`),
+      h("legend", { class: "hint" }, definition),
       () =>
         offered.value.map((p) =>
           h(

@@ -1,15 +1,18 @@
 // @ts-check
 // The ranked list: one row per proposal, with its reasons and margins below it on request.
-import { capitalized } from "../../format.js";
+import { inSentence } from "../../facts.js";
+import { capitalized, scaleOf, toShown } from "../../format.js";
 import { h, icon } from "../../dom.js";
 import { effect, signal } from "../../reactive.js";
+import { units } from "../../state.js";
 import { menuButton } from "../../ui/menu.js";
 import { saveCsv, saveTask } from "./actions.js";
 import { marginBars } from "./margins.js";
 import { answer, answeredTask, chosenIndex, headingOf, isPartial, lookSizing, proposals } from "./model.js";
-import { asText, driveWords, limitName, partsOf, percent, spare } from "./words.js";
+import { asText, driveWords, limitName, partsOf, percent, sizingFigure, spare, terms } from "./words.js";
 
 /** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
+/** @typedef {import("../../format.js").Quantity} Quantity */
 
 /** Proposals whose reasons are shown, by index. */
 const unfolded = signal(/** @type {ReadonlySet<number>} */ (new Set()));
@@ -20,18 +23,16 @@ function fold(i) {
   unfolded.value = next;
 }
 
-/** @type {[string, string][]} */
-const HEAD = [
-  ["", "No."],
-  ["text", "Drive"],
-  ["", "Time"],
-  ["", "Probability"],
-  ["wide", "Air per cycle"],
-  ["wide roomy", "Impact"],
-  ["wide roomy", "Force reserve"],
-  ["wide", "Margin"],
-  ["", ""],
+/** Classes of a column, and its figure. @type {[string, string][]} */
+const COLUMNS = [
+  ["", "time"],
+  ["", "probability"],
+  ["wide", "air_volume_anr"],
+  ["wide roomy", "impact_energy"],
+  ["wide roomy", "force_reserve"],
+  ["wide", "margins"],
 ];
+const WIDTH = COLUMNS.length + 3; // with number, drive, and the button for reasons
 
 const DOUBTFUL = 0.5;
 
@@ -71,7 +72,7 @@ function row(p, i) {
           "span",
           {
             class: "front-mark",
-            title: "Not on the Pareto front: another drive is as good in every aim and better in one",
+            title: `Not on the ${sizingFigure("front").label}. ${sizingFigure("front").definition}`,
           },
           "dominated",
         ),
@@ -98,7 +99,7 @@ function row(p, i) {
         "td",
         { class: p.reservations.length ? "wide doubtful" : "wide", title: p.reservations.join("; ") || null },
         spare(p.margins[p.binding]),
-        h("small", { class: "whole" }, limitName(p.binding)),
+        h("small", null, limitName(p.binding)),
       ),
       h(
         "td",
@@ -115,7 +116,7 @@ function row(p, i) {
         }, icon("down")),
       ),
     ),
-    () => (open() ? h("tr", { class: "more" }, h("td", { colspan: HEAD.length }, details(p))) : null),
+    () => (open() ? h("tr", { class: "more" }, h("td", { colspan: WIDTH }, details(p))) : null),
   );
 }
 
@@ -131,38 +132,40 @@ function details(p) {
       h(
         "dl",
         null,
-        ...figures(p).flatMap(([name, text]) => [h("dt", null, name), h("dd", null, text)]),
+        ...terms(p, FIGURES),
+        ...costs(p),
       ),
       p.notes.length
         ? h("ul", { class: "plain muted" }, ...p.notes.map((note) => h("li", null, note)))
         : null,
     ),
-    h("div", null, h("h3", null, "Margins"), marginBars(p)),
+    h("div", null, marginBars(p)),
   );
 }
 
-/** @param {Proposal} p @returns {[string, string][]} */
-const figures = (p) => [
-  ["Pressure at the start", asText(p.pressure_start, "pressure")],
-  ["Pressure at the end", asText(p.pressure_end, "pressure")],
-  ["Stiffness, valve open", asText(p.stiffness, "stiffness")],
-  ["Stiffness, valve closed", asText(p.stiffness_closed, "stiffness")],
-  ["Air cost per 1000 cycles", money(1e3 * p.air_cost)],
-  ["Air cost per year", money(p.air_cost_year)],
-];
+/** @type {import("./words.js").Name[]} */
+const FIGURES = ["pressure_start", "pressure_end", "stiffness", "stiffness_closed"];
 
-/** In the currency of the task; a price that nobody stated is an assumption.
- * @param {number} amount */
-function money(amount) {
+/** The cost of the air in the currency of the task; a price that nobody stated is an assumption.
+ * @param {Proposal} p */
+function costs(p) {
   const stated = /** @type {{ currency?: string, air_price?: unknown }} */ (answeredTask().operation ?? {});
   const assumed = stated.air_price === undefined ? " at an assumed price of air" : "";
-  return `${amount.toPrecision(3)} ${stated.currency ?? "EUR"}${assumed}`;
+  return /** @type {const} */ (["air_cost", "air_cost_year"]).flatMap((name) => {
+    const { label, definition, quantity } = sizingFigure(name);
+    const scale = scaleOf(/** @type {Quantity} */ (quantity), units.value);
+    const amount = toShown(p[name], scale).toPrecision(3);
+    return [
+      h("dt", { title: definition }, `${label} ${scale.unit}`.trim()),
+      h("dd", null, `${amount} ${stated.currency ?? "EUR"}${assumed}`),
+    ];
+  });
 }
 
 /** Whether the proposals are on the Pareto front; those that are not bear a mark. */
 const frontWords = () =>
   proposals.value.length > 1 && proposals.value.every((p) => p.front)
-    ? "; all on the Pareto front: none beats another in every aim"
+    ? `; all on the ${sizingFigure("front").label}`
     : "";
 
 export function proposalsCard() {
@@ -207,17 +210,19 @@ export function proposalsCard() {
           h(
             "tr",
             null,
-            ...HEAD.map(([kind, title]) =>
-              title
-                ? h(
-                  "th",
-                  { scope: "col", class: kind },
-                  title,
-                  title === "Air per cycle" ? h("small", null, "ANR") : null,
-                  title === "Margin" ? h("small", null, "nearest limit") : null,
-                )
-                : h("td", null)
-            ),
+            h("th", { scope: "col" }, "No."),
+            h("th", { scope: "col", class: "text" }, "Drive"),
+            ...COLUMNS.map(([kind, name]) => {
+              const { label, definition } = sizingFigure(name), [title, note] = label.split(" (ANR)");
+              const small = name === "margins" ? inSentence(sizingFigure("binding").label) : "ANR";
+              return h(
+                "th",
+                { scope: "col", class: kind, title: definition },
+                title,
+                name === "margins" || note !== undefined ? h("small", null, small) : null,
+              );
+            }),
+            h("td", null),
           ),
         ),
         () => proposals.value.map(row),

@@ -1,7 +1,9 @@
 // @ts-check
-// Drives, limits and aims in words, with the user's units.
+// Drives, their figures, limits and aims in words, with the user's units.
+import { h } from "../../dom.js";
+import { figure, inSentence } from "../../facts.js";
 import { units } from "../../state.js";
-import { readable, withUnit } from "../../format.js";
+import { withUnit } from "../../format.js";
 
 /** @typedef {import("../../types.js").S["ExploredDrive"]} Explored */
 /** @typedef {import("../../types.js").S["ProposedDrive"]} Proposal */
@@ -37,37 +39,44 @@ export const partsOf = (d) => [
 /** The same as one text. @param {Design} d */
 export const partsWords = (d) => partsOf(d).join(", ");
 
-/** @type {Record<Proposal["binding"], string>} */
-const LIMITS = {
-  length: "length",
-  pressure: "pressure",
-  contraction: "contraction",
-  force: "force reserve",
-  force_limit: "muscle force",
-  suspended_mass: "hanging mass",
-  valve_pressure: "valve pressure",
-  diameter: "diameter",
-  stiffness: "stiffness",
-  life: "life",
-  temperature: "temperature",
-  time: "time",
-  time_down: "time back",
-  cycle_time: "cycle time",
-};
-/** @param {string} name */
-export const limitName = (name) => LIMITS[/** @type {Proposal["binding"]} */ (name)] ?? readable(name);
+/** @typedef {{ [K in keyof Proposal]: Proposal[K] extends number | null ? K : never }[keyof Proposal]} Name */
 
-/** @type {Record<Aim, {title: string, quantity: Quantity, good: "less" | "more",
- *   of: (d: Design, fittings: number) => number}>} */
-export const AIMS = {
-  air: { title: "Air per cycle", quantity: "normal", good: "less", of: (d) => d.air_volume_anr },
-  time: { title: "Time for the stroke", quantity: "time", good: "less", of: (d) => d.time },
-  length: {
-    title: "Installed length",
-    quantity: "length",
-    good: "less",
-    of: (d, fittings) => d.nominal_length + fittings,
-  },
-  reserve: { title: "Force reserve", quantity: "ratio", good: "more", of: (d) => d.force_reserve },
-  stiffness: { title: "Stiffness", quantity: "stiffness", good: "more", of: (d) => d.stiffness },
+/** A figure of a proposal as it is declared. @param {string} name */
+export const sizingFigure = (name) => figure(`sizing.${name}`);
+
+const CYCLES = "life";
+/** A figure of a drive as text. @param {Proposal} p @param {Name} name */
+export function valueText(p, name) {
+  const value = p[name];
+  if (value == null) return `– ${sizingFigure(name).otherwise}`.trim();
+  if (name === CYCLES) return `${Number(value.toPrecision(2)).toLocaleString("en")} cycles`;
+  return asText(value, /** @type {Quantity} */ (sizingFigure(name).quantity));
+}
+
+/** Figures as terms with their definitions. @param {Proposal} p @param {Name[]} names */
+export const terms = (p, names) =>
+  names.flatMap((name) => {
+    const { label, definition } = sizingFigure(name);
+    return [h("dt", { title: definition }, label), h("dd", null, valueText(p, name))];
+  });
+
+/** @param {string} name */
+export const limitName = (name) => inSentence(figure(`limit.${name}`).label);
+
+/** The figure of each aim. @type {Record<Aim, keyof Design>} */
+const AIMS = {
+  air: "air_volume_anr",
+  time: "time",
+  length: "installed_length",
+  reserve: "force_reserve",
+  stiffness: "stiffness",
 };
+/** An aim: its label, quantity, and value of a drive. @param {Aim} aim */
+export function aimOf(aim) {
+  const name = AIMS[aim], { label, quantity } = sizingFigure(name);
+  return {
+    label,
+    quantity: /** @type {Quantity} */ (quantity),
+    of: (/** @type {Design} */ d) => Number(d[name]),
+  };
+}

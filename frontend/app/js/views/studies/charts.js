@@ -1,6 +1,7 @@
 // @ts-check
 // Histogram of a figure with its percentiles; two columns over each other, with the Pareto front.
 import { h } from "../../dom.js";
+import { figure } from "../../facts.js";
 import { toShown } from "../../format.js";
 import { Chart } from "../../plots/chart.js";
 import { plotlyReady } from "../../plots/library.js";
@@ -207,7 +208,11 @@ export function scatterCard() {
     h(
       "div",
       { class: "card-head" },
-      h("h2", null, () => (answer.value?.goals.length ?? 0) > 1 ? "Pareto front" : "Relations"),
+      h(
+        "h2",
+        null,
+        () => (answer.value?.goals.length ?? 0) > 1 ? figure("studied.front").label : "Relations",
+      ),
       h(
         "span",
         { class: "pair-of" },
@@ -223,7 +228,7 @@ export function scatterCard() {
       () =>
         front.value.size
           ? `${front.value.size} ${
-            front.value.size === 1 ? "run is best" : "runs on the Pareto front"
+            front.value.size === 1 ? "run is best" : `runs on the ${figure("studied.front").label}`
           }: diamonds.`
           : "",
     ),

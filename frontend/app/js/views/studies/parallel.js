@@ -141,7 +141,7 @@ function drawing() {
         svg("text", { x: x(k), y: at, "text-anchor": "middle", class: kind }, text);
       return [
         svg("line", { x1: x(k), x2: x(k), y1: TOP, y2: HEIGHT - BOTTOM, class: "axis" }),
-        label(13, name, "name"),
+        label(13, name.replace(" (ANR)", ""), "name"), // the unit says it too
         label(26, [more.join(", "), scale.unit].filter(Boolean).join(", "), "unit"),
         label(TOP - 6, text(most)),
         label(HEIGHT - BOTTOM + 14, text(least)),

@@ -1,6 +1,7 @@
 // @ts-check
 // What the runs show: figures with their spread, probabilities of the limits, influences, designs.
 import { h } from "../../dom.js";
+import { figure, inSentence } from "../../facts.js";
 import { toShown } from "../../format.js";
 import { computed, signal } from "../../reactive.js";
 import { units } from "../../state.js";
@@ -49,14 +50,28 @@ function withHalf(mean, half) {
   return `${mean.toFixed(places).replace("-", "−")} ± ${half.toFixed(places)}`;
 }
 
+const SHARES = ["5", "50", "95"];
+/** @param {string} name */
+const named = (name) => figure(`summary.${name}`).label;
+/** @param {Answer} a */
+const hasIntervals = (a) => a.summary.some((s) => s.mean?.high != null);
+
 /** @param {Answer} a */
 function spread(a) {
   return table(
     "Figures of all runs",
-    ["Figure", "Mean", "Deviation", "5 %", "50 %", "95 %", "Smallest", "Largest", "Runs"],
+    [
+      "Figure",
+      `${named("mean")}${hasIntervals(a) ? `, ± at ${percentText(a.confidence)}` : ""}`,
+      named("deviation"),
+      ...SHARES.map((q) => `${q} %`),
+      named("least"),
+      named("most"),
+      named("count"),
+    ],
     a.summary.map((s) => {
       const scale = scaleFor(s.figure, s.unit, units.value), wide = { ...scale, offset: 0 };
-      const shares = ["5", "50", "95"].map((q) => s.percentiles[q]?.value);
+      const shares = SHARES.map((q) => s.percentiles[q]?.value);
       const text = columnText([...shares, s.least, s.most].map((v) => v ?? null), scale);
       const half = s.mean?.high == null || s.mean.value === null ? null : s.mean.high - s.mean.value;
       return [
@@ -85,7 +100,7 @@ function probabilityText(p) {
 const chances = (a) =>
   h(
     "div",
-    { class: "bars", role: "list", "aria-label": "Probability of keeping the limits" },
+    { class: "bars", role: "list", "aria-label": figure("studied.probability").label },
     ...a.probabilities.map((p) =>
       bar({
         name: p.what === "all" ? "All limits" : titleOf(p.what),
@@ -141,11 +156,11 @@ const influencedNow = computed(() =>
 /** @param {number | null} v */
 const digits = (v) => v === null ? "–" : v.toFixed(2).replace("-", "−");
 
-/** @param {Answer} a @param {string} figure */
-function influences(a, figure) {
-  const found = a.sensitivity.find((s) => s.figure === figure);
+/** @param {Answer} a @param {string} path */
+function influences(a, path) {
+  const found = a.sensitivity.find((s) => s.figure === path);
   if (!found) {
-    const list = a.correlations.filter((c) => c.figure === figure)
+    const list = a.correlations.filter((c) => c.figure === path)
       .sort((x, y) => Math.abs(y.rank_correlation ?? 0) - Math.abs(x.rank_correlation ?? 0));
     return list.map((c) =>
       bar({
@@ -161,13 +176,15 @@ function influences(a, figure) {
   }
   const isSobol = found.influences.some((i) => i.total !== null);
   const size = (/** @type {typeof found.influences[0]} */ i) => (isSobol ? i.total : i.mean_size) ?? 0;
-  const unit = a.columns.find((c) => c.name === figure)?.unit ?? null;
-  const scale = { ...scaleFor(figure, unit, units.value), offset: 0 };
+  const unit = a.columns.find((c) => c.name === path)?.unit ?? null;
+  const scale = { ...scaleFor(path, unit, units.value), offset: 0 };
   const most = isSobol ? 1 : Math.max(...found.influences.map((i) => size(i) + (i.mean_size_error ?? 0)), 0);
   return [...found.influences].sort((x, y) => size(y) - size(x)).map((i) => {
     const error = isSobol ? i.total_error : i.mean_size_error, value = size(i);
     const text = (/** @type {number | null} */ v) => isSobol ? digits(v) : valueText(v, scale);
-    const alone = isSobol ? `, alone ${text(i.first)} ± ${text(i.first_error)}` : "";
+    const alone = isSobol
+      ? `, ${inSentence(figure("influence.first").label)} ${text(i.first)} ± ${text(i.first_error)}`
+      : "";
     return bar({
       name: titleOf(i.quantity),
       text: `${text(value)} ± ${text(error)}${alone}${isSobol ? "" : ` ${scale.unit}`}`,
@@ -183,12 +200,10 @@ function influences(a, figure) {
 /** @param {Answer} a */
 const influenceWords = (a) =>
   !a.sensitivity.length
-    ? "Rank correlation of each quantity with the figure: −1 to 1, 0 for no monotonic influence."
-    : a.method === "sobol"
-    ? `Sobol: share of the variance with all interactions, and alone; ± at ${
+    ? `${figure("influence.rank_correlation").label}. ${figure("influence.rank_correlation").definition}`
+    : `${figure(`influence.${a.method === "sobol" ? "total" : "mean_size"}`).definition} ± at ${
       percentText(a.confidence)
-    } confidence.`
-    : `Morris: mean size of the elementary effects; ± at ${percentText(a.confidence)} confidence.`;
+    } confidence.`;
 
 export const influenceCard = () =>
   h(
@@ -252,8 +267,8 @@ const outcomes = (a) =>
 
 /** @param {Answer} a */
 function certainty(a) {
-  const has = a.summary.some((s) => s.mean?.high != null) || a.sensitivity.length > 0 || a.designs.length > 0;
-  const intervals = has ? `Intervals at ${percentText(a.confidence)} confidence.` : "";
+  const has = hasIntervals(a) || a.sensitivity.length > 0 || a.designs.length > 0;
+  const intervals = has ? `${figure("studied.confidence").label}: ${percentText(a.confidence)}.` : "";
   return [intervals, a.seed === null ? "" : `Seed ${a.seed}.`].filter(Boolean).join(" ");
 }
 
@@ -271,7 +286,12 @@ export const summaryCard = () =>
       const a = answer.value;
       if (!a) return null;
       return [
-        a.probabilities.length ? [h("h3", null, "Probability of keeping the limits"), chances(a)] : [],
+        a.probabilities.length
+          ? [
+            h("h3", { title: figure("studied.probability").definition }, figure("studied.probability").label),
+            chances(a),
+          ]
+          : [],
         a.designs.length ? [h("h3", null, "Designs"), designs(a)] : [],
         [a.probabilities.length || a.designs.length ? h("h3", null, "Figures") : null, spread(a)],
         a.remarks.length

@@ -1,6 +1,6 @@
 // @ts-check
 // Names and scales of the columns of a study.
-import { figure } from "../../facts.js";
+import { figure, hasFigure } from "../../facts.js";
 import { capitalized, number, plainScale, quantityOf, readable, scaleOf, toShown } from "../../format.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
@@ -8,7 +8,10 @@ import { capitalized, number, plainScale, quantityOf, readable, scaleOf, toShown
 /** @typedef {import("../../format.js").System} System */
 /** @typedef {import("../../types.js").S["StudyColumn"]} Column */
 
-/** Where the last part of a path alone would not say what it is. @type {Record<string, string>} */
+/** What a study watches, as it is declared; null for a quantity. @param {string} path */
+const watchedFigure = (path) => hasFigure(`study.${path}`) ? figure(`study.${path}`) : null;
+
+/** Where the last part of a path of a quantity alone would not say what it is. @type {Record<string, string>} */
 const TITLES = {
   "muscle.nominal_length": "Rest length",
   "load.mass": "Mass",
@@ -17,46 +20,34 @@ const TITLES = {
   "load.force": "Load force",
   "gas.temperature": "Temperature",
   "gas.ambient_pressure": "Ambient pressure",
-  nominal_length: "Rest length",
 };
-/** @type {Record<string, string>} */
-const PHASES = { extend: "fill", retract: "vent" };
 
-/** @param {string} path */
+/** @param {string} path of a figure or a quantity */
 export function titleOf(path) {
-  const [base, factor] = path.split(" (");
-  const known = TITLES[base];
-  const keys = base.split("."), last = keys.at(-1) ?? "";
-  const name = known ?? TITLES[last] ?? capitalized(readable(last));
-  if (keys[0] === "timing" && PHASES[keys[1]]) return `${figure(`timing.${last}`).label}, ${PHASES[keys[1]]}`;
-  if (["largest", "smallest", "last"].includes(keys[0])) {
-    return `${capitalized(keys[0])} ${name.toLowerCase()}`;
-  }
-  const around = known || keys.length < 2 || keys[0] === "best" ? "" : `, ${readable(keys.slice(-2, -1)[0])}`;
+  const watched = watchedFigure(path), [base, factor] = path.split(" (");
+  if (watched) return watched.label;
+  const known = TITLES[base], keys = base.split(".");
+  const name = known ?? capitalized(readable(keys.at(-1) ?? ""));
+  const around = known || keys.length < 2 ? "" : `, ${readable(keys.slice(-2, -1)[0])}`;
   return `${name}${around}${factor ? ", factor" : ""}`;
 }
 
 /** What a group of paths is called in a list. @param {string} path */
 export function groupOf(path) {
-  const keys = path.split(".");
-  if (keys[0] === "timing") return `Timing, ${PHASES[keys[1]]}`;
+  const watched = watchedFigure(path), keys = path.split(".");
+  if (watched) return watched.section || "Task";
   if (keys[0] === "effects") return `Effect: ${readable(keys[1])}`;
   return keys.length > 1 ? capitalized(readable(keys[0])) : "Drive";
 }
 
-const SHARES = /contraction|overshoot|share|probability|reserve|restitution|opening/;
+const SHARES = /contraction|share|reserve|restitution|opening/;
 
 /** @param {string} path @param {string | null} unit SI @returns {Quantity | null} */
 export function kindOf(path, unit) {
-  if (path.startsWith("timing.")) {
-    return /** @type {Quantity} */ (figure(`timing.${path.split(".").at(-1)}`).quantity);
-  }
+  const watched = watchedFigure(path);
+  if (watched) return /** @type {Quantity | null} */ (watched.quantity);
   const si = (unit ?? "1").replaceAll("^", "");
   if (si === "1") return SHARES.test(path) && !path.includes("(") ? "ratio" : "number";
-  if (si === "m3") return path.includes("anr") ? "normal" : "volume";
-  if (si === "kg" && path.includes("air")) return "air";
-  if (si === "s" && /^(tracking|best)\./.test(path)) return "lapse";
-  if (si === "m/s2") return "acceleration";
   return quantityOf(si, path);
 }
 
