@@ -13,7 +13,7 @@ from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.export.about import Constant
 from mckibben.physics.muscle import GEOMETRY
-from mckibben.presets import DrivePreset, FittingPreset, MusclePreset, TubePreset, ValvePreset
+from mckibben.presets import FittingPreset, MusclePreset, TubePreset, ValvePreset
 from mckibben.presets.quantity import Quantity
 
 _STATED = ("stated in the document", "user")
@@ -214,8 +214,3 @@ def _same(quantity: Quantity | None, value: float, unit: str) -> tuple[str, str]
     if quantity is None or not math.isclose(quantity.si(unit), value, rel_tol=1e-12):
         return None
     return quantity.source, quantity.grade
-
-
-def grounds_of(preset: DrivePreset) -> Mapping[str, Any]:
-    """Sources of a drive preset by path."""
-    return preset.grounds

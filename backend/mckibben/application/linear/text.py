@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Literal, get_args
+from typing import get_args
 
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import si
@@ -15,8 +15,6 @@ _GOALS: dict[str, str] = {"overshoot": "1", "settling": "s", "step": "m"}
 _UNSATURATED = "no saturation"
 _AT_HINT = 'e.g. "position 40 mm", "contraction 10 %", "pressure 3 bar", "command 50 %"'
 _DESIGN_HINT = 'e.g. "overshoot 5 %, settling 0.5 s, step 10 mm, no saturation"'
-
-GoalName = Literal["overshoot", "settling", "step"]
 
 
 def condition_of(text: str) -> Condition:
