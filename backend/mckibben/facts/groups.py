@@ -5,13 +5,32 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from mckibben.facts.comparison import (
+    CHANNELS,
+    CHECK,
+    COMPARISON,
+    MEASURED,
+    NOISE,
+    PARAMETER,
+    READING_ERROR,
+    RESIDUAL,
+    SPECIMEN,
+)
+from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.figure import Figure, Group
 from mckibben.facts.run import JOINT, RUN, STEP, TRACKING
 from mckibben.facts.timing import TIMING
 
 #: Name of a group -> its figures.
 GROUPS: Mapping[str, Group] = MappingProxyType(
-    {group.name: group for group in (TIMING, RUN, TRACKING, STEP, JOINT)}
+    {
+        group.name: group
+        for group in (
+            *(TIMING, RUN, TRACKING, STEP, JOINT),
+            *(CHANNELS, COMPARISON, CHECK, SPECIMEN, PARAMETER, RESIDUAL, READING_ERROR, MEASURED, NOISE),
+            DIAGNOSIS,
+        )
+    }
 )
 
 #: Key -> figure: "timing.rise_time".

@@ -85,6 +85,10 @@ def test_clamps_that_are_off_are_no_missing_effect(studio: Studio, hidden: bool,
     errors = np.random.default_rng(100 + seed).normal(0.0, 1e-3, 6)
     texts = [plateaus(errors, hidden=hidden, seed=seed)]
     result = diagnosed(studio, asked(studio, texts))
+    # Of a model in which nothing is fitted: one figure, whether compared or diagnosed.
+    given = compare(asked(studio, texts), fit=False)
+    assert given.rmse > 1.5 * given.rmse_beyond_accuracy
+    assert given.holdout_rmse == pytest.approx(result.baseline.holdout_rmse, rel=1e-6)
     if hidden:
         # What the steps promise is what a comparison with their models shows, whatever their slopes.
         for step in (*result.path, *result.candidates[:3]):
