@@ -26,5 +26,8 @@ export function figure(key) {
   return found;
 }
 
+/** A label inside a sentence. @param {string} label */
+export const inWords = (label) => label.charAt(0).toLowerCase() + label.slice(1);
+
 /** The figures of a group, in the order of tables. @param {string} group */
 export const figuresOf = (group) => [...FIGURES.values()].filter((each) => each.group === group);
