@@ -153,7 +153,10 @@ CHECK = Group(
 SPECIMEN = Group(
     "specimen",
     "Error on each specimen",
-    Figure("rmse", "", "", "Error", "Error of the model on its rows; of a diagnosis that of the best model."),
+    Figure(
+        "rmse", "", "", "Error",
+        "The error on its rows, beyond the accuracy of the readings; of a diagnosis that of the best model.",
+    ),
     Figure(
         "holdout_rmse", "", "", "Held-out error",
         "The same over whole groups of its rows, each predicted with values fitted to the others.",

@@ -266,7 +266,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         experiment=with_accepted(common_experiment(question), accepted, comparison.fit_model),
         unread=question.unread,
         assumptions=[assumption.message for assumption in question.assumptions],
-        specimens=specimen_results(question, predictor, residual),
+        specimens=specimen_results(question, predictor, predictor.weighted(comparison.residual)),
         absorbed=list(comparison.absorbed),
         stopped=stopped,
     )

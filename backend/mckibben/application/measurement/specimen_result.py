@@ -59,7 +59,7 @@ def specimen_results(
     Args:
         question: the measurements.
         predictor: the data used.
-        residual: measured minus predicted over the scale, shape (values,).
+        residual: measured minus predicted as fits see it (`Predictor.weighted`), shape (values,).
         fitted: the fitted model, for the hold-out error.
         left_out: the specimens predicted by the model fitted to the others, in the same order.
     """
