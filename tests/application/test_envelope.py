@@ -21,35 +21,35 @@ def ranges(**given: tuple[float, float]) -> dict[str, MeasuredRange]:
         (
             {"pressure": (1e5, 6e5)},
             {"pressure": (2e5, 7e5)},
-            ["pressures up to 7 bar: the model was measured up to 6 bar"],
+            ["pressure up to 7 bar: the model was measured up to 6 bar"],
         ),
         (
             {"pressure": (2e5, 6e5)},
             {"pressure": (0.5e5, 4e5)},
-            ["pressures down to 0.5 bar: the model was measured from 2 bar"],
+            ["pressure down to 0.5 bar: the model was measured from 2 bar"],
         ),
         (
             {"contraction": (0.0, 0.16)},
             {"contraction": (-0.02, 0.24)},
             [
-                "contractions up to 24 %: the model was measured up to 16 %",
-                "contractions down to -2 %: the model was measured from 0 %",
+                "contraction up to 24 %: the model was measured up to 16 %",
+                "contraction down to -2 %: the model was measured from 0 %",
             ],
         ),
         (
             {"rest_length": (0.3, 0.3)},
             {"rest_length": (0.25, 0.25)},
-            ["rest lengths down to 250 mm: the model was measured at 300 mm"],
+            ["rest length down to 250 mm: the model was measured at 300 mm"],
         ),
         (
             {"temperature": (293.15, 293.15)},
             {"temperature": (293.15, 323.15)},
-            ["temperatures up to 50 °C: the model was measured at 20 °C"],
+            ["temperature up to 50 °C: the model was measured at 20 °C"],
         ),
         (
             {"pressure": (1e5, 6e5)},
             {"pressure": (1e5, 6e5), "speed": (0.0, 0.25)},
-            ["speeds up to 250 mm/s: the model was measured without time"],
+            ["speed up to 250 mm/s: the model was measured without time"],
         ),
     ],
 )

@@ -110,7 +110,7 @@ def test_curves_say_where_they_leave_the_data() -> None:
     start = fitted({}, {"force": 1.0})
     assert [flag.code for flag in answer(start).flags] == []
     outside = [flag.message for flag in answer(start, contraction_to=0.2).flags]
-    assert outside == ["contractions up to 20 %: the model was measured up to 10 %"]
+    assert outside == ["contraction up to 20 %: the model was measured up to 10 %"]
 
 
 def lift(start: StartModel) -> AnnotatedDrive:
@@ -155,5 +155,5 @@ def test_uncertain_values_of_the_muscle_are_in_the_interval_of_a_run() -> None:
 def test_a_run_says_where_it_leaves_the_data() -> None:
     result = simulate(SimulationQuestion(lift(fitted({}, {"displacement": 1e-4})), points=11))
     told = [flag.message for flag in result.flags if flag.code == "outside_measured_range"]
-    assert any(text.startswith("pressures down to 0 bar") for text in told)
+    assert any(text.startswith("pressure down to 0 bar") for text in told)
     assert any("the model was measured without time" in text for text in told)

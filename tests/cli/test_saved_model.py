@@ -116,7 +116,7 @@ def test_a_transient_brings_its_whole_drive(run: Run) -> None:
     assert set(other["parameters"]) == set(model["effects"])
     assert other["specimens"][0]["experiment"]["load"]["value"] == pytest.approx(0.5 * drive["load"]["mass"])
     assert other["rmse"] > 3.0 * answer["path"][-1]["rmse"]
-    (told,) = [message for message in other["messages"] if message.startswith("masses")]
+    (told,) = [message for message in other["messages"] if message.startswith("moved mass ")]
     assert "the model was measured at" in told
 
 
@@ -177,7 +177,7 @@ def test_a_model_predicts_pressures_and_a_length_that_it_was_not_fitted_to(run: 
     longer = answer_of(run("compare", "length.csv", *options))
     assert longer["rmse"] < 1.3 * noise
     assert longer["geometry"]["nominal_length"] == 0.4
-    assert "rest lengths up to 400 mm: the model was measured at 250 mm" in longer["messages"]
+    assert "rest length up to 400 mm: the model was measured at 250 mm" in longer["messages"]
 
 
 @pytest.mark.examination("test_a_model_predicts_pressures_and_a_length_that_it_was_not_fitted_to")
@@ -218,7 +218,7 @@ def test_data_beyond_the_pressures_of_the_model_are_told(run: Run) -> None:
     file = rubbing()
     high = rubbing("high.csv", levels=(5e5, 7e5), seed=8)
     saved(run, file, "--muscle", write("m.json", BRAID))
-    words = "pressures up to 7 bar: the model was measured up to 6 bar"
+    words = "pressure up to 7 bar: the model was measured up to 6 bar"
     for command in ("compare", "diagnose"):
         assert words in answer_of(run(command, high, "--model", "model.json", "--json"))["messages"]
         inside = answer_of(run(command, file, "--model", "model.json", "--json"))

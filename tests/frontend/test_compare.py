@@ -159,7 +159,7 @@ def test_the_map_is_dark_when_bad_and_plain_when_solved_and_the_parts_add_up(
     scale, bad = key.inner_text(), depths(page)
     assert max(bad) > 80
     expect(page.locator(".heat .half[data-way='□']").first).to_be_visible()  # the directions disagree
-    parts = page.get_by_role("list", name="What the squared residual is made of")
+    parts = page.get_by_role("list", name="What the squared error is made of")
     shares = [int(one) for one in re.findall(r"(\d+)\s%", parts.inner_text())]
     assert sum(shares) == 100
     changed(page, page.locator("#add-all").click)
@@ -289,7 +289,7 @@ def test_what_repeats_is_told_in_place_of_no_variable_and_beside_others(page: Pa
         verdict = {"unexplained_share": 0.62, "unexplained_in": names, "repeats": what}
         return str(run(page, LEFT, verdict)).replace("\u00a0", " ")
 
-    size = "62.0 % of the squared residual is above the noise"
+    size = "62.0 % of the squared error is left to explain"
     assert left([], None) == f"{size} and depends on no measured variable"
     assert left([], repeats) == f"{size}: {repeats['text']}"
     assert left(["pressure"], None) == f"{size} and depends on pressure"

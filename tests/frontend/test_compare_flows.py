@@ -98,7 +98,7 @@ def test_a_run_of_a_drive_shows_what_its_valve_does(page: Page) -> None:
     page.get_by_role("button", name="Show all", exact=True).click()
     # Errors of the stroke are lengths, and shares of the stroke.
     errors = page.get_by_role("list", name="Error of each channel")
-    expect(errors).to_contain_text(re.compile(r"stroke [\d.]+.mm, [\d.]+ % of the stroke"))
+    expect(errors).to_contain_text(re.compile(r"stroke [\d.]+.mm, [\d.]+ % of stroke"))
     before = page.locator("#error-now").inner_text()
     page.keyboard.press("Escape")  # the panel of files and experiment
     best.get_by_role("button", name=ADD).click()
@@ -258,7 +258,7 @@ def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePaylo
     # Friction alone takes 2 F per way out of a cycle, whatever else the model lacks.
     told = page.locator(".brush-line")
     expect(told).to_contain_text(f"{len(REACH)} loops")
-    found = re.search(r"equivalent to ([\d.]+)\s*N of friction", told.inner_text())
+    found = re.search(r"equivalent friction ([\d.]+)\s*N", told.inner_text())
     assert found
     assert float(found[1]) == pytest.approx(FRICTION, rel=0.15)
     page.get_by_role("button", name=re.compile("Residual.*save or show as table")).click()
@@ -268,7 +268,7 @@ def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePaylo
     changed(page, page.locator("#add-all").click)
     expect(told).to_contain_text("within the noise")
     page.get_by_role("button", name="Autocorrelation of the residual").click()
-    expect(page.locator("#white")).to_contain_text("residual is noise")
+    expect(page.locator("#white")).to_contain_text("residual looks like noise")
 
 
 @pytest.mark.examination(

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 
+from mckibben.facts.groups import FIGURES
 from mckibben.physics.catalogue import default_catalogue
 
 ROOT = Path(__file__).resolve().parents[2]
@@ -82,6 +83,10 @@ def texts() -> Iterator[tuple[str, str]]:
             continue
         seen = (text for text in of_python(path.read_text("utf-8")) if not _CODE.fullmatch(text))
         yield from ((path.relative_to(ROOT).as_posix(), text) for text in seen)
+    for figure in FIGURES.values():
+        yield from (
+            (figure.key, text) for text in (figure.label, figure.definition, figure.exists_when.otherwise)
+        )
     for effect in default_catalogue().values():
         twins = (twin.separated_by for twin in effect.confused_with)
         described = (parameter.description for parameter in effect.parameters)

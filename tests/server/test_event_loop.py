@@ -85,6 +85,8 @@ REQUESTS: dict[tuple[str, str], tuple[str, dict[str, Any]]] = {
     ("POST", "/api/diagnoses"): ("/api/diagnoses", {"json": MODEL | NOISY}),
     ("POST", "/api/experiments"): ("/api/experiments", {"json": MODEL}),
     ("GET", "/api/health"): ("/api/health", {}),
+    ("GET", "/api/figures"): ("/api/figures", {}),
+    ("GET", "/api/units"): ("/api/units", {}),
     ("GET", "/api/effects"): ("/api/effects", {}),
     ("GET", "/api/presets/{kind}"): ("/api/presets/muscles", {}),
     ("GET", "/api/presets/{kind}/{preset_id}"): ("/api/presets/muscles/mine-20", {}),

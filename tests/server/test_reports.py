@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import json
 import re
 import shlex
@@ -15,6 +16,7 @@ import pytest
 from fastapi.testclient import TestClient
 
 from mckibben import cli
+from mckibben.facts.comparison import COMPARISON
 from tests.server.conftest import CSV, assert_error, post
 
 NASTY = "<script>alert(1)</script>\"'&<img src=x onerror=alert(2)>"
@@ -103,8 +105,8 @@ def test_figures_are_those_of_the_comparison(diagnosed: tuple[str, dict, dict]) 
     text, comparison, _ = diagnosed
     rows = tables(text)
     assert exact(rows["RMS error"][0][0]) == pytest.approx(comparison["rmse"], rel=1e-12)
-    share = exact(rows["… of the largest measured value"][0][0])
-    assert 100 * share == pytest.approx(comparison["nrmse_percent"], rel=1e-12)
+    for name in ("nrmse_percent", "over_noise", "fit_percent"):
+        assert exact(rows[COMPARISON[name].label][0][0]) == pytest.approx(comparison[name], rel=1e-12)
     assert exact(rows["Mean of the residual"][0][0]) == pytest.approx(comparison["residual_mean"])
     shown = "".join(rows["RMS error"][0][0].itertext())
     assert float(shown.split()[0]) == pytest.approx(comparison["rmse"], rel=1e-3)
@@ -119,7 +121,7 @@ def test_figures_are_those_of_the_comparison(diagnosed: tuple[str, dict, dict]) 
 def test_verdict_path_and_parameters_are_those_of_the_diagnosis(diagnosed: tuple[str, dict, dict]) -> None:
     text, _, diagnosis = diagnosed
     rows = tables(text)
-    assert diagnosis["verdict"]["sentence"] in text
+    assert html.escape(diagnosis["verdict"]["sentence"]) in text
     steps = diagnosis["path"]
     assert len(steps) > 1
     assert exact(rows["this model"][0][1]) == pytest.approx(steps[0]["rmse"])
@@ -209,7 +211,7 @@ def test_a_transient_shows_every_channel_over_time(shared_client: TestClient) ->
     rows = tables(text)
     for name, channel in answer["channels"].items():
         word = {"displacement": "stroke"}.get(name, name)
-        assert exact(rows[f"RMS error of {word}"][0][0]) == pytest.approx(channel["rmse"])
+        assert exact(rows[f"RMS error, {word}"][0][0]) == pytest.approx(channel["rmse"])
         assert f"Measured and modelled {word} over time" in text
     assert "× noise" in text
 

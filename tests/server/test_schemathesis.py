@@ -41,7 +41,15 @@ OPERATIONS = [(method, path) for path, methods in PATHS.items() for method in so
 INFALLIBLE = [
     *(
         ("get", path)
-        for path in ("/api/health", "/api/effects", "/api/exports", "/api/kept", "/api/mysteries")
+        for path in (
+            "/api/health",
+            "/api/figures",
+            "/api/units",
+            "/api/effects",
+            "/api/exports",
+            "/api/kept",
+            "/api/mysteries",
+        )
     ),
     ("post", "/api/projects/import"),
 ]

@@ -10,6 +10,8 @@ from numpy.typing import NDArray
 
 from mckibben.application.compare.specimens import Specimen, Specimens
 from mckibben.application.muscle_summary import Notice
+from mckibben.facts.comparison import FASTEST, MEASURED
+from mckibben.facts.figure import Figure
 from mckibben.facts.result import result_class
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel
@@ -20,22 +22,6 @@ from mckibben.presets.fit import FitRecord
 OUTSIDE_MEASURED = "outside_measured_range"
 _MARGIN = {"speed": 0.2}  # share of the largest magnitude that data may lie outside; a speed is less certain
 _USUAL_MARGIN = 0.02
-_FASTEST = 99.0  # percentile of the speeds: single ones are noise of the differentiation
-#: Quantity -> how it is shown: plural, factor from SI, offset, unit.
-_SHOWN: Mapping[str, tuple[str, float, float, str]] = {
-    "rest_length": ("rest lengths", 1e3, 0.0, "mm"),
-    "pressure": ("pressures", 1e-5, 0.0, "bar"),
-    "contraction": ("contractions", 100.0, 0.0, "%"),
-    "speed": ("speeds", 1e3, 0.0, "mm/s"),
-    "temperature": ("temperatures", 1.0, -273.15, "°C"),
-    "load": ("loads", 1.0, 0.0, "N"),
-    "mass": ("masses", 1.0, 0.0, "kg"),
-    "supply": ("supply pressures", 1e-5, 0.0, "bar"),
-}
-_UNITS = {
-    "rest_length": "m", "pressure": "Pa", "contraction": "1", "speed": "m/s", "temperature": "K",
-    "load": "N", "mass": "kg", "supply": "Pa",
-}  # fmt: skip
 
 
 @result_class
@@ -43,9 +29,9 @@ class MeasuredRange:
     """The range of a quantity in the data of a model, SI; pressures are gauge."""
 
     least: float
-    """Smallest value."""
+    """Smallest value; of the speed 0."""
     most: float
-    """Largest value."""
+    """Largest value; of the speed the 99th percentile of the magnitudes."""
     unit: str
     """SI unit; pressures are gauge."""
 
@@ -56,9 +42,7 @@ Envelope = Mapping[str, MeasuredRange]
 
 
 def envelope_of(specimens: Specimens, predictor: Predictor, model: FitModel) -> dict[str, MeasuredRange]:
-    """The ranges of the rows that are compared.
-
-    The largest speed is the 99th percentile of the magnitudes: single ones are noise of the differentiation.
+    """The ranges of the rows that are compared; `mckibben.facts.comparison.MEASURED` says what each is.
 
     Args:
         specimens: the measurements.
@@ -79,7 +63,7 @@ def envelope_of(specimens: Specimens, predictor: Predictor, model: FitModel) -> 
         elif "displacement" in inputs:
             values["contraction"] = inputs["displacement"] / rest
     if "time" in measured and "velocity" in inputs:
-        values["speed"] = np.array([0.0, np.percentile(np.abs(inputs["velocity"]), _FASTEST)])
+        values["speed"] = np.array([0.0, np.percentile(np.abs(inputs["velocity"]), FASTEST)])
     if "temperature" in measured and "temperature" in inputs:
         values["temperature"] = inputs["temperature"]
     if "load" in inputs and predictor.unknown_load is None:
@@ -87,7 +71,7 @@ def envelope_of(specimens: Specimens, predictor: Predictor, model: FitModel) -> 
     for name, numbers in _of_drives(specimens).items():
         values[name] = np.array(numbers)
     return {
-        name: MeasuredRange(float(np.min(numbers)), float(np.max(numbers)), _UNITS[name])
+        name: MeasuredRange(float(np.min(numbers)), float(np.max(numbers)), MEASURED[name].unit)
         for name, numbers in values.items()
         if len(numbers) and np.all(np.isfinite(numbers))
     }
@@ -121,7 +105,7 @@ def _of_drive(specimen: Specimen) -> dict[str, float]:
 def range_of(name: str, *values: float) -> dict[str, MeasuredRange]:
     """The range of a quantity of an answer, from its least and largest values; empty without finite ones."""
     finite = [value for value in values if isfinite(value)]
-    return {name: MeasuredRange(min(finite), max(finite), _UNITS[name])} if finite else {}
+    return {name: MeasuredRange(min(finite), max(finite), MEASURED[name].unit)} if finite else {}
 
 
 def use_notices(fit: FitRecord | None, use: Envelope) -> list[Notice]:
@@ -148,28 +132,29 @@ def beyond(known: Envelope, data: Envelope) -> list[str]:
         return []
     messages = []
     for name, found in data.items():
-        words, factor, offset, unit = _SHOWN[name]
+        figure = MEASURED[name]
         if name not in known:
             if name == "speed" and found.most > 0.0:
                 messages.append(
-                    f"speeds up to {_number(found.most, factor, offset)} {unit}: the model was measured "
-                    "without time"
+                    f"{figure.words} up to {_shown(figure, found.most)}: the model was measured without time"
                 )
             continue
         own = known[name]
         margin = _MARGIN.get(name, _USUAL_MARGIN) * max(abs(own.least), abs(own.most))
-        low, high = (f"{_number(value, factor, offset)} {unit}" for value in (own.least, own.most))
+        low, high = (_shown(figure, value) for value in (own.least, own.most))
         single = low == high
         if found.most > own.most + margin:
             limit = f"at {high}" if single else f"up to {high}"
-            shown = _number(found.most, factor, offset)
-            messages.append(f"{words} up to {shown} {unit}: the model was measured {limit}")
+            messages.append(
+                f"{figure.words} up to {_shown(figure, found.most)}: the model was measured {limit}"
+            )
         if found.least < own.least - margin:
             limit = f"at {low}" if single else f"from {low}"
-            shown = _number(found.least, factor, offset)
-            messages.append(f"{words} down to {shown} {unit}: the model was measured {limit}")
+            messages.append(
+                f"{figure.words} down to {_shown(figure, found.least)}: the model was measured {limit}"
+            )
     return messages
 
 
-def _number(value: float, factor: float, offset: float) -> str:
-    return f"{factor * value + offset:.3g}"
+def _shown(figure: Figure, value: float) -> str:
+    return f"{figure.scale.of(value):.3g} {figure.scale.unit}"

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mckibben.facts.groups import FIGURES
 from mckibben.facts.result import result_class
-from mckibben.facts.units import NAMES, QUANTITIES, SHIFTED, TYPED, System
+from mckibben.facts.units import CERTAIN, NAMES, QUANTITIES, SHIFTED, TYPED, System
 
 
 @result_class
@@ -16,7 +16,7 @@ class DeclaredFigure:
     symbol: str
     """Symbol in formulas; empty without one."""
     unit: str
-    """SI unit; 1 of a plain number or a share."""
+    """SI unit; 1 of a plain number or a share; empty where it depends on what is measured."""
     label: str
     """Label in tables."""
     definition: str
@@ -85,6 +85,8 @@ class Units:
     """Name of a unit in documents -> what it is."""
     shifted: dict[str, tuple[float, float]]
     """Temperature scale -> factor and offset to SI; it cannot be part of a compound unit."""
+    certain: tuple[float, float]
+    """A probability below the first is only said to be below it, above the second to be above it."""
 
 
 def figures() -> list[DeclaredFigure]:
@@ -121,4 +123,5 @@ def units() -> Units:
         typed={unit: TypedUnit(*meaning) for unit, meaning in TYPED.items()},
         names={name: UnitName(factor, dimension) for name, (factor, dimension) in NAMES.items()},
         shifted=dict(SHIFTED),
+        certain=CERTAIN,
     )

@@ -5,7 +5,7 @@ To first order the variance of a prediction y is
 .. math:: \sigma_y^2 = J C J^T + \sigma_e^2,\quad J_i = \frac{y(\theta_i + h_i) - y(\theta_i - h_i)}{2 h_i}
 
 with the covariance C of the fitted values and the error :math:`\sigma_e` that the fit left. The interval is
-that of a new reading, where the model was measured; beyond that it is only a lower bound.
+that of a new reading where the model was measured; outside, readings scatter more than it says.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class ForceInterval:
 
 @result_class
 class PositionInterval:
-    """Where new readings of the position are expected, where the model was measured; wider elsewhere."""
+    """Where new readings of the position lie, where the model was measured; outside they scatter more."""
 
     low: Series
     """Lower ends [m], shape (N,)."""

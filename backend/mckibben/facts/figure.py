@@ -33,7 +33,8 @@ class Figure:
     Attributes:
         name: within its group: "rise_time".
         symbol: as in formulas, "t_r"; "" without one.
-        unit: SI unit, "1" of a plain number or share.
+        unit: SI unit, "1" of a plain number or share; "" where it depends on what is measured, which the
+            result says.
         label: in tables, a noun with what it depends on: "Rise time (10–90 %)".
         definition: one sentence with the formula, what it is measured against, and its limits.
         exists_when: the condition under which it exists.
@@ -67,7 +68,7 @@ class Figure:
     @property
     def shown_as(self) -> str | None:
         """The quantity that says how it is shown; None where its unit is shown as it is."""
-        return self.quantity or quantity_of(self.unit, self.name)
+        return self.quantity or (quantity_of(self.unit, self.name) if self.unit else None)
 
     @property
     def scale(self) -> Scale:

@@ -5,6 +5,18 @@ from __future__ import annotations
 from collections.abc import Mapping
 from types import MappingProxyType
 
+from mckibben.facts.comparison import (
+    CHANNELS,
+    CHECK,
+    COMPARISON,
+    MEASURED,
+    NOISE,
+    PARAMETER,
+    READING_ERROR,
+    RESIDUAL,
+    SPECIMEN,
+)
+from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.figure import Figure, Group
 from mckibben.facts.run import JOINT, RUN, STEP, TRACKING
 from mckibben.facts.sizing import LIMITS, SEARCH, SIZING
@@ -17,11 +29,12 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
     {
         group.name: group
         for group in (
-            TIMING, RUN, TRACKING, STEP, JOINT, TASK, SIZING, LIMITS, SEARCH, WATCHED, SUMMARY, INFLUENCE,
-            STUDY,
+            *(TIMING, RUN, TRACKING, STEP, JOINT, TASK, SIZING, LIMITS, SEARCH, WATCHED, SUMMARY, INFLUENCE),
+            *(STUDY, CHANNELS, COMPARISON, CHECK, SPECIMEN, PARAMETER, RESIDUAL, READING_ERROR, MEASURED),
+            *(NOISE, DIAGNOSIS),
         )
     }
-)  # fmt: skip
+)
 
 #: Key -> figure: "timing.rise_time".
 FIGURES: Mapping[str, Figure] = MappingProxyType(

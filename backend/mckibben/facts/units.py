@@ -101,6 +101,7 @@ QUANTITIES: Mapping[str, Quantity] = MappingProxyType(
             _quantity("ratio", "1", Scale("%", 0.01, 2)),
             _quantity("number", "1", Scale("", 1.0, 4)),
             _quantity("cost", "1", Scale("per 1000 cycles", 1e-3, 4)),
+            _quantity("percent", "%", Scale("%", 1.0, 2)),
             _quantity("time", "s", Scale("s", 1.0, 4)),
             _quantity("lapse", "s", Scale("ms", 1e-3, 1)),
             _quantity("frequency", "Hz", Scale("Hz", 1.0, 3)),
@@ -125,6 +126,20 @@ QUANTITIES: Mapping[str, Quantity] = MappingProxyType(
         )
     }
 )
+
+#: A probability below the first or above the second is only said to be: nothing is known that exactly.
+CERTAIN = (0.01, 0.99)
+
+
+def probability_text(probability: float) -> str:
+    """A probability for people, in whole percents: "94 %", "> 99 %", "< 1 %"."""
+    least, most = CERTAIN
+    if probability > most:
+        return f"> {100.0 * most:.0f} %"
+    if probability < least:
+        return f"< {100.0 * least:.0f} %"
+    return f"{100.0 * probability:.0f} %"
+
 
 # Of a unit that several quantities have: the one that a value is shown as where nothing else is known.
 _NOT_THE_FIRST = {"modulus", "ratio", "cost", "lapse", "sweep", "air", "normal"}

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-import re
 
-from mckibben.facts.units import Scale
+from mckibben.facts.comparison import CHANNELS
+from mckibben.facts.units import QUANTITIES, Scale, probability_text, quantity_of
 from mckibben.report.html import Html, html, tag
 
 _SUPERSCRIPT = str.maketrans("-0123456789", "⁻⁰¹²³⁴⁵⁶⁷⁸⁹")
@@ -18,46 +18,12 @@ PLAIN = Scale("")
 _CONDUCTANCE = ("m^3/(s*Pa)", "m3/(s*Pa)")
 _LEAK = 1e-9  # m3/(s Pa); a valve has more
 _SHORT = 0.1  # s; below, times are in ms
-_MODULUS = re.compile("modulus|constant")  # the page tells them apart in the same way
-_NEARLY_SURE, _UNLIKELY = 0.99, 0.01
-
-#: SI unit -> display unit.
-_SCALES = {
-    "m": Scale("mm", 1e-3),
-    "rad": Scale("°", math.pi / 180.0),
-    "m^3": Scale("cm³", 1e-6),
-    "m3": Scale("cm³", 1e-6),
-    "m^3/(s*Pa)": Scale("l/(s·bar)", 1e-8),
-    "m3/(s*Pa)": Scale("l/(s·bar)", 1e-8),
-    "m2": Scale("N/bar", 1e-5),  # of parameters: friction per pressure
-    "N/m": Scale("N/mm", 1e3),
-    "m/N": Scale("mm/kN", 1e-6),
-    "1/N": Scale("%/kN", 1e-5),
-    "Pa*s/m3": Scale("bar/(l/s)", 1e8),
-    "1": Scale(""),
-    "SI": Scale("SI"),
-}
-#: Channel or variable -> name in words and display unit.
-VARIABLES = {
-    "pressure": ("pressure", Scale("bar", 1e5)),
-    "contraction": ("contraction", Scale("%", 0.01)),
-    "length": ("length", Scale("mm", 1e-3)),
-    "displacement": ("stroke", Scale("mm", 1e-3)),
-    "diameter": ("diameter", Scale("mm", 1e-3)),
-    "velocity": ("velocity", Scale("mm/s", 1e-3)),
-    "force": ("force", Scale("N")),
-    "load": ("load", Scale("N")),
-    "time": ("time", Scale("s")),
-    "temperature": ("temperature", Scale("K")),
-    "command": ("command", Scale("")),
-    "direction": ("direction of motion", Scale("")),
-    "group": ("group", Scale("")),
-}
 
 
 def variable(name: str) -> tuple[str, Scale]:
     """Name of a channel or variable in words, and its display unit."""
-    return VARIABLES.get(name, (name.replace("_", " "), Scale("")))
+    figure = CHANNELS.get(name)
+    return (name.replace("_", " "), PLAIN) if figure is None else (figure.words, figure.scale)
 
 
 def scale_of(unit: str, value: float | None = None, name: str = "") -> Scale:
@@ -68,13 +34,14 @@ def scale_of(unit: str, value: float | None = None, name: str = "") -> Scale:
         value: SI.
         name: of the parameter; moduli and constants of elasticity are in N/mm², pressures in bar.
     """
-    if unit == "Pa":
-        return Scale("N/mm²", 1e6) if _MODULUS.search(name) else Scale("bar", 1e5)
     if unit == "s" and 0.0 < abs(value or 0.0) < _SHORT:
         return Scale("ms", 1e-3)
     if unit in _CONDUCTANCE and 0.0 < abs(value or 0.0) < _LEAK:
         return Scale("ml/(s·bar)", 1e-11)
-    return _SCALES.get(unit) or Scale(pretty(unit))
+    if unit == "1":
+        return PLAIN
+    quantity = quantity_of(unit, name)
+    return Scale(pretty(unit)) if quantity is None else QUANTITIES[quantity].scales["bar"]
 
 
 def pretty(unit: str) -> str:
@@ -119,7 +86,7 @@ def with_error(value: float, error: float | None, scale: Scale) -> Html:
     """Value and standard error, rounded to two digits of the error: (0.9047 ± 0.0088) N/mm²."""
     if error is None or not math.isfinite(error) or error <= 0.0:
         return figure(value, scale, exact=True)
-    shown, spread = scale.of(value), scale.of(error)
+    shown, spread = scale.of(value), error / scale.factor
     # A value far below its error still shows one digit of the error.
     size = max(abs(shown), spread)
     digits = math.floor(math.log10(size)) - math.floor(math.log10(spread)) + 2
@@ -143,11 +110,7 @@ def percent(share: float | None, digits: int = 2) -> Html:
 
 def probability(share: float | None) -> Html:
     """A probability in percent; near its ends no digits, because nothing is known that exactly."""
-    if share is None:
-        return html("–")
-    if share > _NEARLY_SURE:
-        return html("> 99\N{NO-BREAK SPACE}%")
-    return html("< 1\N{NO-BREAK SPACE}%") if share < _UNLIKELY else percent(share)
+    return html("–" if share is None else probability_text(share).replace(" %", "\N{NO-BREAK SPACE}%"))
 
 
 def _with_unit(text: str, unit: str) -> str:

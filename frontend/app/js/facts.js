@@ -4,14 +4,44 @@
 /** @typedef {import("./types.js").S["DeclaredFigure"]} DeclaredFigure */
 /** @typedef {import("./types.js").S["Units"]} Units */
 
+const FIRST_MS = 500, LONGEST_MS = 8000;
+
 /** @param {string} path */
 async function declared(path) {
   const answer = await fetch(path);
-  if (!answer.ok) throw new Error(`The server answers ${answer.status} to ${path}; reload the page.`);
+  if (!answer.ok) throw new Error(`${path}: ${answer.status}`);
   return answer.json();
 }
 
-const [figures, units] = await Promise.all([declared("/api/figures"), declared("/api/units")]);
+/** Says that there is nothing to begin with, and waits for the time, or a click. @param {number} pause [ms] */
+function wait(pause) {
+  const banner = document.createElement("div"), again = document.createElement("button");
+  banner.className = "banner gone";
+  banner.setAttribute("role", "alert");
+  again.textContent = "Try again";
+  banner.append("The server does not answer. The page tries again by itself.", again);
+  document.getElementById("app")?.replaceChildren(banner);
+  return new Promise((go) => {
+    const timer = setTimeout(go, pause);
+    again.addEventListener("click", () => {
+      clearTimeout(timer);
+      go(undefined);
+    });
+  });
+}
+
+/** Both declarations, however long the server takes to come back. @returns {Promise<any[]>} */
+async function all() {
+  for (let pause = FIRST_MS;; pause = Math.min(2 * pause, LONGEST_MS)) {
+    try {
+      return await Promise.all([declared("/api/figures"), declared("/api/units")]);
+    } catch {
+      await wait(pause);
+    }
+  }
+}
+
+const [figures, units] = await all();
 
 /** How values are shown, and which units are read. @type {Units} */
 export const UNITS = units;

@@ -8,7 +8,7 @@ import { referenceShift, splitReference } from "./quantities.js";
 /** SI = shown × factor + offset.
  * @typedef {{unit: string, factor: number, offset?: number, digits: number}} Scale */
 /** @typedef {"length" | "pressure" | "modulus" | "force" | "stiffness" | "volume" | "temperature" | "torque" | "rotary" |
- *   "energy" | "angle" | "ratio" | "number" | "cost" | "time" | "lapse" | "frequency" | "mass" | "speed" | "sweep" | "acceleration" |
+ *   "energy" | "angle" | "ratio" | "number" | "cost" | "percent" | "time" | "lapse" | "frequency" | "mass" | "speed" | "sweep" | "acceleration" |
  *   "conductance" | "rate" | "flow" | "air" | "normal" | "area" | "compliance" | "softness" | "damping" |
  *   "pressureDamping" | "perKelvin" | "resistance"} Quantity */
 
@@ -84,6 +84,21 @@ export function withUnit(si, quantity, system) {
   const s = scaleOf(quantity, system);
   const text = quantity === "pressure" ? number(toShown(si, s), 2) : brief(toShown(si, s));
   return s.unit ? `${text}${s.unit === "°" ? "" : "\u00a0"}${s.unit}` : text;
+}
+
+/** A figure by its declaration, with its unit. @param {number | null | undefined} si
+ * @param {import("./facts.js").DeclaredFigure} figure @param {System} system */
+export const figureText = (si, { quantity }, system) =>
+  withUnit(si, /** @type {Quantity} */ (quantity), system);
+
+/** A probability in whole percents: "94 %", "> 99 %", "< 1 %". @param {number} probability 0…1 */
+export function probabilityText(probability) {
+  const [least, most] = UNITS.certain;
+  return probability > most
+    ? `> ${Math.round(100 * most)}\u00a0%`
+    : probability < least
+    ? `< ${Math.round(100 * least)}\u00a0%`
+    : `${Math.round(100 * probability)}\u00a0%`;
 }
 
 /** Case changes the meaning of these. */

@@ -29,6 +29,8 @@ from tests.application.truths import ANGLE, document, plateaus, specimen
 from tests.shipped import shipped_studio
 
 SHARP = "length 1 mm, force 0.1 %, pressure 2 mbar"
+#: Sensors without an error: nothing is allowed for.
+EXACT = stated_accuracy("length 0 mm, force 0 %, pressure 0 bar", "accuracy")
 
 
 @pytest.fixture(scope="module")
@@ -87,6 +89,11 @@ def test_clamps_that_are_off_are_no_missing_effect(studio: Studio, hidden: bool,
     errors = np.random.default_rng(100 + seed).normal(0.0, 1e-3, 6)
     texts = [plateaus(errors, hidden=hidden, seed=seed)]
     result = diagnosed(studio, asked(studio, texts))
+    # Of a model in which nothing is fitted: one figure, whether compared or diagnosed.
+    given = compare(asked(studio, texts), fit=False)
+    assert given.rmse > 1.5 * given.rmse_beyond_accuracy
+    assert given.holdout_rmse == pytest.approx(result.baseline.holdout_rmse, rel=1e-6)
+    assert given.specimens[0].rmse == pytest.approx(result.baseline.rmse, rel=1e-6)
     if hidden:
         # What the steps promise is what a comparison with their models shows, whatever their slopes.
         for step in (*result.path, *result.candidates[:3]):
@@ -119,8 +126,7 @@ def test_better_sensors_tell_more_of_the_clamps(studio: Studio) -> None:
 def test_without_the_accuracy_the_clamps_are_blamed_on_something_else(studio: Studio) -> None:
     """What the allowance is for: if the clamps are said to be exact, the same data lack an effect."""
     errors = np.array([1.2e-3, -0.8e-3, 1.5e-3, -1.5e-3, 0.9e-3, -1.1e-3])
-    said = stated_accuracy("length 0 mm, force 0 %, pressure 0 bar", "accuracy")
-    result = diagnosed(studio, asked(studio, [plateaus(errors)], said=said))
+    result = diagnosed(studio, asked(studio, [plateaus(errors)], said=EXACT))
     assert result.verdict.status != "adequate"
     assert result.absorbed == []
 
@@ -232,9 +238,10 @@ def test_each_specimen_has_an_angle_of_its_own_where_fits_may_change_it(studio: 
 
 def test_each_specimen_is_predicted_as_alone(studio: Studio) -> None:
     texts = [specimen(length, seed=number) for number, length in enumerate((0.2, 0.4))]
-    together = compare(asked(studio, texts))
+    together = compare(asked(studio, texts, said=EXACT))
     for each, text in zip(together.specimens, texts, strict=True):
-        assert each.rmse == pytest.approx(compare(asked(studio, [text])).rmse)
+        alone = compare(asked(studio, [text], said=EXACT))
+        assert each.rmse == pytest.approx(alone.rmse)
 
 
 def isotonic(*conditions: str) -> str:

@@ -51,6 +51,22 @@ def test_error_figures_are_those_of_the_definition():
     assert result.holdout_rmse == result.rmse  # nothing was fitted
     assert result.residual_mean == pytest.approx(float(np.mean(measured - ideal)), rel=1e-9)
     assert result.channels == {}
+    assert result.noise is not None
+    assert result.over_noise == pytest.approx(result.rmse / result.noise)
+    # 1 - Σ r²/Σ (y - ȳ)² is the variance less that of the residual and its mean squared.
+    left = (np.var(measured - ideal) + np.mean(measured - ideal) ** 2) / np.var(measured)
+    assert result.fit_percent == pytest.approx(100.0 * (1.0 - np.sqrt(left)))
+    assert result.stroke_percent is None  # a force
+
+
+def test_the_error_of_a_length_is_that_of_the_stroke():
+    """A length that is 1 mm too long everywhere, measured over its stroke."""
+    lengths = [length_under(250.0, p) for p in (3e5, 4e5, 5e5, 6e5)]
+    rows = [f"{bar},{1e3 * length + 1.0}" for bar, length in zip((3, 4, 5, 6), lengths, strict=True)]
+    measurement = csv(rows, "pressure_bar,length_mm", "kind: isotonic", "load_force: 250 N")
+    result = compare(measurement, MUSCLE, {}, catalogue=CATALOGUE)
+    assert result.stroke_percent == pytest.approx(100.0 * 1e-3 / (max(lengths) - min(lengths)), rel=1e-6)
+    assert result.nrmse_percent == pytest.approx(100.0 * 1e-3 / (max(lengths) + 1e-3), rel=1e-6)
 
 
 def test_fit_recovers_the_hidden_constants_within_their_errors():

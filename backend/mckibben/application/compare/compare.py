@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,6 +28,7 @@ from mckibben.application.measurement.specimen_result import (
 )
 from mckibben.application.measurement.summary import UnreadColumn
 from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
+from mckibben.facts.comparison import CHECK, COMPARISON, RESIDUAL, error_scale
 from mckibben.facts.result import Number, result_class
 from mckibben.identification.fit.comparison import (
     ChannelMisfit,
@@ -43,19 +45,21 @@ from mckibben.identification.residual.cross import CrossCorrelation, cross_corre
 from mckibben.identification.residual.digits import brief
 from mckibben.identification.residual.parts import ResidualPart, residual_parts
 from mckibben.identification.residual.profiles import (
+    MeanLoop,
     Profile,
     ResidualLoop,
     ResidualMap,
     Whiteness,
     heat_map,
     loops,
+    mean_loop,
     profiles,
     variables_of,
     whiteness,
 )
 from mckibben.measurement.experiment import Experiment
 
-_TELLING = 0.05  # share of the error from which a variable is mentioned
+_TELLING = 0.05  # share of the squared error from which a variable is mentioned
 
 Array = NDArray[np.float64]
 
@@ -72,12 +76,11 @@ class ModelDocument:
 class ValidationResult:
     """The error of the model for measurements that it was not fitted to."""
 
+    FIGURES: ClassVar = CHECK.name
+
     rmse: Number
-    """Root mean square of the residual."""
     nrmse_percent: Number
-    """RMSE over the largest measured magnitude."""
     rows_used: int
-    """Number of compared rows."""
     series: list[ComparedSeries]
     """The points, curve by curve."""
 
@@ -86,12 +89,12 @@ class ValidationResult:
 class ComparisonResult:
     """The model's error, where it fails, and the points; SI."""
 
+    FIGURES: ClassVar = COMPARISON.name
+
     kind: str
     """Measurement kind."""
     rows: int
-    """Number of rows of the measurements."""
     rows_used: int
-    """Number of compared rows."""
     excluded: dict[str, int]
     """Reason for leaving rows out -> number of rows."""
     predicted: str
@@ -99,21 +102,17 @@ class ComparisonResult:
     unit: str
     """SI unit of the error; "1" = relative to the noise of each channel."""
     rmse: Number
-    """Root mean square of the residual."""
     nrmse_percent: Number
-    """RMSE over the largest measured magnitude."""
+    stroke_percent: float | None
     full_scale: Number
-    """The largest measured magnitude."""
     holdout_rmse: float | None
-    """With whole groups left out of the fit; None with one group."""
     fitted: int
-    """Number of fitted values; with 0 no group was left out of anything."""
     noise_floor: float | None
-    """Noise of the data, if it can be estimated."""
+    over_noise: float | None
+    fit_percent: float | None
     noise_how: str
     """How the noise was estimated."""
     residual_mean: Number
-    """Mean of the residual over its scale."""
     channels: dict[str, ChannelMisfit]
     """Error of each channel when there are several."""
     parameters: ParameterTable
@@ -129,11 +128,13 @@ class ComparisonResult:
     parts: list[ResidualPart]
     """What the squared residual is made of; the shares add up to 1."""
     whiteness: Whiteness
-    """Autocorrelation and runs of the residual: that is, whether it looks like noise."""
+    """Autocorrelation and sign changes of the residual: that is, whether it looks like noise."""
     cross: list[CrossCorrelation]
     """Correlation of the residual with the input that drove the test, of rows with times."""
     loops: list[ResidualLoop]
     """Loops of the force residual, with the energy that the model misses."""
+    mean_loop: MeanLoop | None
+    """Their mean; None without loops."""
     sentences: list[str]
     """Where the model fails, as sentences."""
     series: list[ComparedSeries]
@@ -147,7 +148,6 @@ class ComparisonResult:
     flags: list[Notice]
     """Remarks on the muscle."""
     rmse_beyond_accuracy: Number
-    """RMSE of what the accuracy of the readings does not explain; a diagnosis counts with it."""
     experiment: Experiment
     """Values of the experiment in which all measurements agree, each with its origin."""
     assumptions: list[str]
@@ -226,6 +226,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
     variables = variables_of(predictor, comparison.fit_model)
     where = profiles(residual, variables, predictor.folds[0])
     white = whiteness(residual, predictor.sweeps)
+    closed = _loops(comparison, residual)
     result = ComparisonResult(
         kind=predictor.kind,
         rows=comparison.rows + left_out,
@@ -235,10 +236,13 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         unit=predictor.unit,
         rmse=comparison.rmse,
         nrmse_percent=comparison.nrmse_percent,
+        stroke_percent=comparison.stroke_percent,
         full_scale=comparison.full_scale,
         holdout_rmse=comparison.holdout_rmse,
         fitted=0 if comparison.fit is None else len(comparison.fit.numbers),
         noise_floor=comparison.noise,
+        over_noise=comparison.over_noise,
+        fit_percent=comparison.fit_percent,
         noise_how=comparison.noise_how,
         residual_mean=comparison.residual_mean,
         channels=comparison.channels,
@@ -250,7 +254,8 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         parts=residual_parts(residual, variables),
         whiteness=white,
         cross=_cross(comparison, residual, variables),
-        loops=_loops(comparison, residual),
+        loops=closed[:MAX_SERIES],
+        mean_loop=mean_loop(closed),
         sentences=[*(run.sentence for run in stopped), *_sentences(where, white, predictor.unit)],
         series=series,
         validation=validation,
@@ -261,7 +266,7 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         experiment=with_accepted(common_experiment(question), accepted, comparison.fit_model),
         unread=question.unread,
         assumptions=[assumption.message for assumption in question.assumptions],
-        specimens=specimen_results(question, predictor, residual),
+        specimens=specimen_results(question, predictor, predictor.weighted(comparison.residual)),
         absorbed=list(comparison.absorbed),
         stopped=stopped,
     )
@@ -289,15 +294,15 @@ def _loops(comparison: Comparison, residual: Array) -> list[ResidualLoop]:
     predictor = comparison.predictor
     if predictor.predicted != "force" or not {"length", "time"} <= predictor.inputs.keys():
         return []
-    return loops(residual, predictor.inputs["length"], predictor.groups)[:MAX_SERIES]
+    return loops(residual, predictor.inputs["length"], predictor.groups, comparison.noise)
 
 
 def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
     """Where the model fails, and whether the residual is noise, in words."""
-    factor, shown = (1e3, " mm") if unit == "m" else (1.0, "" if unit == "1" else f" {unit}")
+    scale, share = error_scale(unit), RESIDUAL["share_explained"].scale
     words = [
-        f"{profile.worst}: {brief(factor * profile.rmse)}{shown} rms; this variable alone predicts "
-        f"{100.0 * profile.share_explained:.0f} % of the error"
+        f"{profile.worst}: {brief(scale.of(profile.rmse))} {scale.unit} rms; this variable alone predicts "
+        f"{share.of(profile.share_explained):.0f} {share.unit} of the squared error"
         for profile in where[:3]
         if profile.share_explained > _TELLING
     ]

@@ -324,11 +324,8 @@ def _repetition(diagnosis: Diagnosis) -> RepetitionResult | None:
         share=found.share,
         amplitude=found.amplitude,
         grows_with_pressure=found.grows,
-        false_alarm=found.false_alarm,
-        left_out_share=found.left_out,
         parts=found.parts,
         shown=found.shown,
-        parts_are="sweeps" if found.of_sweeps else "records",
         also=[SamePeriod(over, period) for over, period in found.also],
         text=repeats(diagnosis),
     )

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from typing import ClassVar
 
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.compare.specimens import Specimens
+from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.result import result_class
 from mckibben.identification.diagnose.entries import (
     OtherReading,
@@ -28,6 +30,8 @@ _EXPERIMENT_FIELDS = {"muscle.nominal_length": "rest_length", "load": "load"}
 class DoubtfulEntry:
     """A statement that may be wrong, with the evidence."""
 
+    FIGURES: ClassVar = DIAGNOSIS.name
+
     hypothesis: str
     """Id, for 'use' and 'keep'."""
     field: str
@@ -35,17 +39,12 @@ class DoubtfulEntry:
     stated: float | None
     """Stated value, SI; None for a way of reading."""
     value: float | str | None
-    """The value that explains the data, SI, or the other way of reading in words."""
     stderr: float | None
-    """Standard error of the value; None where there is none."""
     unit: str
     """SI unit of stated, value and stderr."""
     explains: float
-    """Share of the start model's mean square above the noise that it explains by itself."""
     rmse_after: float
-    """Error of the best model with it, in the unit of the diagnosis."""
     confidence: float
-    """Probability against the best model without it."""
     effects: list[str]
     """Effects that are missing with it."""
     asked: bool

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 
+from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.result import Integers, Series, result_class
 from mckibben.identification.diagnose.design import APART, DesignedExperiment
 from mckibben.identification.diagnose.diagnosis import Diagnosis
@@ -33,6 +35,8 @@ NO_EXPERIMENT = "no two effects have to be distinguished, or no experiment of th
 class ExperimentProposal:
     """An experiment that separates two similar effects."""
 
+    FIGURES: ClassVar = DIAGNOSIS.name
+
     pair: list[str]
     """The effects, that of the model first."""
     declared: str
@@ -40,25 +44,23 @@ class ExperimentProposal:
     protocol: str
     """How to do it, in words; empty where none of the known experiments separates them."""
     separation: float
-    """Expected difference in standard deviations of one reading, after both models adapted."""
     minutes: float | None
-    """How long it takes; None without a protocol."""
     matters: bool
     """Whether the two models predict different results for this rig."""
     differs_in: str
     """Simulated experiment where the models as they are differ most."""
     difference: float
-    """By how many standard deviations of one reading."""
 
 
 @result_class
 class PairSeparation:
     """By how many standard deviations of one reading an experiment tells two effects apart."""
 
+    FIGURES: ClassVar = DIAGNOSIS.name
+
     pair: list[str]
     """Ids of the two effects."""
     separation: float
-    """The number of standard deviations."""
 
 
 @result_class
@@ -75,12 +77,13 @@ class SetPoints:
 class NextExperiment:
     """The experiment that splits a group of indistinguishable effects best."""
 
+    FIGURES: ClassVar = DIAGNOSIS.name
+
     group: list[str]
     """The effects, that of the model first."""
     protocol: str
     """How to do it, in words."""
     minutes: float
-    """How long it takes, with 30 s to set up each run."""
     separations: list[PairSeparation]
     """How well it tells each pair of the group apart."""
     run: Integers

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,6 +16,8 @@ from mckibben.application.envelope import MeasuredRange
 from mckibben.application.measurement.specimen_result import SpecimenResult
 from mckibben.application.measurement.summary import UnreadColumn
 from mckibben.application.muscle_summary import GeometrySummary
+from mckibben.facts.comparison import NOISE
+from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.result import Series, result_class
 from mckibben.identification.diagnose.diagnosis import NotTried
 from mckibben.identification.diagnose.swept_rows import Coordinate
@@ -31,50 +33,42 @@ Array = NDArray[np.float64]
 
 @result_class
 class Baseline:
-    """The start model as given: error, error in percent of full scale, held-out error."""
+    """The error of the start model as given."""
+
+    FIGURES: ClassVar = DIAGNOSIS.name
 
     rmse: float
-    """Root mean square of the residual."""
     nrmse_percent: float | None
-    """RMSE over the largest measured magnitude."""
     holdout_rmse: float
-    """RMSE with whole groups left out of the fit."""
 
 
 @result_class
 class NoiseFloor:
-    """Noise of the data, None when it cannot be estimated, and how it was obtained.
+    """Noise of the data, None when it cannot be estimated, and how it was obtained."""
 
-    ``interval``: from the scatter of neighbouring readings to all that no variable explains; None where a
-    structure remains.
-    """
+    FIGURES: ClassVar = NOISE.name
 
     rmse: float | None
-    """The error; None where it cannot be estimated."""
     how: str
     """How it was estimated."""
     interval: list[float] | None
-    """From the scatter of neighbouring readings to all that no variable explains; None where a structure
-    remains.
-    """
 
 
 @result_class
 class CandidateResult:
     """The start model with one more effect, all parameters refitted."""
 
+    FIGURES: ClassVar = DIAGNOSIS.name
+
     effect: str
     """Its id."""
     title: str
     """Its name."""
     rmse: float
-    """Root mean square of the residual with it."""
     holdout_rmse: float
-    """RMSE with whole groups left out of the fit."""
     gain_percent: float
-    """By how much it lowers the error of the start model."""
     score_change: float
-    """Change of the score of the search; negative is better."""
+    """What the search compares models by; no figure of the model."""
     parameters: dict[str, ParameterValue]
     """Effect -> parameter -> value."""
     twins: list[str]
@@ -90,26 +84,19 @@ class CandidateResult:
     model: ModelDocument
     """The model with it."""
     probability: float | None = None
-    """That it, or one of its twins in the best model, is missing; None while the search runs, and where it
-    was not finished.
-    """
 
 
 @result_class
 class CorrectionResult:
-    """An effect that lowers the error, but not by more than an inexact form of another effect explains.
+    """An effect that lowers the error, but not by more than an inexact form of another effect explains."""
 
-    ``probability``: that it is missing nevertheless; ``kept``: whether the model keeps it.
-    """
+    FIGURES: ClassVar = DIAGNOSIS.name
 
     effect: str
     """Its id."""
     rmse_before: float
-    """Error without it."""
     rmse_after: float
-    """Error with it."""
     probability: float
-    """That it is missing nevertheless."""
     kept: bool
     """Whether the model keeps it, because it predicts better with it."""
 
@@ -118,9 +105,10 @@ class CorrectionResult:
 class PathPoint:
     """The error after each addition; the first is the start model as given, then its own numbers refitted.
 
-    Corrections, which are kept but not called missing, come last. ``fitted``: number of fitted values; with 0
-    no group was left out of anything, and ``holdout_rmse`` equals ``rmse``.
+    Corrections, which are kept but not called missing, come last.
     """
+
+    FIGURES: ClassVar = DIAGNOSIS.name
 
     added: str | None
     """The added effect; None in the steps of the start model."""
@@ -129,15 +117,12 @@ class PathPoint:
     correction: bool
     """The added effect is kept, but not called missing."""
     rmse: float
-    """Root mean square of the residual."""
     holdout_rmse: float
-    """RMSE with whole groups left out of the fit."""
     model: ModelDocument
     """The model after the step."""
     freed: list[str]
     """Constants fitted as well, as effect.parameter."""
     fitted: int
-    """Number of fitted values; with 0 no group was left out of anything."""
 
 
 @result_class
@@ -154,28 +139,21 @@ class SamePeriod:
 class RepetitionResult:
     """A periodic part of the unexplained residual, SI."""
 
+    FIGURES: ClassVar = DIAGNOSIS.name
+
     over: Coordinate
     """What it repeats over."""
     unit: Literal["m", "Pa", "s"]
     """Unit of the period."""
     period: float
-    """The period."""
     share: float
-    """Share of the mean square of the residual that it explains."""
     amplitude: float
-    """Of the predicted channel, in its unit; at the mean pressure where it grows with it."""
     grows_with_pressure: bool
     """Whether its amplitude is in proportion to the pressure."""
-    false_alarm: float
-    """Chance that noise does as well somewhere among all periods tried; below 1e-4."""
-    left_out_share: float
-    """The share that it explains of sweeps it was not fitted to."""
     parts: int
     """Number of records, or of sweeps."""
     shown: int
     """Number of those that a fit to the others explains."""
-    parts_are: Literal["records", "sweeps"]
-    """What the parts are."""
     also: list[SamePeriod]
     """Periods over other coordinates that the data cannot tell from it."""
     text: str
@@ -198,14 +176,15 @@ class TermCurve:
 
 @result_class
 class TermProposal:
-    """A formula for the unexplained residual; share: explained part of its mean square."""
+    """A formula for the unexplained residual."""
+
+    FIGURES: ClassVar = DIAGNOSIS.name
 
     formula: str
     """The formula, as a custom effect takes it."""
     coefficients: dict[str, float]
     """Its constants, SI."""
     share: float
-    """Share of the residual's mean square that it removes."""
     model: ModelDocument
     """The model with the term."""
     curve: TermCurve
@@ -215,6 +194,8 @@ class TermProposal:
 @result_class
 class Verdict:
     """Verdict of a diagnosis."""
+
+    FIGURES: ClassVar = DIAGNOSIS.name
 
     status: Status
     """The verdict as a word for programs: the model is at the noise (adequate); effects bring it there
@@ -236,7 +217,6 @@ class Verdict:
     corrections: list[CorrectionResult]
     """Effects that lower the error but are not called missing; the model keeps some of them."""
     unexplained_share: float
-    """Share of the residual that is left to explain, 0 to 1."""
     unexplained_in: list[str]
     """Variables that this part depends on."""
     repeats: RepetitionResult | None
@@ -297,7 +277,7 @@ class DiagnosisResult:
     baseline: Baseline
     """Error of the start model as given."""
     noise_floor: NoiseFloor
-    """The error due to noise."""
+    """Noise of the data."""
     channels: dict[str, ChannelMisfit]
     """Error of each channel when there are several."""
     where: list[Profile]

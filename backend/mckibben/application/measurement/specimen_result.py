@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
 from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 
 from mckibben.application.compare.question import ModelQuestion
+from mckibben.facts.comparison import SPECIMEN
 from mckibben.facts.result import result_class
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -20,20 +22,18 @@ from mckibben.measurement.experiment import Experiment
 class SpecimenResult:
     """One measurement of a question."""
 
+    FIGURES: ClassVar = SPECIMEN.name
+
     file: str
     """Name of the file or preset."""
     rows_used: int
     """Number of rows used."""
     rmse: float | None
-    """Error of the model on it; of the best model in a diagnosis."""
     holdout_rmse: float | None
-    """The same with whole groups left out of the fit; None where that is not known."""
     experiment: Experiment
     """Values of its experiment, each with its origin."""
     left_out_rmse: float | None = None
-    """Of a diagnosis of several: error of the model fitted to the other specimens alone."""
     left_out_percent: float | None = None
-    """The same in percent of the largest magnitude measured on it."""
 
 
 def common_experiment(question: ModelQuestion) -> Experiment:
@@ -59,7 +59,7 @@ def specimen_results(
     Args:
         question: the measurements.
         predictor: the data used.
-        residual: measured minus predicted over the scale, shape (values,).
+        residual: measured minus predicted as fits see it (`Predictor.weighted`), shape (values,).
         fitted: the fitted model, for the held-out error.
         left_out: the specimens predicted by the model fitted to the others, in the same order.
     """

@@ -9,8 +9,9 @@ from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.application.run.simulate import SimulationResult
 from mckibben.application.size.size import ExploredDrive, ProposedDrive, SizingResult
 from mckibben.door.figures.style import ACCENT, LOAD, SECOND, SOFT, add_line, add_points, blank, name_axes
+from mckibben.facts.comparison import NOISE, error_scale
+from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.sizing import SIZING
-from mckibben.report.summary.parts import error_unit
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
@@ -20,28 +21,33 @@ def diagnosis_figure(result: DiagnosisResult, title: str) -> Figure:
     """The error after each addition, in the fit and in groups left out, and the noise."""
     from plotly.graph_objects import Bar
 
-    unit, scale = error_unit(result.unit)
+    scale = error_scale(result.unit)
     steps = [step.added or ("start model" if n == 0 else "refitted") for n, step in enumerate(result.path)]
     names = [f"{number}. {name}" for number, name in enumerate(steps)]
     figure = blank(title)
     figure.add_trace(
-        Bar(x=names, y=[scale * s.rmse for s in result.path], name="fitted rows", marker_color=ACCENT)
+        Bar(
+            x=names,
+            y=[scale.of(s.rmse) for s in result.path],
+            name=DIAGNOSIS["rmse"].label,
+            marker_color=ACCENT,
+        )
     )
     figure.add_trace(
         Bar(
             x=names,
-            y=[scale * s.holdout_rmse for s in result.path],
-            name="left-out groups",
+            y=[scale.of(s.holdout_rmse) for s in result.path],
+            name=DIAGNOSIS["holdout_rmse"].label,
             marker_color=SECOND,
         )
     )
     noise = result.noise_floor.rmse
     if noise is not None:
         figure.add_hline(
-            y=scale * noise, line={"color": SOFT, "dash": "dash"}, annotation_text="noise",
+            y=scale.of(noise), line={"color": SOFT, "dash": "dash"}, annotation_text=NOISE["rmse"].words,
             annotation_font_color=SOFT,
         )  # fmt: skip
-    name_axes(figure, "after adding", [f"RMS error ({unit})"])
+    name_axes(figure, "after adding", [f"{DIAGNOSIS['rmse'].label} ({scale.unit})"])
     return figure
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+from mckibben.facts.units import probability_text
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis, Unfinished
 from mckibben.identification.diagnose.probability import EVEN, instead_of
@@ -198,7 +199,7 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
     def listed(items: list[Correction]) -> str:
         return _joined([
             f"{titles.get(item.effect, item.effect)} (from {brief(scale * item.before)} to "
-            f"{brief(scale * item.after)} {unit}, probability {_share(item.probability)})"
+            f"{brief(scale * item.after)} {unit}, probability {probability_text(item.probability)})"
             for item in items
         ])  # fmt: skip
 
@@ -293,17 +294,12 @@ def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str], *, first:
         return f"{title} (read from the data)"
     probability = 1.0 if evidence is None else evidence.probability
     perhaps = "perhaps " if probability < EVEN else ""
-    figure = f"{'probability ' if first else ''}{_share(probability)}"
+    figure = f"{'probability ' if first else ''}{probability_text(probability)}"
     instead = [] if evidence is None else instead_of(result.context, evidence.group)
     if instead:
         entries = list(dict.fromkeys(found.entry.title for found in instead))
         figure += f", or {_joined(entries[:_FEW], 'or')} is wrong instead"
     return f"{perhaps}{title[:-1]}, {figure})" if title.endswith(")") else f"{perhaps}{title} ({figure})"
-
-
-def _share(probability: float) -> str:
-    percent = 100.0 * probability
-    return "more than 99 %" if percent > 99.0 else "less than 1 %" if percent < 1.0 else f"{percent:.0f} %"
 
 
 def where_to_look(result: Diagnosis) -> str:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
 import numpy as np
 
+from mckibben.facts.comparison import COMPARISON, PARAMETER
 from mckibben.facts.result import result_class
 from mckibben.identification.fit.effort import final_effort
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -15,12 +17,13 @@ from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.predictor import StoppedRun
+from mckibben.identification.predict.predictor import PredictedChannel, StoppedRun
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
 from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.errors import InputError
 
+_STROKES = ("length", "displacement")  # channels whose range is a stroke
 _FITS = 3  # most fits of a model whose runs stop, each of which leads farther
 
 
@@ -33,8 +36,8 @@ class Comparison:
         fit_model: the model; after a fit with the fitted values.
         predicted: the model's values.
         rmse: root mean square of the residual; over the noise of each channel if there are several.
-        holdout_rmse: the same over groups that the fit did not see; equals rmse without a fit, None when
-            there is only one group.
+        holdout_rmse: rmse_beyond_accuracy over groups that the fit did not see; without a fit
+            rmse_beyond_accuracy itself. None when there is only one group.
         noise: standard deviation of the noise; None when it cannot be estimated.
         noise_how: how the noise was obtained.
         fit: the fit; None when nothing was fitted.
@@ -77,7 +80,29 @@ class Comparison:
     @property
     def rmse_beyond_accuracy(self) -> float:
         """rmse of what the accuracy of the readings does not explain."""
-        return float(np.sqrt(np.mean(self.predictor.weighted(self.residual) ** 2)))
+        return _beyond_accuracy(self.predictor, self.residual)
+
+    @property
+    def over_noise(self) -> float | None:
+        """rmse_beyond_accuracy over the noise; None where that is not known."""
+        return self.rmse_beyond_accuracy / self.noise if self.noise else None
+
+    @property
+    def stroke_percent(self) -> float | None:
+        """rmse in percent of the measured stroke; None for another channel, or several."""
+        first, *others = self.predictor.channels
+        return None if others else _stroke_percent(first, self.predictor.measured, self.residual)
+
+    @property
+    def fit_percent(self) -> float | None:
+        """100 (1 - |residual| / |measured - mean|), the mean of the channels; None where nothing varies."""
+        shares = []
+        for channel in self.predictor.channels:
+            measured, residual = self.predictor.measured[channel.rows], self.residual[channel.rows]
+            spread = float(np.linalg.norm(measured - np.mean(measured)))
+            if spread > 0.0:
+                shares.append(100.0 * (1.0 - float(np.linalg.norm(residual)) / spread))
+        return float(np.mean(shares)) if shares else None
 
     @property
     def residual_mean(self) -> float:
@@ -99,10 +124,10 @@ class Comparison:
 class ParameterValue:
     """A parameter as used or fitted."""
 
+    FIGURES: ClassVar = PARAMETER.name
+
     value: float
-    """Value in SI."""
     stderr: float | None
-    """Standard error; None when not fitted or not determined."""
     unit: str
     """SI unit."""
     at_bound: bool
@@ -119,14 +144,14 @@ ParameterTable = dict[str, dict[str, ParameterValue]]
 class ChannelMisfit:
     """Error of one of several predicted channels, SI."""
 
+    FIGURES: ClassVar = COMPARISON.name
+
     rmse: float
-    """Root mean square of the residual."""
     unit: str
     """SI unit of the figures."""
     noise_floor: float
-    """Noise of the channel."""
     full_scale: float
-    """The largest measured magnitude."""
+    stroke_percent: float | None
 
 
 @result_class
@@ -161,9 +186,23 @@ def channel_misfits(predictor: Predictor, residual: np.ndarray) -> dict[str, Cha
             unit=channel.unit,
             noise_floor=channel.noise,
             full_scale=channel.full_scale,
+            stroke_percent=_stroke_percent(channel, predictor.measured, residual),
         )
         for channel in predictor.channels
     }
+
+
+def _stroke_percent(channel: PredictedChannel, measured: np.ndarray, residual: np.ndarray) -> float | None:
+    """Root mean square of a channel's residual in percent of its range; None for none of a varying length."""
+    stroke = float(np.ptp(measured[channel.rows]))
+    if channel.name not in _STROKES or not stroke > 0.0:
+        return None
+    return 100.0 * float(np.sqrt(np.mean(residual[channel.rows] ** 2))) / stroke
+
+
+def _beyond_accuracy(predictor: Predictor, residual: np.ndarray) -> float:
+    """Root mean square of what the accuracy of the readings does not explain."""
+    return float(np.sqrt(np.mean(predictor.weighted(residual) ** 2)))
 
 
 def parameter_table(fit_model: FitModel, fit: FitResult | None) -> ParameterTable:
@@ -228,11 +267,11 @@ def compared(
     stopped = whole.stopped(fit_model)
     predicted = predictor.predict(fit_model)
     rmse = predictor.rmse(predictor.measured - predicted)
-    holdout: float | None = rmse
+    holdout: float | None = _beyond_accuracy(predictor, predictor.measured - predicted)
     if choice:
         holdout = holdout_rmse(predictor, fit_model, choice)
         if holdout is None:
-            messages.append("only one group: there is no held-out error")
+            messages.append(COMPARISON["holdout_rmse"].exists_when.otherwise)
     floor, how = noise_of(predictor, (predictor.measured - predicted) / predictor.scale, noise)
     if floor is None:
         messages.append("sweeps are too short to estimate the noise")

@@ -28,9 +28,11 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import ClassVar
 
 import numpy as np
 
+from mckibben.facts.comparison import READING_ERROR
 from mckibben.facts.result import result_class
 
 _NOTHING = 1e-9  # singular value below which a reading error changes nothing
@@ -62,20 +64,18 @@ class ReadingError:
 class AbsorbedError:
     """The estimated error of a reading."""
 
+    FIGURES: ClassVar = READING_ERROR.name
+
     channel: str
     """The channel."""
     of: str
     """What it belongs to."""
     value: float
-    """Estimated error of the reading, SI."""
     stderr: float
-    """Its standard error, at most the accuracy."""
     accuracy: float
-    """Stated or assumed standard deviation, SI."""
     unit: str
     """SI unit of value, stderr and accuracy."""
     rms: float
-    """Change of the predicted channel on its rows, over the scale of the residual."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 
+from mckibben.facts.comparison import RESIDUAL
 from mckibben.facts.result import Integers, Series, result_class
 
 _LAGS = 25  # rows, both ways
@@ -20,6 +22,8 @@ INPUTS = ("command", "pressure", "load", "contraction")
 class CrossCorrelation:
     """Of one channel."""
 
+    FIGURES: ClassVar = RESIDUAL.name
+
     channel: str
     """The predicted channel."""
     input: str
@@ -27,11 +31,8 @@ class CrossCorrelation:
     lags: Integers
     """Rows by which the residual comes after the input; negative: before."""
     correlation: Series
-    """At each lag, -1 to 1."""
     band: float
-    """Half-width of the 95 % band of a residual independent of the input."""
     outside: float
-    """Share of the lags outside the band; an independent residual has 0.05."""
 
 
 def cross_correlation(

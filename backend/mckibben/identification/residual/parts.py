@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.comparison import RESIDUAL
 from mckibben.facts.result import result_class
 
 Array = NDArray[np.float64]
@@ -21,10 +23,11 @@ ORDER = ("contraction", "displacement", "pressure", "command", "direction")
 class ResidualPart:
     """A part of a squared residual."""
 
+    FIGURES: ClassVar = RESIDUAL.name
+
     of: str
     """'offset', a variable, 'together' (several variables) or 'rest': what follows none."""
     share: float
-    """0 to 1; each part has only what the ones before it left."""
 
 
 def residual_parts(residual: Array, variables: Mapping[str, Array]) -> list[ResidualPart]:

@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import ClassVar
 
 import numpy as np
 
+from mckibben.facts.comparison import CHANNELS, RESIDUAL
 from mckibben.facts.result import IntegerRows, Integers, Rows, Series, result_class
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
@@ -14,54 +16,38 @@ _BINS = 10
 _MAP = (8, 8)  # bins of a map in x and y
 _LAGS = 24
 _BAND = 1.959964  # standard deviations of a 95 % band
-#: Variable -> how its ranges are shown: name, factor from SI, unit, decimals.
-SHOWN: Mapping[str, tuple[str, float, str, int]] = {
-    "pressure": ("pressure", 1e-5, "bar", 2),
-    "contraction": ("contraction", 100.0, "%", 1),
-    "velocity": ("velocity", 1e3, "mm/s", 1),
-    "direction": ("direction of motion", 1.0, "", 0),
-    "time": ("time", 1.0, "s", 2),
-    "load": ("load", 1.0, "N", 0),
-    "command": ("command", 1.0, "", 2),
-    "displacement": ("stroke", 1e3, "mm", 1),
-    "temperature": ("temperature", 1.0, "K", 1),
-    "group": ("group", 1.0, "", 0),
-}
 
 
 @result_class
 class Profile:
     """The residual over one variable."""
 
+    FIGURES: ClassVar = RESIDUAL.name
+
     over: str
     """The variable."""
     share_explained: float
-    """Share of the mean square that the bin means of other folds predict."""
     worst: str
     """The range with the largest error."""
     rmse: float
-    """Error in that range."""
     edges: Series
     """Boundaries of the ranges, SI; one more than ranges."""
     mean: Series
-    """Mean residual of each range, SI."""
     rms: Series
-    """Root mean square of the residual of each range, SI."""
     count: Integers
-    """Number of points of each range."""
 
 
 def variables_of(
     predictor: Predictor, fit_model: FitModel, groups: np.ndarray | None = None
 ) -> dict[str, np.ndarray]:
-    """Variables that the residual may depend on, name of `SHOWN` -> values; constant ones are left out."""
+    """Variables that the residual may depend on, name of a channel -> values; constant ones are left out."""
     variables = dict(predictor.inputs)
     if "length" in variables:
         variables["contraction"] = 1.0 - variables.pop("length") / predictor.rest_length(fit_model)
     if groups is not None:
         variables["group"] = groups.astype(float)
     return {
-        name: v for name, v in variables.items() if name in SHOWN and np.ptp(v) > 1e-9 * np.max(np.abs(v))
+        name: v for name, v in variables.items() if name in CHANNELS and np.ptp(v) > 1e-9 * np.max(np.abs(v))
     }
 
 
@@ -109,18 +95,24 @@ def _profile(name: str, residual: np.ndarray, values: np.ndarray, folds: np.ndar
 
 
 def _range(name: str, low: float, high: float) -> str:
-    words, factor, unit, digits = SHOWN[name]
+    figure = CHANNELS[name]
     if name == "direction":
         return {-1.0: "shortening", 0.0: "at rest", 1.0: "lengthening"}.get(low, "unknown")
+    scale = figure.scale
+    ends = (scale.of(low), scale.of(high))
+    wide = abs(ends[1] - ends[0])
+    digits = min(max(1 - int(np.floor(np.log10(wide))), 0), scale.digits) if wide > 0.0 else scale.digits
     # A rounded −0.0 is 0.
-    first, last = (f"{round(end * factor, digits) + 0.0:.{digits}f}" for end in (low, high))
-    text = first if first == last else f"{first} to {last}"
-    return f"{words} {text} {unit}".replace(" -", " −").strip()
+    first, last = (f"{round(end, digits) + 0.0:.{digits}f}" for end in ends)
+    text = f"{first} to {last}" if wide > 0.0 else first.rstrip("0").rstrip(".") if digits else first
+    return f"{figure.words} {text} {scale.unit}".replace(" -", " −").strip()
 
 
 @result_class
 class ResidualMap:
     """Mean and rms of the residual over two variables, shape (y bins, x bins); NaN without rows."""
+
+    FIGURES: ClassVar = RESIDUAL.name
 
     x: str
     """The variable of the columns."""
@@ -131,11 +123,8 @@ class ResidualMap:
     y_edges: Series
     """Boundaries of the rows, SI; one more than rows."""
     mean: Rows
-    """Mean residual of each cell, SI."""
     rms: Rows
-    """Root mean square of the residual of each cell, SI."""
     count: IntegerRows
-    """Number of points of each cell."""
 
 
 def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualMap | None:
@@ -169,20 +158,17 @@ def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> Resid
 class Whiteness:
     """Whether a residual looks like noise."""
 
+    FIGURES: ClassVar = RESIDUAL.name
+
     autocorrelation: Series
-    """Autocorrelation of the residual at the lags 1, 2, ... within sweeps."""
     band: float
-    """Half-width of the 95 % band of noise."""
     outside: float
-    """Share of the lags outside the band; noise has 0.05."""
-    runs: float
-    """Number of runs of one sign over that expected of noise."""
+    sign_changes: float
     white: bool
-    """Few lags are outside the band, and the number of runs is that of noise."""
 
 
 def whiteness(residual: np.ndarray, sweeps: Sequence[np.ndarray]) -> Whiteness:
-    """Autocorrelation and runs of a residual within its sweeps."""
+    """Autocorrelation and sign changes of a residual within its sweeps."""
     lines = [residual[rows] - np.mean(residual) for rows in sweeps if len(rows) > 2]
     variance = float(np.mean(np.concatenate(lines) ** 2)) if lines else 0.0
     count = sum(map(len, lines))
@@ -196,29 +182,52 @@ def whiteness(residual: np.ndarray, sweeps: Sequence[np.ndarray]) -> Whiteness:
     band = _BAND / np.sqrt(max(count, 1))
     changes = sum(int(np.count_nonzero(np.diff(np.sign(line)) != 0.0)) for line in lines)
     pairs = max(count - len(lines), 1)
-    runs = changes / (0.5 * pairs)
+    over_noise = changes / (0.5 * pairs)
     outside = float(np.mean(np.abs(rho) > band)) if rho else 0.0
     steady = abs(changes - 0.5 * pairs) <= 3.0 * np.sqrt(0.25 * pairs)
-    return Whiteness(np.array(rho), float(band), outside, runs, bool(outside <= 0.15 and steady))
+    return Whiteness(np.array(rho), float(band), outside, over_noise, bool(outside <= 0.15 and steady))
 
 
 @result_class
 class ResidualLoop:
-    """A group that returns to its start: area of its force residual [J] and range of its length [m]."""
+    """A group that returns to its start."""
+
+    FIGURES: ClassVar = RESIDUAL.name
 
     group: int
     """Number of the sweep or cycle."""
     area: float
-    """Positive [J]: the model lacks friction."""
+    area_noise: float | None
     span: float
-    """Travel between the reversals [m]."""
+    friction: float
 
 
-def loops(force: np.ndarray, length: np.ndarray, groups: np.ndarray) -> list[ResidualLoop]:
+@result_class
+class MeanLoop:
+    """The mean of all loops."""
+
+    FIGURES: ClassVar = RESIDUAL.name
+
+    area: float
+    area_noise: float | None
+    friction: float
+
+
+def loops(
+    force: np.ndarray, length: np.ndarray, groups: np.ndarray, noise: float | None
+) -> list[ResidualLoop]:
     r"""Area :math:`\oint r\,dL` of the force residual over each group that returns to its start [J].
 
     Positive areas take energy out of the motion, as friction does; negative ones cannot come from friction.
-    Rows after the last return are not part of the loop.
+    Rows after the last return are not part of the loop. White noise :math:`\sigma` gives the area
+    :math:`\sum_i r_i w_i`, with the weights w of the trapezoidal rule, the standard deviation
+    :math:`\sigma\sqrt{\sum_i w_i^2}`.
+
+    Args:
+        force: residual, shape (rows,).
+        length: shape (rows,).
+        groups: label of each row.
+        noise: standard deviation of a reading of the force; None where it is not known.
     """
     closed = []
     for label in np.unique(groups):
@@ -231,7 +240,19 @@ def loops(force: np.ndarray, length: np.ndarray, groups: np.ndarray) -> list[Res
         span = float(np.ptp(length[rows]))
         if len(rows) < 8 or span < 0.5 * whole:
             continue
-        middle = 0.5 * (force[rows][1:] + force[rows][:-1])
-        area = float(np.sum(middle * np.diff(length[rows])))
-        closed.append(ResidualLoop(int(label), area, span))
+        steps = np.diff(length[rows])
+        weights = 0.5 * (np.append(steps, 0.0) + np.insert(steps, 0, 0.0))
+        area = float(np.sum(force[rows] * weights))
+        by_noise = None if noise is None else noise * float(np.linalg.norm(weights))
+        closed.append(ResidualLoop(int(label), area, by_noise, span, area / (2.0 * span)))
     return closed
+
+
+def mean_loop(all_loops: Sequence[ResidualLoop]) -> MeanLoop | None:
+    """The mean of the areas, with the friction that gives it on all loops; None without a loop."""
+    if not all_loops:
+        return None
+    area = float(np.mean([loop.area for loop in all_loops]))
+    known = [loop.area_noise for loop in all_loops if loop.area_noise is not None]
+    by_noise = float(np.linalg.norm(known)) / len(known) if known else None
+    return MeanLoop(area, by_noise, area / (2.0 * float(np.mean([loop.span for loop in all_loops]))))

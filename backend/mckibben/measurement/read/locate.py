@@ -297,10 +297,3 @@ def names_channel(name: str) -> bool:
 
 def _is_letter(name: str) -> bool:
     return re.fullmatch(r"[tpxFLsDTκuUPX]", name.strip()) is not None
-
-
-def rows_with(grid: Grid, first: int, last: int) -> list[int]:
-    """The rows of a part of the grid in which anything stands."""
-    return [
-        index for index in range(max(0, first), last) if any(kind_of(c) != GAP for c in grid.cells(index))
-    ]

@@ -362,9 +362,3 @@ def _in_millimetres(note: Note) -> Note:
 
 
 _LONGEST_METRES = 10.0  # no muscle is longer; a larger number without unit counts millimetres
-
-
-def texts_around(rows: Iterable[tuple[Sequence[str], str]]) -> list[tuple[str, str]]:
-    """Rows of texts as one text each, with their place: ``("Ruhelänge 250 mm", "line 4")``."""
-    joined = ((" ".join(cell for cell in cells if cell).strip(), where) for cells, where in rows)
-    return [(text, where) for text, where in joined if text]

@@ -6,13 +6,14 @@ from itertools import pairwise
 
 from mckibben.application.compare.compare import ComparisonResult
 from mckibben.application.diagnose.result import DiagnosisResult, PathPoint, Verdict
+from mckibben.facts.comparison import COMPARISON, TIMES_NOISE, error_scale
+from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.identification.diagnose.design import APART
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.bars import Bar, bars
 from mckibben.report.diagnosis.material import DiagnosisMaterial
-from mckibben.report.diagnosis.units import TIMES_NOISE, error_scale
 from mckibben.report.document import Head, Tone, callout, paragraph, table, tiles
-from mckibben.report.figures import figure, percent, probability
+from mckibben.report.figures import figure, probability
 from mckibben.report.html import Child, Html, html
 
 _TONES: dict[Status, Tone] = {
@@ -41,7 +42,7 @@ def answer_section(material: DiagnosisMaterial) -> Html:
 
 def _missing(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
     """The missing effects in the order of their steps."""
-    scale = error_scale(diagnosis)
+    scale = error_scale(diagnosis.unit)
     verdict = diagnosis.verdict
     rows: list[list[Child]] = []
     for before, step in pairwise(diagnosis.path):
@@ -62,8 +63,12 @@ def _missing(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
         )
     found = "Found so far" if verdict.status == "unfinished" else "Missing"
     columns = [
-        Head(found), Head("Probability", number=True), Head("Error", number=True),
-        Head("Held\N{NON-BREAKING HYPHEN}out", number=True), Head("Indistinguishable from"),
+        Head(found),
+        *(
+            Head(DIAGNOSIS[name].label.replace("-", "\N{NON-BREAKING HYPHEN}"), number=True)
+            for name in ("probability", "rmse", "holdout_rmse")
+        ),
+        Head("Indistinguishable from"),
         Head("What would tell", wide=True),
     ]  # fmt: skip
     return table(columns, rows, whole=False)
@@ -88,17 +93,20 @@ def _sentence(clause: str) -> str:
 def _verdict(material: DiagnosisMaterial) -> Html:
     """The verdict in one sentence, key figures, and what to measure next."""
     answer, diagnosis = material.comparison, material.diagnosis
-    scale = error_scale(answer)
-    counted = answer.rmse if diagnosis is None else diagnosis.path[0].rmse
-    of_readings = "" if counted > _SAME * answer.rmse else " beyond the accuracy of the readings"
-    name = f"RMS error of the model{of_readings}"
-    figures: list[tuple[Child, Child]] = [(name, figure(counted, scale, 3))]
-    if answer.nrmse_percent is not None and scale != TIMES_NOISE:
-        share = answer.nrmse_percent / 100.0 * (counted / answer.rmse if answer.rmse > 0.0 else 1.0)
-        figures.append(("… of the largest value", percent(share, 3)))
+    scale = error_scale(answer.unit)
+    start = None if diagnosis is None else diagnosis.baseline
+    counted = answer.rmse_beyond_accuracy if start is None else start.rmse
+    share = answer.nrmse_percent if start is None else start.nrmse_percent
+    figures: list[tuple[Child, Child]] = [
+        (f"{DIAGNOSIS['rmse'].label} of the model", figure(counted, scale, 3))
+    ]
+    if share is not None and scale != TIMES_NOISE:
+        of = COMPARISON if start is None else DIAGNOSIS
+        figures.append((of["nrmse_percent"].label, figure(share, of["nrmse_percent"].scale, 3)))
+    noise = COMPARISON["noise_floor"].label
     if diagnosis is None:
         parts = [callout("Comparison", f"{sentence}.") for sentence in answer.sentences[-1:]]
-        figures.append(("Noise of the data", figure(answer.noise_floor, scale, 3)))
+        figures.append((noise, figure(answer.noise_floor, scale, 3)))
         return html(parts, tiles(figures))
     verdict = diagnosis.verdict
     title, tone = verdict.title, _TONES[verdict.status]
@@ -108,7 +116,7 @@ def _verdict(material: DiagnosisMaterial) -> Html:
         figures.append((f"With the {which}", figure(best, scale, 3)))
     elif best < _SAME * diagnosis.path[0].rmse:
         figures.append(("With its parameters refitted", figure(best, scale, 3)))
-    figures.append(("Noise of the data", figure(diagnosis.noise_floor.rmse, scale, 3)))
+    figures.append((noise, figure(diagnosis.noise_floor.rmse, scale, 3)))
     parts = [callout(title, verdict.sentence, tone=tone), tiles(figures)]
     if verdict.next_measurement:
         parts.append(callout("Next measurement", _sentence(verdict.next_measurement)))
@@ -117,15 +125,16 @@ def _verdict(material: DiagnosisMaterial) -> Html:
 
 def _steps(material: DiagnosisMaterial) -> Html:
     """The error step by step: earlier models, the given model, and what the diagnosis adds."""
-    scale = error_scale(material.comparison)
+    scale = error_scale(material.comparison.unit)
     rows: list[list[Child]] = []
     drawn: list[Bar] = []
 
     def add(name: str, step: PathPoint | ComparisonResult, how: str, *, pale: bool = False) -> None:
-        rmse, holdout = step.rmse, step.holdout_rmse
+        rmse = step.rmse_beyond_accuracy if isinstance(step, ComparisonResult) else step.rmse
+        holdout = step.holdout_rmse
         rows.append([name, how, figure(rmse, scale, 3), figure(holdout, scale, 3)])
         value, tick = (None if number is None else scale.of(number) for number in (rmse, holdout))
-        drawn.append(Bar(f"RMS error of {name}", value or 0.0, tick, pale))
+        drawn.append(Bar(f"{DIAGNOSIS['rmse'].label} of {name}", value or 0.0, tick, pale))
 
     for past in material.history:
         add(past.label, past.comparison, "an earlier model")
@@ -142,16 +151,17 @@ def _steps(material: DiagnosisMaterial) -> Html:
                 name = f"+ {material.title_of(step.added)}"
                 how = "kept as a correction" if step.correction else "added by the diagnosis"
                 add(name, step, how, pale=True)
+    noise = COMPARISON["noise_floor"]
     floor = answer.noise_floor if diagnosis is None else diagnosis.noise_floor.rmse
     level = None if floor is None else scale.of(floor)
     columns = [
-        Head("Model"), Head(""), Head("RMS error", number=True), Head("Held-out", number=True),
-        Head("", bar=True),
+        Head("Model"), Head(""), Head(DIAGNOSIS["rmse"].label, number=True),
+        Head(DIAGNOSIS["holdout_rmse"].label, number=True), Head("", bar=True),
     ]  # fmt: skip
     caption = (
-        "Bars: RMS error; black tick: held-out error, on groups left out of the fit (a model without fitted "
-        "values predicts all groups, so it is the error)"
-        + ("." if level is None else "; dashed line: noise.")
+        f"Bars: {DIAGNOSIS['rmse'].words}; black tick: {DIAGNOSIS['holdout_rmse'].words}, on groups left out "
+        "of the fit (a model without fitted values predicts all groups, so it is the error)"
+        + ("." if level is None else f"; dashed line: {noise.words}.")
     )
     cells = [[*row, bar] for row, bar in zip(rows, bars(drawn, level=level), strict=True)]
     return table(columns, cells, caption=caption)

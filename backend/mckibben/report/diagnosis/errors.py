@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-
-import numpy as np
+from collections.abc import Iterable, Sequence
 
 from mckibben.application.compare.compare import ComparisonResult
+from mckibben.facts.comparison import CHECK, COMPARISON, RESIDUAL, error_scale
+from mckibben.facts.figure import Figure
 from mckibben.report.diagnosis.map import residual_map
-from mckibben.report.diagnosis.units import error_scale
 from mckibben.report.document import Head, bullets, paragraph, table
 from mckibben.report.figures import Scale, figure, percent, variable
 from mckibben.report.html import Child, Html, html
@@ -20,53 +19,49 @@ _ROUNDING = 1e-7  # share of the error below which a mean is rounding
 def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
     """Error figures of one or more comparisons side by side."""
     first = columns[0][1]
-    scale = error_scale(first)
-    rows: list[list[Child]] = [
-        ["RMS error", *(figure(answer.rmse, scale, 3) for _, answer in columns)],
-        ["… of the largest measured value", *(_percent(answer.nrmse_percent) for _, answer in columns)],
+    unit = error_scale(first.unit)
+    answers = [answer for _, answer in columns]
+
+    def row(each: Figure, values: Iterable[float | None], scale: Scale, of: str = "") -> list[Child]:
+        return [
+            f"{each.label}{of}",
+            *(figure(value, each.scale if each.unit else scale, 3) for value in values),
+        ]
+
+    def of_all(name: str, of: str = "") -> list[Child]:
+        return row(COMPARISON[name], [getattr(answer, name) for answer in answers], unit, of)
+
+    rows = [of_all("rmse_beyond_accuracy"), of_all("rmse"), of_all("nrmse_percent")]
+    if any(answer.stroke_percent is not None for answer in answers):
+        rows.append(of_all("stroke_percent"))
+    rows += [
+        of_all("holdout_rmse"),
+        row(COMPARISON["residual_mean"], [_mean(answer) for answer in answers], unit),
+        of_all("noise_floor", f" ({first.noise_how})"),
+        of_all("over_noise"),
+        of_all("fit_percent"),
+        [COMPARISON["rows_used"].label, *(_rows(answer) for answer in answers)],
         [
-            "RMS error with whole groups left out of the fit",
-            *(figure(answer.holdout_rmse, scale, 3) for _, answer in columns),
-        ],
-        ["Mean of the residual", *(figure(_mean(answer), scale, 3) for _, answer in columns)],
-        [
-            f"Noise of the data ({first.noise_how})",
-            *(figure(answer.noise_floor, scale, 3) for _, answer in columns),
-        ],
-        ["Rows used", *(_rows(answer) for _, answer in columns)],
-        [
-            "Does the residual look like noise?",
-            *("yes" if answer.whiteness.white else "no, it has structure" for _, answer in columns),
+            RESIDUAL["white"].label,
+            *("yes" if answer.whiteness.white else "no, it has structure" for answer in answers),
         ],
     ]
     for name in first.channels:
-        words, channel_scale = variable(name)
-        rows.append(
-            [
-                f"RMS error of {words}",
-                *(figure(answer.channels[name].rmse, channel_scale, 3) for _, answer in columns),
-            ]
-        )
-        rows.append(
-            [
-                f"Noise of {words}",
-                *(figure(answer.channels[name].noise_floor, channel_scale, 3) for _, answer in columns),
-            ]
-        )
-    if any(answer.validation for _, answer in columns):
-        checks = [answer.validation for _, answer in columns]
-        rows.append(
-            [
-                "RMS error on the validation data",
-                *(figure(None if check is None else check.rmse, scale, 3) for check in checks),
-            ]
-        )
-        rows.append(
-            [
-                "… of the largest measured value",
-                *(_percent(None if check is None else check.nrmse_percent) for check in checks),
-            ]
-        )
+        words, scale = variable(name)
+        for each in (COMPARISON["rmse"], COMPARISON["stroke_percent"], COMPARISON["noise_floor"]):
+            values = [getattr(answer.channels[name], each.name) for answer in answers]
+            if any(value is not None for value in values):
+                rows.append(row(each, values, scale, f", {words}"))
+    checks = [answer.validation for answer in answers]
+    if any(checks):
+        rows += [
+            row(
+                each,
+                [None if check is None else getattr(check, each.name) for check in checks],
+                unit,
+            )
+            for each in (CHECK["rmse"], CHECK["nrmse_percent"])
+        ]
     names = [Head("", False), *(Head(name, number=True) for name, _ in columns)]
     parts: list[Child] = [table(names, rows, caption=f"Error of the predicted {words_of(first.predicted)}.")]
     if first.rows_used < first.rows:
@@ -91,10 +86,6 @@ def words_of(predicted: str) -> str:
     return " and ".join(variable(name.strip())[0] for name in predicted.split(","))
 
 
-def _percent(value: float | None) -> Html:
-    return percent(None if value is None else value / 100.0, 3)
-
-
 def where_it_fails(answer: ComparisonResult, first: ComparisonResult) -> Html:
     """The residual over each variable: sentences, a table, and a map over two variables.
 
@@ -102,7 +93,7 @@ def where_it_fails(answer: ComparisonResult, first: ComparisonResult) -> Html:
         answer: the comparison.
         first: the first model of the case, which fixes the colours of the map.
     """
-    scale = error_scale(answer)
+    scale = error_scale(answer.unit)
     rows = [
         [
             variable(profile.over)[0],
@@ -113,12 +104,12 @@ def where_it_fails(answer: ComparisonResult, first: ComparisonResult) -> Html:
         for profile in answer.where
     ]
     columns = [
-        Head("Variable"), Head("Share of the squared error it explains alone", number=True),
-        Head("Worst range"), Head("RMS error there", number=True),
+        Head("Variable"), Head(RESIDUAL["share_explained"].label, number=True),
+        Head("Worst range"), Head(RESIDUAL["rmse"].label, number=True),
     ]  # fmt: skip
     words: list[Child] = [
         html(
-            f"{profile.worst}: ", figure(profile.rmse, scale, 3), " rms; this variable alone explains ",
+            f"{profile.worst}: ", figure(profile.rmse, scale, 3), " rms; this variable alone predicts ",
             percent(profile.share_explained), " of the squared error.",
         )
         for profile in answer.where[:_MOST_SENTENCES]
@@ -130,13 +121,14 @@ def where_it_fails(answer: ComparisonResult, first: ComparisonResult) -> Html:
         parts.append(drawn)
     if rows:  # below the map: a table may continue on the next page, a map may not
         parts.append(table(columns, rows))
-    areas = [loop.area for loop in answer.loops]
-    if areas:
+    mean = answer.mean_loop
+    if mean is not None:
         parts.append(
             paragraph(
-                "Area of the residual over a closed loop, mean of ", str(len(areas)), " loops: ",
-                figure(float(np.mean(areas)), Scale("mJ", 1e-3), 3),
-                ". Positive: friction missing in the model dissipates this energy.",
+                RESIDUAL["area"].label, " of the residual, mean of ", str(len(answer.loops)), ": ",
+                figure(mean.area, RESIDUAL["area"].scale, 3), ", ", RESIDUAL["friction"].words, " ",
+                figure(mean.friction, RESIDUAL["friction"].scale, 3),
+                ". Positive: the muscle dissipates more than the model.",
             )
         )  # fmt: skip
     return html(parts)

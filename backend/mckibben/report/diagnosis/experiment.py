@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mckibben.application.measurement.specimen_result import SpecimenResult
+from mckibben.facts.comparison import READING_ERROR, SPECIMEN, error_scale
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.measurement.experiment import place_of, shown_value, title_of
 from mckibben.report.diagnosis.material import DiagnosisMaterial
-from mckibben.report.diagnosis.units import error_scale
 from mckibben.report.document import Head, bullets, heading, paragraph, table
 from mckibben.report.figures import figure, scale_of, with_error
 from mckibben.report.html import Child, Html, html
@@ -34,17 +34,17 @@ def _specimen(specimen: SpecimenResult, material: DiagnosisMaterial, *, named: b
     ]
     parts: list[Child] = [heading(specimen.file)] if named else []
     if named and specimen.rmse is not None:
-        scale = error_scale(material.comparison)
-        parts.append(paragraph("RMS error on it: ", figure(specimen.rmse, scale, 3), "."))
+        scale = error_scale(material.comparison.unit)
+        parts.append(paragraph(SPECIMEN["rmse"].label, " on it: ", figure(specimen.rmse, scale, 3), "."))
         if specimen.left_out_rmse is not None:
             error = figure(specimen.left_out_rmse, scale, 3)
-            parts.append(paragraph("The same when fitted to the other specimens alone: ", error, "."))
+            parts.append(paragraph(SPECIMEN["left_out_rmse"].label, ": ", error, "."))
     parts.append(table([Head("Experiment"), Head("Value", number=True), Head("Who says it")], rows))
     return html(parts)
 
 
 def _absorbed(errors: Sequence[AbsorbedError], material: DiagnosisMaterial) -> Html:
-    scale = error_scale(material.comparison)
+    scale = error_scale(material.comparison.unit)
     rows = [
         [
             f"{error.channel}{f', {error.of}' if error.of else ''}",
@@ -55,8 +55,8 @@ def _absorbed(errors: Sequence[AbsorbedError], material: DiagnosisMaterial) -> H
         for error in errors
     ]
     columns = [
-        Head("Reading"), Head("Error", number=True), Head("Accuracy", number=True),
-        Head("Changes the prediction by", number=True),
+        Head("Reading"),
+        *(Head(READING_ERROR[name].label, number=True) for name in ("value", "accuracy", "rms")),
     ]  # fmt: skip
     return table(
         columns,

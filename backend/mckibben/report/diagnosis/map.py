@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 
 from mckibben.application.compare.compare import ComparisonResult
+from mckibben.facts.comparison import TIMES_NOISE, error_scale
 from mckibben.report.diagnosis.levels import LevelMap, level_map
-from mckibben.report.diagnosis.units import TIMES_NOISE, error_scale
 from mckibben.report.document import figure_of
 from mckibben.report.figures import Scale, plain, variable
 from mckibben.report.heat import Shade, heat
@@ -20,7 +20,7 @@ _ROUNDING = 1e-9
 
 def residual_map(answer: ComparisonResult, first: ComparisonResult) -> Html | None:
     """The drawing with its caption; ``first``: the first model of the case, which fixes the colours."""
-    scale = error_scale(answer)
+    scale = error_scale(answer.unit)
     levels = level_map(answer.series, answer.noise_floor)
     return _of_ranges(answer, scale) if levels is None else _of_levels(answer, first, levels, scale)
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from mckibben.application.compare.compare import ComparisonResult
 from mckibben.application.compare.question import EffectDocument
 from mckibben.application.diagnose.result import DiagnosisResult
+from mckibben.facts.comparison import PARAMETER
 from mckibben.identification.fit.comparison import ParameterTable, ParameterValue
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter
@@ -69,7 +70,8 @@ def _card(
         for key, item in values.items()
     ]
     columns = [
-        Head("Symbol"), Head("Parameter"), Head("Value ± σ", number=True),
+        Head("Symbol"), Head("Parameter"),
+        Head(f"{PARAMETER['value'].label} {PARAMETER['stderr'].label}", number=True),
         Head("Bounds", number=True), Head("Source"),
     ]  # fmt: skip
     if effect is None:
@@ -120,7 +122,7 @@ def _bounds(parameter: Parameter | None, item: ParameterValue) -> Html:
     if parameter is None:
         return html("–")
     scale = _scale(parameter, item)
-    low = figure(parameter.lower, Scale("", scale.factor), 3, exact=True)
+    low = figure(parameter.lower, scale._replace(unit=""), 3, exact=True)
     return html(low, " to ", figure(parameter.upper, scale, 3, exact=True))
 
 

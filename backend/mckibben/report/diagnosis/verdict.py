@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from mckibben.application.diagnose.result import DiagnosisResult, Verdict
+from mckibben.facts.comparison import CHANNELS, error_scale
+from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.report.chart import chart
 from mckibben.report.diagnosis.material import DiagnosisMaterial
-from mckibben.report.diagnosis.units import error_scale
 from mckibben.report.document import (
     Head,
     bullets,
@@ -28,7 +29,7 @@ _SHOWN = 8  # candidates listed with reasons; further useful ones are only named
 
 def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) -> Html:
     """Gain of each effect alone, indistinguishable effects, and experiments that distinguish them."""
-    scale = error_scale(diagnosis)
+    scale = error_scale(diagnosis.unit)
     verdict = diagnosis.verdict
     useful = [c for c in diagnosis.candidates if c.gain_percent >= _HELPS]
     useful.sort(key=lambda candidate: -candidate.gain_percent)
@@ -38,7 +39,7 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
         [
             c.title,
             figure(c.rmse, scale, 3),
-            percent(c.gain_percent / 100.0),
+            figure(c.gain_percent, DIAGNOSIS["gain_percent"].scale, 2),
             probability(c.probability),
             *([_twins([material.title_of(name) for name in c.twins])] if some_twins else []),
             c.why,
@@ -46,8 +47,9 @@ def candidates_section(material: DiagnosisMaterial, diagnosis: DiagnosisResult) 
         for c in shown
     ]
     columns = [
-        Head("Effect"), Head("Error", number=True), Head("Gain", number=True),
-        Head("Probability", number=True), *([Head("Indistinguishable from")] if some_twins else []),
+        Head("Effect"),
+        *(Head(DIAGNOSIS[name].label, number=True) for name in ("rmse", "gain_percent", "probability")),
+        *([Head("Indistinguishable from")] if some_twins else []),
         Head("Why", wide=True),
     ]  # fmt: skip
     rest = len(diagnosis.candidates) - len(useful)
@@ -121,7 +123,7 @@ def _unknown(verdict: Verdict) -> Html:
         facts(
             [
                 (
-                    "Structured share of the remaining squared error",
+                    DIAGNOSIS["unexplained_share"].label,
                     percent(verdict.unexplained_share),
                 ),
                 ("It depends on", follows),
@@ -149,7 +151,8 @@ def _unknown(verdict: Verdict) -> Html:
     parts.append(
         figure_of(
             chart(
-                Axis(variable_name.capitalize(), scale.unit), Axis("Force", "N"), marks,
+                Axis(variable_name.capitalize(), scale.unit),
+                Axis(CHANNELS["force"].label, CHANNELS["force"].scale.unit), marks,
                 title="Residual and proposed term", height=200.0,
             ),
             "Residual and proposed term.",

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from mckibben.facts.comparison import COMPARISON, error_scale
 from mckibben.report.command import command_section
 from mckibben.report.diagnosis.answer import answer_section
 from mckibben.report.diagnosis.errors import error_table, where_it_fails
@@ -12,7 +13,6 @@ from mckibben.report.diagnosis.inputs import assumptions_section, data_section, 
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.diagnosis.model import correlations, model_cards
 from mckibben.report.diagnosis.pictures import pictures
-from mckibben.report.diagnosis.units import error_scale
 from mckibben.report.diagnosis.verdict import candidates_section
 from mckibben.report.document import Head, Section, bullets, document, table
 from mckibben.report.figures import figure
@@ -68,14 +68,14 @@ def _proposed(material: DiagnosisMaterial) -> Html:
 
 
 def _history(material: DiagnosisMaterial) -> Html:
-    scale = error_scale(material.comparison)
+    scale = error_scale(material.comparison.unit)
     rows = [
         [
             past.label,
             ", ".join(material.title_of(name) for name in past.effects) or "ideal model",
-            figure(past.comparison.rmse, scale, 3),
+            figure(past.comparison.rmse_beyond_accuracy, scale, 3),
         ]
         for past in material.history
     ]
-    columns = [Head("Step"), Head("Effects"), Head("RMS error", number=True)]
+    columns = [Head("Step"), Head("Effects"), Head(COMPARISON["rmse_beyond_accuracy"].label, number=True)]
     return table(columns, rows, caption="Earlier models, the oldest first.")

@@ -3,15 +3,21 @@
 from __future__ import annotations
 
 from mckibben.application.compare.compare import ComparisonResult
+from mckibben.facts.comparison import CHECK, COMPARISON, error_scale
 from mckibben.report.summary.parts import (
     Summary,
     Table,
-    error_unit,
     experiment_tables,
-    figure,
     parameter_tables,
     rows_of,
+    shown,
 )
+
+#: Figures that every comparison shows, a dash where one does not exist.
+_ALWAYS = (
+    "rmse_beyond_accuracy", "rmse", "nrmse_percent", "holdout_rmse", "residual_mean", "noise_floor",
+    "over_noise", "fit_percent",
+)  # fmt: skip
 
 
 def summary_of(result: ComparisonResult) -> Summary:
@@ -33,19 +39,13 @@ def summary_of(result: ComparisonResult) -> Summary:
 
 def error_table(result: ComparisonResult) -> Table:
     """The error in the unit that it is shown in."""
-    unit, scale = error_unit(result.unit)
-
-    def shown(value: float | None) -> str:
-        return figure(None if value is None else value * scale, unit=f" {unit}")
-
-    return Table(
-        f"Predicted {result.predicted} ({result.kind}, {rows_of(result)})",
-        ["", "value"],
-        [
-            ["RMS error", shown(result.rmse)],
-            ["RMS error of the largest value", figure(result.nrmse_percent, 3, " %")],
-            ["RMS error with whole groups left out", shown(result.holdout_rmse)],
-            ["mean error", shown(result.residual_mean)],
-            ["noise floor", shown(result.noise_floor)],
-        ],
-    )
+    unit = error_scale(result.unit)
+    of_stroke = [] if result.stroke_percent is None else ["stroke_percent"]
+    rows = [
+        [figure.label, shown(getattr(result, name), figure.scale if figure.unit else unit)]
+        for name, figure in COMPARISON.items()
+        if name in (*_ALWAYS, *of_stroke)
+    ]
+    if result.validation is not None:
+        rows.append([CHECK["rmse"].label, shown(result.validation.rmse, unit)])
+    return Table(f"Predicted {result.predicted} ({result.kind}, {rows_of(result)})", ["", "value"], rows)

@@ -3,17 +3,20 @@
 from __future__ import annotations
 
 from mckibben.application.diagnose.result import DiagnosisResult, PathPoint
+from mckibben.facts.comparison import NOISE, SPECIMEN, error_scale
+from mckibben.facts.diagnosis import DIAGNOSIS
+from mckibben.facts.units import probability_text
 from mckibben.report.summary.parts import (
     Summary,
     Table,
-    error_unit,
     experiment_tables,
-    figure,
     parameter_tables,
     rows_of,
+    shown,
 )
 
 _SHOWN = 8  # most candidates listed
+_OF_SPECIMENS = ("rmse", "holdout_rmse", "left_out_rmse")
 
 
 def summary_of(result: DiagnosisResult) -> Summary:
@@ -49,9 +52,9 @@ def path_table(result: DiagnosisResult) -> Table:
         ]
         for number, step in enumerate(result.path)
     ]
-    rows.append(["noise floor", _error(result, result.noise_floor.rmse), result.noise_floor.how])
+    rows.append([NOISE["rmse"].words, _error(result, result.noise_floor.rmse), result.noise_floor.how])
     title = f"Error of the predicted {result.predicted} ({result.kind}, {rows_of(result)})"
-    return Table(title, ["after adding", "RMS error", "left-out groups"], rows)
+    return Table(title, ["after adding", DIAGNOSIS["rmse"].label, DIAGNOSIS["holdout_rmse"].label], rows)
 
 
 def specimen_tables(result: DiagnosisResult) -> list[Table]:
@@ -59,11 +62,10 @@ def specimen_tables(result: DiagnosisResult) -> list[Table]:
     if not any(each.left_out_rmse is not None for each in result.specimens):
         return []
     rows = [
-        [each.file, *(_error(result, value) for value in (each.rmse, each.holdout_rmse, each.left_out_rmse))]
+        [each.file, *(_error(result, getattr(each, name)) for name in _OF_SPECIMENS)]
         for each in result.specimens
     ]
-    columns = ["specimen", "RMS error", "left-out groups", "left out itself"]
-    return [Table("Error of the best model on each specimen", columns, rows)]
+    return [Table(SPECIMEN.title, ["specimen", *(SPECIMEN[name].label for name in _OF_SPECIMENS)], rows)]
 
 
 def _step_name(number: int, step: PathPoint) -> str:
@@ -76,13 +78,17 @@ def candidate_table(result: DiagnosisResult) -> Table:
     """The best single additions."""
     return Table(
         "One effect alone",
-        ["effect", "RMS error", "gain", "missing with", "indistinguishable from"],
+        [
+            "effect",
+            *(DIAGNOSIS[name].label for name in ("rmse", "gain_percent", "probability")),
+            "indistinguishable from",
+        ],
         [
             [
                 c.effect,
                 _error(result, c.rmse),
-                f"{c.gain_percent:.1f} %",
-                "" if c.probability is None else f"{100.0 * c.probability:.0f} %",
+                f"{c.gain_percent:.1f} {DIAGNOSIS['gain_percent'].scale.unit}",
+                "" if c.probability is None else probability_text(c.probability),
                 ", ".join(c.twins),
             ]
             for c in result.candidates[:_SHOWN]
@@ -91,5 +97,4 @@ def candidate_table(result: DiagnosisResult) -> Table:
 
 
 def _error(result: DiagnosisResult, value: float | None) -> str:
-    unit, scale = error_unit(result.unit)
-    return figure(None if value is None else value * scale, unit=f" {unit}")
+    return shown(value, error_scale(result.unit))

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 from mckibben.application.diagnose.folder import FileVerdict
-from mckibben.report.summary.parts import Summary, Table, error_unit, figure
+from mckibben.facts.comparison import error_scale
+from mckibben.report.summary.parts import Summary, Table, shown
 
 
 def folder_summary(folder: str, verdicts: Sequence[FileVerdict]) -> Summary:
@@ -25,7 +26,4 @@ def folder_summary(folder: str, verdicts: Sequence[FileVerdict]) -> Summary:
 
 
 def _error(item: FileVerdict, value: float | None) -> str:
-    if item.unit is None:
-        return "–"
-    unit, scale = error_unit(item.unit)
-    return figure(None if value is None else value * scale, unit=f" {unit}")
+    return "–" if item.unit is None else shown(value, error_scale(item.unit))

@@ -6,6 +6,8 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from mckibben.facts.comparison import PARAMETER
+from mckibben.facts.units import Scale
 from mckibben.identification.fit.comparison import ParameterTable
 from mckibben.measurement.experiment import place_of, shown_value, title_of
 
@@ -59,11 +61,6 @@ def rows_of(result: CountedRows) -> str:
     return f"{result.rows_used} of {result.rows} rows{reasons}"
 
 
-def error_unit(unit: str) -> tuple[str, float]:
-    """Display unit of an error, and its number per SI unit."""
-    return ("mm", 1e3) if unit == "m" else (unit.replace("1", "x noise"), 1.0)
-
-
 def experiment_tables(specimens: Iterable[SpecimenResult]) -> list[Table]:
     """What each test was made with, and who says it."""
     return [
@@ -87,12 +84,18 @@ def parameter_tables(parameters: ParameterTable) -> list[Table]:
             f"{item.value:.5g}",  # a conductance is below the rounding errors that a figure hides
             ("–" if item.stderr is None else f"{item.stderr:.2g}") if item.fitted else "given",
             item.unit,
-            "at its bound" if item.at_bound else "",
+            "at its limit" if item.at_bound else "",
         ]
         for effect, values in parameters.items()
         for name, item in values.items()
     ]
-    return [Table("Parameters", ["parameter", "value", "± standard error", "unit", ""], rows)] if rows else []
+    columns = ["parameter", PARAMETER["value"].words, PARAMETER["stderr"].label, "unit", ""]
+    return [Table(PARAMETER.title, columns, rows)] if rows else []
+
+
+def shown(value: float | None, scale: Scale, digits: int = 4) -> str:
+    """An SI value in a unit of people, or a dash."""
+    return figure(None if value is None else scale.of(value), digits, f" {scale.unit}")
 
 
 def figure(value: float | None, digits: int = 4, unit: str = "") -> str:

@@ -42,12 +42,8 @@ const GLANCE_MS = 90;
 /** Without a fit. @type {Memory<Comparison>} */
 const comparisons = new Memory(REMEMBERED);
 
-/** A comparison whose error is the one that the diagnosis counts, so that both are one number.
- * @param {string} text @param {boolean} fit @param {AbortSignal} [signal] @returns {Promise<Comparison>} */
-async function comparisonOf(text, fit, signal) {
-  const got = await post("/api/comparisons", { ...JSON.parse(text), fit }, signal);
-  return { ...got, rmse: got.rmse_beyond_accuracy ?? got.rmse, rmse_of_all: got.rmse };
-}
+/** @param {string} text @param {boolean} fit @param {AbortSignal} [signal] @returns {Promise<Comparison>} */
+const comparisonOf = (text, fit, signal) => post("/api/comparisons", { ...JSON.parse(text), fit }, signal);
 
 /** @param {string} text @param {AbortSignal} [signal] */
 const compareWith = (text, signal) => comparisonOf(text, false, signal);

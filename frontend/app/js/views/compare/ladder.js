@@ -1,6 +1,7 @@
 // @ts-check
 // From the start to the noise: a row for each step so far and each one proposed, with the way back for each.
 import { h, icon, mathml } from "../../dom.js";
+import { figure } from "../../facts.js";
 import { units } from "../../state.js";
 import { effectsById } from "../../store.js";
 import { ahead, answer, compare, diagnosis, preset, stale } from "./answers.js";
@@ -157,6 +158,8 @@ function ladderRow(row, most, noise) {
   );
 }
 
+const ERROR = figure("comparison.rmse_beyond_accuracy"), HELD_OUT = figure("comparison.holdout_rmse");
+const NOISE = figure("comparison.noise_floor");
 const SKELETONS = 3;
 
 export function ladderCard() {
@@ -192,8 +195,8 @@ export function ladderCard() {
         { class: "floor" },
         h(
           "th",
-          { scope: "row", colspan: 2 },
-          "Noise floor ",
+          { scope: "row", colspan: 2, title: NOISE.definition },
+          `${NOISE.label} `,
           h("small", null, a?.noise_how ?? ""),
         ),
         h(
@@ -229,8 +232,16 @@ export function ladderCard() {
           null,
           h("th", { scope: "col", class: "text" }, "Step"),
           h("td", { class: "fall-cell" }, h("small", null, h("u", { class: "held-key" }), "held-out")),
-          h("th", { scope: "col" }, () => h("span", null, `Error ${unit()}`)),
-          h("th", { scope: "col", class: "held" }, () => h("span", null, `Held-out ${unit()}`)),
+          h(
+            "th",
+            { scope: "col", title: ERROR.definition },
+            () => h("span", null, `${ERROR.label} ${unit()}`),
+          ),
+          h(
+            "th",
+            { scope: "col", class: "held", title: HELD_OUT.definition },
+            () => h("span", null, `${HELD_OUT.label} ${unit()}`),
+          ),
           h("td", { class: "undo" }),
         ),
       ),

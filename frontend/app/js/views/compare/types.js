@@ -6,8 +6,7 @@
 /** A model as requests take it.
  * @typedef {{effects: Effects, muscle?: Record<string, any> | null}} Model */
 /** @typedef {S["ParameterValue"]} Fitted */
-/** `rmse`: the error that the diagnosis counts, without what the accuracy of the readings explains; `rmse_of_all`:
- * with it. @typedef {S["ComparisonResult"] & {rmse_of_all: number | null}} Comparison */
+/** @typedef {S["ComparisonResult"]} Comparison */
 /** @typedef {S["ComparedSeries"]} Series */
 /** @typedef {S["ResidualMap"]} HeatMap */
 /** @typedef {S["Profile"]} Where */

@@ -1,5 +1,6 @@
 // @ts-check
 // Errors, ranges and names as the page writes them.
+import { figure, figuresOf, inSentence } from "../../facts.js";
 import { effectsById, presets } from "../../store.js";
 import { brief, number, plainScale, quantityOf, readable, scaleOf, toShown } from "../../format.js";
 
@@ -18,10 +19,10 @@ export const titleOf = (id) =>
 const listed = (names) =>
   names.length < 2 ? names.join("") : `${names.slice(0, -1).join(", ")} and ${names.at(-1)}`;
 
-/** "62 % of the squared residual is above the noise and depends on pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
+/** "62 % of the squared error is left to explain and depends on pressure" @param {import("./types.js").Diagnosis["verdict"]} verdict */
 export function whatIsLeft({ unexplained_share: share, unexplained_in: names, repeats }) {
-  const where = names.map((name) => VARIABLES[name]?.title.toLowerCase() ?? readable(name));
-  const size = `${brief(100 * share)}\u00a0% of the squared residual is above the noise`;
+  const where = names.map(channelWords);
+  const size = `${brief(100 * share)}\u00a0% of the squared error is left to explain`;
   // A ripple depends on its coordinate anyway: where most of the rest repeats, the period says it.
   if (repeats && (!where.length || repeats.share >= 0.5)) return `${size}: ${repeats.text}`;
   const depends = `${size} and depends on ${where.length ? listed(where) : "no measured variable"}`;
@@ -42,12 +43,20 @@ export function statedText({ value, unit }, system) {
   return `${number(toShown(value, s), 1)}${s.unit === "°" ? "" : " "}${s.unit}`.trim();
 }
 
-/** The scale of a channel: a contraction is shown in percent.
+/** The channels of measurements, by name. @type {Map<string, import("../../facts.js").DeclaredFigure>} */
+const CHANNELS = new Map(figuresOf("channel").map((each) => [each.key.replace("channel.", ""), each]));
+
+/** A channel inside a sentence: "stroke". @param {string} name */
+export const channelWords = (name) => {
+  const known = CHANNELS.get(name);
+  return known ? inSentence(known.label) : readable(name);
+};
+
+/** The scale of a channel; that of several together is plain.
  * @param {string} unit @param {string} channel @param {System} system */
 export function channelScale(unit, channel, system) {
-  if (unit === "1" && /contraction|command/.test(channel)) return scaleOf("ratio", system);
-  const quantity = unit === "1" ? null : quantityOf(unit);
-  return quantity ? scaleOf(quantity, system) : plainScale(unit);
+  const known = CHANNELS.get(channel), quantity = known?.quantity ?? (unit === "1" ? null : quantityOf(unit));
+  return quantity ? scaleOf(/** @type {Quantity} */ (quantity), system) : plainScale(unit);
 }
 
 /** The unit of an error; the error of several channels together is in units of their noise.
@@ -69,22 +78,27 @@ export function errorText(si, unit, channel, system, withUnit = true) {
 export const overNoise = (ratio) =>
   ratio < 1.15 ? ratio.toFixed(2) : ratio < 10 ? ratio.toFixed(1) : String(Math.round(ratio));
 
-/** Variables the residual is shown over, by their name in answers.
- * @type {Record<string, {title: string, quantity: Quantity, of: (s: Series) => (number | null)[] | null}>} */
-export const VARIABLES = {
-  contraction: { title: "Contraction ε", quantity: "ratio", of: (s) => s.contraction },
-  pressure: { title: "Pressure", quantity: "pressure", of: (s) => s.x_pressure },
-  velocity: { title: "Velocity", quantity: "sweep", of: (s) => s.velocity },
-  direction: { title: "Direction", quantity: "number", of: (s) => s.direction },
-  time: { title: "Time", quantity: "time", of: (s) => s.time },
-  length: { title: "Length", quantity: "length", of: (s) => s.length },
+/** Where a series holds a channel. @type {Record<string, (s: Series) => (number | null)[] | null>} */
+const COLUMNS = {
+  contraction: (s) => s.contraction,
+  pressure: (s) => s.x_pressure,
+  velocity: (s) => s.velocity,
+  direction: (s) => s.direction,
+  time: (s) => s.time,
+  length: (s) => s.length,
   // Known for the rows whose stroke is predicted; a range of it chooses all rows of other channels.
-  displacement: {
-    title: "Stroke",
-    quantity: "length",
-    of: (s) => s.channel === "displacement" ? s.measured : null,
-  },
+  displacement: (s) => s.channel === "displacement" ? s.measured : null,
 };
+
+/** Variables the residual is shown over, by their name in answers; `short`: where there is no room.
+ * @type {Record<string, {title: string, short: string, quantity: Quantity, of: (s: Series) => (number | null)[] | null}>} */
+export const VARIABLES = Object.fromEntries(
+  Object.entries(COLUMNS).map(([name, of]) => {
+    const { label, symbol, quantity } = figure(`channel.${name}`);
+    const short = name === "contraction" ? symbol : inSentence(label);
+    return [name, { title: label, short, quantity: /** @type {Quantity} */ (quantity), of }];
+  }),
+);
 
 /** @param {Series} s @param {string} name @returns {(number | null)[]} */
 export const column = (s, name) => VARIABLES[name]?.of(s) ?? [];
@@ -109,8 +123,7 @@ export function rangeText(name, [from, to], system) {
   const s = scaleOf(v.quantity, system);
   const asText = (/** @type {number} */ si) => number(toShown(si, s), s.unit === "%" ? 1 : 2);
   const low = asText(from), high = asText(to);
-  const shownName = name === "contraction" ? "ε" : v.title.toLowerCase();
-  return `${shownName} ${low === high ? low : `${low} to ${high}`} ${s.unit}`.trim();
+  return `${v.short} ${low === high ? low : `${low} to ${high}`} ${s.unit}`.trim();
 }
 
 /** @param {Series} s @param {number} i @param {import("../../types.js").Brush | null} brush */
@@ -135,25 +148,6 @@ export function rmsInside(all, brush) {
     });
   }
   return { rms: rows ? Math.sqrt(sum / rows) : null, rows };
-}
-
-/** How much of the variation the model explains, as the mean of the channels: 100 % is perfect.
- * @param {Series[]} all */
-export function fitPercent(all) {
-  const shares = [...new Set(all.map((s) => s.channel))].flatMap((name) =>
-    fitOfChannel(all.filter((s) => s.channel === name)) ?? []
-  );
-  return shares.length ? shares.reduce((sum, one) => sum + one, 0) / shares.length : null;
-}
-
-/** @param {Series[]} all */
-function fitOfChannel(all) {
-  const measured = all.flatMap((s) => s.measured.filter((v, i) => v != null && s.residual[i] != null));
-  if (measured.length < 2) return null;
-  const mean = measured.reduce((/** @type {number} */ sum, v) => sum + (v ?? 0), 0) / measured.length;
-  const spread = measured.reduce((/** @type {number} */ sum, v) => sum + ((v ?? 0) - mean) ** 2, 0);
-  const { rms, rows } = rmsInside(all, null);
-  return rms === null || spread === 0 ? null : 100 * (1 - Math.sqrt((rms * rms * rows) / spread));
 }
 
 /** A number of any size with some significant digits: 2.03·10⁻⁶. @param {number} x @param {number} digits */

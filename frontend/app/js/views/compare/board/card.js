@@ -17,7 +17,9 @@ const chip = (c) =>
     { class: `pin-chip${c.index < 0 ? " me" : ""}` },
     h("b", null, c.name),
     c.comparison
-      ? ` ${errorText(c.comparison.rmse, c.comparison.unit, c.comparison.predicted, units.value)}`
+      ? ` ${
+        errorText(c.comparison.rmse_beyond_accuracy, c.comparison.unit, c.comparison.predicted, units.value)
+      }`
       : compare.value.pins[c.index]?.rmse != null
       ? ` ${
         errorText(

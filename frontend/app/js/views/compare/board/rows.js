@@ -1,71 +1,42 @@
 // @ts-check
 // The rows of the board: errors, fitted values, effects with their parameters, geometry.
+import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
 import { brief, number, readable, scaleOf, toShown } from "../../../format.js";
-import { answer, diagnosis } from "../answers.js";
+import { answer } from "../answers.js";
 import { entries } from "../list/plan.js";
 import { likelyText } from "../list/entry.js";
-import { allSeries } from "../where/pictures.js";
-import {
-  errorText,
-  errorUnit,
-  fitPercent,
-  measuredText,
-  overNoise,
-  parameterScale,
-  titleOf,
-} from "../words.js";
-import { aicOf, weightsOf } from "./weights.js";
+import { errorText, errorUnit, measuredText, overNoise, parameterScale, titleOf } from "../words.js";
 
 /** @typedef {import("./columns.js").Column} Column */
+/** @typedef {import("../types.js").Comparison} Comparison */
 /** `texts`: value and what stands beside it; `numbers`: to sort by; `share`: of the baseline, for a difference.
  * @typedef {{label: string, unit: string, group: "error" | "effect" | "geometry", texts: [string, string][],
  *   numbers: (number | null)[], differs: boolean, compared: boolean, title?: string}} Row */
 
-/** @param {string} label @param {string} unit @param {(number | null)[]} numbers
+/** @param {string} key of a figure @param {string} unit @param {(number | null)[]} numbers
  * @param {(x: number) => string} text @param {boolean} [compared] @returns {Row} */
-function errorRow(label, unit, numbers, text, compared = true) {
+function errorRow(key, unit, numbers, text, compared = true) {
+  const { label, definition } = figure(key);
   const texts = numbers.map((x) => /** @type {[string, string]} */ ([x === null ? "–" : text(x), ""]));
-  return { label, unit, group: "error", texts, numbers, differs: isDifferent(texts), compared };
+  return {
+    label,
+    title: definition,
+    unit,
+    group: "error",
+    texts,
+    numbers,
+    differs: isDifferent(texts),
+    compared,
+  };
 }
 
 /** @param {[string, string][]} texts */
 const isDifferent = (texts) => new Set(texts.map(([text]) => text)).size > 1;
 
-const WEIGHT =
-  "Weight among these models, 100 % together: exp(−S/2), S = n ln(error²) + k ln n, with k fitted values and n " +
-  "independent rows. It says which of them the data favour, not that one of them is right.";
-
 /** @param {Column} c */
 const countOf = (c) => Object.values(c.fit).reduce((n, values) => n + Object.keys(values).length, 0);
-
-/** "97.2", "< 0.1", "> 99.9" @param {number} share */
-const shareText = (share) => share < 1e-3 ? "< 0.1" : share > 0.999 ? "> 99.9" : brief(100 * share);
-
-const AIC =
-  "Akaike's criterion n ln(error²) + 2k above that of the lowest model, with k fitted values and n independent rows: " +
-  "models less than 2 apart do about equally well, one that is 10 above has no support.";
-
-/** Weight and AIC of each model among those of the board; twice the same model counts once. None: there is no second one.
- * @param {Column[]} all @param {number | null} floor @returns {Row[]} */
-function weightRows(all, floor) {
-  const keys = all.map((c) => JSON.stringify([c.effects, c.comparison?.rmse]));
-  const weighed = all.map((c, i) => {
-    const found = c.comparison;
-    if (!found?.rmse || !c.fitted || keys.indexOf(keys[i]) < i) return null;
-    const autocorrelation = found.whiteness.autocorrelation.map((rho) => rho ?? 0);
-    return { error: found.rmse, fitted: countOf(c), rows: found.rows_used, autocorrelation };
-  });
-  const own = weightsOf(weighed, floor), above = aicOf(weighed, floor);
-  const ofEach = (/** @type {(number | null)[]} */ one) =>
-    all.map((c, i) => c.fitted ? one[keys.indexOf(keys[i])] : null);
-  if (own.every((w) => w === null)) return [];
-  return [
-    { ...errorRow("Weight", "% among these", ofEach(own), shareText, false), title: WEIGHT },
-    { ...errorRow("AIC", "above the lowest", ofEach(above), brief, false), title: AIC },
-  ];
-}
 
 /** @param {Column[]} all @returns {Row[]} */
 function errorRows(all) {
@@ -73,22 +44,16 @@ function errorRows(all) {
   const unit = errorUnit(a?.unit ?? "N", a?.predicted ?? "force", system);
   const asText = (/** @type {number} */ si) =>
     errorText(si, a?.unit ?? "N", a?.predicted ?? "force", system, false);
-  const floor = diagnosis.value?.noise_floor.rmse ?? a?.noise_floor ?? null;
-  const errors = all.map((c) => c.comparison?.rmse ?? null);
-  const fits = all.map((c) =>
-    c.comparison ? fitPercent(allSeries(c.comparison).filter((s) => s.use !== "validation")) : null
-  );
+  const of = (/** @type {(a: Comparison) => number | null} */ value) =>
+    all.map((c) => c.comparison && value(c.comparison));
   return [
-    errorRow("Error", `${unit} RMS`, errors, asText),
-    errorRow("Held-out error", unit, all.map((c) => c.holdout), asText),
-    errorRow("Fit", "%, 100 is perfect", fits, brief, false),
-    ...(floor && a?.unit !== "1"
-      ? [
-        errorRow("Error over noise", "×", errors.map((e) => e === null ? null : e / floor), overNoise, false),
-      ]
+    errorRow("comparison.rmse_beyond_accuracy", unit, of((c) => c.rmse_beyond_accuracy), asText),
+    errorRow("comparison.holdout_rmse", unit, all.map((c) => c.holdout), asText),
+    errorRow("comparison.fit_percent", "%", of((c) => c.fit_percent), brief, false),
+    ...(a?.over_noise && a.unit !== "1"
+      ? [errorRow("comparison.over_noise", "×", of((c) => c.over_noise), overNoise, false)]
       : []),
-    errorRow("Fitted values", "", all.map(countOf), String, false),
-    ...weightRows(all, floor),
+    errorRow("comparison.fitted", "", all.map(countOf), String, false),
   ];
 }
 

@@ -1,6 +1,7 @@
 // @ts-check
 // The table of the open board: a column for each model, a row for each error, value and effect.
 import { h, icon } from "../../../dom.js";
+import { figure, inSentence } from "../../../facts.js";
 import { computed, effect, signal } from "../../../reactive.js";
 import { downloadText, fileName, toCsv } from "../../../ui/table.js";
 import { compare } from "../answers.js";
@@ -108,7 +109,9 @@ function head(c) {
 /** The lowest held-out error. @param {Row} row */
 const lowest = (row) => {
   const known = row.numbers.filter((x) => x !== null);
-  return row.label === "Held-out error" && known.length > 1 ? Math.min(...known) : null;
+  return row.label === figure("comparison.holdout_rmse").label && known.length > 1
+    ? Math.min(...known)
+    : null;
 };
 
 /** @param {Row} row */
@@ -187,7 +190,10 @@ export function saveTable() {
       { title: "unit", text: true },
       ...all.flatMap((
         c,
-      ) => [{ title: c.name, text: true }, { title: `${c.name}: standard error`, text: true }]),
+      ) => [{ title: c.name, text: true }, {
+        title: `${c.name}: ${inSentence(figure("parameter.stderr").label)}`,
+        text: true,
+      }]),
     ],
     rows: rows.peek().map((row) => [row.label, row.unit, ...row.texts.flat()]),
   };

@@ -1,6 +1,7 @@
 // @ts-check
 // Nothing is missing: what that rests on, what was chosen without proof, what this file never tested.
 import { h, icon } from "../../../dom.js";
+import { figure, inSentence } from "../../../facts.js";
 import { goTo, units } from "../../../state.js";
 import { capitalized, scaleOf, withUnit } from "../../../format.js";
 import { answer, heldOut } from "../answers.js";
@@ -34,29 +35,25 @@ export function openChoices() {
   );
 }
 
-/** @type {[string, string][]} */
-const RANGES = [["pressure", "pressure"], ["contraction", "ε"], ["speed", "speed"], [
-  "temperature",
-  "temperature",
-]];
+/** What a file may vary, in the order in which it is said. */
+const RANGES = ["pressure", "contraction", "speed", "temperature"].map((name) => {
+  const each = figure(`measured.${name}`);
+  const quantity = /** @type {import("../../../format.js").Quantity} */ (each.quantity);
+  return { name, quantity, words: name === "contraction" ? each.symbol : inSentence(each.label) };
+});
 
 /** The range that the file covers, and what it does not show at all. @param {Diagnosis} result */
 function covered({ envelope }) {
   const system = units.value;
-  const quantities = /** @type {const} */ ({
-    pressure: "pressure",
-    contraction: "ratio",
-    speed: "sweep",
-    temperature: "temperature",
-  });
-  const known = RANGES.filter(([key]) => key in envelope);
-  const untested = RANGES.filter(([key]) =>
-    !(key in envelope) || envelope[key].most - envelope[key].least <= 1e-9 * Math.abs(envelope[key].most)
+  const known = RANGES.filter(({ name }) => name in envelope);
+  const untested = RANGES.filter(({ name }) =>
+    !(name in envelope) ||
+    envelope[name].most - envelope[name].least <= 1e-9 * Math.abs(envelope[name].most)
   );
-  const texts = known.map(([key, name]) => {
-    const range = envelope[key], q = quantities[/** @type {keyof typeof quantities} */ (key)];
-    const unit = scaleOf(q, system).unit, least = withUnit(range.least, q, system);
-    return `${name} ${least.replace(new RegExp(`\u00a0${unit}$`), "")} to ${withUnit(range.most, q, system)}`;
+  const texts = known.map(({ name, quantity, words }) => {
+    const range = envelope[name], { unit } = scaleOf(quantity, system);
+    const least = withUnit(range.least, quantity, system).replace(new RegExp(`\u00a0${unit}$`), "");
+    return `${words} ${least} to ${withUnit(range.most, quantity, system)}`;
   });
   return h(
     "section",
@@ -64,7 +61,11 @@ function covered({ envelope }) {
     h("h3", null, "It holds where it was measured"),
     h("p", { class: "why" }, `${capitalized(texts.join(", "))}.`),
     untested.length
-      ? h("p", { class: "why" }, `Never varied in this file: ${untested.map(([, name]) => name).join(", ")}.`)
+      ? h(
+        "p",
+        { class: "why" },
+        `Never varied in this file: ${untested.map(({ words }) => words).join(", ")}.`,
+      )
       : null,
     h(
       "div",
@@ -89,7 +90,11 @@ export function settling(was) {
         null,
         h("b", null, "Is anything still missing?"),
         // As long as what will stand here.
-        h("p", { "aria-hidden": "true" }, sentenceOf(text(answer.value?.rmse), text(heldOut()))),
+        h(
+          "p",
+          { "aria-hidden": "true" },
+          sentenceOf(text(answer.value?.rmse_beyond_accuracy), text(heldOut())),
+        ),
       ),
     ),
     openChoices(),
@@ -120,12 +125,12 @@ export function adequate(result) {
           "p",
           null,
           wide
-            ? `${asText(a?.rmse)} is of the size of the noise: ${
+            ? `${asText(a?.rmse_beyond_accuracy)} is of the size of the noise: ${
               asText(wide.low)
             } between neighbouring readings, ${
               asText(wide.high)
             } in all. Held-out ${held}. No effect left lowers it by more than chance.`
-            : sentenceOf(asText(a?.rmse), held),
+            : sentenceOf(asText(a?.rmse_beyond_accuracy), held),
         ),
       ),
     ),

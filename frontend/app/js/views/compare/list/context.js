@@ -7,7 +7,7 @@ import { answer, chosen, compare, diagnosis, editCompare, stale } from "../answe
 import { withStep } from "../document.js";
 import { effectsNow, fittedStep, here, stamped, whileFitting } from "../model/history.js";
 import { decided } from "../request.js";
-import { errorText, measuredText, statedText } from "../words.js";
+import { channelWords, errorText, measuredText, statedText } from "../words.js";
 
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
 /** @typedef {Diagnosis["context"][number]} Entry */
@@ -47,7 +47,7 @@ const isReading = (entry) => typeof entry.value === "string" && entry.stated ===
 /** What is said wrong, in few words: "rest length", "unit of the force". @param {Entry} entry */
 export function subject(entry) {
   if (!isReading(entry)) return entry.hypothesis.replaceAll("_", " ");
-  const words = String(entry.value), column = readable(entry.field);
+  const words = String(entry.value), column = channelWords(entry.field);
   if (/^(absolute|gauge)$/.test(words)) return "reference of the pressure";
   return `${/^(not )?in /.test(words) ? "unit" : "sign"} of the ${column}`;
 }
@@ -56,7 +56,7 @@ export function subject(entry) {
  * @param {Entry} entry */
 export function useLabel(entry) {
   if (!isReading(entry)) return `Use ${valueOf(entry)}`;
-  const [words] = String(entry.value).split(/:| and not /), column = readable(entry.field);
+  const [words] = String(entry.value).split(/:| and not /), column = channelWords(entry.field);
   return `Read ${column} ${/^(absolute|gauge)$/.test(words) ? `as ${words}` : words}`;
 }
 
@@ -170,7 +170,7 @@ export function contextBlock(result) {
       "p",
       { class: "muted" },
       `Effects are ranked once this is settled. Ranked now, wrong ones could take the blame for ${
-        inUnits((answer.value?.rmse ?? 0) - first.rmse_after, result)
+        inUnits((answer.value?.rmse_beyond_accuracy ?? 0) - first.rmse_after, result)
       }.`,
     ),
   );

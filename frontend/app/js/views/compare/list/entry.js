@@ -1,13 +1,14 @@
 // @ts-check
 // One entry of the list: an effect that is missing, what it would do, and what it cannot be told from.
 import { h, icon } from "../../../dom.js";
+import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
-import { brief, capitalized, number, readable } from "../../../format.js";
+import { brief, capitalized, number, probabilityText, readable } from "../../../format.js";
 import { aboutButton } from "../../../muscle/effects.js";
 import { answer, preview, stale } from "../answers.js";
 import { fitting, refit } from "../model/history.js";
-import { errorText, titleOf } from "../words.js";
+import { channelWords, errorText, titleOf } from "../words.js";
 import { equationBox } from "../../../ui/equation.js";
 import { add, addCandidate, choose, modelOf, refits } from "./plan.js";
 import { insideOf } from "./selection.js";
@@ -31,7 +32,9 @@ function insideText({ shares }) {
   const text = (/** @type {string} */ channel, /** @type {number} */ si) =>
     `${si < 0 ? "−" : "+"}${errorText(Math.abs(si), unitOf(channel), channel, units.value)}`;
   const parts = shares.map(({ channel, mean, seen }) =>
-    `${shares.length > 1 ? `${readable(channel)} ` : ""}${text(channel, mean)} of the ${text(channel, seen)}`
+    `${shares.length > 1 ? `${channelWords(channel)} ` : ""}${text(channel, mean)} of the ${
+      text(channel, seen)
+    }`
   );
   return `Would explain ${parts.join(", ")} there.`;
 }
@@ -47,8 +50,7 @@ const CORRECTION =
   "The model keeps it because it predicts left-out groups better with it.";
 
 /** How likely an effect is missing. @param {number} probability 0…1 */
-export const likelyText = (probability) =>
-  `${probability >= 0.995 ? "> 99" : Math.max(1, Math.round(100 * probability))} % likely`;
+export const likelyText = (probability) => `${probabilityText(probability)} likely`;
 
 /** A text of the catalogue as a sentence. @param {string} text */
 const sentence = (text) => `${capitalized(text).replace(/\.$/, "")}.`;
@@ -197,7 +199,7 @@ export function entryRow(entry, index, noise, was = null) {
       known ? aboutButton(known) : null,
       probability === null ? null : h(
         "span",
-        { class: "likely" },
+        { class: "likely", title: figure("diagnosis.probability").definition },
         `${was ? "was " : ""}${entry.correction ? "correction, " : ""}${likelyText(probability)}`,
       ),
     ),
@@ -287,8 +289,8 @@ export const soFarRow = (c) =>
       h(
         "div",
         { class: "missing-numbers" },
-        h("b", null, fallText(answer.value?.rmse ?? c.rmse, c.rmse)),
-        track(answer.value?.rmse ?? c.rmse, c.rmse, null),
+        h("b", null, fallText(answer.value?.rmse_beyond_accuracy ?? c.rmse, c.rmse)),
+        track(answer.value?.rmse_beyond_accuracy ?? c.rmse, c.rmse, null),
         h("small", null, `held-out ${asText(c.holdout_rmse)}`),
       ),
       h("button", {

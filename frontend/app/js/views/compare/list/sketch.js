@@ -2,13 +2,12 @@
 // The signature of each proposed effect: what it would explain (line) beside what is seen of it (dots). Seen is the
 // residual of the whole proposal without this effect, its other values unchanged.
 import { svg } from "../../../dom.js";
-import { readable } from "../../../format.js";
 import { computed } from "../../../reactive.js";
 import { view } from "../../../state.js";
 import { Question } from "../../../server/question.js";
 import { ahead, compare, comparisonsWith, diagnosis, stage } from "../answers.js";
 import { keyOf, valuesOf } from "../request.js";
-import { column, varies } from "../words.js";
+import { channelWords, column, varies } from "../words.js";
 import { entries } from "./plan.js";
 
 /** @typedef {import("../types.js").Comparison} Comparison */
@@ -155,7 +154,7 @@ export function drawSketch(sketch, title) {
       ...frame,
       role: "img",
       "aria-label": `Over ${over}: the ${
-        readable(sketch.channel)
+        channelWords(sketch.channel)
       } that ${title} would explain (line) and the residual seen (dots)`,
     },
     svg("line", { class: "zero", x1: EDGE, x2: WIDTH - EDGE, y1: y(0), y2: y(0) }),

@@ -10,7 +10,7 @@ import { extent } from "../../../plots/axes.js";
 import { plotlyReady } from "../../../plots/library.js";
 import { diagnosis } from "../answers.js";
 import { padded } from "../where/specs.js";
-import { channelScale, VARIABLES } from "../words.js";
+import { channelScale, channelWords, VARIABLES } from "../words.js";
 
 const term = computed(() => diagnosis.value?.verdict.proposed_term ?? null);
 
@@ -29,7 +29,7 @@ export function termPlot() {
     // Over a variable with few different values, the term has several values at each of them.
     const several = new Set(x).size < x.length / 2;
     chart.show((p) => ({
-      x: { title: v ? `${v.title} (${across?.unit})` : curve.x, range: padded(extent([x])) },
+      x: { title: v ? `${v.title} (${across?.unit})` : channelWords(curve.x), range: padded(extent([x])) },
       y: { title: `Residual (${s.unit})`, range: extent([y(curve.residual), y(curve.term), [0]]) },
       traces: [
         {

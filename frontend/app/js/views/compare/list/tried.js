@@ -1,6 +1,7 @@
 // @ts-check
 // Everything else that was tried, as one folded table; and effects that were no candidates, with the reason.
 import { h } from "../../../dom.js";
+import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
 import { capitalized } from "../../../format.js";
@@ -14,6 +15,8 @@ import { state } from "./state.js";
 import { valueList } from "./values.js";
 
 /** @typedef {import("../types.js").Candidate} Candidate */
+
+const ERROR = figure("diagnosis.rmse"), HELD_OUT = figure("diagnosis.holdout_rmse");
 
 /** Candidates that are no entry of the list and no twin of one. */
 const others = () => {
@@ -146,8 +149,8 @@ export function triedFold() {
               "tr",
               null,
               h("th", { scope: "col", class: "text" }, "Alone"),
-              h("th", { scope: "col" }, "Error", h("small", null, unit)),
-              h("th", { scope: "col" }, "Held-out", h("small", null, unit)),
+              h("th", { scope: "col", title: ERROR.definition }, ERROR.label, h("small", null, unit)),
+              h("th", { scope: "col", title: HELD_OUT.definition }, HELD_OUT.label, h("small", null, unit)),
               h("td", null),
             ),
           ),

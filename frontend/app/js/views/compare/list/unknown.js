@@ -1,6 +1,7 @@
 // @ts-check
 // An effect that the catalogue does not have: what is left, where, what to measure, and a formula as the last resort.
 import { h, icon } from "../../../dom.js";
+import { inSentence } from "../../../facts.js";
 import { units } from "../../../state.js";
 import { brief, capitalized } from "../../../format.js";
 import { answer, lookCompare } from "../answers.js";
@@ -106,10 +107,8 @@ function showWorst(name) {
 
 /** @param {Diagnosis} result */
 export function unknown(result) {
-  const { verdict, noise_floor: floor } = result, a = answer.value;
-  const over = result.unit !== "1" && floor.rmse && a?.rmse
-    ? `, ${brief(a.rmse / floor.rmse)} × the noise`
-    : "";
+  const { verdict } = result, a = answer.value;
+  const over = result.unit !== "1" && a?.over_noise ? `, ${overNoise(a.over_noise)} × the noise` : "";
   const term = verdict.proposed_term, variable = verdict.unexplained_in.find((name) => name in VARIABLES);
   return [
     h(
@@ -120,7 +119,13 @@ export function unknown(result) {
         "div",
         null,
         h("b", { id: "verdict-status" }, capitalized(verdict.title)),
-        h("p", null, `${errorText(a?.rmse, result.unit, result.predicted, units.value)} are left${over}.`),
+        h(
+          "p",
+          null,
+          `${
+            errorText(a?.rmse_beyond_accuracy, result.unit, result.predicted, units.value)
+          } are left${over}.`,
+        ),
       ),
     ),
     h(
@@ -144,7 +149,7 @@ export function unknown(result) {
           type: "button",
           class: "link",
           onclick: () => showWorst(variable),
-        }, `Show where, over ${VARIABLES[variable].title.toLowerCase()}`)
+        }, `Show where, over ${inSentence(VARIABLES[variable].title)}`)
         : null,
     ),
     h(
@@ -167,7 +172,7 @@ export function unknown(result) {
           { class: "why" },
           `This formula explains ${
             brief(100 * term.share)
-          } % of what is left, also in the groups left out of ` +
+          }\u00a0% of the remaining squared error, also in the groups left out of ` +
             "its fit. It describes, it does not explain: it holds inside the measured range only.",
         ),
         term.curve ? termPlot() : null,

@@ -1,6 +1,7 @@
 // @ts-check
 // Fitted values in words: "C10 = 0.500 ± 0.002 N/mm²".
 import { h, mathml } from "../../../dom.js";
+import { figure, inSentence } from "../../../facts.js";
 import { units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
 import { readable } from "../../../format.js";
@@ -35,7 +36,7 @@ export function valueList(id, parameters) {
       const symbol = known.find((one) => one.name === name)?.symbol_mathml;
       return h(
         "li",
-        { title: readable(name) },
+        { title: `${readable(name)}; ${inSentence(figure("parameter.stderr").label)}` },
         symbol ? mathml(symbol) : readable(name),
         " = ",
         ...valueText(name, p),

@@ -21,7 +21,11 @@ export const fitting = signal(false);
 
 /** The current model with its error, as a step of the history. */
 export const here = () =>
-  stepOf(compare.value, answer.value?.rmse ?? null, diagnosis.value?.baseline.holdout_rmse ?? null);
+  stepOf(
+    compare.value,
+    answer.value?.rmse_beyond_accuracy ?? null,
+    diagnosis.value?.baseline.holdout_rmse ?? null,
+  );
 
 /** The models so far, the current one last. */
 export const models = () => [...compare.value.history, here()];
@@ -92,7 +96,7 @@ export async function fittedStep(model) {
     freed,
     values: { ...model.values, ...free },
     fit: fitOf(got.parameters),
-    rmse: got.rmse,
+    rmse: got.rmse_beyond_accuracy,
     holdout: got.holdout_rmse,
   };
 }

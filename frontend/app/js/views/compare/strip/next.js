@@ -72,7 +72,7 @@ function ofFault() {
 function ofContext() {
   const result = diagnosis.value, [entry] = result ? asked(result) : [];
   if (!result || !entry) return IDLE;
-  const now = answer.value?.rmse ?? entry.rmse_after;
+  const now = answer.value?.rmse_beyond_accuracy ?? entry.rmse_after;
   return {
     tone: "warn",
     what: `Settle the ${subject(entry)} first`,
@@ -186,8 +186,8 @@ export const next = computed(() => {
         effect: floor === null || a?.unit === "1"
           ? "The error is the noise"
           : wide
-          ? `${text(a?.rmse)}, noise ${text(wide.low)} to ${text(wide.high)}`
-          : `${text(a?.rmse)}, noise ${text(floor)}`,
+          ? `${text(a?.rmse_beyond_accuracy)}, noise ${text(wide.low)} to ${text(wide.high)}`
+          : `${text(a?.rmse_beyond_accuracy)}, noise ${text(floor)}`,
         label: "Take it along",
         run: showTake,
       };

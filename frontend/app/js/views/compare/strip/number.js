@@ -1,6 +1,7 @@
 // @ts-check
 // The error as the one big number, which counts to its new value; and the course of all steps beside it.
 import { h, svg } from "../../../dom.js";
+import { figure } from "../../../facts.js";
 import { computed, effect, signal } from "../../../reactive.js";
 import { brief } from "../../../format.js";
 import { units } from "../../../state.js";
@@ -9,6 +10,8 @@ import { ahead, answer, diagnosis, heldOut, stale, steps } from "../answers.js";
 import { state, wideNoise } from "../list/state.js";
 import { errorText, errorUnit, overNoise } from "../words.js";
 
+const ERROR = figure("comparison.rmse_beyond_accuracy"), RMS = figure("comparison.rmse");
+const HELD_OUT = figure("comparison.holdout_rmse");
 const COUNT_MS = 450;
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -33,7 +36,7 @@ const counting = signal(false);
 function follow() {
   let frame = 0, of = caseId.peek();
   effect(() => {
-    const to = answer.value?.rmse ?? null, from = at.peek();
+    const to = answer.value?.rmse_beyond_accuracy ?? null, from = at.peek();
     const isOther = of !== caseId.value; // the error of another case does not count down to this one
     of = caseId.value;
     cancelAnimationFrame(frame);
@@ -53,9 +56,8 @@ function follow() {
 
 /** The error over the noise in words. */
 const ratio = () => {
-  const error = answer.value?.rmse, floor = noise.value;
-  if (error == null || !floor) return null;
-  return overNoise(error / floor);
+  const times = answer.value?.over_noise ?? null;
+  return times === null ? null : overNoise(times);
 };
 
 const WIDTH = 196, HEIGHT = 62;
@@ -64,7 +66,7 @@ const WIDTH = 196, HEIGHT = 62;
 export function course() {
   const a = answer.value;
   if (!a) return null;
-  const past = steps.value.map((s) => s.rmse), now = stale.value ? null : a.rmse;
+  const past = steps.value.map((s) => s.rmse), now = stale.value ? null : a.rmse_beyond_accuracy;
   const done = [...past, now].filter((e) => e !== null && e > 0).map(Number);
   const open = stale.value || state.value !== "verdict"
     ? []
@@ -107,27 +109,24 @@ const spoken = computed(() => {
   const a = answer.value;
   if (!a || stale.value) return "";
   const times = wideNoise.value ? null : ratio();
-  return `Error ${asText(a.rmse)}${times ? `, ${times} times the noise` : ""}`;
+  return `${ERROR.label} ${asText(a.rmse_beyond_accuracy)}${times ? `, ${times} times the noise` : ""}`;
 });
 
 /** The error of a length as a share of the measured stroke, in words; empty for other quantities. */
 const ofStroke = computed(() => {
-  const a = answer.value;
-  if (!a || a.unit !== "m" || a.rmse === null) return "";
-  const all = a.series.flatMap((s) => s.measured).filter((v) => v !== null).map(Number);
-  const stroke = Math.max(...all) - Math.min(...all);
-  if (!(stroke > 0)) return "";
-  const share = a.rmse / stroke; // far off it needs fewer letters, which have room
-  return share > 1 ? ` · ${brief(share)}\u00a0× stroke` : ` · ${brief(100 * share)}\u00a0% of stroke`;
+  const share = answer.value?.stroke_percent ?? null;
+  if (share === null) return "";
+  // Far off it needs fewer letters, which have room.
+  return share > 100 ? ` · ${brief(share / 100)}\u00a0× stroke` : ` · ${brief(share)}\u00a0% of stroke`;
 });
 
 const NOTABLE = 1.01;
 
 /** What the error leaves out, where the accuracy of the readings explains a part. */
 const beyond = () => {
-  const a = answer.value, all = a?.rmse_of_all ?? 0;
-  return a?.rmse && all > NOTABLE * a.rmse
-    ? `. RMS of all deviations: ${asText(all)}; the accuracy of the readings explains the rest`
+  const a = answer.value, error = a?.rmse_beyond_accuracy ?? 0, all = a?.rmse ?? 0;
+  return error && all > NOTABLE * error
+    ? ` ${RMS.label}: ${asText(all)}; the accuracy of the readings explains the rest.`
     : "";
 };
 
@@ -155,7 +154,7 @@ export function errorNumber() {
         class: "sub",
         id: "error-facts",
         title: () =>
-          `Held-out: whole groups of readings are predicted by a model fitted to the others${beyond()}`,
+          `${ERROR.label}: ${ERROR.definition}${beyond()} ${HELD_OUT.label}: ${HELD_OUT.definition}`,
       },
       () => {
         const times = ratio(), held = heldOut(), check = answer.value?.validation?.rmse ?? null;

@@ -2,7 +2,9 @@
 // The correlation of the residual with the input of the test: after the input it shows what the model misses of how
 // the input acts, before it that the input follows the muscle.
 import { h } from "../../../dom.js";
-import { readable } from "../../../format.js";
+import { figure } from "../../../facts.js";
+import { capitalized } from "../../../format.js";
+import { channelWords } from "../words.js";
 import { correlations, FOR_LABEL } from "./leftover.js";
 
 /** @typedef {import("../../../plots/chart.js").Spec} Spec */
@@ -10,6 +12,7 @@ import { correlations, FOR_LABEL } from "./leftover.js";
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** @typedef {Comparison["cross"][number]} Cross */
 
+const CORRELATION = figure("residual.correlation");
 /** Share of the lags that are outside the band by chance, and from which on there are more. */
 const CHANCE = 0.05, MORE = 0.15;
 
@@ -19,10 +22,7 @@ export function crossCorrelation(a, channel) {
   if (!found) {
     return {
       spec: null,
-      words: [
-        "No correlation with an input: it takes times, sweeps of at least 100 rows, and a pressure, command, load or " +
-        "contraction that varies within them.",
-      ],
+      words: [`${capitalized(CORRELATION.otherwise)}.`],
     };
   }
   const total = found.lags.length, out = Math.round(found.outside * total);
@@ -39,7 +39,7 @@ export function crossCorrelation(a, channel) {
         { id: "cross-words" },
         found.outside <= MORE
           ? "The residual does not follow the input: "
-          : `The residual follows the input, ${readable(found.input)}: `,
+          : `The residual follows the input, ${channelWords(found.input)}: `,
       ),
       `${out} of ${total} lags outside the 95 % band${out ? `, ${where}` : ""} (${
         Math.round(CHANCE * total)
@@ -54,10 +54,10 @@ function spec({ lags, correlation, band, input }, p) {
   const size = Math.min(1.05, 1.15 * Math.max(band, ...ends.map(([, r]) => Math.abs(r))));
   return {
     x: {
-      title: `Residual after the ${readable(input)} (rows)`,
+      title: `Residual after the ${channelWords(input)} (rows)`,
       range: [lags[0] - 1, FOR_LABEL * (lags.at(-1) ?? 1)],
     },
-    y: { title: "Correlation", range: [-size, size] },
+    y: { title: CORRELATION.label, range: [-size, size] },
     traces: correlations(ends, band, p),
     zones: [{ x: null, y: [-band, band], text: "95 % of independent" }],
     revision: `cross${input}${lags.length}`,

@@ -1,12 +1,13 @@
 // @ts-check
 // "Where it fails": the map of the residual. A cell chosen shows its points everywhere and asks what would cause it.
 import { h, icon } from "../../../dom.js";
+import { figure, inSentence } from "../../../facts.js";
 import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
-import { number, readable, scaleOf, toShown } from "../../../format.js";
+import { number, scaleOf, toShown } from "../../../format.js";
 import { palette } from "../../../plots/theme.js";
 import { brush, fault, lookCompare, shown, stale } from "../answers.js";
-import { channelScale, errorText, errorUnit, rangeText, VARIABLES } from "../words.js";
+import { channelScale, channelWords, errorText, errorUnit, rangeText, VARIABLES } from "../words.js";
 import { mapOf } from "./map.js";
 import { inkOn, tint } from "./colours.js";
 import { isQuiet, mapScale, marksOf, placeOf } from "./scale.js";
@@ -16,6 +17,7 @@ import { isQuiet, mapScale, marksOf, placeOf } from "./scale.js";
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** @typedef {[number, number]} Range */
 
+const MEAN = figure("residual.mean");
 /** Height of all rows together, and of a row at least and at most. */
 const ROWS_PX = 272, LEAST_PX = 24, MOST_PX = 128;
 
@@ -161,7 +163,7 @@ function table(a, map) {
   const shownAt = (/** @type {number} */ si) => number(inRows(si), 2);
   const label = (/** @type {import("./map.js").Row} */ row) =>
     row.channel !== undefined
-      ? readable(row.channel)
+      ? channelWords(row.channel)
       : row.level === null
       ? ends.slice(2 * ranges.indexOf(row), 2 * ranges.indexOf(row) + 2).join("…")
       : `${shownAt(row.level)} ${yScale?.unit ?? ""}`;
@@ -196,7 +198,7 @@ function table(a, map) {
   const made = h(
     "table",
     { class: `heat${map.split ? " split" : map.rows[0]?.level === null ? " ranges" : ""}` },
-    h("caption", { class: "unseen" }, `Mean residual by ${readable(map.y)} and ${readable(map.x)}`),
+    h("caption", { class: "unseen" }, `${MEAN.label} by ${channelWords(map.y)} and ${channelWords(map.x)}`),
     h("colgroup", null, h("col", { class: "levels" }), h("col", { span: map.edges.length - 1 })),
     h(
       "tbody",
@@ -263,13 +265,13 @@ const aside = () => {
   if (!a || !map) return "";
   const unit = errorUnit(a.unit, a.predicted, units.value);
   const ys = VARIABLES[map.y];
-  if (map.scaled) return "mean residual, × noise";
+  if (map.scaled) return `${inSentence(MEAN.label)}, × noise`;
   if (map.rows[0]?.level === null) {
-    return `mean residual, ${unit} · rows: ${readable(map.y)}, ${
+    return `${inSentence(MEAN.label)}, ${unit} · rows: ${channelWords(map.y)}, ${
       ys ? scaleOf(ys.quantity, units.value).unit : ""
     }`;
   }
-  return map.split ? `mean, ${unit} · ● lengthening, □ shortening` : `mean residual, ${unit}`;
+  return map.split ? `mean, ${unit} · ● lengthening, □ shortening` : `${inSentence(MEAN.label)}, ${unit}`;
 };
 
 export function whereCard() {
@@ -298,7 +300,7 @@ export function whereCard() {
         h(
           "p",
           { class: "axis-note" },
-          `${xs?.title ?? readable(map.x)} (${xs ? scaleOf(xs.quantity, units.value).unit : ""})`,
+          `${xs?.title ?? channelWords(map.x)} (${xs ? scaleOf(xs.quantity, units.value).unit : ""})`,
         ),
         key(a),
       ];

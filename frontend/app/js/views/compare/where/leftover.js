@@ -1,32 +1,36 @@
 // @ts-check
 // Whether the residual is noise: histogram, autocorrelation and area of loops, each as a plot and in words.
 import { h } from "../../../dom.js";
-import { brief, scaleOf, toShown } from "../../../format.js";
-import { channelScale, errorText, rmsInside } from "../words.js";
+import { figure, inSentence } from "../../../facts.js";
+import { brief, capitalized, figureText, scaleOf, toShown } from "../../../format.js";
+import { channelScale, errorText } from "../words.js";
 
 /** @typedef {import("../../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../../plots/chart.js").Trace} Trace */
 /** @typedef {import("../../../plots/theme.js").Palette} Palette */
 /** @typedef {import("../../../format.js").System} System */
+/** @typedef {import("../../../format.js").Quantity} Quantity */
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** @typedef {import("./specs.js").View} View */
 /** What a tab shows of the residual; `spec` null: nothing can be drawn, and `words` give the reason.
  * @typedef {{spec: ((p: Palette) => Spec) | null, words: import("../../../dom.js").Child[]}} Picture */
 
+const RMS = figure("comparison.rmse"), AUTOCORRELATION = figure("residual.autocorrelation");
+const SIGNS = figure("residual.sign_changes"), AREA = figure("residual.area");
+const FRICTION = figure("residual.friction");
 const BINS = 31;
 /** Room on the right for the name of a band. */
 export const FOR_LABEL = 1.14;
 /** Standard deviations of the band of the noise. */
 const BAND = 2;
 
-/** @param {View} v @returns {Picture} */
-export function histogram(v) {
-  const { rms } = rmsInside(v.series, null);
+/** @param {Comparison} a @param {View} v @returns {Picture} */
+export function histogram(a, v) {
   const asText = (/** @type {number | null} */ si) => errorText(si, v.unit, v.channel, v.system);
   return {
     spec: (p) => histogramSpec(v, p),
     words: [
-      `σ of the residual ${asText(rms)}`,
+      `${RMS.label} ${asText(a.channels[v.channel]?.rmse ?? a.rmse)}`,
       v.noise === null ? "" : `; dashed: noise alone, σ ${asText(v.noise)}`,
     ],
   };
@@ -84,19 +88,20 @@ const sticks = (ends) => ({
 /** The correlation of a row with the rows after it: none, if only noise is left. @param {Comparison} a
  * @returns {Picture} */
 export function autocorrelation(a) {
-  const { autocorrelation: rho, band, outside, runs, white } = a.whiteness;
+  const { autocorrelation: rho, band, outside, sign_changes: signs, white } = a.whiteness;
   const known = rho.flatMap((r) => r === null ? [] : [r]);
-  if (!known.length) {
-    return { spec: null, words: ["The sweeps are too short for an autocorrelation."] };
-  }
+  if (!known.length) return { spec: null, words: [`${capitalized(AUTOCORRELATION.otherwise)}.`] };
   const out = Math.round(outside * known.length);
   const lags = `${out} of ${known.length} lags outside the 95 % band`;
-  const signs = `the sign changes ${brief(runs)} × as often as in noise`;
   return {
     spec: (p) => autocorrelationSpec(known, band, p),
     words: [
-      h("b", { id: "white" }, white ? "The residual is noise: " : "The residual is not only noise: "),
-      `${lags}; ${signs}.`,
+      h(
+        "b",
+        { id: "white", title: figure("residual.white").definition },
+        white ? "The residual looks like noise: " : "The residual is not only noise: ",
+      ),
+      h("span", { title: SIGNS.definition }, `${lags}; ${inSentence(SIGNS.label)} ${brief(signs)}.`),
     ],
   };
 }
@@ -127,7 +132,7 @@ function autocorrelationSpec(rho, band, p) {
   const low = Math.min(...rho, -band);
   return {
     x: { title: "Distance between rows (rows)", range: [0, FOR_LABEL * (rho.length + 1)] },
-    y: { title: "Autocorrelation", range: [Math.max(-1.05, Math.min(-0.4, 1.2 * low)), 1.05] },
+    y: { title: AUTOCORRELATION.label, range: [Math.max(-1.05, Math.min(-0.4, 1.2 * low)), 1.05] },
     traces: correlations(ends, band, p),
     zones: [{ x: null, y: [-band, band], text: "95 % of noise" }],
     revision: `autocorrelation${rho.length}`,
@@ -140,58 +145,51 @@ function autocorrelationSpec(rho, band, p) {
   };
 }
 
-/** A loop of the residual: its area, the standard deviation of the area by noise, its constant pressure.
- * @typedef {{area: number, sigma: number, span: number, pressure: number | null, label: string}} Cycle */
+/** A loop of the residual with its constant pressure.
+ * @typedef {Comparison["loops"][number] & {pressure: number | null, label: string}} Cycle */
 
 /** @param {Comparison} a @returns {Cycle[]} */
 function cycles(a) {
   const curves = a.series.filter((s) => s.use !== "validation");
-  return a.loops.map(({ group, area, span }, i) => ({
-    area,
-    // By noise on each of n rows that go through the span twice.
-    sigma: ((a.noise_floor ?? 0) * 2 * span) / Math.sqrt(curves[group]?.measured.length || 1),
-    span,
-    pressure: curves[group]?.pressure ?? null,
-    label: curves[group]?.label ?? `loop ${i + 1}`,
+  return a.loops.map((loop, i) => ({
+    ...loop,
+    pressure: curves[loop.group]?.pressure ?? null,
+    label: curves[loop.group]?.label ?? `loop ${i + 1}`,
   }));
 }
 
 /** The energy of the residual in each cycle. @param {Comparison} a @param {System} system
  * @returns {Picture} */
 export function loops(a, system) {
-  const all = cycles(a);
-  if (!all.length) {
-    return {
-      spec: null,
-      words: [
-        "No loops in these data. A loop is the force over a length that returns to its start, at one pressure.",
-      ],
-    };
-  }
-  const area = all.reduce((sum, c) => sum + c.area, 0) / all.length;
-  // The area of a constant friction force is twice the force times the distance.
-  const distance = all.reduce((sum, c) => sum + 2 * c.span, 0) / all.length;
-  const energy = scaleOf("energy", system), force = scaleOf("force", system);
-  const meanText = `${brief(toShown(Math.abs(area), energy))}\u00a0${energy.unit}`;
-  const like = `${brief(toShown(Math.abs(area) / distance, force))}\u00a0${force.unit}`;
-  const sigma = Math.hypot(...all.map((c) => c.sigma)) / all.length;
+  const all = cycles(a), mean = a.mean_loop;
+  if (!mean) return { spec: null, words: [`${capitalized(AREA.otherwise)}.`] };
+  const { area, area_noise: sigma, friction } = mean;
+  const size = figureText(Math.abs(area), AREA, system);
+  const like = `${inSentence(FRICTION.label)} ${figureText(Math.abs(friction), FRICTION, system)}`;
   const count = all.length === 1 ? "One loop" : `${all.length} loops`;
   return {
     spec: (p) => loopsSpec(all, system, p),
     words: [
-      h("b", { class: "loop-mean" }, `${count}, mean ${area < 0 ? "−" : "+"}${meanText}. `),
-      Math.abs(area) <= BAND * sigma
-        ? "This is within the noise."
-        : area >= 0
-        ? `Positive: the muscle dissipates more than the model, equivalent to ${like} of friction.`
-        : `Negative: the model dissipates more than the muscle, equivalent to ${like} of friction.`,
+      h(
+        "b",
+        { class: "loop-mean", title: AREA.definition },
+        `${count}, mean ${area < 0 ? "−" : "+"}${size}. `,
+      ),
+      Math.abs(area) <= BAND * (sigma ?? 0) ? "This is within the noise." : h(
+        "span",
+        { title: FRICTION.definition },
+        area >= 0
+          ? `Positive: the muscle dissipates more than the model, ${like}.`
+          : `Negative: the model dissipates more than the muscle, ${like}.`,
+      ),
     ],
   };
 }
 
 /** @param {Cycle[]} all @param {System} system @param {Palette} p @returns {Spec} */
 function loopsSpec(all, system, p) {
-  const energy = scaleOf("energy", system), pressure = scaleOf("pressure", system);
+  const energy = scaleOf(/** @type {Quantity} */ (AREA.quantity), system),
+    pressure = scaleOf("pressure", system);
   const hasPressure = all.every((c) => c.pressure !== null);
   const at = hasPressure ? all.map((c) => toShown(c.pressure ?? 0, pressure)) : all.map((_c, i) => i + 1);
   const low = hasPressure ? Math.min(...at) : 0, high = hasPressure ? Math.max(...at) : all.length + 1;
@@ -203,7 +201,7 @@ function loopsSpec(all, system, p) {
     return one + (same.indexOf(i) - (same.length - 1) / 2) * near;
   });
   const y = all.map((c) => toShown(c.area, energy));
-  const band = toShown(BAND * Math.max(...all.map((c) => c.sigma)), energy);
+  const band = toShown(BAND * Math.max(...all.map((c) => c.area_noise ?? 0)), energy);
   const most = Math.max(...y.map(Math.abs), band) || 1;
   /** @param {string} id @param {boolean} lost @param {string} color @returns {Trace[]} */
   const set = (id, lost, color) => {
@@ -222,7 +220,7 @@ function loopsSpec(all, system, p) {
       range: [low - edge, low + FOR_LABEL * (high + edge - low)],
     },
     y: {
-      title: `Area (${energy.unit})`,
+      title: `${AREA.label} (${energy.unit})`,
       range: [y.some((a) => a < -band) ? -1.15 * most : -1.6 * band, 1.15 * most],
     },
     traces: [...set("lost", true, p.load), ...set("gained", false, p.accent)],

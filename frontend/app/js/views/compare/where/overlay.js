@@ -1,6 +1,7 @@
 // @ts-check
 // Measured points and model; one plot for each predicted channel.
-import { capitalized, readable } from "../../../format.js";
+import { figure } from "../../../facts.js";
+import { capitalized } from "../../../format.js";
 import { h, icon } from "../../../dom.js";
 import { computed, effect, signal } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
@@ -23,9 +24,9 @@ import {
   steps,
 } from "../answers.js";
 import { pinnedAnswers } from "../pinned.js";
-import { across, allSeries, channels, over, viewOf } from "./pictures.js";
+import { across, channels, over, viewOf } from "./pictures.js";
 import { overlaySpec } from "./specs.js";
-import { fitPercent, rangeText, VARIABLES } from "../words.js";
+import { channelWords, rangeText, VARIABLES } from "../words.js";
 
 /** The plots on the page, for the export. @type {{title: string, chart: Chart}[]} */
 export const overlays = [];
@@ -47,7 +48,7 @@ const overChoice = () =>
       h(
         "option",
         { value: name, selected: name === over.value },
-        `over ${name === "contraction" ? "ε" : VARIABLES[name].title.toLowerCase()}`,
+        `over ${VARIABLES[name].short}`,
       )
     ));
 
@@ -73,15 +74,12 @@ const toggle = (name, isOn, flip, sign) =>
     ),
   );
 
-/** How much of the measured variation a model explains, beside its name. @param {import("../types.js").Comparison} a */
-function fitOf(a) {
-  const share = fitPercent(allSeries(a).filter((s) => s.use !== "validation"));
-  return share === null
+/** How well a model fits, beside its name. @param {import("../types.js").Comparison} a */
+const fitOf = ({ fit_percent: share }) =>
+  share === null
     ? null
     : h("small", { class: "fit", title: FIT }, `\u00a0${share < 0 ? "< 0" : share.toFixed(1)}\u00a0%`);
-}
-const FIT =
-  "Fit: 100 % is perfect, 0 % as good as the mean of the measured values, below 0 % worse than that mean";
+const FIT = `${figure("comparison.fit_percent").label}: ${figure("comparison.fit_percent").definition}`;
 
 /** What the signs mean; lines that can be drawn or not are buttons. */
 function legend() {
@@ -143,12 +141,12 @@ function tag() {
 
 /** @param {string} name @param {boolean} first */
 function plotCard(name, first) {
-  const title = `${capitalized(readable(name))}: measured and model`;
+  const title = `${capitalized(channelWords(name))}: measured and model`;
   const host = h("div", {
     class: "plot",
     id: `overlay-${name}`,
     role: "figure",
-    "aria-label": `Measured and modelled ${readable(name)}`,
+    "aria-label": `Measured and modelled ${channelWords(name)}`,
   });
   const chart = new Chart(host, `compare-${name}`);
   writeLabels(chart);

@@ -1,10 +1,11 @@
 // @ts-check
 // What the squared residual is made of: one bar of 100 %, never the same thing twice; and the errors of channels.
 import { h } from "../../../dom.js";
+import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
-import { brief, readable } from "../../../format.js";
+import { brief } from "../../../format.js";
 import { shown } from "../answers.js";
-import { channelScale, errorText, VARIABLES } from "../words.js";
+import { channelWords, errorText, VARIABLES } from "../words.js";
 
 /** @typedef {import("../types.js").Comparison} Comparison */
 
@@ -22,8 +23,7 @@ function nameOf(of, share, a) {
     return noise && Math.sqrt(share) * (a.rmse ?? 0) <= NOISE * noise ? "noise" : "follows none of these";
   }
   if (of === "together") return "follows several together";
-  if (of === "contraction") return "follows ε";
-  return `follows ${VARIABLES[of]?.title.toLowerCase() ?? readable(of)}`;
+  return `follows ${VARIABLES[of]?.short ?? channelWords(of)}`;
 }
 
 /** Whole percents that add up to 100: the largest remainders are rounded up. @param {number[]} shares */
@@ -49,8 +49,12 @@ function bar(a) {
     ),
     h(
       "ul",
-      { class: "parts-key", "aria-label": "What the squared residual is made of" },
-      h("li", null, "The squared residual is"),
+      {
+        class: "parts-key",
+        "aria-label": "What the squared error is made of",
+        title: figure("residual.share").definition,
+      },
+      h("li", null, "The squared error is"),
       ...parts.flatMap((part, i) =>
         texts[i]
           ? [h(
@@ -72,16 +76,19 @@ function channels(a) {
   if (all.length < 2) return null;
   return h(
     "ul",
-    { class: "parts-key", "aria-label": "Error of each channel" },
+    {
+      class: "parts-key",
+      "aria-label": "Error of each channel",
+      title: `${figure("comparison.rmse").definition} ${figure("comparison.stroke_percent").label}: ${
+        figure("comparison.stroke_percent").definition
+      }`,
+    },
     ...all.map(([name, c]) => {
-      const isStroke = channelScale(c.unit, name, units.value).unit !== "" && c.unit === "m";
-      const percent = isStroke && c.full_scale
-        ? `, ${brief((100 * c.rmse) / c.full_scale)} % of the stroke`
-        : "";
+      const share = c.stroke_percent, percent = share === null ? "" : `, ${brief(share)} % of stroke`;
       return h(
         "li",
         null,
-        h("b", null, `${readable(name)} `),
+        h("b", null, `${channelWords(name)} `),
         `${errorText(c.rmse, c.unit, name, units.value)}${percent}, noise ${
           errorText(c.noise_floor, c.unit, name, units.value)
         }`,

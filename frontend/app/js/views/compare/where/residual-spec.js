@@ -51,7 +51,7 @@ export function residualSpec(v, p, fixed) {
   return {
     x: ways
       ? {
-        title: "Direction of motion",
+        title,
         range: [-1.5, 1.5],
         marks: [{ at: -1, text: "shortening" }, { at: 0, text: "at rest" }, { at: 1, text: "lengthening" }],
       }

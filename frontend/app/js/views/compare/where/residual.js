@@ -3,7 +3,7 @@
 import { h, icon } from "../../../dom.js";
 import { apart, computed, effect } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
-import { number, readable, scaleOf, toShown, toSi } from "../../../format.js";
+import { number, scaleOf, toShown, toSi } from "../../../format.js";
 import { Chart } from "../../../plots/chart.js";
 import { writeLabels } from "../../../plots/overlay.js";
 import { palette } from "../../../plots/theme.js";
@@ -19,7 +19,7 @@ import { autocorrelation, histogram, loops } from "./leftover.js";
 import { partsBar } from "./parts.js";
 import { scale } from "./scale.js";
 import { residualSpec } from "./residual-spec.js";
-import { errorText, rangeText, rmsInside, VARIABLES } from "../words.js";
+import { channelWords, errorText, rangeText, rmsInside, VARIABLES } from "../words.js";
 
 /** @typedef {import("../../../types.js").Tab} Tab */
 /** @typedef {import("./leftover.js").Picture} Picture */
@@ -29,7 +29,7 @@ const TABS = [
   ["contraction", "ε", "ε: residual over contraction"],
   ["pressure", "Pressure", "Residual over pressure"],
   ["direction", "Direction", "Residual over direction"],
-  ["velocity", "Speed", "Residual over speed"],
+  ["velocity", "Velocity", "Residual over velocity"],
   ["time", "Time", "Residual over time"],
   ["histogram", "Histogram", "Histogram: how often each size of residual occurs"],
   ["autocorrelation", "Autocorrelation", "Autocorrelation of the residual"],
@@ -75,7 +75,7 @@ const picture = () => {
   if (x === "cross") return crossCorrelation(a, channel.value);
   if (x === "loops") return loops(a, units.value);
   const v = viewOf(channel.value, "contraction");
-  return v && histogram(v);
+  return v && histogram(a, v);
 };
 const whole = computed(picture);
 
@@ -141,7 +141,7 @@ const channelChoice = () =>
           lookCompare({ channel: /** @type {HTMLSelectElement} */ (e.target).value }),
       },
       ...channels.value.map((name) =>
-        h("option", { value: name, selected: name === channel.value }, readable(name))
+        h("option", { value: name, selected: name === channel.value }, channelWords(name))
       ),
     )
     : null;

@@ -1,9 +1,10 @@
 // @ts-check
 // What the overlay shows: measured points and model lines.
+import { inSentence } from "../../../facts.js";
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../../../plots/axes.js";
-import { capitalized, number, readable, scaleOf, toShown } from "../../../format.js";
+import { capitalized, number, scaleOf, toShown } from "../../../format.js";
 import { pressureColour } from "../../../plots/theme.js";
-import { channelScale, column, isInside, VARIABLES } from "../words.js";
+import { channelScale, channelWords, column, isInside, VARIABLES } from "../words.js";
 
 /** @typedef {import("../../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../../plots/chart.js").Trace} Trace */
@@ -129,7 +130,7 @@ export function overlaySpec(v, p) {
   });
   const [xLow, xHigh] = extent(v.series.map((one) => x(column(one, v.over))));
   const [low, high] = extent([...v.series.flatMap((one) => [y(one.measured), y(one.predicted)]), [0]]);
-  const name = capitalized(readable(v.channel));
+  const name = capitalized(channelWords(v.channel));
   return {
     x: {
       title: axisTitle(title, quantity, system),
@@ -191,7 +192,7 @@ export function table(v, what) {
   return {
     columns: [
       { title: "series", text: true },
-      { title: title.toLowerCase(), unit: scaleOf(quantity, v.system).unit },
+      { title: inSentence(title), unit: scaleOf(quantity, v.system).unit },
       ...what.map((name) => ({ title: name, unit: s.unit })),
     ],
     rows: v.series.flatMap((one) => {
