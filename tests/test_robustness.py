@@ -118,6 +118,6 @@ def test_random_drives_end_with_a_name() -> None:
             for name in ("position", "velocity", "acceleration", "pressure", "force", "mass_flow", "volume"):
                 assert np.isfinite(getattr(result, name)).all(), f"drive {number}, {name}: {document}"
     assert sum(outcomes.values()) == DRIVES
-    # Hardly any of them is beyond the model: a prestress of 100 to 200 N pushes two slack muscles into the lock
-    # of their braid, where it depends on the last digits of a processor whether the run ends.
+    # Hardly any of them is beyond the model: a prestress of 100 to 200 N pushes two slack muscles into the
+    # lock of their braid, where it depends on the last digits of a processor whether the run ends.
     assert outcomes["completed"] >= 0.9 * DRIVES, outcomes
