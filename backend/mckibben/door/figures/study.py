@@ -8,6 +8,7 @@ import numpy as np
 
 from mckibben.application.study.study import StudyResult
 from mckibben.door.figures.style import ACCENT, SECOND, SOFT, add_points, blank, name_axes
+from mckibben.facts.sizing import SIZING
 from mckibben.facts.study import INFLUENCE, WATCHED
 from mckibben.facts.units import Scale
 
@@ -50,7 +51,7 @@ def _front(result: StudyResult, title: str) -> Figure:
     on = np.isin(np.array(result.table["run"]), result.front)
     figure = blank(title)
     add_points(figure, columns[0][~on], columns[1][~on], "runs", colour=SOFT)
-    add_points(figure, columns[0][on], columns[1][on], "Pareto front", colour=ACCENT)
+    add_points(figure, columns[0][on], columns[1][on], SIZING["front"].label, colour=ACCENT)
     name_axes(figure, _label(result, x), [_label(result, y)])
     return figure
 

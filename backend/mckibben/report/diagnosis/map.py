@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 
 from mckibben.application.compare.compare import ComparisonResult
-from mckibben.facts.comparison import TIMES_NOISE, error_scale
+from mckibben.facts.comparison import RESIDUAL, TIMES_NOISE, error_scale
 from mckibben.report.diagnosis.levels import LevelMap, level_map
 from mckibben.report.document import figure_of
 from mckibben.report.figures import Scale, plain, variable
 from mckibben.report.heat import Shade, heat
 from mckibben.report.html import Html
 from mckibben.report.marks import Axis
+
+_MEAN = RESIDUAL["mean"].label
 
 _STEPS = (1.0, 1.5, 2.0, 2.5, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0)  # ends of the scale, as on the page
 _LINEAR = 2.0  # standard deviations
@@ -43,13 +45,13 @@ def _of_levels(answer: ComparisonResult, first: ComparisonResult, levels: LevelM
     drawing = heat(
         Axis(across.capitalize(), x_scale.unit), Axis("Pressure", y_scale.unit),
         x_scale.all(levels.x_edges), names, values,
-        title=f"Mean residual over {across} at each pressure level", shade=Shade(most, sigma),
+        title=f"{_MEAN} over {across} at each pressure level", shade=Shade(most, sigma),
     )  # fmt: skip
     ways = "; ● lengthening, □ shortening" if levels.split else ""
     dots = "" if sigma is None else ", a dot: none beside the noise"
     return figure_of(
         drawing,
-        f"Mean residual in {scale.unit} at each measured level{ways}; red: measured above modelled{dots}. "
+        f"{_MEAN} in {scale.unit} at each measured level{ways}; red: measured above modelled{dots}. "
         f"Full colour at {plain(most, 3, exact=True)} {scale.unit}, fixed by the first model.",
     )
 
@@ -63,12 +65,12 @@ def _of_ranges(answer: ComparisonResult, scale: Scale) -> Html | None:
         Axis(across.capitalize(), x_scale.unit), Axis(up.capitalize(), y_scale.unit),
         x_scale.all(heat_map.x_edges), y_scale.all(heat_map.y_edges),
         [scale.all(row) for row in heat_map.mean],
-        title=f"Mean residual over {across} and {up}",
+        title=f"{_MEAN} over {across} and {up}",
     )  # fmt: skip
     unit = f" in {scale.unit}" if scale.unit else ""
     if scale == TIMES_NOISE:
         unit = " as a multiple of the noise"
-    return figure_of(drawing, f"Mean residual{unit} over {across} and {up}; red: measured above modelled.")
+    return figure_of(drawing, f"{_MEAN}{unit} over {across} and {up}; red: measured above modelled.")
 
 
 def _rounded_up(value: float) -> float:

@@ -56,7 +56,7 @@ def _picture(material: SizingMaterial, chosen: Chosen) -> Html:
     if rest:
         marks.append(Dots(*_places(rest), "fulfils the task", EDGE, 5.0))
     if front:
-        marks.append(Dots(*_places(front), "Pareto front", ACCENT, 6.0))
+        marks.append(Dots(*_places(front), SIZING["front"].label, ACCENT, 6.0))
     others = [item for number, item in enumerate(proposals, 1) if number != chosen.rank]
     names = _names(proposals, explored, chosen.rank)
     chosen_name = names.pop(chosen.rank)
