@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated
 
 from pydantic import BaseModel, ConfigDict, Field, StringConstraints
 
@@ -15,11 +15,6 @@ class Strict(BaseModel):
     def to_document(self) -> dict[str, object]:
         """The stated fields as JSON values; reading them again gives the same object."""
         return self.model_dump(mode="json", by_alias=True, exclude_unset=True)
-
-
-def si_field(unit: str, description: str, **further: Any) -> Any:
-    """A field of an answer whose numbers are in this SI unit."""
-    return Field(description=description, json_schema_extra={"unit": unit}, **further)
 
 
 Id = Annotated[

@@ -83,7 +83,8 @@ def uncertainty_section(chosen: Chosen) -> Html:
     parts: list[Child] = [
         callout(
             f"{share:.3g} % of {proposal.specimens} simulated specimens succeed",
-            f"{SIZING['probability_error'].label} {error:.2g} %: with many more specimens the share would be between {low:.3g} "
+            f"{SIZING['probability_error'].label} {error:.2g} %: "
+            f"with many more specimens the share would be between {low:.3g} "
             f"and {high:.3g} % (two standard errors).",
         ),
         paragraph("A specimen succeeds if"),
