@@ -1,5 +1,6 @@
 // @ts-check
 // The plots over time and the phase plot; all are drawn when an answer arrives.
+import { figure } from "../../../facts.js";
 import { h, icon } from "../../../dom.js";
 import { computed, effect, signal } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
@@ -28,14 +29,22 @@ import { accelerationSpec, legendOf, lowerSpec, positionSpec, pressureSpec, spee
 
 const NARROWEST = 1e-3;
 
-const position = plot("position", "Position", "Position over time with reference and stops");
-const pressure = plot("pressure", "Pressure", "Pressure in muscle, tube and supply over time");
-const speed = plot("speed", "Speed", "Speed over time");
-const acceleration = plot("acceleration", "Acceleration", "Acceleration over time");
+const position = plot(
+  "position",
+  figure("run.position").label,
+  "Position over time with reference and stops",
+);
+const pressure = plot(
+  "pressure",
+  figure("run.pressure").label,
+  "Pressure in muscle, tube and supply over time",
+);
+const speed = plot("speed", figure("run.velocity").label, "Velocity over time");
+const acceleration = plot("acceleration", figure("run.acceleration").label, "Acceleration over time");
 const lower = plot("lower", "Flow and force", "Mass flow, force or valve over time");
 const angle = plot("angle", "Joint angle", "Angle of the pulley over time");
 const torque = plot("torque", "Joint torque", "Torque of both muscles on the pulley over time");
-const stiffness = plot("stiffness", "Joint stiffness", "Stiffness of the joint over time");
+const stiffness = plot("stiffness", figure("joint.stiffness").label, "Stiffness of the joint over time");
 
 const SHORTER = "Positive when shortening, also while venting";
 const signed = [position, speed, acceleration];
@@ -162,7 +171,10 @@ function frame(one, ...head) {
 }
 
 /** @type {[Lower, string][]} */
-const LOWER = [["flow", "Mass flow"], ["force", "Force"], ["valve", "Valve"]];
+const LOWER = [["flow", figure("run.mass_flow").label], ["force", figure("run.force").label], [
+  "valve",
+  "Valve",
+]];
 
 const lowerChoice = () =>
   h("select", {
