@@ -6,12 +6,31 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from mckibben.facts.figure import Figure, Group
+from mckibben.facts.muscle import (
+    CHARACTERISTICS,
+    CURVES,
+    FORCE_INTERVAL,
+    GEOMETRY,
+    INVERSE,
+    INVERSE_DETAILS,
+    LIMITS,
+    LOOP,
+    OPERATING_POINT,
+    OVER_PRESSURE,
+)
 from mckibben.facts.run import JOINT, RUN, STEP, TRACKING
 from mckibben.facts.timing import TIMING
 
 #: Name of a group -> its figures.
 GROUPS: Mapping[str, Group] = MappingProxyType(
-    {group.name: group for group in (TIMING, RUN, TRACKING, STEP, JOINT)}
+    {
+        group.name: group
+        for group in (
+            *(TIMING, RUN, TRACKING, STEP, JOINT),
+            *(CURVES, FORCE_INTERVAL, CHARACTERISTICS, OPERATING_POINT, LOOP, OVER_PRESSURE),
+            *(LIMITS, GEOMETRY, INVERSE, INVERSE_DETAILS),
+        )
+    }
 )
 
 #: Key -> figure: "timing.rise_time".
