@@ -6,6 +6,7 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
+from mckibben.facts.figure import Figure
 from mckibben.identification.fit.comparison import ParameterTable
 from mckibben.measurement.experiment import place_of, shown_value, title_of
 
@@ -93,6 +94,13 @@ def parameter_tables(parameters: ParameterTable) -> list[Table]:
         for name, item in values.items()
     ]
     return [Table("Parameters", ["parameter", "value", "± standard error", "unit", ""], rows)] if rows else []
+
+
+def shown(of: Figure, value: float | None) -> str:
+    """The SI value of a figure with its unit, or a dash."""
+    scale = of.scale
+    space = "" if scale.unit in ("", "°") else " "
+    return figure(None if value is None else scale.of(value), unit=f"{space}{scale.unit}")
 
 
 def figure(value: float | None, digits: int = 4, unit: str = "") -> str:
