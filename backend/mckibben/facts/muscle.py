@@ -11,7 +11,7 @@ from mckibben.facts.figure import Condition, Figure, Group
 BRANCHES: Mapping[int, str] = MappingProxyType(
     {
         -1: "while shortening (filling)",
-        0: "without friction, between shortening and lengthening",
+        0: "without friction",
         1: "while lengthening (venting)",
     }
 )
@@ -146,9 +146,9 @@ CHARACTERISTICS = Group(
     "characteristics",
     "Characteristics",
     Figure("pressure", "P", "Pa", "Pressure", "Gauge pressure in the muscle."),
-    Figure("blocked_force", "F_0", "N", "Blocked force", "Static force at ε = 0 on the stated branch."),
+    Figure("blocked_force", "F₀", "N", "Blocked force", "Static force at ε = 0 on the stated branch."),
     Figure(
-        "free_contraction", "ε_0", "1", "Free contraction",
+        "free_contraction", "ε₀", "1", "Free contraction",
         "ε at which the static force is 0 on the stated branch; negative where the muscle without load is "
         "longer than L₀.",
         _FREE, quantity="ratio",
@@ -292,30 +292,30 @@ GEOMETRY = Group(
     "geometry",
     "Geometry of the muscle",
     Figure(
-        "braid_diameter", "D_0", "m", "Braid diameter at rest",
+        "braid_diameter", "D₀", "m", "Braid diameter",
         "Diameter of the braid (middle of the wall) at L₀.",
     ),
-    Figure("braid_angle", "θ_0", "rad", "Braid angle at rest", "Angle of thread and axis at L₀."),
+    Figure("braid_angle", "θ₀", "rad", "Braid angle", "Angle of thread and axis at L₀."),
     Figure(
-        "nominal_length", "L_0", "m", "Rest length",
+        "nominal_length", "L₀", "m", "Rest length",
         "Length at which ε = 0: that of the catalogue, or as stated; friction and pretension of the bladder"
         " may hold the muscle a little beside it.",
     ),
-    Figure("inside_diameter", "d", "m", "Bore", "Inside diameter of the bladder; 0 where it is not known."),
-    Figure("wall_thickness", "h", "m", "Wall thickness", "Wall of the bladder; 0 where it is not known."),
+    Figure("inside_diameter", "D_i", "m", "Inside diameter", "Bore of the bladder; 0 where it is not known."),
+    Figure("wall_thickness", "H₀", "m", "Wall thickness", "Wall of the bladder; 0 where it is not known."),
     Figure("thread_length", "b", "m", "Thread length", "Length of one thread, L₀/cos θ₀."),
     Figure(
-        "turns", "n", "1", "Turns of a thread",
+        "turns", "n", "1", "Turns",
         "Turns of one thread round the axis, L₀ tan θ₀/(π D₀).",
         quantity="number",
     ),
-    Figure("side", "ℓ", "m", "Side of a rhombus", "Side of one rhombus of the lattice.", _LATTICE),
+    Figure("side", "ℓ", "m", "Rhombus side", "Side of one rhombus of the lattice.", _LATTICE),
     Figure(
-        "along", "n_L", "1", "Rhombi along the muscle", "Number of rhombi along the muscle.", _LATTICE,
+        "along", "n_L", "1", "Rhombi along", "Number of rhombi along the muscle.", _LATTICE,
         quantity="number",
     ),
     Figure(
-        "around", "n_C", "1", "Rhombi around the muscle", "Number of rhombi around the muscle.", _LATTICE,
+        "around", "n_C", "1", "Rhombi around", "Number of rhombi around the muscle.", _LATTICE,
         quantity="number",
     ),
 )  # fmt: skip
