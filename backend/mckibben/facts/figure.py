@@ -33,7 +33,7 @@ class Figure:
     Attributes:
         name: within its group: "rise_time".
         symbol: as in formulas, "t_r"; "" without one.
-        unit: SI unit, "1" of a plain number or share.
+        unit: SI unit, "1" of a plain number or share; "" where it depends on the result.
         label: in tables, a noun with what it depends on: "Rise time (10–90 %)".
         definition: one sentence with the formula, what it is measured against, and its limits.
         exists_when: the condition under which it exists.

@@ -6,6 +6,17 @@ from collections.abc import Mapping
 from types import MappingProxyType
 
 from mckibben.facts.figure import Figure, Group
+from mckibben.facts.linear import (
+    CONTROLLER,
+    DESCRIBING,
+    DESIGN,
+    LINEAR_MODEL,
+    LINEAR_POINT,
+    LOOP_RESPONSE,
+    MARGINS,
+    POLE,
+    STEP_DESIGN,
+)
 from mckibben.facts.muscle import (
     CHARACTERISTICS,
     CURVES,
@@ -29,6 +40,8 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
             *(TIMING, RUN, TRACKING, STEP, JOINT),
             *(CURVES, FORCE_INTERVAL, CHARACTERISTICS, OPERATING_POINT, LOOP, OVER_PRESSURE),
             *(LIMITS, GEOMETRY, INVERSE, INVERSE_DETAILS),
+            *(LINEAR_POINT, LINEAR_MODEL, POLE, DESCRIBING, MARGINS, LOOP_RESPONSE),
+            *(CONTROLLER, STEP_DESIGN, DESIGN),
         )
     }
 )

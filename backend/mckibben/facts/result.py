@@ -146,7 +146,7 @@ def described(cls: type) -> dict[str, Described]:
                 _UNIT.sub("", text, count=1), None if unit is None else "1" if unit[1] == "-" else unit[1]
             )
         elif figure := figures.get(field.name):
-            found[field.name] = Described(f"{figure.label}: {figure.definition}", figure.unit)
+            found[field.name] = Described(f"{figure.label}: {figure.definition}", figure.unit or None)
         else:
             raise LookupError(f"{cls.__qualname__}.{field.name} has no docstring")
     return found

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
@@ -105,7 +106,7 @@ def shown(of: Figure, value: float | None) -> str:
 
 def figure(value: float | None, digits: int = 4, unit: str = "") -> str:
     """A number with ``digits`` significant digits, or a dash."""
-    if value is None or value != value:
+    if value is None or not math.isfinite(value):
         return "–"
     # A result this small is the rounding error of a sum.
     shown = 0.0 if abs(value) < 1e-9 else value
