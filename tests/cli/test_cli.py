@@ -69,7 +69,7 @@ def test_curves_print_a_table(run: Run) -> None:
     code, out, err = run("curves", "--muscle", "DMSP-20", "--pressure", "6 bar")
     assert code == 0
     assert "6 bar" in out
-    assert "blocked force" in out
+    assert "Blocked force" in out
     assert "not read in a source" in err
     assert "Dahl friction (force, break strain), Viscous damping (coefficient), max pressure" in " ".join(
         err.split()

@@ -174,8 +174,8 @@ def characteristics(
             pressure=pressure,
             blocked_force=force[index, 0],
             free_contraction=contraction,
-            free_contraction_flag=flag and str(flag.code),
-            free_contraction_note=flag and flag.message,
+            free_contraction_flag=None if flag is None else str(flag.code),
+            free_contraction_note=None if flag is None else flag.message,
             max_work=work[index],
             thread_tension_total=tension[index],
         )
