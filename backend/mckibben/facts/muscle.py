@@ -83,17 +83,19 @@ CURVES = Group(
         "asked for.",
     ),
     Figure(
-        "stiffness", "k", "N/m", "Stiffness of the muscle, valve open",
-        "dF/dL at constant pressure on the stated branch; 0 where it hangs slack.",
+        "stiffness", "k", "N/m", "Stiffness, valve open",
+        "dF/dL of one muscle at constant pressure on the stated branch; 0 where it hangs slack.",
     ),
     Figure(
-        "stiffness_closed", "k_c", "N/m", "Stiffness of the muscle, valve closed",
-        "dF/dL at constant gas mass, k − (∂F/∂P) γ p (∂V/∂L)/(V + V_d + γ p ∂V/∂P) with absolute pressure p"
+        "stiffness_closed", "k_c", "N/m", "Stiffness, valve closed",
+        "dF/dL of one muscle at constant gas mass, k − (∂F/∂P) γ p (∂V/∂L)/(V + V_d + γ p ∂V/∂P) with "
+        "absolute pressure p"
         " and the stated exponent γ (1.4 fast, 1 slow) and dead volume V_d.",
     ),
     Figure(
-        "stiffness_from_force", "k₂₀", "N/m", "Stiffness of the ideal muscle with this force",
-        "6 L F/(3 L² − b²), equation (20) of the source paper.", _ASKED_FORCE,
+        "stiffness_from_force", "k₂₀", "N/m", "Stiffness of this force",
+        "6 L F/(3 L² − b²), that of an ideal muscle with this force and length, equation (20) of the source"
+        " paper.", _ASKED_FORCE,
     ),
     Figure(
         "stiffness_secant", "k₂₅", "N/m", "Secant stiffness",
@@ -177,12 +179,13 @@ OPERATING_POINT = Group(
     Figure("length", "L", "m", "Length at the load", "L₀ (1 − ε) there.", _HELD),
     Figure("force", "F", "N", "Load", "The stated load.", _HELD),
     Figure(
-        "stiffness", "k", "N/m", "Stiffness of the muscle at the load, valve open",
-        "dF/dL there at constant pressure.", _HELD,
+        "stiffness", "k", "N/m", "Stiffness at the load, valve open",
+        "dF/dL of one muscle there at constant pressure.", _HELD,
     ),
     Figure(
-        "stiffness_closed", "k_c", "N/m", "Stiffness of the muscle at the load, valve closed",
-        "dF/dL there at constant gas mass, with the stated exponent (1.4 fast, 1 slow) and dead volume.",
+        "stiffness_closed", "k_c", "N/m", "Stiffness at the load, valve closed",
+        "dF/dL of one muscle there at constant gas mass, with the stated exponent (1.4 fast, 1 slow) and "
+        "dead volume.",
         _HELD,
     ),
     Figure(
