@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 
 import pytest
 
@@ -25,9 +26,11 @@ def test_the_tables_show_point_poles_loop_and_design(run: Run) -> None:
     goals = "overshoot 10 %, settling 2 s, step 3 mm"
     code, out, err = run("linearise", "paper-pid-triangle", "--amplitudes", "10 %", "--design", goals)
     assert code == 0
-    for words in ("operating point", "sliding shorter", "Poles and zeros", "phase margin", "refined", "own"):
+    for words in ("operating point", "sliding shorter", "Poles and zeros", "Phase margin", "refined", "own"):
         assert words in out
     assert "amplitude 10 %" in out
+    # The drive's own controller as its document states it.
+    assert re.search(r"Proportional gain +0\.3 %/mm", out)
     assert "not in the model: friction" in err
     assert "Tyreus and Luyben" in err
 

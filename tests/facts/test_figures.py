@@ -22,9 +22,9 @@ def test_a_figure_is_complete(figure: Figure) -> None:
     assert not condition.otherwise.endswith(".")
     if figure.unit not in ("", "1"):
         assert si(f"1 {figure.unit}", figure.unit) == 1.0
-    if figure.quantity:
-        assert QUANTITIES[figure.quantity].unit == figure.unit
-    if not figure.unit:
+    if figure.quantity:  # a level in dB is that of a gain in any unit
+        assert QUANTITIES[figure.quantity].unit == (figure.unit or "1")
+    elif not figure.unit:
         assert figure.shown_as is None
 
 

@@ -17,11 +17,12 @@ MODULES = ROOT / "frontend" / "app" / "js"
 
 # Names of channels, columns and entries are ordinary words as well, and so are labels of one word and short
 # definitions, such as "force" and "length of the muscle".
-WORDS = {"channel", "measured", "task", "run", "joint"}
+WORDS = {"channel", "measured", "task", "run", "joint", "geometry"}
 SHORT = 45
 # Labels that are names of entries in forms and documents, too.
 ENTRIES = {
     "Rest length", "Supply pressure", "Tube length", "Pulley radius", "Outer diameter", "Standard deviation",
+    "Fixed length", "External force", "Sample time", "Lowest command", "Highest command",
 }  # fmt: skip
 LABELS = {
     figure.label: figure.key

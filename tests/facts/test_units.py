@@ -16,7 +16,7 @@ def test_shown_units_have_the_factor_of_pint(name: str) -> None:
     quantity = QUANTITIES[name]
     for system in SYSTEMS:
         scale = quantity.scales[system]
-        if scale.unit not in NO_UNIT:
+        if scale.unit not in NO_UNIT and not scale.decibels:
             for shown in (0.0, 1.0, 12.5):
                 wanted = si(f"{shown} {scale.unit}", quantity.unit)
                 assert shown * scale.factor + scale.offset == pytest.approx(wanted, rel=1e-12, abs=1e-15)

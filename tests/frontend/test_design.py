@@ -50,7 +50,7 @@ def example(page: Page, title: str) -> None:
 def test_first_open_shows_a_real_muscle_with_its_error(page: Page) -> None:
     open_design(page)
     expect(page.locator("#preset")).to_have_value("DMSP-20")
-    expect(field(page, "Length")).to_have_value("300")
+    expect(field(page, "Rest length")).to_have_value("300")
     expect(page.locator("#rmse")).to_contain_text("% of full scale")
     assert page.locator("#force .tracepoints .point").count() > 40
     assert page.locator("#force .js-line").count() == 6
@@ -74,7 +74,7 @@ def test_the_whole_flow(page: Page, page_guard: PageGuard, tmp_path: Path) -> No
     code.fill("DMSP-20-310N-RM-CM")
     code.press("Enter")
     expect(page.locator("#preset")).to_have_value("DMSP-20")
-    expect(field(page, "Length")).to_have_value("310")
+    expect(field(page, "Rest length")).to_have_value("310")
     expect(page.locator(".code-parts dt")).to_have_text(["DMSP", "20", "310N", "RM", "CM"])
     expect(page.locator("[data-field=order_code] mark")).to_have_count(0)
     page.locator("#preset").select_option("DMSP-10")
@@ -82,8 +82,8 @@ def test_the_whole_flow(page: Page, page_guard: PageGuard, tmp_path: Path) -> No
     expect(page.locator("#rmse")).to_contain_text("% of full scale")
 
     # The angle changes the error; undo brings it back.
-    enter(page, "Length", "25 cm")
-    expect(field(page, "Length")).to_have_value("250")
+    enter(page, "Rest length", "25 cm")
+    expect(field(page, "Rest length")).to_have_value("250")
     start = rmse(page)
     redrawn(page, lambda: enter(page, "Braid angle", "22°"))
     expect(page.locator("#rmse .rmse.first b")).not_to_contain_text(f"{start}")
@@ -102,7 +102,7 @@ def test_the_whole_flow(page: Page, page_guard: PageGuard, tmp_path: Path) -> No
 
     # Units change what is shown, not what is meant.
     page.get_by_label("Units", exact=True).select_option("us")
-    expect(field(page, "Length")).to_have_value("9.843")
+    expect(field(page, "Rest length")).to_have_value("9.843")
     pounds = page.locator("#rmse .rmse.first b").inner_text()
     assert pounds.endswith("lbf")
     page.get_by_label("Units", exact=True).select_option("bar")
@@ -182,7 +182,7 @@ def test_own_geometry_starts_from_the_preset(page: Page) -> None:
 
 @pytest.mark.parametrize(
     ("name", "text", "words"),
-    [("Braid angle", "60°", "neutral angle"), ("Length", "0 mm", "above 0")],
+    [("Braid angle", "60°", "neutral angle"), ("Rest length", "0 mm", "above 0")],
 )
 def test_messages_stand_at_the_field(
     page: Page, page_guard: PageGuard, name: str, text: str, words: str
@@ -334,7 +334,7 @@ def test_inverse_questions(page: Page) -> None:
     card.get_by_role("radio", name="Contraction").click()
     expect(card.locator(".answer")).to_contain_text("%")
     card.get_by_role("radio", name="Range").click()
-    expect(card.locator(".answer")).to_contain_text("Usable contraction")
+    expect(card.locator(".answer")).to_contain_text("Usable stroke")
     card.get_by_role("radio", name="Stroke").click()
     card.get_by_role("textbox", name="Stroke").fill("200 mm")
     page.keyboard.press("Enter")
@@ -406,7 +406,7 @@ def test_the_stiffness_has_three_definitions(page: Page) -> None:
     expect(plot.locator(".legend")).to_contain_text("valve open")
     redrawn(page, lambda: choice.select_option("secant"))
     expect(plot.locator(".legend")).to_contain_text("secant")
-    expect(choice).to_have_attribute("title", re.compile(r"^F/\(L − Lmin\)"))
+    expect(choice).to_have_attribute("title", re.compile(r"^F/\(L − L_free\)"))
     other = page.context.new_page()
     open_design(other, link_of(page))
     expect(other.get_by_label("Definition of the stiffness", exact=True)).to_have_value("secant")
@@ -415,6 +415,27 @@ def test_the_stiffness_has_three_definitions(page: Page) -> None:
     expect(plot.locator(".legend")).to_contain_text("of the force")
     table = csv.DictReader(download(page, "Curves as CSV").path().read_text(encoding="utf-8").splitlines())
     assert any("stiffness_from_force" in name for name in table.fieldnames or [])
+
+
+def test_points_over_the_braid_angle_lie_on_the_curves_of_a_braid_that_stretches(page: Page) -> None:
+    """A braid that stretches has another angle than its geometry at rest says; the server's holds."""
+    open_design(page)
+    found = page.evaluate(
+        """async () => {
+          const { acrossAt } = await import(new URL("js/muscle/curve-axes.js", document.baseURI).href);
+          const answer = await fetch("/api/curves", { method: "POST",
+            headers: { "content-type": "application/json" },
+            body: JSON.stringify({ muscle: { preset: "DMSP-20" }, effects: { thread_extensibility: {} },
+              pressures: [6e5], points: 20 }) });
+          const c = await answer.json(), at = (k) => acrossAt(c, "braid_angle", k);
+          return { columns: c.contraction.map(at), angles: c.braid_angle, rest: c.geometry.braid_angle,
+            zero: at(0), middle: at((c.contraction[3] + c.contraction[4]) / 2), beside: at(0.9) };
+        }"""
+    )
+    assert found["columns"] == pytest.approx(found["angles"], rel=1e-12)
+    assert found["middle"] == pytest.approx(sum(found["angles"][3:5]) / 2)
+    assert found["zero"] > found["rest"] + 1e-4  # a longer thread at the same length
+    assert found["beside"] is None
 
 
 def test_moved_lines_are_where_plotly_draws_them(page: Page) -> None:

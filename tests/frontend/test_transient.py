@@ -247,8 +247,8 @@ def test_shapes_and_controller(page: Page) -> None:
     rows.fill("0 -100\n0.5 100\n1.5 -100")
     rerun(page, rows.blur)
     rerun(page, lambda: page.get_by_role("radio", name="Controller").click())
-    expect(page.locator("#key-figures")).to_contain_text("Error, RMS")
-    rerun(page, lambda: enter(page, "Gain P", "4"))
+    expect(page.locator("#key-figures")).to_contain_text("RMS error of the position")
+    rerun(page, lambda: enter(page, "Proportional gain", "4"))
     expect(page.locator(".transient .notice")).to_be_hidden()
 
 

@@ -334,3 +334,52 @@ def test_curves_without_a_direction_leave_out_what_acts_in_motion_alone(shared_c
     branches = np.array([filling["force"], venting["force"]])
     assert np.all(branches[1] > branches[0])
     np.testing.assert_allclose(mean["force"], branches.mean(axis=0), rtol=1e-9, atol=1e-9)
+
+
+def test_there_is_no_work_where_the_muscle_does_not_contract(shared_client: TestClient) -> None:
+    """Without pressure a muscle with a bladder cannot shorten by itself: the work is missing, not 0."""
+    answer = curves(shared_client, {"preset": "DMSP-20"}, pressures=["0 bar", "3 bar"])
+    still, lifting = answer["characteristics"]
+    assert still["free_contraction"] <= 0.0
+    assert still["max_work"] is None
+    assert lifting["max_work"] > 0.0
+
+
+def test_a_limit_that_the_free_contraction_crosses_is_a_sentence(shared_client: TestClient) -> None:
+    answer = curves(shared_client, {"preset": "DMSP-20"}, pressures=["2 bar", "6 bar"])
+    inside, outside = answer["characteristics"]
+    assert inside["free_contraction_note"] is None
+    assert outside["free_contraction_flag"] == "over_contraction_limit"
+    assert outside["free_contraction_note"].endswith("% is above the permitted 25 %")
+
+
+def test_the_highest_pressure_that_holds_within_the_limits(shared_client: TestClient) -> None:
+    """Of pressures in any order."""
+    muscle, pressures = {"preset": "DMSP-20"}, ["6 bar", "2 bar", "8 bar", "4 bar"]
+    answer = curves(shared_client, muscle, pressures=pressures, load="300 N")
+    assert answer["holds"]["pressure"] == 6e5
+    assert answer["holds"] in answer["operating_points"]
+    # Too far even at the lowest of them: then the highest that holds it at all.
+    light = curves(shared_client, muscle, pressures=["8 bar", "7 bar"], load="1 N")
+    assert light["holds"]["flags"]
+    assert light["holds"]["pressure"] == 8e5
+    assert curves(shared_client, PAPER, pressures=["0 bar"], load="90 N")["holds"] is None
+
+
+def test_the_used_share_of_each_limit(shared_client: TestClient) -> None:
+    answer = curves(shared_client, {"preset": "DMSP-20"}, pressures=["3 bar", "1 bar"], load="300 N")
+    used = {each["name"]: each for each in answer["limits_used"]}
+    assert used["max_pressure"]["share"] == pytest.approx(3.0 / 6.0)
+    assert used["max_force"]["share"] == pytest.approx(300.0 / 1500.0)
+    most = max(point["contraction"] for point in answer["operating_points"])
+    assert used["max_contraction"]["used"] == pytest.approx(most)
+    assert used["max_contraction"]["share"] == pytest.approx(most / 0.25)
+    assert curves(shared_client, PAPER, load="10 N")["limits_used"] == []
+
+
+@pytest.mark.parametrize(
+    ("direction", "words"), [(-1, "while shortening"), (0, "without friction"), (1, "while lengthening")]
+)
+def test_an_answer_names_its_branch(shared_client: TestClient, direction: int, words: str) -> None:
+    answer = curves(shared_client, {"preset": "DMSP-20"}, direction=direction)
+    assert answer["branch"].startswith(words)

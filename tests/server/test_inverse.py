@@ -45,6 +45,7 @@ def test_a_length_is_as_good_as_a_contraction(shared_client: TestClient) -> None
 
 def test_the_stroke_pressure_is_the_pressure_at_the_end_of_the_stroke(shared_client: TestClient) -> None:
     stroke = ask(shared_client, "stroke_pressure", load=500, stroke="30 mm")
+    assert stroke["branch"].startswith("while shortening")
     filling = ask(shared_client, "pressure", force=500, length=0.27, direction=-1)["value"]
     assert stroke["value"] == pytest.approx(filling)
     at_rest = ask(shared_client, "pressure", force=500, length=0.27)["value"]
@@ -59,6 +60,18 @@ def test_the_working_range_ends_at_the_contraction_under_load(shared_client: Tes
     assert end < ask(shared_client, "contraction", force=500, pressure="6 bar")["value"]  # friction
     assert answer["details"]["end"] == pytest.approx(end)
     assert answer["value"] == pytest.approx(0.3 * (end - answer["details"]["start"]))
+
+
+def test_the_pressure_for_a_stroke_lifts_the_load_whatever_direction(shared_client: TestClient) -> None:
+    """At that pressure a muscle that fills hangs exactly there; no direction can be asked for."""
+    stroke = ask(shared_client, "stroke_pressure", load=500, stroke="30 mm")
+    held = ask(shared_client, "contraction", force=500, pressure=stroke["value"], direction=-1)
+    assert held["value"] == pytest.approx(0.1, abs=1e-6)
+    assert held["branch"] == stroke["branch"]
+    body = {"muscle": DMSP, "question": "stroke_pressure", "load": 500, "stroke": "30 mm", "direction": 0}
+    refused = post(shared_client, "/api/inverse", body)
+    assert refused.status_code == 422
+    assert "direction" in refused.text
 
 
 def test_out_of_reach_is_an_answer_with_a_flag(shared_client: TestClient) -> None:

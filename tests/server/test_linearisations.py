@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from typing import Any
 
+import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
@@ -26,9 +27,27 @@ def test_an_answer_keeps_to_its_schema(shared_client: TestClient) -> None:
     (model,) = answer["models"]
     assert len(model["a"]) == len(model["states"]) == 5
     assert len(model["gain"]) == len(answer["frequency"])
+    # The states count pressures from zero, inputs and outputs from the ambient.
+    states = {state["name"]: state["value"] for state in model["states"]}
+    outputs = {port["name"]: port["value"] for port in model["outputs"]}
+    assert outputs["pressure"] == pytest.approx(2.5e5)
+    assert states["absolute_pressure"] == pytest.approx(2.5e5 + 101325.0)
+    assert not states.keys() & {"pressure", "tube_pressure", "regulator_pressure"}
+    assert answer["gain_unit"] == "m"
     design = answer["design"]
     assert [trial["name"] for trial in design["trials"]] == ["rule", "refined"]
     assert len(design["robust"]) == 9
+
+
+def test_a_gain_is_in_the_unit_of_the_output_per_that_of_the_input(shared_client: TestClient) -> None:
+    """The load on a spring-like muscle at constant set point: a stiffness is 1 over the static gain."""
+    answer = post(shared_client, PATH, {**BODY, "amplitudes": [], "input": "load_force"}).json()
+    (model,) = answer["models"]
+    assert answer["gain_unit"] == "m/N"
+    a, b, c = (np.array(model[name]) for name in "abc")
+    source = [port["name"] for port in model["inputs"]].index("load_force")
+    out = [port["name"] for port in model["outputs"]].index("position")
+    assert model["static_gain"] == pytest.approx(-c[out] @ np.linalg.solve(a, b[:, source]), rel=1e-6)
 
 
 def test_the_designed_controller_can_be_put_into_the_drive(shared_client: TestClient) -> None:

@@ -47,6 +47,8 @@ class ShownUnit:
     """Most decimals of a shown value."""
     offset: float
     """SI value of a shown zero."""
+    decibels: bool
+    """Whether the shown value is 20 lg of the SI value instead."""
 
 
 @result_class
@@ -113,10 +115,7 @@ def units() -> Units:
     """All units."""
     return Units(
         scales={
-            name: {
-                system: ShownUnit(scale.unit, scale.factor, scale.digits, scale.offset)
-                for system, scale in quantity.scales.items()
-            }
+            name: {system: ShownUnit(*scale) for system, scale in quantity.scales.items()}
             for name, quantity in QUANTITIES.items()
         },
         quantities={name: quantity.unit for name, quantity in QUANTITIES.items()},

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import replace
+from typing import ClassVar
 
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.value_names import value_names
+from mckibben.facts.muscle import GEOMETRY, LIMITS
 from mckibben.facts.result import result_class
 from mckibben.physics.muscle import Muscle, assumption
 from mckibben.simulation.statics.limits import LimitFlag
@@ -31,46 +33,38 @@ class Notice:
 class MakerLimits:
     """Limits stated by the maker; None where not known."""
 
+    FIGURES: ClassVar = LIMITS.name
+
     max_pressure: float | None
-    """Highest gauge pressure [Pa]."""
     max_force: float | None
-    """Highest force [N]."""
     max_contraction: float | None
-    """Highest contraction [-]."""
     max_pretension: float | None
-    """Highest stretch beyond the nominal length [-]."""
 
 
 @result_class
 class Lattice:
     """The braid as a lattice of rhombi: side [m], number along and around the muscle."""
 
+    FIGURES: ClassVar = GEOMETRY.name
+
     side: float
-    """Side of one rhombus [m]."""
     along: float
-    """Rhombi along the muscle [-]."""
     around: float
-    """Rhombi around the muscle [-]."""
 
 
 @result_class
 class GeometrySummary:
     """Geometry of the muscle at rest."""
 
+    FIGURES: ClassVar = GEOMETRY.name
+
     braid_diameter: float
-    """Diameter of the braid at the braid angle [m]."""
     braid_angle: float
-    """Angle between thread and axis [rad]."""
     nominal_length: float
-    """Length at rest [m]."""
     inside_diameter: float
-    """Bore [m]."""
     wall_thickness: float
-    """Wall of the bladder [m]; 0 when not stated."""
     thread_length: float
-    """Length of one thread [m]."""
     turns: float
-    """Turns of one thread [-]."""
     rhombus: Lattice | None
     """The lattice, when the muscle was stated in this form."""
 

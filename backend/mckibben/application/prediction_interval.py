@@ -5,7 +5,7 @@ To first order the variance of a prediction y is
 .. math:: \sigma_y^2 = J C J^T + \sigma_e^2,\quad J_i = \frac{y(\theta_i + h_i) - y(\theta_i - h_i)}{2 h_i}
 
 with the covariance C of the fitted values and the error :math:`\sigma_e` that the fit left. The interval is
-that of a new reading where the model was measured; outside, readings scatter more than it says.
+that of a new reading, where the model was measured; outside of that range it is too narrow.
 """
 
 from __future__ import annotations
@@ -13,10 +13,12 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator
 from dataclasses import replace
 from statistics import NormalDist
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.muscle import FORCE_INTERVAL
 from mckibben.facts.result import Rows, Series, result_class
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.presets.fit import FitRecord
@@ -34,14 +36,13 @@ _POSITIONS = ("length", "displacement")  # predicted channels that are positions
 
 @result_class
 class ForceInterval:
-    """Where new readings of the force are expected, where the model was measured; wider elsewhere."""
+    """Where new readings of the force are expected; outside of the measured range it is too narrow."""
+
+    FIGURES: ClassVar = FORCE_INTERVAL.name
 
     low: Rows
-    """Lower ends [N], shape (P, N)."""
     high: Rows
-    """Upper ends [N], shape (P, N)."""
     share: float = SHARE
-    """Share of the readings between them [-]."""
 
     def __iter__(self) -> Iterator[NDArray[np.float64]]:
         """``low, high = interval``."""
@@ -50,7 +51,7 @@ class ForceInterval:
 
 @result_class
 class PositionInterval:
-    """Where new readings of the position lie, where the model was measured; outside they scatter more."""
+    """Where new readings of the position lie, where the model was measured; outside it is too narrow."""
 
     low: Series
     """Lower ends [m], shape (N,)."""

@@ -42,6 +42,7 @@ from mckibben.documents.signals import (
     StiffnessOverTime,
 )
 from mckibben.documents.strict import Id, Strict
+from mckibben.facts.linear import CONTROLLER
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import absolute_text, si
 from mckibben.simulation.drive.parts import WALL_HEAT_TRANSFER
@@ -158,16 +159,22 @@ class StiffnessControlInput(Strict):
     )
 
 
+def _gain(name: str) -> str:
+    """What a gain is, and the unit of a plain number."""
+    figure = CONTROLLER[name]
+    return f"{figure.label}: {figure.definition} A plain number is in {figure.scale.unit}, not SI."
+
+
 class ControllerInput(Strict):
-    """A sampled PID controller of the load's position. Gains without a unit are in percent of full command
-    per mm (and s).
+    """A sampled PID controller of the load's position. A gain without a unit is in percent of full command
+    per mm (and s), not in SI.
     """
 
     type: Literal["pid"] = Field("pid", description="Kind of the controller; there is one.")
-    kp: Gain = Field(description="Proportional gain, %/mm.", examples=[2.0])
-    ki: IntegralGain | None = Field(None, description="Integral gain, %/(mm s).", examples=[10.0])
-    kd: DerivativeGain | None = Field(None, description="Derivative gain, % s/mm.", examples=[0.01])
-    feed_forward: Gain | None = Field(None, description="Command per reference, %/mm.")
+    kp: Gain = Field(description=_gain("kp"), examples=[2.0])
+    ki: IntegralGain | None = Field(None, description=_gain("ki"), examples=[10.0])
+    kd: DerivativeGain | None = Field(None, description=_gain("kd"), examples=[0.01])
+    feed_forward: Gain | None = Field(None, description=_gain("feed_forward"))
     derivative_filter: Time | None = Field(None, description="Filter time of the derivative. Default 5 ms.")
     sample_time: Time | None = Field(None, description="Sample time. Default 1 ms.")
     output_min: Share | None = Field(

@@ -26,7 +26,8 @@ class Curves(ResultOf[CurvesResult], CurvesResult):
         """One row for each pressure and length, SI.
 
         Columns: pressure_Pa, contraction, length_m, force_N, stiffness_N/m, stiffness_closed_N/m, volume_m3,
-        diameter_m; where they were asked for also stiffness_from_force_N/m and stiffness_secant_N/m.
+        diameter_m, outer_diameter_m; where they were asked for also stiffness_from_force_N/m and
+        stiffness_secant_N/m.
         """
         further = {
             "stiffness_from_force_N/m": self.stiffness_from_force,
@@ -43,6 +44,7 @@ class Curves(ResultOf[CurvesResult], CurvesResult):
                 "stiffness_closed_N/m": self.stiffness_closed.ravel(),
                 "volume_m3": np.tile(self.volume, pressures),
                 "diameter_m": np.tile(self.diameter, pressures),
+                "outer_diameter_m": np.tile(self.outer_diameter, pressures),
                 **{name: values.ravel() for name, values in further.items() if values is not None},
             }
         )

@@ -18,6 +18,31 @@ from mckibben.facts.comparison import (
 )
 from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.figure import Figure, Group
+from mckibben.facts.linear import (
+    CONTROLLER,
+    DESCRIBING,
+    DESIGN,
+    LINEAR_MODEL,
+    LINEAR_POINT,
+    LOOP_RESPONSE,
+    MARGINS,
+    POLE,
+    STEP_DESIGN,
+)
+from mckibben.facts.muscle import (
+    CHARACTERISTICS,
+    CURVES,
+    FORCE_INTERVAL,
+    GEOMETRY,
+    INVERSE,
+    INVERSE_DETAILS,
+    LOOP,
+    OPERATING_POINT,
+    OVER_PRESSURE,
+)
+from mckibben.facts.muscle import (
+    LIMITS as MUSCLE_LIMITS,
+)
 from mckibben.facts.run import JOINT, RUN, STEP, TRACKING
 from mckibben.facts.sizing import LIMITS, SEARCH, SIZING
 from mckibben.facts.study import INFLUENCE, STUDY, SUMMARY, WATCHED
@@ -32,6 +57,10 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
             *(TIMING, RUN, TRACKING, STEP, JOINT, TASK, SIZING, LIMITS, SEARCH, WATCHED, SUMMARY, INFLUENCE),
             *(STUDY, CHANNELS, COMPARISON, CHECK, SPECIMEN, PARAMETER, RESIDUAL, READING_ERROR, MEASURED),
             *(NOISE, DIAGNOSIS),
+            *(CURVES, FORCE_INTERVAL, CHARACTERISTICS, OPERATING_POINT, LOOP, OVER_PRESSURE),
+            *(MUSCLE_LIMITS, GEOMETRY, INVERSE, INVERSE_DETAILS),
+            *(LINEAR_POINT, LINEAR_MODEL, POLE, DESCRIBING, MARGINS, LOOP_RESPONSE),
+            *(CONTROLLER, STEP_DESIGN, DESIGN),
         )
     }
 )

@@ -29,15 +29,19 @@ class Scale(NamedTuple):
         unit: as it is written; "" of a plain number.
         factor, offset: SI value = shown value * factor + offset.
         digits: most decimals of a shown value.
+        decibels: whether the shown value is 20 lg of the SI value, a factor; NaN of one that is not positive.
     """
 
     unit: str
     factor: float = 1.0
     digits: int = 4
     offset: float = 0.0
+    decibels: bool = False
 
     def of(self, value: float) -> float:
         """An SI value in this unit."""
+        if self.decibels:
+            return 20.0 * math.log10(value) if value > 0.0 else math.nan
         return (value - self.offset) / self.factor
 
     def all(self, values: Iterable[float | None]) -> list[float]:
@@ -102,6 +106,7 @@ QUANTITIES: Mapping[str, Quantity] = MappingProxyType(
             _quantity("number", "1", Scale("", 1.0, 4)),
             _quantity("cost", "1", Scale("per 1000 cycles", 1e-3, 4)),
             _quantity("percent", "%", Scale("%", 1.0, 2)),
+            _quantity("level", "1", Scale("dB", digits=1, decibels=True)),
             _quantity("time", "s", Scale("s", 1.0, 4)),
             _quantity("lapse", "s", Scale("ms", 1e-3, 1)),
             _quantity("frequency", "Hz", Scale("Hz", 1.0, 3)),
@@ -122,6 +127,9 @@ QUANTITIES: Mapping[str, Quantity] = MappingProxyType(
             _quantity("damping", "N*s/m", Scale("N/(m/s)", 1.0, 1)),
             _quantity("pressureDamping", "N*s/(m*Pa)", Scale("N/(m/s·bar)", 1e-5, 3)),
             _quantity("perKelvin", "1/K", Scale("%/K", 1e-2, 3)),
+            _quantity("gain", "1/m", Scale("%/mm", 10.0, 4)),
+            _quantity("integralGain", "1/(m*s)", Scale("%/(mm·s)", 10.0, 4)),
+            _quantity("derivativeGain", "s/m", Scale("%·s/mm", 10.0, 4)),
             _quantity("resistance", "Pa*s/m^3", Scale("bar/(l/s)", 1e8, 3)),
         )
     }
@@ -142,7 +150,7 @@ def probability_text(probability: float) -> str:
 
 
 # Of a unit that several quantities have: the one that a value is shown as where nothing else is known.
-_NOT_THE_FIRST = {"modulus", "ratio", "cost", "lapse", "sweep", "air", "normal"}
+_NOT_THE_FIRST = {"modulus", "ratio", "cost", "level", "lapse", "sweep", "air", "normal"}
 _OF_UNIT = {item.unit: item.name for item in QUANTITIES.values() if item.name not in _NOT_THE_FIRST}
 _MODULUS = re.compile("modulus|constant")
 

@@ -1,7 +1,8 @@
 // @ts-check
 // What the server declares: figures, and units. Loaded before the modules that use it.
 
-/** @typedef {import("./types.js").S["DeclaredFigure"]} DeclaredFigure */
+/** A figure with how it is shown. @typedef {Omit<import("./types.js").S["DeclaredFigure"], "quantity"> &
+ *   {quantity: import("./format.js").Quantity}} DeclaredFigure */
 /** @typedef {import("./types.js").S["Units"]} Units */
 
 const FIRST_MS = 500, LONGEST_MS = 8000;

@@ -5,12 +5,12 @@ import { UNITS } from "./facts.js";
 import { referenceShift, splitReference } from "./quantities.js";
 
 /** @typedef {"si" | "bar" | "us"} System */
-/** SI = shown × factor + offset.
- * @typedef {{unit: string, factor: number, offset?: number, digits: number}} Scale */
+/** SI = shown × factor + offset, or shown = 20 lg SI of decibels.
+ * @typedef {{unit: string, factor: number, offset?: number, digits: number, decibels?: boolean}} Scale */
 /** @typedef {"length" | "pressure" | "modulus" | "force" | "stiffness" | "volume" | "temperature" | "torque" | "rotary" |
  *   "energy" | "angle" | "ratio" | "number" | "cost" | "percent" | "time" | "lapse" | "frequency" | "mass" | "speed" | "sweep" | "acceleration" |
  *   "conductance" | "rate" | "flow" | "air" | "normal" | "area" | "compliance" | "softness" | "damping" |
- *   "pressureDamping" | "perKelvin" | "resistance"} Quantity */
+ *   "pressureDamping" | "perKelvin" | "gain" | "integralGain" | "derivativeGain" | "level" | "resistance"} Quantity */
 
 /** [Pa] */
 export const BAR = 1e5;
@@ -47,7 +47,8 @@ export const tidyUnit = (unit) =>
 export const scaleOf = (quantity, system) => SCALES[quantity][system];
 
 /** @param {number} si @param {Scale} s */
-export const toShown = (si, s) => (si - (s.offset ?? 0)) / s.factor;
+export const toShown = (si, s) =>
+  s.decibels ? si > 0 ? 20 * Math.log10(si) : NaN : (si - (s.offset ?? 0)) / s.factor;
 /** @param {number} shown @param {Scale} s */
 export const toSi = (shown, s) => shown * s.factor + (s.offset ?? 0);
 

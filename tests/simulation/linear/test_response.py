@@ -8,6 +8,7 @@ from math import atan, degrees, sqrt
 
 import numpy as np
 import pytest
+from numpy.typing import ArrayLike
 from scipy import signal
 
 from mckibben.simulation.command.pid import PidController
@@ -103,8 +104,13 @@ def test_the_supply_of_a_closed_valve_acts_on_nothing() -> None:
 
 def test_poles_are_named() -> None:
     valve = linearise(drive("valve")).primary
-    kinds = [pole.kind for pole in poles_of(valve, "command", "position")[0]]
-    assert kinds == ["integrator", "real", "oscillation"]
+    poles = poles_of(valve, "command", "position")[0]
+    assert [pole.kind for pole in poles] == ["integrator", "real", "oscillation"]
+    assert [pole.oscillation_frequency for pole in poles[:2]] == [None, None]
+    swinging = poles[2]
+    # f_d = f_0 sqrt(1 - z^2)
+    damped = swinging.frequency * sqrt(1.0 - (swinging.damping or 0.0) ** 2)
+    assert swinging.oscillation_frequency == pytest.approx(damped, rel=1e-9)
     assert bandwidth(valve, "command", "position")[0] is None
     assert static_gain(valve, "command", "position") is None
     regulated = linearise(drive("regulator")).primary
@@ -115,15 +121,19 @@ def test_poles_are_named() -> None:
     assert abs(at[0]) == pytest.approx(gain / sqrt(2.0), rel=1e-2)
 
 
-def textbook(model: LinearModel) -> LinearModel:
-    """1/(s (s + 1) (s + 2)) in the place of a drive's plant."""
-    states = model.states[:3]
+def of_polynomials(model: LinearModel, above: ArrayLike, below: ArrayLike) -> LinearModel:
+    """The plant above/below of polynomials of s, highest power first, in place of the position reading."""
+    above, below = np.asarray(above, float), np.asarray(below, float)
+    size = len(below) - 1
+    states = model.states[:size]
     scale = replace(model, states=states).scales[0]
-    a = np.array([[0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [0.0, -2.0, -3.0]])
-    b = np.zeros((3, len(model.inputs)))
-    b[2, 0] = 1.0
-    c = np.zeros((len(model.outputs), 3))
-    c[[port.name for port in model.outputs].index("position_reading"), 0] = 1.0
+    a = np.diag(np.ones(size - 1), 1)
+    a[-1] = -below[:0:-1] / below[0]
+    b = np.zeros((size, len(model.inputs)))
+    b[-1, 0] = 1.0 / below[0]
+    c = np.zeros((len(model.outputs), size))
+    reading = [port.name for port in model.outputs].index("position_reading")
+    c[reading, : len(above)] = above[::-1]
     return replace(
         model, states=states, a=a * scale[:, None] / scale, b=b * scale[:, None], c=c / scale,
         d=np.zeros((len(c), b.shape[1])), dead_time=0.0,
@@ -131,7 +141,8 @@ def textbook(model: LinearModel) -> LinearModel:
 
 
 def test_margins_are_those_of_the_textbook() -> None:
-    model = textbook(linearise(drive("valve")).primary)
+    # 1/(s (s + 1) (s + 2))
+    model = of_polynomials(linearise(drive("valve")).primary, [1.0], [1.0, 3.0, 2.0, 0.0])
     controller = PidController(kp=1.0, sample_time=1e-4)
     found = margins(model, controller, np.geomspace(0.01, 10.0, 50))
     assert found.stable
@@ -144,6 +155,33 @@ def test_margins_are_those_of_the_textbook() -> None:
     assert degrees(found.phase_margin or 0.0) == pytest.approx(expected, abs=0.3)
     assert not margins(model, replace(controller, kp=6.1), np.geomspace(0.01, 10.0, 50)).stable
     assert margins(model, replace(controller, kp=5.9), np.geomspace(0.01, 10.0, 50)).stable
+
+
+def test_the_delay_margin_is_that_of_the_first_instability() -> None:
+    """1/(s (s + 1)) beside a resonance at 20 rad/s, where the loop is the first to become unstable.
+
+    The crossing with the least angle, 52 degrees, is another one, and has a second of time.
+    """
+    plant = np.polymul([1.0, 1.0, 0.0], [1.0, 0.8, 400.0])
+    above = np.polyadd([1.0, 0.8, 400.0], np.polymul([1.6, 0.0], [1.0, 1.0, 0.0]))
+    model = of_polynomials(linearise(drive("regulator")).primary, above, plant)
+    controller = PidController(kp=1.0, sample_time=1e-4)
+    axis = np.geomspace(0.01, 10.0, 50)
+    found = margins(model, controller, axis)
+    # |G| = 1 at the roots of |above|^2 - |plant|^2, polynomials of the square of the frequency.
+    square = [np.polymul(each, each * (-1.0) ** np.arange(len(each))[::-1]) for each in (above, plant)]
+    roots = np.roots(np.polysub(*square))
+    at = np.sort([abs(root.imag) for root in roots if abs(root.real) < 1e-6 and root.imag > 0.0])
+    loop = np.polyval(above, 1j * at) / np.polyval(plant, 1j * at)
+    assert np.abs(loop) == pytest.approx(np.ones(3))
+    angles = np.angle(-loop)
+    times = (angles % (2.0 * np.pi)) / at
+    assert int(np.argmin(np.abs(angles))) == 0
+    assert found.crossover == pytest.approx(at[0] / (2.0 * np.pi), rel=1e-2)
+    assert times.min() < 0.2 * times[0]
+    assert found.delay_margin == pytest.approx(times.min(), rel=2e-2)
+    for factor, stable in ((0.95, True), (1.05, False)):
+        assert margins(replace(model, dead_time=factor * times.min()), controller, axis).stable is stable
 
 
 @pytest.mark.parametrize("delay", [0.0, 0.004, 0.0043, 0.0007])

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from typing import ClassVar, Literal
 
 import numpy as np
 
@@ -20,6 +22,7 @@ from mckibben.application.operating_limits import load_notices, pressure_notices
 from mckibben.application.prediction_interval import ForceInterval, force_interval
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
+from mckibben.facts.muscle import CURVES, LIMITS, LOOP, OVER_PRESSURE, branch_of
 from mckibben.facts.result import FiniteSeries, Rows, Series, result_class
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
@@ -86,9 +89,7 @@ class CurveLimits(MakerLimits):
     """Limits of the muscle, SI."""
 
     ideal_max_contraction: float
-    """Contraction at which the ideal force is zero [-]."""
     braid_lock_force: Series
-    """Ideal force of the fully stretched braid [N], per pressure."""
 
 
 @result_class
@@ -99,38 +100,48 @@ class HysteresisLoop:
     load cannot be held.
     """
 
+    FIGURES: ClassVar = LOOP.name
+
     pressure: FiniteSeries
-    """Gauge pressures of the curves [Pa]."""
     stroke: Series
-    """Distance of the branches in length [m], at equal pressure."""
     share: Series
-    """The same as a share of the nominal length [-]."""
     pressure_width: Series
-    """Distance of the branches in pressure [Pa], at equal length."""
 
 
 @result_class
 class OverPressure:
     """Position at the load, force and diameters at the fixed length over the pressure."""
 
+    FIGURES: ClassVar = OVER_PRESSURE.name
+
     pressure: FiniteSeries
-    """Gauge pressure [Pa]."""
     load: float | None
-    """The load [N]."""
     filling: PressureBranch | None
     """While shortening; None without a load."""
     venting: PressureBranch | None
     """While lengthening; None without a load."""
     fixed_length: float | None
-    """The fixed length [m]."""
     force_at_fixed_length: ForceBranches | None
     """Force over pressure; None without a fixed length."""
     diameter_at_fixed_length: Series | None
-    """Braid diameter [m]; None without a fixed length."""
     outer_diameter_at_fixed_length: Series | None
-    """Outer diameter of the wall [m]; None without a fixed length."""
     loop: HysteresisLoop | None
     """Width of the loop of the two branches; None without a load."""
+
+
+@result_class
+class LimitUse:
+    """How much of a limit of the maker is used."""
+
+    FIGURES: ClassVar = LIMITS.name
+
+    name: Literal["max_pressure", "max_force", "max_contraction"]
+    """Name of the limit."""
+    used: float
+    """What is held against it, in its unit."""
+    limit: float
+    """The limit, in its unit."""
+    share: float
 
 
 @result_class
@@ -143,36 +154,24 @@ class EffectSettings:
 
 @result_class
 class CurvesResult:
-    """Force, stiffness, volume and diameter over the length, SI."""
+    """Force, stiffness, volume and diameter over the length, SI; P pressures (rows), N lengths (columns)."""
+
+    FIGURES: ClassVar = CURVES.name
 
     pressure: FiniteSeries
-    """Gauge pressures of the rows [Pa], shape (P,)."""
     length: FiniteSeries
-    """Lengths of the columns [m], shape (N,)."""
     contraction: FiniteSeries
-    """Contractions of the columns [-], shape (N,)."""
     braid_angle: Series
-    """Braid angle [rad], shape (N,)."""
     force: Rows
-    """Tension [N]; 0 where the muscle would have to push, unless unclipped, shape (P, N)."""
     stiffness: Rows
-    """dF/dL at constant pressure [N/m], shape (P, N)."""
     stiffness_closed: Rows
-    """dF/dL at constant gas mass [N/m], shape (P, N)."""
     stiffness_from_force: Rows | None
-    """Stiffness of the ideal muscle with this force at this length [N/m], 6 L F/(3 L² - b²); None unless
-    asked for, and where it has no value.
-    """
     stiffness_secant: Rows | None
-    """Stiffness of the straight line from the length without force [N/m], F/(L - L_min); None unless asked
-    for.
-    """
     volume: Series
-    """Enclosed volume at the highest pressure [m3], shape (N,)."""
     diameter: Series
-    """Braid diameter at the highest pressure [m], shape (N,)."""
     outer_diameter: Series
-    """Outer diameter of the wall [m], at constant wall volume, shape (N,)."""
+    branch: str
+    """Which way friction acts in the force, stiffness, characteristics and operating points."""
     interval: ForceInterval | None
     """Where new readings of the force are expected; None where the model was not fitted."""
     limits: CurveLimits
@@ -187,6 +186,10 @@ class CurvesResult:
     """None without load and fixed length."""
     operating_points: list[OperatingPoint]
     """The state at each pressure; empty without a load."""
+    holds: OperatingPoint | None
+    """The highest pressure that holds the load within the limits, or, if none does, that holds it at all."""
+    limits_used: list[LimitUse]
+    """How much of each known limit is used."""
     flags: list[Notice]
     """Remarks on the answer."""
 
@@ -268,6 +271,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         volume=columns.volume[top],
         diameter=columns.diameter[top],
         outer_diameter=columns.outer_diameter[top],
+        branch=branch_of(conditions.direction),
         interval=force_interval(start.fit, model, columns, curves_of),
         limits=CurveLimits(
             max_pressure=model.limits.max_pressure,
@@ -282,6 +286,8 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         model=EffectSettings(model.values),
         over_pressure=_over_pressure(question, model, grid, under_load),
         operating_points=points,
+        holds=_holding(points),
+        limits_used=_limits_used(model, question, points),
         flags=[
             *start_notices(start),
             *limit_notices(crossed),
@@ -291,6 +297,28 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
             *use_notices(start.fit, _use(question, model, contraction)),
         ],
     )
+
+
+def _holding(points: Sequence[OperatingPoint]) -> OperatingPoint | None:
+    """The point with the highest pressure among those within the limits, or else among all that hold."""
+    held = [point for point in points if math.isfinite(point.contraction)]
+    return max(held, key=lambda point: (not point.flags, point.pressure), default=None)
+
+
+def _limits_used(
+    model: StaticModel, question: CurvesQuestion, points: Sequence[OperatingPoint]
+) -> list[LimitUse]:
+    held = [point.contraction for point in points if math.isfinite(point.contraction)]
+    limits = model.limits
+    return [
+        LimitUse(name, used, limit, used / limit)
+        for name, used, limit in (
+            ("max_pressure", max(question.pressures), limits.max_pressure),
+            ("max_force", question.load, limits.max_force),
+            ("max_contraction", max(0.0, *held) if held else None, limits.max_contraction),
+        )
+        if used is not None and limit
+    ]
 
 
 def _use(question: CurvesQuestion, model: StaticModel, contraction: Array) -> dict[str, MeasuredRange]:

@@ -10,9 +10,11 @@ from mckibben.application.muscle_summary import Notice, limit_notices, start_not
 from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
+from mckibben.facts.muscle import branch_of
 from mckibben.facts.result import result_class
 from mckibben.physics.errors import InputError
 from mckibben.simulation.statics import inverse
+from mckibben.simulation.statics.characteristics import FILLING, VENTING
 from mckibben.simulation.statics.model import StaticModel
 
 QuestionName = Literal["pressure", "contraction", "working_range", "stroke_pressure"]
@@ -23,16 +25,18 @@ _SHORTEST = 0.05  # shortest length accepted, share of the nominal length
 
 @dataclass(frozen=True, slots=True)
 class MuscleCondition:
-    """The muscle, the direction of motion (sign of dL/dt, for friction) and the temperature [K]."""
+    """The muscle and its temperature [K]."""
 
     start: StartModel
-    direction: float = 0.0
     temperature: float = 293.15
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PressureForForce:
-    """Which pressure gives this force [N] at this length [m] or contraction? Exactly one of them is given."""
+    """Which pressure gives this force [N] at this length [m] or contraction? Exactly one of them is given.
+
+    ``direction`` is the sign of dL/dt, for friction.
+    """
 
     NAME: ClassVar[QuestionName] = "pressure"
 
@@ -40,22 +44,30 @@ class PressureForForce:
     force: float
     length: float | None = None
     contraction: float | None = None
+    direction: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class ContractionForForce:
-    """How far is the muscle contracted at this force [N] and gauge pressure [Pa]?"""
+    """How far is the muscle contracted at this force [N] and gauge pressure [Pa]?
+
+    ``direction`` is the sign of dL/dt, for friction.
+    """
 
     NAME: ClassVar[QuestionName] = "contraction"
 
     condition: MuscleCondition
     force: float
     pressure: float
+    direction: float = 0.0
 
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class WorkingRange:
-    """Which stroke from the preload [N] without pressure to the load [N] at the highest pressure [Pa]?"""
+    """Which stroke from the preload [N] without pressure to the load [N] at the highest pressure [Pa]?
+
+    It starts on the branch of venting and ends on that of filling.
+    """
 
     NAME: ClassVar[QuestionName] = "working_range"
 
@@ -67,7 +79,7 @@ class WorkingRange:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PressureForStroke:
-    """Which pressure lifts this load [N] by this stroke [m] from the nominal length?"""
+    """Which pressure lifts this load [N] by this stroke [m] from the nominal length, while filling?"""
 
     NAME: ClassVar[QuestionName] = "stroke_pressure"
 
@@ -81,7 +93,7 @@ InverseQuestion = PressureForForce | ContractionForForce | WorkingRange | Pressu
 
 @result_class
 class InverseFinding:
-    """The answer to an inverse question."""
+    """The answer to an inverse question; `mckibben.facts.muscle.INVERSE` says what each is."""
 
     question: QuestionName
     """The question that was asked."""
@@ -89,8 +101,10 @@ class InverseFinding:
     """The answer; NaN without a solution, with a flag that gives the reason."""
     unit: str
     """SI unit of the value."""
+    branch: str
+    """Which way friction acts in the answer."""
     details: Mapping[str, float | None]
-    """Further figures in SI."""
+    """Further figures in SI, those of `mckibben.facts.muscle.INVERSE_DETAILS`."""
     flags: list[Notice]
     """Remarks on the answer."""
 
@@ -107,6 +121,7 @@ def answer(question: InverseQuestion, studio: Studio) -> InverseFinding:
         question=question.NAME,
         value=solution.value,
         unit=solution.unit,
+        branch=_branch(question),
         details=solution.details,
         flags=[
             *start_notices(start),
@@ -118,15 +133,29 @@ def answer(question: InverseQuestion, studio: Studio) -> InverseFinding:
     )
 
 
+def _branch(question: InverseQuestion) -> str:
+    match question:
+        case WorkingRange():
+            return f"start {branch_of(VENTING)}, end {branch_of(FILLING)}"
+        case PressureForStroke():
+            return branch_of(FILLING)
+        case _:
+            return branch_of(question.direction)
+
+
 def _solve(question: InverseQuestion, model: StaticModel) -> inverse.InverseResult:
     temperature = question.condition.temperature
-    moving = {"direction": question.condition.direction, "temperature": temperature}
     match question:
-        case PressureForForce(force=force):
-            return inverse.pressure_for_force(model, force=force, length=_length(question, model), **moving)
-        case ContractionForForce(force=force, pressure=pressure):
-            return inverse.contraction_for_force(model, force=force, pressure=pressure, **moving)
-        case WorkingRange(load=load, pressure=pressure, preload=preload):  # fills and vents by definition
+        case PressureForForce(force=force, direction=direction):
+            length = _length(question, model)
+            return inverse.pressure_for_force(
+                model, force=force, length=length, direction=direction, temperature=temperature
+            )
+        case ContractionForForce(force=force, pressure=pressure, direction=direction):
+            return inverse.contraction_for_force(
+                model, force=force, pressure=pressure, direction=direction, temperature=temperature
+            )
+        case WorkingRange(load=load, pressure=pressure, preload=preload):
             return inverse.working_range(
                 model, load=load, pressure=pressure, preload=preload, temperature=temperature
             )
@@ -138,7 +167,7 @@ def _solve(question: InverseQuestion, model: StaticModel) -> inverse.InverseResu
                     field="stroke",
                     hint="muscles contract by up to about a quarter of their length",
                 )
-            return inverse.stroke_pressure(model, load=load, stroke=stroke, **moving)
+            return inverse.stroke_pressure(model, load=load, stroke=stroke, temperature=temperature)
         case _:
             assert_never(question)
 

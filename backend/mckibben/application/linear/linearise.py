@@ -11,6 +11,7 @@ import numpy as np
 from mckibben.application.linear.result import (
     LinearResult,
     design_result,
+    gain_unit,
     input_values,
     loop_result,
     model_result,
@@ -117,6 +118,7 @@ def _answer(question: LinearQuestion, linear: Linearisation, watch: Watch) -> Li
         dead_band=None if linear.dead_band is None else list(linear.dead_band),
         input=named(ports[source], input_values(linear)[source]),
         output=named(ports[out], shown[out]),
+        gain_unit=gain_unit(ports[source], ports[out]),
         frequency=frequency,
         models=models,
         describing=near(points, primary, frequency),

@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 
+from mckibben.facts.linear import CONTROLLER, DESIGN, LINEAR_MODEL, LINEAR_POINT, LOOP_RESPONSE, POLE
 from mckibben.facts.result import FiniteRows, FiniteSeries, Series, result_class
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.linear.design import Design
 from mckibben.simulation.linear.equations import COMMAND, READING, Port
 from mckibben.simulation.linear.linearise import Linearisation
 from mckibben.simulation.linear.loop import Margins, loop_response, margins
-from mckibben.simulation.linear.model import LinearModel
+from mckibben.simulation.linear.model import LinearModel, name_of_state
 from mckibben.simulation.linear.response import (
     Pole,
     bandwidth,
@@ -41,29 +44,23 @@ class NamedValue:
     text: str
     """What it is."""
     value: float
-    """Value at the operating point, in its unit; states of gas absolute."""
+    """Value at the operating point, in its unit."""
 
 
 @result_class
 class PointResult:
     """The operating point, SI; pressures gauge."""
 
+    FIGURES: ClassVar = LINEAR_POINT.name
+
     position: float
-    """Position of the load [m]."""
     contraction: float
-    """Contraction ratio of the [-] (first) muscle."""
     pressure: float
-    """Gauge pressure in the [Pa] (first) muscle."""
     counter_pressure: float | None
-    """Gauge pressure in the second muscle of a pair [Pa]."""
     command: float
-    """Command that holds the load there [-]."""
     force: float
-    """Tension of the [N] (first) muscle."""
     load_force: float
-    """External force on the load [N]."""
     supply_pressure: float
-    """Gauge pressure of the supply [Pa]."""
     on_stop: bool
     """Whether the load rests on an end stop."""
 
@@ -72,15 +69,18 @@ class PointResult:
 class Zero:
     """A zero of the channel [rad/s]."""
 
+    FIGURES: ClassVar = POLE.name
+
     real: float
-    """Real part [rad/s]."""
     imaginary: float
-    """Imaginary part [rad/s]."""
+    frequency: float
 
 
 @result_class
 class ModelResult:
     """A linear model and the response of the chosen channel."""
+
+    FIGURES: ClassVar = LINEAR_MODEL.name
 
     name: str
     """Name."""
@@ -89,9 +89,7 @@ class ModelResult:
     primary: bool
     """Whether loop and design use it."""
     pressure: float
-    """Gauge pressure at which it was linearised [Pa]."""
     dead_time: float
-    """Dead time of the command [s]; in gain and phase, not in the matrices."""
     states: list[NamedValue]
     """States, in the order of the matrices."""
     inputs: list[NamedValue]
@@ -111,15 +109,11 @@ class ModelResult:
     zeros: list[Zero]
     """Zeros of the channel that hide no pole."""
     static_gain: float | None
-    """Gain at 0 Hz in the units of output per input; None where the channel integrates."""
     bandwidth: float | None
-    """Frequency at which the gain has fallen by 3 dB [Hz]."""
     bandwidth_note: str | None
     """Why there is no bandwidth."""
     gain: Series
-    """Gain over `frequency`, in the units of output per input."""
     phase: Series
-    """Phase over `frequency` [rad], with the dead time."""
 
     def __str__(self) -> str:
         return self.name
@@ -129,22 +123,16 @@ class ModelResult:
 class ControllerResult:
     """Gains of a position controller, SI, and as a drive document states them."""
 
+    FIGURES: ClassVar = CONTROLLER.name
+
     kp: float
-    """Proportional gain [1/m]."""
     ki: float
-    """Integral gain [1/(m*s)]."""
     kd: float
-    """Derivative gain [s/m]."""
     feed_forward: float
-    """Command per reference [1/m]."""
     derivative_filter: float
-    """Filter time of the derivative [s]."""
     sample_time: float
-    """Sample time [s]."""
     output_min: float
-    """Lowest command [-]."""
     output_max: float
-    """Highest command [-]."""
     document: dict[str, str]
     """The part `controller` of a drive document, without its reference."""
 
@@ -153,23 +141,23 @@ class ControllerResult:
 class LoopResult:
     """The open and the closed loop of a controller with the primary model."""
 
+    FIGURES: ClassVar = LOOP_RESPONSE.name
+
     controller: ControllerResult
     """The controller of the drive."""
     margins: Margins
     """Stability and margins."""
     frequency: FiniteSeries
-    """Frequencies up to half the sampling frequency [Hz]."""
     gain: Series
-    """Gain of the open loop [-]."""
     phase: Series
-    """Phase of the open loop [rad]."""
     closed_gain: Series
-    """Gain from the reference to the position [-]."""
 
 
 @result_class
 class TrialResult:
     """A controller, the figures of its steps on the nonlinear drive, its margins, and the run."""
+
+    FIGURES: ClassVar = DESIGN.name
 
     name: TrialName
     """Where the controller comes from."""
@@ -180,9 +168,7 @@ class TrialResult:
     margins: Margins
     """Margins of its loop."""
     begins: float
-    """When the step begins [s]."""
     returns: float
-    """When the step back begins [s]."""
     time: FiniteSeries
     """Instants of the run [s]."""
     reference: Series
@@ -197,10 +183,10 @@ class TrialResult:
 class VariationResult:
     """The refined controller with another mass and supply, as factors."""
 
+    FIGURES: ClassVar = DESIGN.name
+
     mass: float
-    """Factor of the mass [-]."""
     supply: float
-    """Factor of the supply pressure [-]."""
     figures: StepFigures
     """Figures of its steps."""
 
@@ -223,20 +209,19 @@ class GoalsResult:
 class DesignResult:
     """A designed controller; see `mckibben.simulation.linear.design.Design`."""
 
+    FIGURES: ClassVar = DESIGN.name
+
     goals: GoalsResult
     """Goals, with the height of the step."""
     rule: str
     """Name and source of the rule."""
     ultimate_gain: float | None
-    """Gain at which a proportional loop oscillates [1/m]."""
     ultimate_period: float | None
-    """Period of that oscillation [s]."""
     trials: list[TrialResult]
     """Own controller if there is one, rule, refined."""
     robust: list[VariationResult]
     """Mass and supply 20 % lower and higher."""
     evaluations: int
-    """Runs of the nonlinear drive."""
     remarks: list[str]
     """What to know about the design."""
 
@@ -244,6 +229,8 @@ class DesignResult:
 @result_class
 class LinearResult:
     """The linear view of a drive, SI, angles in rad."""
+
+    FIGURES: ClassVar = LINEAR_MODEL.name
 
     point: PointResult
     """Where it was linearised."""
@@ -257,8 +244,9 @@ class LinearResult:
     """Input of the chosen channel."""
     output: NamedValue
     """Output of the chosen channel."""
+    gain_unit: str
+    """SI unit of static gain and gain: that of the output per that of the input."""
     frequency: FiniteSeries
-    """Frequencies of the models' gain and phase [Hz]."""
     models: list[ModelResult]
     """One model, or several where something sticks or switches: each names its case."""
     describing: list[DescribingPoint]
@@ -298,6 +286,11 @@ def named(port: Port, value: float) -> NamedValue:
     return NamedValue(port.name, port.unit, port.text, value)
 
 
+def gain_unit(source: Port, out: Port) -> str:
+    """SI unit of the gain of a channel; outputs have units."""
+    return out.unit if source.unit == "1" else f"{out.unit}/{source.unit}"
+
+
 def input_values(linear: Linearisation) -> dict[str, float]:
     """Inputs at the operating point."""
     point, drive = linear.point, linear.point.bound.drive
@@ -325,7 +318,10 @@ def model_result(
         primary=model is linear.primary,
         pressure=point.pressure,
         dead_time=model.dead_time,
-        states=[named(port, float(point.state[bound.names.index(port.name)])) for port in model.states],
+        states=[
+            replace(named(port, float(point.state[bound.names.index(port.name)])), name=name_of_state(port))
+            for port in model.states
+        ],
         inputs=[named(port, inputs[port.name]) for port in model.inputs],
         outputs=[named(port, float(value)) for port, value in zip(model.outputs, outputs, strict=True)],
         a=model.a,
@@ -333,7 +329,7 @@ def model_result(
         c=model.c,
         d=model.d,
         poles=poles,
-        zeros=[Zero(zero.real, zero.imag) for zero in zeros],
+        zeros=[Zero(zero.real, zero.imag, abs(zero) / (2.0 * math.pi)) for zero in zeros],
         static_gain=static_gain(model, source, out),
         bandwidth=width,
         bandwidth_note=why,
@@ -350,9 +346,7 @@ def near(points: list[DescribingPoint], model: ModelResult, frequency: Array) ->
             return point
         expected = float(np.interp(math.log(point.frequency), np.log(frequency), model.phase))
         phase = point.phase + 2.0 * math.pi * round((expected - point.phase) / (2.0 * math.pi))
-        return DescribingPoint(
-            point.frequency, point.amplitude, point.gain, phase, point.distortion, point.remark
-        )
+        return replace(point, phase=phase)
 
     return [turned(point) for point in points]
 

@@ -48,8 +48,7 @@ def bode_figure(result: LinearResult, title: str) -> Figure:
         phases = np.degrees([point.phase for point in points])
         add_points(figure, at, phases, name, colour=colour, row=2, legend=False)
     figure.update_xaxes(type="log")
-    per = result.output.unit + ("" if result.input.unit == "1" else f"/{result.input.unit}")
-    name_axes(figure, "Frequency (Hz)", [f"Gain (dB re 1 {per})", "Phase (°)"])
+    name_axes(figure, "Frequency (Hz)", [f"Gain (dB re 1 {result.gain_unit})", "Phase (°)"])
     return figure
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from mckibben.facts.muscle import CHARACTERISTICS
 from mckibben.facts.sizing import LIMITS, SIZING
 from mckibben.report.bars import Bar, bars
 from mckibben.report.document import Head, bullets, callout, heading, mark, paragraph, table
@@ -124,7 +125,7 @@ def _spread_table(spread: SpecimenSpread) -> Html:
     ]
     rows: list[list[Child]] = [
         [
-            "Blocked force",
+            CHARACTERISTICS["blocked_force"].label,
             "normal",
             html("± ", figure(spread.blocked_force, SHARE, 3, exact=True), " (two standard deviations)"),
             html(

@@ -8,9 +8,9 @@ from mckibben.report.summary.parts import (
     Summary,
     Table,
     experiment_tables,
+    in_unit,
     parameter_tables,
     rows_of,
-    shown,
 )
 
 #: Figures that every comparison shows, a dash where one does not exist.
@@ -42,10 +42,10 @@ def error_table(result: ComparisonResult) -> Table:
     unit = error_scale(result.unit)
     of_stroke = [] if result.stroke_percent is None else ["stroke_percent"]
     rows = [
-        [figure.label, shown(getattr(result, name), figure.scale if figure.unit else unit)]
+        [figure.label, in_unit(getattr(result, name), figure.scale if figure.unit else unit)]
         for name, figure in COMPARISON.items()
         if name in (*_ALWAYS, *of_stroke)
     ]
     if result.validation is not None:
-        rows.append([CHECK["rmse"].label, shown(result.validation.rmse, unit)])
+        rows.append([CHECK["rmse"].label, in_unit(result.validation.rmse, unit)])
     return Table(f"Predicted {result.predicted} ({result.kind}, {rows_of(result)})", ["", "value"], rows)

@@ -6,9 +6,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.application.curves.curves import CurvesResult
-from mckibben.report.summary.parts import Summary, Table, figure
+from mckibben.facts.muscle import CHARACTERISTICS, CURVES
+from mckibben.report.summary.parts import Summary, Table, figure, shown
 
 _TABLE_ROWS = 11
+_STIFFNESS = ("stiffness", "stiffness_closed", "stiffness_from_force", "stiffness_secant")
+_PER_PRESSURE = [name for name in CHARACTERISTICS if name != "pressure"]
 
 
 def summary_of(result: CurvesResult, muscle: str) -> Summary:
@@ -18,66 +21,63 @@ def summary_of(result: CurvesResult, muscle: str) -> Summary:
         result: the curves.
         muscle: name of the muscle, for the title.
     """
-    bars = [f"{value / 1e5:g} bar" for value in result.pressure]
+    pressures = [shown(CURVES["pressure"], value) for value in result.pressure]
     chosen = np.unique(np.linspace(0, len(result.contraction) - 1, _TABLE_ROWS).astype(int))
-    force = Table(
-        f"Force of {muscle} [N]",
-        ["contraction", "length", *bars],
-        [
-            [
-                f"{result.contraction[index] * 100:.1f} %",
-                f"{result.length[index] * 1e3:.1f} mm",
-                *(figure(row[index]) for row in result.force),
-            ]
-            for index in chosen
-        ],
-    )
     per_pressure = Table(
-        "Per pressure",
-        ["pressure", "blocked force", "free contraction", "work of a stroke"],
+        f"{CHARACTERISTICS.title} {result.branch}",
+        [CHARACTERISTICS["pressure"].label, *(CHARACTERISTICS[name].label for name in _PER_PRESSURE)],
         [
-            [
-                name,
-                figure(item.blocked_force, unit=" N"),
-                figure(item.free_contraction * 100, unit=" %"),
-                figure(item.max_work, unit=" J"),
-            ]
-            for name, item in zip(bars, result.characteristics, strict=True)
+            [name, *(shown(CHARACTERISTICS[each], getattr(item, each)) for each in _PER_PRESSURE)]
+            for name, item in zip(pressures, result.characteristics, strict=True)
         ],
     )
-    stiffness = _stiffness(result, muscle, chosen)
     sure = []
     if result.interval is not None:
         half = float(np.nanmedian(result.interval.high - result.force))
         sure.append(
             f"{100.0 * result.interval.share:.0f} % of new readings lie within about ±{half:.3g} N "
-            "of a curve, where the model was measured"
+            "of a curve (median of all curves), where the model was measured"
         )
-    return [force, per_pressure, *stiffness, *sure, *(notice.message for notice in result.flags)]
+    return [
+        _along(
+            result, chosen, f"Force of {muscle} {result.branch}",
+            dict(zip(pressures, result.force, strict=True)), "force",
+        ),
+        per_pressure,
+        *_stiffness(result, muscle, chosen),
+        *sure,
+        *dict.fromkeys(filter(None, (item.free_contraction_note for item in result.characteristics))),
+        *(notice.message for notice in result.flags),
+    ]  # fmt: skip
 
 
 def _stiffness(result: CurvesResult, muscle: str, chosen: NDArray[np.intp]) -> list[Table]:
     """The stiffness by all its definitions at the highest pressure, where it was asked for."""
-    if result.stiffness_from_force is None or result.stiffness_secant is None:
+    if result.stiffness_from_force is None:
         return []
     top = int(np.argmax(result.pressure))
-    columns = {
-        "dF/dL": result.stiffness,
-        "valve closed": result.stiffness_closed,
-        "of the force (20)": result.stiffness_from_force,
-        "secant (25)": result.stiffness_secant,
-    }
-    return [
-        Table(
-            f"Stiffness of {muscle} at {result.pressure[top] / 1e5:g} bar [N/mm]",
-            ["contraction", "length", *columns],
+    columns = {CURVES[name].label: getattr(result, name)[top] for name in _STIFFNESS}
+    at = shown(CURVES["pressure"], result.pressure[top])
+    return [_along(result, chosen, f"Stiffness of {muscle} at {at} {result.branch}", columns, "stiffness")]
+
+
+def _along(
+    result: CurvesResult,
+    chosen: NDArray[np.intp],
+    title: str,
+    columns: dict[str, NDArray[np.float64]],
+    what: str,
+) -> Table:
+    """Columns of one figure over contraction and length."""
+    scale, along = CURVES[what].scale, ("contraction", "length")
+    return Table(
+        f"{title} [{scale.unit}]",
+        [*(CURVES[name].label for name in along), *columns],
+        [
             [
-                [
-                    f"{result.contraction[index] * 100:.1f} %",
-                    f"{result.length[index] * 1e3:.1f} mm",
-                    *(figure(rows[top][index] * 1e-3) for rows in columns.values()),
-                ]
-                for index in chosen
-            ],
-        )
-    ]
+                *(shown(CURVES[name], getattr(result, name)[index]) for name in along),
+                *(figure(scale.of(values[index])) for values in columns.values()),
+            ]
+            for index in chosen
+        ],
+    )

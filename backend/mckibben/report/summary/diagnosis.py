@@ -10,9 +10,9 @@ from mckibben.report.summary.parts import (
     Summary,
     Table,
     experiment_tables,
+    in_unit,
     parameter_tables,
     rows_of,
-    shown,
 )
 
 _SHOWN = 8  # most candidates listed
@@ -97,4 +97,4 @@ def candidate_table(result: DiagnosisResult) -> Table:
 
 
 def _error(result: DiagnosisResult, value: float | None) -> str:
-    return shown(value, error_scale(result.unit))
+    return in_unit(value, error_scale(result.unit))

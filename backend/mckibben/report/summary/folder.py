@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from mckibben.application.diagnose.folder import FileVerdict
 from mckibben.facts.comparison import error_scale
-from mckibben.report.summary.parts import Summary, Table, shown
+from mckibben.report.summary.parts import Summary, Table, in_unit
 
 
 def folder_summary(folder: str, verdicts: Sequence[FileVerdict]) -> Summary:
@@ -26,4 +26,4 @@ def folder_summary(folder: str, verdicts: Sequence[FileVerdict]) -> Summary:
 
 
 def _error(item: FileVerdict, value: float | None) -> str:
-    return "–" if item.unit is None else shown(value, error_scale(item.unit))
+    return "–" if item.unit is None else in_unit(value, error_scale(item.unit))

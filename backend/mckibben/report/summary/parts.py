@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Protocol
 
 from mckibben.facts.comparison import PARAMETER
+from mckibben.facts.figure import Figure
 from mckibben.facts.units import Scale
 from mckibben.identification.fit.comparison import ParameterTable
 from mckibben.measurement.experiment import place_of, shown_value, title_of
@@ -93,14 +95,20 @@ def parameter_tables(parameters: ParameterTable) -> list[Table]:
     return [Table(PARAMETER.title, columns, rows)] if rows else []
 
 
-def shown(value: float | None, scale: Scale, digits: int = 4) -> str:
+def in_unit(value: float | None, scale: Scale, digits: int = 4) -> str:
     """An SI value in a unit of people, or a dash."""
-    return figure(None if value is None else scale.of(value), digits, f" {scale.unit}")
+    space = "" if scale.unit in ("", "°") else " "
+    return figure(None if value is None else scale.of(value), digits, f"{space}{scale.unit}")
+
+
+def shown(of: Figure, value: float | None) -> str:
+    """The SI value of a figure with its unit, or a dash."""
+    return in_unit(value, of.scale)
 
 
 def figure(value: float | None, digits: int = 4, unit: str = "") -> str:
     """A number with ``digits`` significant digits, or a dash."""
-    if value is None or value != value:
+    if value is None or not math.isfinite(value):
         return "–"
     # A result this small is the rounding error of a sum.
     shown = 0.0 if abs(value) < 1e-9 else value

@@ -7,8 +7,7 @@ from math import pi
 from mckibben.application.run.simulate import SimulationResult
 from mckibben.facts.run import JOINT, TRACKING
 from mckibben.facts.timing import PHASES, PRESSURE_FIGURES, TIMING
-from mckibben.facts.units import Scale
-from mckibben.report.summary.parts import Summary, Table, figure
+from mckibben.report.summary.parts import Summary, Table, figure, shown
 
 
 def summary_of(result: SimulationResult, name: str) -> Summary:
@@ -42,15 +41,11 @@ def timing_table(result: SimulationResult, name: str) -> Table:
     rows = [
         [
             each.label,
-            *(_shown(getattr(getattr(result.timing, phase), name), each.scale) for phase in PHASES),
+            *(shown(each, getattr(getattr(result.timing, phase), name)) for phase in PHASES),
         ]
         for name, each in TIMING.items()
     ]
     return Table(f"{name}: {result.outcome}", ["", *PHASES.values()], rows)
-
-
-def _shown(value: float | None, scale: Scale) -> str:
-    return figure(None if value is None else scale.of(value), unit=f" {scale.unit}")
 
 
 def _reasons(result: SimulationResult) -> set[str]:
@@ -69,7 +64,7 @@ def _tracking(result: SimulationResult) -> list[Table]:
     follows = result.tracking
     if follows is None:
         return []
-    rows = [[each.label, _shown(getattr(follows, name), each.scale)] for name, each in TRACKING.items()]
+    rows = [[each.label, shown(each, getattr(follows, name))] for name, each in TRACKING.items()]
     return [Table(TRACKING.title, ["", ""], rows)]
 
 
@@ -89,5 +84,5 @@ def _joint(result: SimulationResult) -> list[Table]:
     ]
     if joint.stiffness_error is not None:
         each = JOINT["stiffness_error"]
-        rows.append([each.label, _shown(joint.stiffness_error, each.scale)])
+        rows.append([each.label, shown(each, joint.stiffness_error)])
     return [Table("Joint", ["", ""], rows)]

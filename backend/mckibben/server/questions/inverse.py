@@ -31,12 +31,16 @@ def inverse_question(body: Body, studio: Studio) -> InverseQuestion:
         InputError: an unknown preset, effect or parameter, or no complete muscle.
     """
     start = studio.start_model(stated_muscle(body.muscle), body.effects)
-    condition = MuscleCondition(start, body.direction, body.temperature)
+    condition = MuscleCondition(start, body.temperature)
     match body:
-        case PressureQuestion(force=force, length=length, contraction=contraction):
-            return PressureForForce(condition=condition, force=force, length=length, contraction=contraction)
-        case ContractionQuestion(force=force, pressure=pressure):
-            return ContractionForForce(condition=condition, force=force, pressure=pressure)
+        case PressureQuestion(force=force, length=length, contraction=contraction, direction=direction):
+            return PressureForForce(
+                condition=condition, force=force, length=length, contraction=contraction, direction=direction
+            )
+        case ContractionQuestion(force=force, pressure=pressure, direction=direction):
+            return ContractionForForce(
+                condition=condition, force=force, pressure=pressure, direction=direction
+            )
         case WorkingRangeQuestion(load=load, pressure=pressure, preload=preload):
             return WorkingRange(condition=condition, load=load, pressure=pressure, preload=preload)
         case StrokePressureQuestion(load=load, stroke=stroke):

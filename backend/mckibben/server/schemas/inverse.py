@@ -18,7 +18,6 @@ class _Question(Strict):
         None, description="The effects of its model; null: those of the preset."
     )
     temperature: Temperature = Field(293.15, description="Temperature of the muscle.")
-    direction: Direction = 0
 
 
 class PressureQuestion(_Question):
@@ -28,6 +27,7 @@ class PressureQuestion(_Question):
     force: Load = Field(description="The required force.")
     length: Length | None = Field(None, description="The length; or give the contraction.")
     contraction: Contraction | None = Field(None, description="The contraction; or give the length.")
+    direction: Direction = 0
 
 
 class ContractionQuestion(_Question):
@@ -36,12 +36,13 @@ class ContractionQuestion(_Question):
     question: Literal["contraction"] = Field(description="Asks for a contraction.")
     force: Load = Field(description="The force of the muscle.")
     pressure: Pressure = Field(description="Gauge pressure in the muscle.")
+    direction: Direction = 0
 
 
 class WorkingRangeQuestion(_Question):
     """The stroke from the preload without pressure to the load at the highest pressure.
 
-    The start is taken while venting and the end while filling, whatever ``direction`` is.
+    The start is taken while venting and the end while filling.
     """
 
     question: Literal["working_range"] = Field(description="Asks for the stroke between two loads.")
@@ -51,12 +52,11 @@ class WorkingRangeQuestion(_Question):
 
 
 class StrokePressureQuestion(_Question):
-    """The pressure that lifts a load by a stroke."""
+    """The pressure that lifts a load by a stroke, while filling."""
 
     question: Literal["stroke_pressure"] = Field(description="Asks for the pressure of a stroke.")
     load: Load = Field(description="The load to lift.")
     stroke: Length = Field(description="From the nominal length.")
-    direction: Direction = -1
 
 
 InverseRequest = Annotated[

@@ -25,11 +25,10 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any, NamedTuple
 
+from mckibben.facts.linear import CONTROLLER
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import si
 
-#: Percent per millimetre in 1/m: the factor of a gain written as a plain number.
-GAIN_SCALE = 0.01 / 1e-3
 MAX_GAIN = 1e9
 SHORTEST_SAMPLE, LONGEST_SAMPLE = 1e-5, 1.0
 
@@ -174,17 +173,8 @@ class PidController:
         )
 
 
-#: Key of a document -> SI unit, and whether a plain number is in percent per mm.
-_KEYS = {
-    "kp": ("1/m", True),
-    "ki": ("1/(m*s)", True),
-    "kd": ("s/m", True),
-    "feed_forward": ("1/m", True),
-    "derivative_filter": ("s", False),
-    "sample_time": ("s", False),
-    "output_min": ("1", False),
-    "output_max": ("1", False),
-}
+# Keys of a document whose plain numbers are in the unit in which they are shown, percent per mm.
+_GAINS = ("kp", "ki", "kd", "feed_forward")
 
 
 def controller_from(
@@ -214,13 +204,13 @@ def controller_from(
     for key, raw in document.items():
         if key in ("type", "reference"):
             continue
-        if key not in _KEYS:
-            hint = did_you_mean(str(key), [*_KEYS, "type", "reference"])
+        if key not in CONTROLLER:
+            hint = did_you_mean(str(key), [*CONTROLLER, "type", "reference"])
             problem = f"{field}: a PID controller has no '{str(key)[:40]}'"
             raise InputError(problem, field=f"{field}.{str(key)[:40]}", hint=hint)
-        unit, is_gain = _KEYS[key]
-        value = si(raw, unit, field=f"{field}.{key}")
-        values[key] = value * GAIN_SCALE if is_gain and not isinstance(raw, str) else value
+        value = si(raw, CONTROLLER[key].unit, field=f"{field}.{key}")
+        shown = key in _GAINS and not isinstance(raw, str)
+        values[key] = value * CONTROLLER[key].scale.factor if shown else value
     if "kp" not in values:
         raise InputError(f"{field}.kp is missing", field=f"{field}.kp", hint="e.g. 2.0 (percent per mm)")
     try:

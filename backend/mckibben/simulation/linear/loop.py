@@ -10,11 +10,12 @@ sample,
 from __future__ import annotations
 
 import math
-from typing import Any
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.linear import FALLEN, MARGINS
 from mckibben.facts.result import result_class
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.linear.equations import COMMAND, READING
@@ -29,24 +30,17 @@ Complex = NDArray[np.complex128]
 class Margins:
     """Stability of a closed loop, and how far it is from its limit."""
 
+    FIGURES: ClassVar = MARGINS.name
+
     stable: bool
     """Whether the sampled closed loop of the linear model is stable."""
     gain_margin: float | None
-    """Factor of the gain up to the limit of stability [-]; below 1 where less gain is the limit; None where
-    the phase never reaches -180 degrees.
-    """
     gain_margin_at: float | None
-    """Frequency at which the phase is -180 degrees [Hz]."""
     phase_margin: float | None
-    """Phase left where the gain of the loop is 1 [rad]."""
     crossover: float | None
-    """Frequency [Hz] at which the gain of the loop is 1, the one with the least margin."""
     delay_margin: float | None
-    """Further dead time up to the limit of stability [s]."""
     modulus_margin: float
-    """Least distance of the open loop from -1 [-]."""
     bandwidth: float | None
-    """Frequency [Hz] at which the closed loop has fallen by 3 dB; None where it does not."""
 
 
 def controller_response(controller: PidController, frequency: Array) -> tuple[Complex, Complex]:
@@ -101,16 +95,17 @@ def margins(model: LinearModel, controller: PidController, axis: Array) -> Margi
         size = abs(loop.real[i] + share * (loop.real[i + 1] - loop.real[i]))
         if size > 0.0 and (gain_margin is None or abs(math.log(size)) < abs(math.log(gain_margin))):
             gain_margin, gain_at = float(1.0 / size), float(frequency[i])
-    phase_margin = crossover = delay = None
+    phase_margin = crossover = None
+    delays = []
     for i in np.flatnonzero(_changes(log_gain)):
         share = log_gain[i] / (log_gain[i] - log_gain[i + 1])
         value = loop[i] + share * (loop[i + 1] - loop[i])
         angle = math.remainder(np.angle(-value), 2.0 * math.pi)
+        at = float(frequency[i] * (frequency[i + 1] / frequency[i]) ** share)
+        delays.append((angle % (2.0 * math.pi)) / (2.0 * math.pi * at))
         if phase_margin is None or abs(angle) < abs(phase_margin):
-            phase_margin = angle
-            crossover = float(frequency[i] * (frequency[i + 1] / frequency[i]) ** share)
-            delay = (angle % (2.0 * math.pi)) / (2.0 * math.pi * crossover)
-    low = np.abs(closed) < math.sqrt(0.5)
+            phase_margin, crossover = angle, at
+    low = np.abs(closed) < FALLEN
     start = np.flatnonzero(~low)
     fallen = np.flatnonzero(low[start[0] :]) if len(start) else []
     width = float(frequency[start[0] + fallen[0]]) if len(fallen) and start[0] == 0 else None
@@ -121,7 +116,7 @@ def margins(model: LinearModel, controller: PidController, axis: Array) -> Margi
         gain_margin_at=gain_at,
         phase_margin=phase_margin,
         crossover=crossover,
-        delay_margin=delay,
+        delay_margin=min(delays, default=None),
         modulus_margin=float(np.abs(1.0 + loop).min()),
         bandwidth=width,
     )

@@ -17,12 +17,13 @@ Array = np.ndarray
 _STATES = {
     "stroke": ("m", "stroke of the muscle, positive = shorter"),
     "speed": ("m/s", "rate of the stroke"),
-    "pressure": ("Pa", "pressure in the muscle"),
-    "tube_pressure": ("Pa", "pressure in the tube"),
-    "regulator_pressure": ("Pa", "set point of the regulator after its lag"),
+    "pressure": ("Pa", "absolute pressure in the muscle"),
+    "tube_pressure": ("Pa", "absolute pressure in the tube"),
+    "regulator_pressure": ("Pa", "absolute set point of the regulator after its lag"),
     "regulator_rate": ("Pa/s", "rate of the set point of the regulator"),
     "gas_mass": ("kg", "mass of the air in the muscle"),
 }
+_ABSOLUTE = ("pressure", "tube_pressure", "regulator_pressure")
 # Share by which pressures along a path without flow are moved apart.
 _PRESSURE_ASIDE = 1e-11
 # Speed [m/s] that tells the directions of friction with memory apart and moves nothing.
@@ -196,6 +197,11 @@ def _port_of(bound: BoundDrive, name: str) -> Port:
     effect = next(effect for effect in bound.drive.model.effects if effect.id == effect_id)
     variable = next(each for each in effect.states if each.name == variable_name)
     return Port(name, variable.unit, variable.description.rstrip(".") + suffix)
+
+
+def name_of_state(state: Port) -> str:
+    """What a state of a model is called beside inputs and outputs, whose pressures are gauge."""
+    return f"absolute_{state.name}" if state.name.removesuffix(COUNTER) in _ABSOLUTE else state.name
 
 
 def moving(point: OperatingPoint, direction: int) -> OperatingPoint:

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.linear import FALLEN, LINEAR_MODEL, POLE
 from mckibben.facts.result import result_class
 from mckibben.simulation.linear.model import LinearModel
 
@@ -29,16 +30,14 @@ _ASIDE = 1e-3  # damping ratio below which a pole counts as undamped for the pha
 class Pole:
     """An eigenvalue of A; of a complex pair the one with the positive imaginary part."""
 
+    FIGURES: ClassVar = POLE.name
+
     real: float
-    """Real part [rad/s]."""
     imaginary: float
-    """Imaginary part [rad/s]."""
     frequency: float
-    """Magnitude [Hz]."""
+    oscillation_frequency: float | None
     damping: float | None
-    """Ratio [-], 1 for a real stable pole; None for an integrator."""
     time_constant: float | None
-    """Time constant of the decay [s]; None where nothing decays."""
     kind: Literal["integrator", "real", "oscillation", "unstable"]
     """"integrator", "real", "oscillation", "unstable"."""
     cancelled: bool
@@ -114,11 +113,12 @@ def _acts(model: LinearModel, input_name: str, output_name: str) -> bool:
 def _pole(value: complex, *, cancelled: bool) -> Pole:
     size = abs(value)
     if size < _STANDS:
-        return Pole(0.0, 0.0, 0.0, None, None, "integrator", cancelled)
+        return Pole(0.0, 0.0, 0.0, None, None, None, "integrator", cancelled)
     real = 0.0 if abs(value.real) < 1e-9 * size else value.real
     kind = "unstable" if real > 0.0 else "oscillation" if value.imag > 1e-9 * size else "real"
     decay = -1.0 / real if real < 0.0 else None
-    return Pole(real, value.imag, size / (2.0 * math.pi), -real / size, decay, kind, cancelled)
+    swings = abs(value.imag) / (2.0 * math.pi) if abs(value.imag) > 1e-9 * size else None
+    return Pole(real, value.imag, size / (2.0 * math.pi), swings, -real / size, decay, kind, cancelled)
 
 
 def frequencies_for(model: LinearModel, cover: Sequence[float] = ()) -> Array:
@@ -216,16 +216,16 @@ def bandwidth(model: LinearModel, input_name: str, output_name: str) -> tuple[fl
     """Frequency at which the gain has fallen by 3 dB below that at 0 Hz [Hz], or why there is none."""
     gain = static_gain(model, input_name, output_name)
     if gain is None:
-        return None, "the channel integrates: its gain has no value at 0 Hz"
+        return None, LINEAR_MODEL["static_gain"].exists_when.otherwise
     if gain == 0.0:
         return None, "the channel has no static gain"
     axis = np.geomspace(1e-4, 1e4, 1601)
     ratio = np.abs(frequency_response(model, input_name, output_name, axis)) / abs(gain)
-    below = np.flatnonzero(ratio < math.sqrt(0.5))
+    below = np.flatnonzero(ratio < FALLEN)
     if not len(below) or below[0] == 0:
-        return None, "the gain does not fall by 3 dB between 0.0001 Hz and 10 kHz"
+        return None, LINEAR_MODEL["bandwidth"].exists_when.otherwise
     i = int(below[0])
-    share = (math.sqrt(0.5) - ratio[i - 1]) / (ratio[i] - ratio[i - 1])
+    share = (FALLEN - ratio[i - 1]) / (ratio[i] - ratio[i - 1])
     return float(axis[i - 1] * (axis[i] / axis[i - 1]) ** share), None
 
 

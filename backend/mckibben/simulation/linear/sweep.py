@@ -12,9 +12,11 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
+from typing import ClassVar
 
 import numpy as np
 
+from mckibben.facts.linear import DESCRIBING
 from mckibben.facts.result import Number, result_class
 from mckibben.simulation.command.waveforms import Sine
 from mckibben.simulation.linear.equations import COMMAND, LOAD_FORCE
@@ -37,18 +39,13 @@ _TOLERANCE = 1e-5
 class DescribingPoint:
     """One frequency and amplitude."""
 
+    FIGURES: ClassVar = DESCRIBING.name
+
     frequency: float
-    """Frequency [Hz]."""
     amplitude: float
-    """Amplitude of the input, in its unit."""
     gain: Number
-    """Gain, in the units of output per input; None without a run."""
     phase: Number
-    """Of the output after the input [rad], between -2 pi and 0 or so; as the linear response."""
     distortion: Number
-    """rms of everything but the fundamental over the rms of the output; drift and an own oscillation that
-    does not decay are taken off [-].
-    """
     remark: str | None
     """What kept it from being a clean oscillation; None if nothing did."""
 

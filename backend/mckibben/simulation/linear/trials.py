@@ -5,10 +5,11 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass, replace
 from functools import cached_property
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 
+from mckibben.facts.linear import SETTLING_BAND, STEP_DESIGN
 from mckibben.facts.result import Number, result_class
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.command.shapes import Pulse
@@ -32,7 +33,6 @@ Array = np.ndarray
 TrialName = Literal["own", "rule", "refined"]
 
 LEAST_MODULUS = 0.5  # distance of the loop from -1: sensitivity at most 2 (Åström & Hägglund 1995)
-BAND = 0.02  # of the step; the position has settled when it stays within
 _TOLERANCE = 1e-5
 _SPREAD = 0.2  # of mass and supply
 _FAILED = 1e3
@@ -61,18 +61,14 @@ class Goals:
 class StepFigures:
     """Figures of a step and back again: the worse of the two."""
 
+    FIGURES: ClassVar = STEP_DESIGN.name
+
     overshoot: Number
-    """Overshoot as a share of the step [-]; None if the run failed."""
     settling: float | None
-    """Time until the position stays within 2 % of the step [s]; None where it does not."""
     rise: float | None
-    """Time from 10 to 90 % [s]; None where it does not get there."""
     saturated: float
-    """Share of the time with the command at its limits [-]."""
     error: Number
-    """Root mean square of the error as a share of the step [-]."""
     late_error: Number
-    """The same over the second half of its time [-]."""
     meets: bool
     """Whether the goals are met."""
 
@@ -257,7 +253,7 @@ class Bench:
         if not math.isfinite(figures.error):
             return _FAILED
         settling = figures.settling if figures.settling is not None else 2.0 * self.hold
-        cost = settling / goals.settling + figures.error + figures.late_error / BAND
+        cost = settling / goals.settling + figures.error + figures.late_error / SETTLING_BAND
         cost += 10.0 * max(settling / goals.settling - 1.0, 0.0)
         cost += 20.0 * max(figures.overshoot - goals.overshoot, 0.0) / max(goals.overshoot, 0.02)
         return cost + (50.0 * figures.saturated if goals.unsaturated else 0.0)
@@ -282,7 +278,7 @@ class Bench:
 def _figures_of_step(time: Array, rise: Array) -> tuple[float, float | None, float | None, float, float]:
     """Overshoot, settling time, rise time, rms error and late rms error of a step from 0 to 1."""
     overshoot = max(float(rise.max()) - 1.0, 0.0)
-    outside = np.flatnonzero(np.abs(rise - 1.0) > BAND)
+    outside = np.flatnonzero(np.abs(rise - 1.0) > SETTLING_BAND)
     settling: float | None = 0.0
     if len(outside):
         last = int(outside[-1])

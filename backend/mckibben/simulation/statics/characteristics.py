@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from math import isfinite
-from typing import NamedTuple
+from typing import ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.facts.muscle import CHARACTERISTICS, OPERATING_POINT, OVER_PRESSURE
 from mckibben.facts.result import Number, Series, result_class
 from mckibben.physics import ideal
 from mckibben.simulation.statics.inverse import contraction_at
@@ -47,38 +48,32 @@ class Conditions:
 class Characteristics:
     """Figures at one pressure."""
 
+    FIGURES: ClassVar = CHARACTERISTICS.name
+
     pressure: float
-    """Gauge pressure [Pa]."""
     blocked_force: Number
-    """Force at the nominal length [N]."""
     free_contraction: Number
-    """Contraction ratio without load [-]; NaN when out of reach."""
     free_contraction_flag: str | None
     """Code of the limit that the free contraction crosses."""
+    free_contraction_note: str | None
+    """The same as a sentence."""
     max_work: Number
-    """Work of one stroke from nominal length to free contraction [J]."""
     thread_tension_total: Number
-    """Ideal tension of all threads at nominal length [N]."""
 
 
 @result_class
 class OperatingPoint:
     """State in which a muscle holds a load at one pressure, SI; NaN and None where it cannot."""
 
+    FIGURES: ClassVar = OPERATING_POINT.name
+
     pressure: float
-    """Gauge pressure [Pa]."""
     contraction: Number
-    """Contraction [-]; None when out of reach."""
     length: Number
-    """Length [m]; None when out of reach."""
     force: float | None
-    """The load [N]."""
     stiffness: Number
-    """Stiffness at constant pressure [N/m]."""
     stiffness_closed: Number
-    """Stiffness with the valve closed [N/m]."""
     diameter: Number
-    """Braid diameter [m]."""
     flags: list[str]
     """Codes of the flags of this point."""
 
@@ -87,24 +82,22 @@ class OperatingPoint:
 class PressureBranch:
     """Position under a constant load over pressure, in one direction; NaN where the load cannot be held."""
 
+    FIGURES: ClassVar = OVER_PRESSURE.name
+
     contraction: Series
-    """Contraction at the load [-]."""
     length: Series
-    """Length at the load [m]."""
     diameter: Series
-    """Braid diameter at the load [m]."""
     outer_diameter: Series
-    """Outer diameter of the wall at the load [m]."""
 
 
 @result_class
 class ForceBranches:
     """Force at a fixed length over pressure [N], while shortening and while lengthening."""
 
+    FIGURES: ClassVar = OVER_PRESSURE.name
+
     filling: Series
-    """While shortening [N]."""
     venting: Series
-    """While lengthening [N]."""
 
 
 class FurtherStiffness(NamedTuple):
@@ -156,6 +149,8 @@ def characteristics(
 ) -> list[Characteristics]:
     r"""Blocked force, free contraction and work :math:`\int F\,dL` of each pressure.
 
+    There is no work where the muscle does not contract without load.
+
     Args:
         model: the muscle.
         pressures: gauge [Pa].
@@ -171,26 +166,29 @@ def characteristics(
         direction=conditions.direction,
         temperature=conditions.temperature,
     ).reshape(at.shape)
-    work = rest * stroke / 2.0 * (force[:, 1:] @ _WEIGHTS)
+    work = np.where(stroke > 0.0, rest * stroke / 2.0 * (force[:, 1:] @ _WEIGHTS), np.nan)
     tension = ideal.thread_tension(braid=model.muscle.braid, pressure=pressures, length=rest)
+    crossed = [_free_flag(model, contraction) for contraction in free.tolist()]
     return [
         Characteristics(
             pressure=pressure,
             blocked_force=force[index, 0],
             free_contraction=contraction,
-            free_contraction_flag=_free_flag(model, contraction),
+            free_contraction_flag=None if flag is None else str(flag.code),
+            free_contraction_note=None if flag is None else flag.message,
             max_work=work[index],
             thread_tension_total=tension[index],
         )
-        for index, (pressure, contraction) in enumerate(zip(pressures.tolist(), free.tolist(), strict=True))
+        for index, (pressure, contraction, flag) in enumerate(
+            zip(pressures.tolist(), free.tolist(), crossed, strict=True)
+        )
     ]
 
 
-def _free_flag(model: StaticModel, contraction: float) -> str | None:
+def _free_flag(model: StaticModel, contraction: float) -> LimitFlag | None:
     if not isfinite(contraction):
-        return str(FlagCode.OUT_OF_REACH)
-    crossed = model.limits.flags(contraction=contraction)
-    return str(crossed[0].code) if crossed else None
+        return LimitFlag(FlagCode.OUT_OF_REACH, CHARACTERISTICS["free_contraction"].exists_when.otherwise)
+    return next(iter(model.limits.flags(contraction=contraction)), None)
 
 
 def operating_points(

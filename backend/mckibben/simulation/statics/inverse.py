@@ -195,12 +195,11 @@ def stroke_pressure(
     *,
     load: float,
     stroke: float,
-    direction: float = -1.0,
     temperature: float = ROOM_TEMPERATURE,
 ) -> InverseResult:
-    """The gauge pressure at which the muscle has lifted ``load`` [N] by ``stroke`` [m] from L0."""
+    """The gauge pressure at which the muscle, filling, has lifted ``load`` [N] by ``stroke`` [m] from L0."""
     length = model.muscle.nominal_length - stroke
-    return pressure_for_force(model, force=load, length=length, direction=direction, temperature=temperature)
+    return pressure_for_force(model, force=load, length=length, direction=-1.0, temperature=temperature)
 
 
 def working_range(

@@ -1,6 +1,8 @@
 // @ts-check
 // Drive documents: supply, valve, tube, load, command or controller of a muscle, as scenarios, files and the
 // server have them. Pure functions; the server checks what the numbers mean.
+import { figure } from "../facts.js";
+import { scaleOf, toShown } from "../format.js";
 import { at, isObject } from "../paths.js";
 import { ATMOSPHERE, siNumber } from "../quantities.js";
 
@@ -26,9 +28,10 @@ export const defaultDrive = () => ({
   duration: 2,
 });
 
-/** Gains without a unit are percent of full command per millimetre. */
+/** Gains without a unit are in the unit in which they are shown, percent of full command per millimetre. */
 const GAINS = new Set(["kp", "ki", "kd", "feed_forward"]);
-const PERCENT_PER_MM = 10;
+/** A gain as a document states it. @param {string} key of the controller @param {number} si */
+export const statedGain = (key, si) => toShown(si, scaleOf(figure(`controller.${key}`).quantity, "bar"));
 /** Texts that are names, not quantities. */
 const NAMES = new Set([
   "shape",
@@ -129,7 +132,7 @@ function converted(part, path, whole) {
   const si = siNumber(part, countedAt(whole, path));
   if (si === null) return part;
   const ofPosition = GAINS.has(key) && !path.includes(".stiffness.");
-  return ofPosition && /[a-z%]/i.test(part) ? si / PERCENT_PER_MM : si;
+  return ofPosition && /[a-z%]/i.test(part) ? statedGain(key, si) : si;
 }
 
 /** Only numbers, texts, lists and objects, not nested deeply.

@@ -1,6 +1,7 @@
 // @ts-check
 // The quantities that curves of a muscle are drawn over, and the colours and names of the pressures.
 import { number, scaleOf, toShown } from "../format.js";
+import { figure } from "../facts.js";
 import { axisTitle, extent, shown, steadyX } from "../plots/axes.js";
 
 /** @typedef {import("../types.js").Curves} Curves */
@@ -14,20 +15,29 @@ import { axisTitle, extent, shown, steadyX } from "../plots/axes.js";
  * @typedef {{place: string, curves: Curves, across: Across, over: Over, system: System,
  *   reference: Preset | null, definition?: StiffnessOf}} View */
 
+/** Title and quantity of an axis. @param {string} key */
+function titled(key) {
+  const { label, quantity } = figure(key);
+  return { title: label, quantity };
+}
+
 /** @type {Record<Across, {title: string, quantity: Quantity}>} */
 export const ACROSS = {
-  contraction: { title: "Contraction", quantity: "ratio" },
-  length: { title: "Length", quantity: "length" },
-  braid_angle: { title: "Braid angle", quantity: "angle" },
+  contraction: titled("curves.contraction"),
+  length: titled("curves.length"),
+  braid_angle: titled("curves.braid_angle"),
 };
 
-/** The value of the x quantity at a contraction. @param {Curves} c @param {Across} across
- * @param {number} k */
+/** The value of the x quantity at a contraction, between the columns of the curves; null beside them.
+ * @param {Curves} c @param {Across} across @param {number | null} k */
 export function acrossAt(c, across, k) {
-  if (across === "contraction") return k;
-  if (across === "length") return c.geometry.nominal_length * (1 - k);
-  const cosine = (1 - k) * Math.cos(c.geometry.braid_angle);
-  return Math.acos(Math.min(1, Math.max(-1, cosine)));
+  const { contraction } = c, values = c[across];
+  const last = contraction.length - 1;
+  if (k === null || !(k >= contraction[0] && k <= contraction[last])) return null;
+  const i = Math.max(1, contraction.findIndex((each) => each >= k));
+  const low = values[i - 1], high = values[i];
+  if (low === null || high === null) return null;
+  return low + (high - low) * (k - contraction[i - 1]) / (contraction[i] - contraction[i - 1]);
 }
 
 /** The x values of the curves in shown units. @param {View} v */
@@ -56,26 +66,22 @@ export function pressureName({ system }, p) {
 /** What is shown over the pressure: title, and a shorter one of the axis where it has one.
  * @type {Record<Over, {title: string, axis?: string, quantity: Quantity}>} */
 export const OVER = {
-  contraction: { title: "Contraction", quantity: "ratio" },
-  length: { title: "Length", quantity: "length" },
-  diameter: { title: "Braid diameter", quantity: "length" },
-  outer_diameter: { title: "Outer diameter", quantity: "length" },
+  contraction: titled("over_pressure.contraction"),
+  length: titled("over_pressure.length"),
+  diameter: titled("over_pressure.diameter"),
+  outer_diameter: titled("over_pressure.outer_diameter"),
   outer_diameter_at_fixed_length: {
-    title: "Outer diameter at fixed length",
-    axis: "Outer diameter",
-    quantity: "length",
+    ...titled("over_pressure.outer_diameter_at_fixed_length"),
+    axis: figure("over_pressure.outer_diameter").label,
   },
-  force: { title: "Force at fixed length", axis: "Force", quantity: "force" },
+  force: { ...titled("over_pressure.force_at_fixed_length"), axis: figure("curves.force").label },
 };
 
 /** Definitions of the stiffness with their formulas. @type {Record<StiffnessOf, {title: string, text: string}>} */
 export const STIFFNESS = {
-  tangent: { title: "tangent", text: "dF/dL at constant pressure; dashed with the valve closed" },
-  from_force: {
-    title: "of the force",
-    text: "6 L F/(3 L² − b²): of an ideal muscle with this force and length",
-  },
-  secant: { title: "secant", text: "F/(L − Lmin): straight from the length without force" },
+  tangent: { title: "tangent", text: figure("curves.stiffness").definition },
+  from_force: { title: "of the force", text: figure("curves.stiffness_from_force").definition },
+  secant: { title: "secant", text: figure("curves.stiffness_secant").definition },
 };
 
 /** Whether both ends are held, instead of a load that hangs. @param {Over} over */

@@ -1,6 +1,7 @@
 // @ts-check
 // The force of a muscle over its contraction: one line per pressure, measured points, limits. Pure functions.
 import { scaleOf, siOf, toShown, withUnit } from "../format.js";
+import { figure } from "../facts.js";
 import { axisTitle, extent, shown, steadyRange } from "../plots/axes.js";
 import { pressureColour } from "../plots/theme.js";
 import { ACROSS, acrossAt, pressureName, shareOf, xAxis, xColumn } from "./curve-axes.js";
@@ -17,7 +18,14 @@ import { ACROSS, acrossAt, pressureName, shareOf, xAxis, xColumn } from "./curve
 export function limitZones(v, range) {
   const { max_contraction, max_pretension } = v.curves.limits;
   const s = scaleOf(ACROSS[v.across].quantity, v.system);
-  const at = (/** @type {number} */ k) => toShown(acrossAt(v.curves, v.across, k), s);
+  const { contraction } = v.curves;
+  const first = contraction[0], last = contraction[contraction.length - 1];
+  /** Where the zone beyond a limit begins; NaN, no zone, where the curves do not reach it.
+   * @param {number} k */
+  const at = (k) => {
+    const value = acrossAt(v.curves, v.across, k);
+    return value === null ? NaN : toShown(value, s);
+  };
   /** @type {Zone[]} */
   const zones = [];
   const rising = v.across !== "length";
@@ -26,8 +34,8 @@ export function limitZones(v, range) {
     const to = up ? range[1] : range[0];
     if (up ? from < to : from > to) zones.push({ x: from < to ? [from, to] : [to, from], y: null, text });
   };
-  if (max_contraction != null) add(at(max_contraction), rising, "contraction limit");
-  if (max_pretension != null) add(at(-max_pretension), !rising, "pretension limit");
+  if (max_contraction != null) add(at(Math.max(max_contraction, first)), rising, "contraction limit");
+  if (max_pretension != null) add(at(Math.min(-max_pretension, last)), !rising, "pretension limit");
   return zones;
 }
 
@@ -100,10 +108,13 @@ function referencePoints(v) {
 function pointTraces(v, p, range) {
   const points = referencePoints(v);
   if (!points) return [];
-  const s = scaleOf(ACROSS[v.across].quantity, v.system);
-  const x = points.contraction.map((k) => toShown(acrossAt(v.curves, v.across, k), s));
+  const x = shown(
+    points.contraction.map((k) => acrossAt(v.curves, v.across, k)),
+    ACROSS[v.across].quantity,
+    v.system,
+  );
   const y = shown(points.force, "force", v.system);
-  const inside = x.map((at) => at >= range[0] - 1e-9 && at <= range[1] + 1e-9);
+  const inside = x.map((at) => at !== null && at >= range[0] - 1e-9 && at <= range[1] + 1e-9);
   /** @param {boolean} excluded @param {string} id @param {string} symbol @param {number} size
    * @returns {Trace} */
   const trace = (excluded, id, symbol, size) => {
@@ -131,11 +142,10 @@ export function forceSpec(v, p) {
   const load = toShown(curves.over_pressure?.load ?? 0, scaleOf("force", system));
   const [low, high] = extent([...lines.map((t) => t.y), ...points.map((t) => t.y), [load * 1.02, 0]]);
   const y = {
-    title: axisTitle("Force", "force", system),
+    title: axisTitle(figure("curves.force").label, "force", system),
     range: steadyRange(`${v.place}force${system}`, low, Math.max(high, 1e-3)),
   };
   const dots = curves.operating_points.map((o) => o.contraction);
-  const s = scaleOf(ACROSS[across].quantity, system);
   const zones = limitZones(v, x.range);
   const most = curves.limits.max_force;
   const top = most == null ? Infinity : toShown(most, scaleOf("force", system));
@@ -154,7 +164,7 @@ export function forceSpec(v, p) {
       ...lines,
       {
         id: "operating-points",
-        x: dots.map((k) => k == null ? null : toShown(acrossAt(curves, across, k), s)),
+        x: shown(dots.map((k) => acrossAt(curves, across, k)), ACROSS[across].quantity, system),
         y: dots.map(() => load),
         marker: { size: 9, symbol: "circle", color: p.load, edge: p.card },
       },

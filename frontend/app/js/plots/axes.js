@@ -1,13 +1,13 @@
 // @ts-check
 // Axes of plots: columns in shown units, titles, ranges that stay the same while a slider moves.
-import { niceStep, scaleOf } from "../format.js";
+import { niceStep, scaleOf, toShown } from "../format.js";
 
 /** @typedef {import("../format.js").System} System */
 /** @typedef {import("../format.js").Quantity} Quantity */
 /** @param {(number | null)[]} values @param {Quantity} quantity @param {System} system */
 export function shown(values, quantity, system) {
-  const s = scaleOf(quantity, system), offset = s.offset ?? 0;
-  return values.map((v) => v == null ? null : (v - offset) / s.factor);
+  const s = scaleOf(quantity, system);
+  return values.map((v) => v == null || (s.decibels && v <= 0) ? null : toShown(v, s));
 }
 
 /** @param {string} title @param {Quantity} quantity @param {System} system */

@@ -47,7 +47,7 @@ function chartCard(id, title, label) {
 
 const force = chartCard("force", "Force", "Force over contraction, one line per pressure, with the load");
 const stiffness = chartCard("stiffness", "Stiffness", "Stiffness over contraction, valve open and closed");
-const volume = chartCard("volume", "Volume and diameter", "Volume and diameter over contraction");
+const volume = chartCard("volume", "Volume and diameter", "Gas volume and braid diameter over contraction");
 const over = chartCard(
   "over-pressure",
   "Over pressure",

@@ -1,46 +1,44 @@
 // @ts-check
 // The curves as one table, for "Curves as CSV".
+import { figure } from "../../facts.js";
 import { units } from "../../state.js";
-import { scaleOf, toShown } from "../../format.js";
-import { acrossAt } from "../../muscle/curve-axes.js";
+import { shown } from "../../plots/axes.js";
+import { scaleOf } from "../../format.js";
 import { curves } from "./model.js";
+
+/** Columns along the length, and those that the pressure changes too. */
+const ALONG = /** @type {const} */ (["contraction", "length", "braid_angle"]);
+const EACH = /** @type {const} */ ([
+  "force",
+  "stiffness",
+  "stiffness_closed",
+  "stiffness_from_force",
+  "stiffness_secant",
+]);
+const SHAPE = /** @type {const} */ (["volume", "diameter", "outer_diameter"]);
 
 /** Every number behind the plots, one row per pressure and contraction.
  * @returns {import("../../ui/table.js").Table} */
 export function curvesTable() {
   const answer = curves.peek(), system = units.peek();
-  const unit = (/** @type {import("../../format.js").Quantity} */ q) => scaleOf(q, system).unit;
-  const write = (/** @type {number | null} */ v, /** @type {import("../../format.js").Quantity} */ q) =>
-    v == null ? null : toShown(v, scaleOf(q, system));
-  const further = /** @type {const} */ (["stiffness_from_force", "stiffness_secant"])
-    .filter((name) => answer?.[name]);
-  const rows = answer?.pressure.flatMap((p, k) =>
-    answer.contraction.map((c, i) => [
-      write(p, "pressure"),
-      c * 100,
-      write(answer.length[i], "length"),
-      write(acrossAt(answer, "braid_angle", c), "angle"),
-      write(answer.force[k][i], "force"),
-      write(answer.stiffness[k][i], "stiffness"),
-      write(answer.stiffness_closed[k][i], "stiffness"),
-      ...further.map((name) => write(answer[name]?.[k][i] ?? null, "stiffness")),
-      write(answer.volume[i], "volume"),
-      write(answer.diameter[i], "length"),
-    ])
-  );
+  const each = EACH.filter((name) => answer?.[name]);
+  const names = ["pressure", ...ALONG, ...each, ...SHAPE];
+  const inUnits = (/** @type {string} */ name, /** @type {(number | null)[]} */ values) =>
+    shown(values, figure(`curves.${name}`).quantity, system);
+  const rows = answer?.pressure.flatMap((p, k) => {
+    const columns = [
+      answer.contraction.map(() => p),
+      ...ALONG.map((name) => answer[name]),
+      ...each.map((name) => answer[name]?.[k] ?? []),
+      ...SHAPE.map((name) => answer[name]),
+    ].map((values, i) => inUnits(names[i], values));
+    return answer.contraction.map((_, i) => columns.map((column) => column[i]));
+  });
   return {
-    columns: [
-      { title: "pressure", unit: unit("pressure") },
-      { title: "contraction", unit: "%" },
-      { title: "length", unit: unit("length") },
-      { title: "braid_angle", unit: "deg" },
-      { title: "force", unit: unit("force") },
-      { title: "stiffness", unit: unit("stiffness") },
-      { title: "stiffness_closed", unit: unit("stiffness") },
-      ...further.map((title) => ({ title, unit: unit("stiffness") })),
-      { title: "volume", unit: unit("volume") },
-      { title: "diameter", unit: unit("length") },
-    ],
+    columns: names.map((name) => ({
+      title: name,
+      unit: scaleOf(figure(`curves.${name}`).quantity, system).unit,
+    })),
     rows: rows ?? [],
   };
 }

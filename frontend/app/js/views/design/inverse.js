@@ -2,9 +2,10 @@
 // Inverse calculations: which pressure, contraction or range is needed. Repeated whenever the model changes.
 import { h } from "../../dom.js";
 import { signal } from "../../reactive.js";
+import { figure } from "../../facts.js";
 import { units } from "../../state.js";
 import { design, modelInput } from "../../muscle/document.js";
-import { readable, scaleOf, withUnit } from "../../format.js";
+import { scaleOf, withUnit } from "../../format.js";
 import { post } from "../../server/client.js";
 import { Question } from "../../server/question.js";
 import { quantityField } from "../../ui/field.js";
@@ -13,7 +14,7 @@ import { curves, curvesAreCurrent } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../types.js").Answer} Answer */
-/** @typedef {{label: string, short: string, inputs: string[], result: string}} Inverse */
+/** @typedef {{label: string, short: string, inputs: string[]}} Inverse */
 
 /** @type {Record<string, Inverse>} */
 const QUESTIONS = {
@@ -21,25 +22,21 @@ const QUESTIONS = {
     label: "Pressure for a force at a length",
     short: "Pressure",
     inputs: ["force", "length"],
-    result: "Pressure",
   },
   contraction: {
     label: "Contraction for a force at a pressure",
     short: "Contraction",
     inputs: ["force", "pressure"],
-    result: "Contraction",
   },
   stroke_pressure: {
     label: "Pressure for a stroke under load",
     short: "Stroke",
     inputs: ["load", "stroke"],
-    result: "Pressure",
   },
   working_range: {
     label: "Working range between preload and load",
     short: "Range",
     inputs: ["preload", "load", "pressure"],
-    result: "Usable contraction",
   },
 };
 
@@ -53,15 +50,8 @@ const INPUTS = {
   preload: { label: "Preload", quantity: "force" },
 };
 
-/** The quantity of a detail of an answer, by its name. @type {[RegExp, Quantity][]} */
-const DETAILS = [
-  [/length|stroke|diameter/, "length"],
-  [/contraction/, "ratio"],
-  [/pressure/, "pressure"],
-  [/force|load/, "force"],
-  [/work|energy/, "energy"],
-  [/volume/, "volume"],
-];
+/** Questions whose answer is on the branch of the operation; the others have their own. */
+const BOTH_WAYS = new Set(["pressure", "contraction"]);
 
 const ASK_AFTER_MS = 90;
 
@@ -77,10 +67,6 @@ function start(key) {
 }
 /** @param {string} key */
 const value = (key) => values.value[key] ?? start(key);
-
-/** @param {string} unit @param {string} name @returns {Quantity} */
-const quantityOfAnswer = (unit, name) =>
-  unit === "Pa" ? "pressure" : DETAILS.find(([pattern]) => pattern.test(name))?.[1] ?? "ratio";
 
 const inverse = new Question(
   (text, signal) => /** @type {Promise<Answer>} */ (post("/api/inverse", JSON.parse(text), signal)),
@@ -104,23 +90,31 @@ function shown() {
   if (inverse.error.value) return h("p", { class: "error" }, inverse.error.value.words);
   const got = inverse.answer.value;
   if (!got || got.question !== kind.value) return h("p", { class: "muted" }, "…");
-  const quantity = quantityOfAnswer(got.unit, got.unit === "m" ? "length" : got.question);
+  const { label, definition, quantity, otherwise } = figure(`inverse.${got.question}`);
   const details = Object.entries(got.details).filter(([, v]) => v != null);
   return [
     h(
       "p",
       { class: "answer" },
-      h("span", null, QUESTIONS[kind.value].result),
-      h("b", null, got.value == null ? "none" : withUnit(got.value, quantity, units.value)),
+      h("span", { title: definition }, label),
+      h(
+        "b",
+        { title: got.value == null ? otherwise : null },
+        got.value == null ? "none" : withUnit(got.value, quantity, units.value),
+      ),
     ),
+    h("p", { class: "muted" }, got.branch),
     details.length
       ? h(
         "dl",
         null,
-        ...details.flatMap(([name, v]) => [
-          h("dt", null, readable(name)),
-          h("dd", null, withUnit(v, quantityOfAnswer("", name), units.value)),
-        ]),
+        ...details.flatMap(([name, v]) => {
+          const detail = figure(`inverse_details.${name}`);
+          return [
+            h("dt", { title: detail.definition }, detail.label),
+            h("dd", null, withUnit(v, detail.quantity, units.value)),
+          ];
+        }),
       )
       : null,
     ...got.flags.map((f) => flag(f, f.code === "unverified")),
@@ -130,8 +124,10 @@ function shown() {
 export function inverseCard() {
   inverse.follow(() => {
     const inputs = QUESTIONS[kind.value].inputs.map((key) => [key, value(key)]);
+    const { direction, ...model } = modelInput(design.value);
     return JSON.stringify({
-      ...modelInput(design.value),
+      ...model,
+      ...(BOTH_WAYS.has(kind.value) ? { direction } : {}),
       question: kind.value,
       ...Object.fromEntries(inputs),
     });

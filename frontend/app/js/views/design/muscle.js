@@ -2,6 +2,7 @@
 // The muscle card: preset, three forms of geometry, each value with slider, typed units and reset.
 import { h } from "../../dom.js";
 import { computed } from "../../reactive.js";
+import { figure } from "../../facts.js";
 import { commit, preview, units } from "../../state.js";
 import { design, editDesign, patchDesign } from "../../muscle/document.js";
 import { muscles } from "../../store.js";
@@ -14,34 +15,28 @@ import { orderCodeField } from "./order-code.js";
 
 /** @typedef {import("../../types.js").Form} Form */
 /** @typedef {{label: string, symbol: string, quantity: import("../../format.js").Quantity,
- *   bounds: [number, number], log?: boolean, hint?: string}} Spec */
+ *   bounds: [number, number], log?: boolean}} Spec */
 
 const DEG = Math.PI / 180;
+/** @param {string} key @param {[number, number]} bounds @param {boolean} [log] @returns {Spec} */
+function spec(key, bounds, log) {
+  const { label, symbol, quantity } = figure(`geometry.${key}`);
+  return { label, symbol, quantity, bounds, log };
+}
+
 /** Slider ranges cover usual muscles; the field accepts any value the model accepts.
  * @type {Record<string, Spec>} */
 const SPECS = {
-  nominal_length: { label: "Length", symbol: "L₀", quantity: "length", bounds: [0.02, 10], log: true },
-  braid_diameter: {
-    label: "Braid diameter",
-    symbol: "D₀",
-    quantity: "length",
-    bounds: [3e-3, 0.1],
-    log: true,
-  },
-  braid_angle: { label: "Braid angle", symbol: "θ₀", quantity: "angle", bounds: [10 * DEG, 54 * DEG] },
-  thread_length: { label: "Thread length", symbol: "b", quantity: "length", bounds: [0.02, 12], log: true },
-  turns: { label: "Turns", symbol: "n", quantity: "number", bounds: [0.1, 100], log: true },
-  side: { label: "Rhombus side", symbol: "ℓ", quantity: "length", bounds: [5e-4, 0.02], log: true },
-  along: { label: "Rhombi along", symbol: "n_L", quantity: "number", bounds: [2, 3000], log: true },
-  around: { label: "Rhombi around", symbol: "n_C", quantity: "number", bounds: [2, 200], log: true },
-  inside_diameter: {
-    label: "Inside diameter",
-    symbol: "D_i",
-    quantity: "length",
-    bounds: [2e-3, 0.1],
-    log: true,
-  },
-  wall_thickness: { label: "Wall thickness", symbol: "H₀", quantity: "length", bounds: [0, 5e-3] },
+  nominal_length: spec("nominal_length", [0.02, 10], true),
+  braid_diameter: spec("braid_diameter", [3e-3, 0.1], true),
+  braid_angle: spec("braid_angle", [10 * DEG, 54 * DEG]),
+  thread_length: spec("thread_length", [0.02, 12], true),
+  turns: spec("turns", [0.1, 100], true),
+  side: spec("side", [5e-4, 0.02], true),
+  along: spec("along", [2, 3000], true),
+  around: spec("around", [2, 200], true),
+  inside_diameter: spec("inside_diameter", [2e-3, 0.1], true),
+  wall_thickness: spec("wall_thickness", [0, 5e-3]),
 };
 
 /** @type {[Form, string, string][]} */

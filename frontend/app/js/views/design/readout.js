@@ -2,6 +2,7 @@
 // The values under the linked cursor, in one line.
 import { h } from "../../dom.js";
 import { signal } from "../../reactive.js";
+import { figure } from "../../facts.js";
 import { units } from "../../state.js";
 import { withUnit } from "../../format.js";
 import { palette, pressureColour } from "../../plots/theme.js";
@@ -24,10 +25,14 @@ export function readout(v) {
     if (Math.abs(x - at) < Math.abs(column[i] - at)) i = k;
   });
   const system = units.value, colours = palette.value;
+  const one = (/** @type {"contraction" | "length" | "braid_angle" | "diameter" | "volume"} */ name) => {
+    const { label, symbol, quantity } = figure(`curves.${name}`);
+    return h("span", { title: label }, `${symbol} `, withUnit(answer[name][i], quantity, system));
+  };
   return [
     h("b", null, withUnit(answer.contraction[i], "ratio", system)),
-    h("span", null, withUnit(answer.length[i], "length", system)),
-    h("span", null, withUnit(answer.braid_angle[i], "angle", system)),
+    one("length"),
+    one("braid_angle"),
     ...answer.pressure.map((p, k) =>
       h(
         "span",
@@ -36,7 +41,7 @@ export function readout(v) {
         withUnit(answer.force[k][i], "force", system),
       )
     ),
-    h("span", null, "Ø ", withUnit(answer.diameter[i], "length", system)),
-    h("span", null, withUnit(answer.volume[i], "volume", system)),
+    one("diameter"),
+    one("volume"),
   ];
 }

@@ -2,24 +2,33 @@
 // Results: the verdict, the operating points at the load, characteristics per pressure.
 import { h, icon } from "../../dom.js";
 import { computed } from "../../reactive.js";
+import { figure } from "../../facts.js";
 import { units } from "../../state.js";
 import { design } from "../../muscle/document.js";
 import { aligned, number, readable, scaleOf, withUnit } from "../../format.js";
 import { shown } from "../../plots/axes.js";
+import { subscript } from "../../ui/field.js";
 import { flag } from "../../ui/flag.js";
 import { curves, fault } from "./model.js";
 
 /** @typedef {import("../../format.js").Quantity} Quantity */
 /** @typedef {import("../../types.js").Curves} Curves */
-/** @typedef {[title: string, quantity: Quantity]} Column */
+/** @typedef {import("../../facts.js").DeclaredFigure} DeclaredFigure */
+
+const POINT =
+  /** @type {const} */ (["pressure", "contraction", "length", "stiffness", "stiffness_closed", "diameter"]);
+const LOOP = /** @type {const} */ (["pressure", "stroke", "share", "pressure_width"]);
+const CHARACTERISTICS = /** @type {const} */ (["pressure", "blocked_force", "free_contraction", "max_work"]);
+
 /** @typedef {{cells: (number | null)[], mark?: string}} Row */
 
-/** @param {Column[]} columns @returns {Row[]} */
-const emptyRows = (columns) => design.value.pressures.map(() => ({ cells: columns.map(() => null) }));
-
 /** A table with a row for each pressure; before the first answer they are empty, so that nothing moves later.
- * @param {string} title @param {Column[]} columns @param {() => Row[]} rows */
-function figures(title, columns, rows) {
+ * @param {string} title @param {string} group of the figures @param {readonly string[]} names of the columns
+ * @param {() => Row[]} rows @param {boolean} [narrow] heads are symbols */
+function table(title, group, names, rows, narrow) {
+  const columns = names.map((name) => figure(`${group}.${name}`));
+  const emptyRows = () =>
+    design.value.pressures.map(() => ({ cells: columns.map(() => null), mark: undefined }));
   return h(
     "div",
     { class: "scroll", tabindex: 0, role: "region", "aria-label": title },
@@ -27,20 +36,10 @@ function figures(title, columns, rows) {
       "table",
       { class: "data" },
       h("caption", { class: "unseen" }, title),
-      h(
-        "thead",
-        null,
-        h(
-          "tr",
-          null,
-          ...columns.map(([name, quantity]) =>
-            h("th", { scope: "col" }, name, h("small", null, () => scaleOf(quantity, units.value).unit))
-          ),
-        ),
-      ),
+      h("thead", null, h("tr", null, ...columns.map((one, i) => head(one, narrow || i === 0)))),
       h("tbody", null, () => {
-        const all = curves.value ? rows() : emptyRows(columns);
-        const texts = columns.map(([, quantity], i) => column(all.map((r) => r.cells[i]), quantity));
+        const all = curves.value ? rows() : emptyRows();
+        const texts = columns.map(({ quantity }, i) => column(all.map((r) => r.cells[i]), quantity));
         return all.map(({ mark }, k) =>
           h(
             "tr",
@@ -52,6 +51,15 @@ function figures(title, columns, rows) {
     ),
   );
 }
+
+/** @param {DeclaredFigure} one @param {boolean} [narrow] */
+const head = ({ label, symbol, definition, quantity }, narrow) =>
+  h(
+    "th",
+    { scope: "col", title: narrow ? `${label}: ${definition}` : definition, abbr: label },
+    narrow ? subscript(symbol) : label,
+    h("small", null, () => scaleOf(quantity, units.value).unit),
+  );
 
 /** @param {(number | null)[]} values in SI @param {Quantity} quantity */
 function column(values, quantity) {
@@ -66,7 +74,7 @@ const explain = (c, codes) =>
 function operatingPoints() {
   const c = curves.value;
   return (c?.operating_points ?? []).map((o) => ({
-    cells: [o.pressure, o.contraction, o.length, o.stiffness, o.stiffness_closed, o.diameter],
+    cells: POINT.map((name) => o[name]),
     mark: c && o.flags.length ? explain(c, o.flags) : undefined,
   }));
 }
@@ -75,14 +83,14 @@ function operatingPoints() {
 function loopRows() {
   const loop = curves.value?.over_pressure?.loop;
   return (loop?.pressure ?? []).map((p, i) => ({
-    cells: [p, loop?.stroke[i] ?? null, loop?.share[i] ?? null, loop?.pressure_width[i] ?? null],
+    cells: LOOP.map((name) => name === "pressure" ? p : loop?.[name][i] ?? null),
   }));
 }
 
 function characteristics() {
   return (curves.value?.characteristics ?? []).map((c) => ({
-    cells: [c.pressure, c.blocked_force, c.free_contraction, c.max_work],
-    mark: c.free_contraction_flag ?? undefined,
+    cells: CHARACTERISTICS.map((name) => c[name]),
+    mark: c.free_contraction_note ?? undefined,
   }));
 }
 
@@ -97,17 +105,15 @@ function verdict() {
   }
   const hard = c.flags.filter((f) => !NOTES.includes(f.code)),
     notes = c.flags.filter((f) => NOTES.includes(f.code));
-  const points = c.operating_points.filter((o) => o.contraction != null);
-  const sound = points.filter((o) => !o.flags.some((code) => !NOTES.includes(code)));
-  const best = sound.at(-1) ?? points.at(-1);
-  const grade = !sound.length ? "bad" : hard.length ? "warn" : "good";
+  const best = c.holds, sound = best !== null && best.flags.length === 0;
+  const grade = !sound ? "bad" : hard.length ? "warn" : "good";
+  const text = (/** @type {"pressure" | "force" | "contraction" | "length"} */ name) =>
+    withUnit(best?.[name], figure(`operating_point.${name}`).quantity, units.value);
   const reach = best
-    ? `${withUnit(best.pressure, "pressure", units.value)} holds ${
-      withUnit(best.force, "force", units.value)
-    } at ${withUnit(best.contraction, "ratio", units.value)} contraction (${
-      withUnit(best.length, "length", units.value)
-    } long).`
-    : `None of these pressures holds ${withUnit(design.value.load, "force", units.value)}.`;
+    ? `${text("pressure")} holds ${text("force")} at ${text("contraction")} contraction (${
+      text("length")
+    } long) ${c.branch}.`
+    : `None of these pressures holds ${loadText.value}.`;
   return [
     h(
       "p",
@@ -128,29 +134,22 @@ function verdict() {
 function margins() {
   const c = curves.value;
   if (!c) return h("div", { class: "margins" });
-  const most = (/** @type {(number | null | undefined)[]} */ all) => Math.max(...all.map((v) => v ?? 0));
-  /** @type {[string, number, number | null, Quantity][]} */
-  const rows = [
-    ["Pressure", most(c.pressure), c.limits.max_pressure, "pressure"],
-    ["Load", design.value.load, c.limits.max_force, "force"],
-    ["Contraction", most(c.operating_points.map((o) => o.contraction)), c.limits.max_contraction, "ratio"],
-  ];
-  const known = rows.filter(([, , limit]) => limit);
-  if (!known.length) return null; // the muscle has no known limit
+  if (!c.limits_used.length) return null; // the muscle has no known limit
+  const { label, definition } = figure("muscle_limits.share");
   return h(
     "div",
-    { class: "margins" },
-    ...known.map(([name, used, limit, quantity]) => {
-      const left = (limit ?? 0) / used - 1;
+    { class: "margins", title: `${label}: ${definition}` },
+    ...c.limits_used.map(({ name, used, limit, share }) => {
+      const one = figure(`muscle_limits.${name}`);
       return h(
         "div",
-        { class: left < -1e-4 ? "over" : "" },
-        h("span", null, name),
-        h("span", { class: "bar" }, h("i", { style: `width:${100 * Math.min(1, Math.max(0, left))}%` })),
+        { class: share > 1.0001 ? "over" : "" },
+        h("span", { title: one.definition }, one.label),
+        h("span", { class: "bar" }, h("i", { style: `width:${Math.min(100, share * 100)}%` })),
         h(
           "span",
           { class: "num" },
-          `${withUnit(used, quantity, units.value)} of ${withUnit(limit, quantity, units.value)}`,
+          `${withUnit(used, one.quantity, units.value)} of ${withUnit(limit, one.quantity, units.value)}`,
         ),
       );
     }),
@@ -158,6 +157,7 @@ function margins() {
 }
 
 const loadText = computed(() => withUnit(design.value.load, "force", units.value));
+const branch = () => curves.value?.branch ?? "";
 
 export function resultCards() {
   return [
@@ -175,16 +175,9 @@ export function resultCards() {
         "div",
         { class: "card-head" },
         h("h2", null, "At the load"),
-        h("span", { class: "muted" }, () => loadText.value),
+        h("span", { class: "muted" }, () => `${loadText.value} ${branch()}`),
       ),
-      figures("Operating points at the load", [
-        ["P", "pressure"],
-        ["ε", "ratio"],
-        ["L", "length"],
-        ["k open", "stiffness"],
-        ["k closed", "stiffness"],
-        ["D", "length"],
-      ], operatingPoints),
+      table("Operating points at the load", "operating_point", POINT, operatingPoints, true),
     ),
     h(
       "section",
@@ -195,12 +188,7 @@ export function resultCards() {
         h("h2", null, "Loop of filling and venting"),
         h("span", { class: "muted" }, () => loadText.value),
       ),
-      figures("Width of the loop at the load", [
-        ["P", "pressure"],
-        ["ΔL", "length"],
-        ["of L₀", "ratio"],
-        ["ΔP", "pressure"],
-      ], loopRows),
+      table("Width of the loop at the load", "loop", LOOP, loopRows, true),
       h(
         "p",
         { class: "muted" },
@@ -211,13 +199,13 @@ export function resultCards() {
     h(
       "section",
       { class: "card", "aria-label": "Characteristics" },
-      h("div", { class: "card-head" }, h("h2", null, "Characteristics")),
-      figures("Characteristics per pressure", [
-        ["P", "pressure"],
-        ["Blocked force", "force"],
-        ["Free contraction", "ratio"],
-        ["Work", "energy"],
-      ], characteristics),
+      h(
+        "div",
+        { class: "card-head" },
+        h("h2", null, "Characteristics"),
+        h("span", { class: "muted" }, branch),
+      ),
+      table("Characteristics per pressure", "characteristics", CHARACTERISTICS, characteristics),
     ),
   ];
 }

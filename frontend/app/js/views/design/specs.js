@@ -2,6 +2,7 @@
 // What the plots of stiffness, volume and pressure show: from the server's answer to lines, points and shaded
 // zones in the user's units. Pure functions.
 import { scaleOf, toShown } from "../../format.js";
+import { figure } from "../../facts.js";
 import { atFixedLength, OVER, xAxis, xColumn } from "../../muscle/curve-axes.js";
 import { curveFamily, limitZones } from "../../muscle/force-plot.js";
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../../plots/axes.js";
@@ -48,11 +49,11 @@ export function volumeSpec(v, p) {
   return {
     x,
     y: {
-      title: axisTitle("Volume", "volume", system),
+      title: axisTitle(figure("curves.volume").label, "volume", system),
       range: steadyRange(`${v.place}volume${system}`, 0, most),
     },
     y2: {
-      title: axisTitle("Braid diameter", "length", system),
+      title: axisTitle(figure("curves.diameter").label, "length", system),
       range: steadyRange(`${v.place}diameter${system}`, 0, widest),
       right: true,
     },
@@ -99,7 +100,7 @@ export function overPressureSpec(v, p) {
   const zones = top < last ? [{ x: [top, last], y: null, text: "pressure limit" }] : [];
   return {
     x: {
-      title: axisTitle("Pressure", "pressure", system),
+      title: axisTitle(figure("over_pressure.pressure").label, "pressure", system),
       range: steadyX(`${v.place}over${system}`, first, last),
     },
     y: {

@@ -39,6 +39,7 @@ export function openInDesign(p) {
     effects: null,
     reference: reference(p),
     pressures: pressuresUpTo(p.pressure),
+    direction: -1, // the branch on which the proposal carries its load
     load: Math.max(0, Number(p.static_load.toPrecision(5))),
     range: null,
   }, `proposal ${driveWords(p)}`);

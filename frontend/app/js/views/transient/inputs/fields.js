@@ -1,6 +1,7 @@
 // @ts-check
 // Fields of the drive by their path in the drive document: name, quantity and default of each.
 import { h } from "../../../dom.js";
+import { figure as declared } from "../../../facts.js";
 import { units } from "../../../state.js";
 import { scaleOf, siOf } from "../../../format.js";
 import { quantityField, subscript } from "../../../ui/field.js";
@@ -28,7 +29,14 @@ import { middleOf } from "../series.js";
  *   empty?: string}} Spec */
 
 const DEG = Math.PI / 180;
-const GAIN = { quantity: /** @type {Quantity} */ ("number"), log: false };
+
+/** A gain of the position controller, in the unit of a plain number in a document.
+ * @param {string} name @param {[number, number]} bounds @param {number} [usual] @returns {Spec} */
+function gain(name, bounds, usual) {
+  const { label, symbol, quantity } = declared(`controller.${name}`);
+  const { unit } = scaleOf(quantity, "bar");
+  return { label, symbol, quantity: "number", log: false, unit, bounds, usual };
+}
 
 /** A value of the preset of valve or tube.
  * @param {"valves" | "tubes"} kind @param {string} path @param {string} key */
@@ -224,17 +232,10 @@ export const SPECS = {
   },
   start_pressure: { label: "Initial pressure", quantity: "pressure", bounds: [0, 8e5], usual: 0 },
   duration: { label: "Duration", symbol: "T", quantity: "time", bounds: [0.1, 20], log: true, usual: 4 },
-  "controller.kp": { label: "Gain P", symbol: "K_p", ...GAIN, unit: "%/mm", bounds: [0, 20] },
-  "controller.ki": { label: "Gain I", symbol: "K_i", ...GAIN, unit: "%/(mm·s)", bounds: [0, 100], usual: 0 },
-  "controller.kd": { label: "Gain D", symbol: "K_d", ...GAIN, unit: "%·s/mm", bounds: [0, 1], usual: 0 },
-  "controller.feed_forward": {
-    label: "Feed forward",
-    symbol: "K_f",
-    ...GAIN,
-    unit: "%/mm",
-    bounds: [0, 5],
-    usual: 0,
-  },
+  "controller.kp": gain("kp", [0, 20]),
+  "controller.ki": gain("ki", [0, 100], 0),
+  "controller.kd": gain("kd", [0, 1], 0),
+  "controller.feed_forward": gain("feed_forward", [0, 5], 0),
   "controller.angle": { label: "Angle", symbol: "φ", quantity: "angle", bounds: [-0.5, 0.5], usual: 0 },
   "controller.stiffness.reference": {
     label: "Stiffness",

@@ -179,6 +179,11 @@ function words() {
       ? "Nothing sticks or switches here in a way that the motion shows."
       : "Something sticks or switches here: each case has its model.",
     ` Bode diagram, poles and zeros from ${channelText(answer)}.`,
+    answer.dead_band
+      ? ` Nothing reacts to commands between ${
+        answer.dead_band.map((one) => withUnit(one, "ratio", system)).join(" and ")
+      }.`
+      : null,
     outdated.value ? h("b", null, " The drive has changed since.") : null,
   );
 }

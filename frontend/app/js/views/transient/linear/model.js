@@ -4,6 +4,7 @@ import { computed, signal } from "../../../reactive.js";
 import { edit } from "../../../state.js";
 import { post } from "../../../server/client.js";
 import { Question } from "../../../server/question.js";
+import { statedGain } from "../../../drive/document.js";
 import { documentNow, drive, mode } from "../model.js";
 
 /** @typedef {import("../../../types.js").S["LinearResult"]} Linear */
@@ -57,10 +58,8 @@ export function linearise(withDesign) {
 
 export const stop = () => question.cancel();
 
-/** Gains without a unit are percent of full command per millimetre. */
-const PERCENT_PER_MM = 10;
-/** @param {number} gain in 1/m */
-const gainOf = (gain) => Number((gain / PERCENT_PER_MM).toPrecision(8));
+/** @param {string} key @param {number} si */
+const gainOf = (key, si) => Number(statedGain(key, si).toPrecision(8));
 
 /** Puts a controller into the drive; without a reference of its own the drive gets the steps of the design.
  * @param {Trial} trial */
@@ -81,10 +80,10 @@ export function takeOver(trial) {
   const controller = {
     ...old,
     type: "pid",
-    kp: gainOf(c.kp),
-    ki: gainOf(c.ki),
-    kd: gainOf(c.kd),
-    feed_forward: gainOf(c.feed_forward),
+    kp: gainOf("kp", c.kp),
+    ki: gainOf("ki", c.ki),
+    kd: gainOf("kd", c.kd),
+    feed_forward: gainOf("feed_forward", c.feed_forward),
     derivative_filter: c.derivative_filter,
     sample_time: c.sample_time,
     output_min: c.output_min,

@@ -1,7 +1,9 @@
 // @ts-check
 // The plots of the linear view: gain and phase with the nonlinear drive's points, steps of the controllers.
-import { scaleOf, toShown } from "../../../format.js";
-import { extent } from "../../../plots/axes.js";
+import { figure } from "../../../facts.js";
+import { plainScale, scaleOf, toShown } from "../../../format.js";
+import { axisTitle, extent, shown } from "../../../plots/axes.js";
+import { units } from "../../../state.js";
 
 /** @typedef {import("./model.js").Linear} Linear */
 /** @typedef {import("./model.js").Design} Design */
@@ -12,10 +14,12 @@ import { extent } from "../../../plots/axes.js";
 
 const DASHES = ["dash", "dot", "dashdot", "longdash"];
 const SYMBOLS = ["circle", "square", "diamond", "triangle-up", "cross", "x"];
-const DEGREES = 180 / Math.PI;
 /** Place of a frequency on its axis; above 0, where a plot draws a line. @param {number} frequency */
 const place = (frequency) => Math.log10(frequency) + 3;
-const decibels = (/** @type {number | null} */ gain) => gain && gain > 0 ? 20 * Math.log10(gain) : null;
+/** Gain and phase in shown units. @param {(number | null)[]} values */
+const decibels = (values) => shown(values, figure("linear_model.gain").quantity, units.value);
+const degrees = (/** @type {(number | null)[]} */ values) =>
+  shown(values, figure("linear_model.phase").quantity, units.value);
 
 /** Lines and points of the answer with their looks. @param {Linear} answer @param {Palette} p */
 function looks(answer, p) {
@@ -37,10 +41,10 @@ function looks(answer, p) {
 }
 
 /** @param {Linear} answer @param {number} amplitude */
-const amplitudeText = (answer, amplitude) =>
-  answer.input.unit === "1"
-    ? `${Number((100 * amplitude).toPrecision(3))} %`
-    : `${Number(amplitude.toPrecision(3))} ${answer.input.unit}`;
+const amplitudeText = (answer, amplitude) => {
+  const scale = answer.input.unit === "1" ? scaleOf("ratio", units.value) : plainScale(answer.input.unit);
+  return `${Number(toShown(amplitude, scale).toPrecision(3))} ${scale.unit}`;
+};
 
 /** @param {Linear} answer @param {Palette} p @returns {Entry[]} */
 export function legendOfBode(answer, p) {
@@ -122,11 +126,11 @@ function tableRows(frequency, lines, points, dot) {
 /** @param {Linear} answer @param {Palette} p */
 export const gainSpec = (answer, p) =>
   bode(answer, p, {
-    title: `Gain (dB re 1 ${answer.output.unit})`,
+    title: `Gain (dB re 1 ${answer.gain_unit})`,
     step: 20,
     least: 140,
-    line: (m) => m.gain.map(decibels),
-    dot: (d) => decibels(d.gain),
+    line: (m) => decibels(m.gain),
+    dot: (d) => decibels([d.gain])[0],
   });
 
 /** @param {Linear} answer @param {Palette} p */
@@ -135,8 +139,8 @@ export const phaseSpec = (answer, p) =>
     title: "Phase (°)",
     step: 90,
     least: 720,
-    line: (m) => m.phase.map((v) => v === null ? null : v * DEGREES),
-    dot: (d) => d.phase === null ? null : d.phase * DEGREES,
+    line: (m) => degrees(m.phase),
+    dot: (d) => degrees([d.phase])[0],
   });
 
 /** Colour and dash of each controller. @param {Design} design @param {Palette} p */
@@ -151,16 +155,15 @@ export function trialLooks(design, p) {
 
 /** @param {Design} design @param {Palette} p @param {System} system @returns {Spec} */
 export function stepSpec(design, p, system) {
-  const scale = scaleOf("length", system);
-  const shown = (/** @type {(number | null)[]} */ values) =>
-    values.map((v) => v === null ? null : toShown(v, scale));
+  const position = figure("run.position");
+  const inUnits = (/** @type {(number | null)[]} */ values) => shown(values, position.quantity, system);
   const last = design.trials[design.trials.length - 1];
-  const reference = shown(last.reference);
+  const reference = inUnits(last.reference);
   const lines = trialLooks(design, p).map(({ trial, color, dash }) => ({
     id: trial.name,
     column: trial.name,
     x: trial.time,
-    y: shown(trial.position),
+    y: inUnits(trial.position),
     line: { color, dash, width: trial.name === "refined" ? 2.4 : 1.8 },
   }));
   const [bottom, top] = extent([reference]), room = 0.6 * (top - bottom || 1);
@@ -168,7 +171,7 @@ export function stepSpec(design, p, system) {
   return {
     x: { title: "Time (s)", range: [0, last.time.at(-1) ?? 1] },
     y: {
-      title: `Position (${scale.unit})`,
+      title: axisTitle(position.label, position.quantity, system),
       range: [Math.max(low, bottom - room) - 0.05 * room, Math.min(high, top + room) + 0.05 * room],
     },
     traces: [

@@ -2,25 +2,35 @@
 // The tables of the linear view: poles, margins, controllers, robustness.
 import { h } from "../../../dom.js";
 import { units } from "../../../state.js";
-import { withUnit } from "../../../format.js";
+import { figure as declared } from "../../../facts.js";
+import { scaleOf, toShown } from "../../../format.js";
 
 /** @typedef {import("./model.js").Linear} Linear */
 /** @typedef {import("./model.js").Design} Design */
 /** @typedef {import("./model.js").Trial} Trial */
 /** @typedef {NonNullable<Linear["loop"]>["margins"]} Margins */
 
-const DEGREES = 180 / Math.PI;
 /** @param {number | null} x @param {string} [unit] */
 export const figure = (x, unit = "") =>
   x === null || !Number.isFinite(x) ? "–" : `${Number(x.toPrecision(3))}${unit}`.replace("-", "−");
-/** @param {number | null} share */
-const percent = (share) => figure(share === null ? null : 100 * share, " %");
-/** @param {number | null} factor */
-const decibels = (factor) => figure(factor && factor > 0 ? 20 * Math.log10(factor) : null, " dB");
-/** @param {number | null} angle */
-const degrees = (angle) => figure(angle === null ? null : angle * DEGREES, "°");
 
-/** @param {string} caption @param {string[]} heads @param {string[][]} rows */
+/** A value with the unit of its figure. @param {string} key @param {number | null} si */
+function shownAs(key, si) {
+  const scale = scaleOf(declared(key).quantity, units.value), { unit } = scale;
+  return figure(si === null ? null : toShown(si, scale), unit && unit !== "°" ? `\u00a0${unit}` : unit);
+}
+/** @param {string} key */
+const labelOf = (key) => declared(key).label;
+/** A head or the name of a row with its definition. @param {string} key @returns {Head} */
+const named = (key) => ({ text: labelOf(key), title: declared(key).definition });
+
+/** @typedef {string | {text: string, title: string}} Head */
+/** @param {Head} head */
+const textOf = (head) => typeof head === "string" ? head : head.text;
+/** @param {Head} head */
+const titleOf = (head) => typeof head === "string" ? null : head.title;
+
+/** @param {string} caption @param {Head[]} heads @param {[Head, ...(string | HTMLElement)[]][]} rows */
 const table = (caption, heads, rows) =>
   h(
     "div",
@@ -32,34 +42,44 @@ const table = (caption, heads, rows) =>
       h(
         "thead",
         null,
-        h("tr", null, ...heads.map((head) => head ? h("th", { scope: "col" }, head) : h("td", null))),
+        h(
+          "tr",
+          null,
+          ...heads.map((head) =>
+            head ? h("th", { scope: "col", title: titleOf(head) }, textOf(head)) : h("td", null)
+          ),
+        ),
       ),
       h(
         "tbody",
         null,
         ...rows.map(([first, ...cells]) =>
-          h("tr", null, h("th", { scope: "row" }, first), ...cells.map((cell) => h("td", null, cell)))
+          h(
+            "tr",
+            null,
+            h("th", { scope: "row", title: titleOf(first) }, textOf(first)),
+            ...cells.map((cell) => h("td", null, cell)),
+          )
         ),
       ),
     ),
   );
 
+const OF_POLES = /** @type {const} */ (["frequency", "oscillation_frequency", "damping", "time_constant"]);
+
 /** @param {Linear} answer */
 export function polesTable(answer) {
   const model = answer.models.find((m) => m.primary) ?? answer.models[0];
-  const rows = model.poles.map((pole) => [
-    pole.cancelled ? `${pole.kind}, hidden` : pole.kind,
-    figure(pole.frequency, " Hz"),
-    figure(pole.damping),
-    pole.time_constant === null ? "–" : figure(1e3 * pole.time_constant, " ms"),
-  ]);
-  const zeros = model.zeros.map((zero) => {
-    const size = Math.hypot(zero.real, zero.imaginary);
-    return ["zero", figure(size / (2 * Math.PI), " Hz"), figure(size ? -zero.real / size : null), "–"];
-  });
-  return table(`Poles and zeros, ${model.name}`, ["Pole", "Frequency", "Damping", "Time constant"], [
-    ...rows,
-    ...zeros,
+  return table(`Poles and zeros, ${model.name}`, ["Pole", ...OF_POLES.map((name) => named(`pole.${name}`))], [
+    ...model.poles.map((pole) => /** @type {[Head, ...string[]]} */ ([
+      pole.cancelled ? `${pole.kind}, hidden` : pole.kind,
+      ...OF_POLES.map((name) => shownAs(`pole.${name}`, pole[name])),
+    ])),
+    ...model.zeros.map((zero) => /** @type {[Head, ...string[]]} */ ([
+      "zero",
+      shownAs("pole.frequency", zero.frequency),
+      ...OF_POLES.slice(1).map(() => "–"),
+    ])),
   ]);
 }
 
@@ -71,9 +91,9 @@ const entry = (x) =>
  * @param {Linear} answer */
 export function matrixTables(answer) {
   const m = answer.models.find((each) => each.primary) ?? answer.models[0];
-  const named = (/** @type {{name: string, unit: string}[]} */ ports) =>
+  const withUnits = (/** @type {{name: string, unit: string}[]} */ ports) =>
     ports.map(({ name, unit }) => unit === "1" ? name : `${name} (${unit})`);
-  const states = named(m.states), inputs = named(m.inputs), outputs = named(m.outputs);
+  const states = withUnits(m.states), inputs = withUnits(m.inputs), outputs = withUnits(m.outputs);
   const part = (
     /** @type {string} */ of,
     /** @type {string[]} */ rows,
@@ -83,7 +103,7 @@ export function matrixTables(answer) {
     table(
       `${of}, ${m.name}`,
       ["", ...states, ...inputs],
-      rows.map((row, i) => [row, ...[...left[i], ...right[i]].map(entry)]),
+      rows.map((row, i) => [row, ...[...left[i], ...right[i]].map((x) => entry(x))]),
     );
   return [
     h("p", { class: "hint" }, `${m.name}, SI: dx/dt = A x + B u, columns are states, then inputs`),
@@ -94,28 +114,39 @@ export function matrixTables(answer) {
 }
 
 /** @param {Linear} answer */
-export function modelsTable(answer) {
-  const unit = ` ${answer.output.unit}`;
-  return table(
+export const modelsTable = (answer) =>
+  table(
     "Models",
-    ["Model", "Static gain", "Bandwidth"],
+    ["Model", named("linear_model.static_gain"), named("linear_model.bandwidth")],
     answer.models.map((m) => [
       m.primary && answer.models.length > 1 ? `${m.name} (used)` : m.name,
-      m.static_gain === null ? "integrates" : figure(m.static_gain, unit),
-      figure(m.bandwidth, " Hz"),
+      m.static_gain === null ? "integrates" : figure(m.static_gain, ` ${answer.gain_unit}`),
+      m.bandwidth === null
+        ? h("abbr", { title: m.bandwidth_note }, "–")
+        : shownAs("linear_model.bandwidth", m.bandwidth),
     ]),
   );
-}
+
+const OF_LOOP = /** @type {const} */ (
+  [
+    "gain_margin",
+    "gain_margin_at",
+    "phase_margin",
+    "crossover",
+    "delay_margin",
+    "modulus_margin",
+    "bandwidth",
+  ]
+);
 
 /** @param {Margins} m */
 export const marginsTable = (m) =>
-  table("Loop with the controller of the drive", ["Loop", "", ""], [
-    ["closed loop", m.stable ? "stable" : "unstable", ""],
-    ["gain margin", decibels(m.gain_margin), figure(m.gain_margin_at, " Hz")],
-    ["phase margin", degrees(m.phase_margin), figure(m.crossover, " Hz")],
-    ["delay margin", m.delay_margin === null ? "–" : figure(1e3 * m.delay_margin, " ms"), ""],
-    ["least distance from −1", figure(m.modulus_margin), ""],
-    ["bandwidth", figure(m.bandwidth, " Hz"), ""],
+  table("Loop with the controller of the drive", ["Loop", ""], [
+    ["Closed loop", m.stable ? "stable" : "unstable"],
+    ...OF_LOOP.map((name) => /** @type {[Head, string]} */ ([
+      named(`margins.${name}`),
+      shownAs(`margins.${name}`, m[name]),
+    ])),
   ]);
 
 /** @type {Record<string, string>} */
@@ -123,38 +154,40 @@ export const TRIALS = { own: "own", rule: "by the rule", refined: "refined" };
 
 /** @param {Design} design */
 export function trialsTable(design) {
-  const system = units.value;
-  /** @type {[string, (t: Trial) => string][]} */
-  const rows = [
-    ["kp (%/mm)", (t) => figure(t.controller.kp / 10)],
-    ["ki (%/(mm s))", (t) => figure(t.controller.ki / 10)],
-    ["kd (% s/mm)", (t) => figure(t.controller.kd / 10)],
-    ["overshoot", (t) => percent(t.figures.overshoot)],
-    ["settling time", (t) => figure(t.figures.settling, " s")],
-    ["rise time", (t) => figure(t.figures.rise, " s")],
-    ["time at the limits", (t) => percent(t.figures.saturated)],
-    ["linear loop", (t) => t.margins.stable ? "stable" : "unstable"],
-    ["gain margin", (t) => decibels(t.margins.gain_margin)],
-    ["phase margin", (t) => degrees(t.margins.phase_margin)],
-    ["meets the goals", (t) => t.figures.meets ? "yes" : "no"],
-  ];
-  return table(
-    `Controllers: steps of ${withUnit(design.goals.step, "length", system)}`,
-    ["", ...design.trials.map((t) => TRIALS[t.name])],
-    rows.map(([name, cell]) => [name, ...design.trials.map(cell)]),
-  );
+  /** @param {string} key @param {(t: Trial) => number | null} value @returns {[Head, ...string[]]} */
+  const row = (key, value) => [named(key), ...design.trials.map((t) => shownAs(key, value(t)))];
+  return table(`Controllers: steps of ${shownAs("design.step", design.goals.step)}`, [
+    "",
+    ...design.trials.map((t) => TRIALS[t.name]),
+  ], [
+    row("controller.kp", (t) => t.controller.kp),
+    row("controller.ki", (t) => t.controller.ki),
+    row("controller.kd", (t) => t.controller.kd),
+    row("controller.feed_forward", (t) => t.controller.feed_forward),
+    row("step_design.overshoot", (t) => t.figures.overshoot),
+    row("step_design.settling", (t) => t.figures.settling),
+    row("step_design.rise", (t) => t.figures.rise),
+    row("step_design.saturated", (t) => t.figures.saturated),
+    ["Linear loop", ...design.trials.map((t) => t.margins.stable ? "stable" : "unstable")],
+    row("margins.gain_margin", (t) => t.margins.gain_margin),
+    row("margins.phase_margin", (t) => t.margins.phase_margin),
+    ["Meets the goals", ...design.trials.map((t) => t.figures.meets ? "yes" : "no")],
+  ]);
 }
 
 /** @param {Design} design */
 export const robustTable = (design) =>
   table(
     "The refined controller with another mass and supply",
-    ["Mass", "Supply", "Overshoot", "Settling", "Goals"],
+    [
+      ...["design.mass", "design.supply", "step_design.overshoot", "step_design.settling"].map(named),
+      "Goals",
+    ],
     design.robust.map((v) => [
-      percent(v.mass),
-      percent(v.supply),
-      percent(v.figures.overshoot),
-      figure(v.figures.settling, " s"),
+      shownAs("design.mass", v.mass),
+      shownAs("design.supply", v.supply),
+      shownAs("step_design.overshoot", v.figures.overshoot),
+      shownAs("step_design.settling", v.figures.settling),
       v.figures.meets ? "met" : "missed",
     ]),
   );
