@@ -22,7 +22,8 @@ SHORT = 45
 # Labels that are names of entries in forms and documents, too.
 ENTRIES = {
     "Rest length", "Supply pressure", "Tube length", "Pulley radius", "Outer diameter", "Standard deviation",
-    "Braid diameter", "Braid angle", "Fixed length", "External force", "Sample time", "Lowest command", "Highest command",
+    "Braid diameter", "Braid angle", "Fixed length", "External force",
+    "Sample time", "Lowest command", "Highest command",
 }  # fmt: skip
 LABELS = {
     figure.label: figure.key
