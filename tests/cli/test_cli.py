@@ -223,7 +223,7 @@ def test_a_fit_beats_the_given_parameters(run: Run) -> None:
 def test_compare_tells_where_the_model_fails(run: Run) -> None:
     code, out, err = run("compare", "martens-dmsp-20-300", "--muscle", "DMSP-20", "--ideal")
     assert code == 0
-    assert "noise floor" in out
+    assert "Noise" in out
     assert "rms; this variable alone predicts" in err
     assert "the residual is not noise: it has structure" in err
     answer = json.loads(run("compare", "martens-dmsp-20-300", "--muscle", "DMSP-20", "--ideal", "--json")[1])

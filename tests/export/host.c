@@ -1,13 +1,13 @@
 /* A small importer: co-simulation in steps of a millisecond, then every other kind of call once.
- * Writes the position after each step as doubles. Arguments: GUID, steps. FMI is 2 or 3. */
+ * Writes the position after each step as doubles. Arguments: GUID, steps. */
 #include "access.h"
+#include "fmi.h"
 
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#if FMI == 2
-#include "fmi2.h"
+#if FMI_VERSION == 2
 #define OK fmi2OK
 typedef fmi2Component component;
 fmi2Component fmi2Instantiate(fmi2String, fmi2Type, fmi2String, fmi2String, const fmi2CallbackFunctions *,
@@ -71,7 +71,6 @@ static int directional(component c, const unsigned *unknowns, size_t rows, const
 typedef fmi2FMUstate kept_state;
 typedef char kept_byte;
 #else
-#include "fmi3.h"
 #define OK fmi3OK
 typedef fmi3Instance component;
 fmi3Instance fmi3InstantiateCoSimulation(fmi3String, fmi3String, fmi3String, fmi3Boolean, fmi3Boolean,

@@ -15,7 +15,7 @@ import numpy as np
 import pytest
 
 from mckibben.export.fmu import package
-from mckibben.export.fmu.dialects import FMI2, FMI3, Dialect
+from mckibben.export.fmu.dialects import FMI2, FMI3
 from tests.export.fmus import fmu_of, our_run
 from tests.export.test_c import FLAGS, SANITIZERS
 from tests.export.test_fmu import subject_named
@@ -33,11 +33,10 @@ def positions(program: Path, token: str, *, environment: dict[str, str] | None =
     return np.frombuffer(done.stdout)
 
 
-def built(folder: Path, dialect: Dialect, files: list[str], *flags: str) -> Path:
+def built(folder: Path, files: list[str], *flags: str) -> Path:
     """The importer with some other files."""
     shutil.copy(HOST, folder)
-    fmi = f"-DFMI={dialect.version[0]}"
-    command = ["gcc", *FLAGS, fmi, *flags, "-o", "host", "host.c", *files, "-lm", "-Wl,-rpath,$ORIGIN"]
+    command = ["gcc", *FLAGS, *flags, "-o", "host", "host.c", *files, "-lm", "-Wl,-rpath,$ORIGIN"]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr[:3000]
     return folder / "host"
@@ -66,8 +65,8 @@ def test_the_binary_runs_without_python_and_the_sources_under_sanitizers(name, d
     with zipfile.ZipFile(fmu_of(model, tmp_path, "drive", dialect)) as archive:
         (member,) = (each for each in archive.namelist() if each.endswith(".so"))
         (tmp_path / "drive.so").write_bytes(archive.read(member))
-    alone = positions(built(tmp_path, dialect, ["drive.so"]), token, environment={})
-    checked = positions(built(tmp_path, dialect, package.compiled(texts), *SANITIZERS), token)
+    alone = positions(built(tmp_path, ["drive.so"]), token, environment={})
+    checked = positions(built(tmp_path, package.compiled(texts), *SANITIZERS), token)
     run = our_run(model, 1e-3 * np.arange(1, STEPS + 1))
     ours = run.states["stroke"] / run.drive.load.lever_ratio
     assert np.ptp(ours) > 1e-3

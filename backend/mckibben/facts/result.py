@@ -53,7 +53,14 @@ def result_class(cls: type[ClassT]) -> type[ClassT]:
     }
     described_class: Any = cls
     described_class.__pydantic_config__ = config
-    described_class.__post_init__ = _freeze_arrays
+    checked = getattr(cls, "__post_init__", None)
+
+    def complete(self: Any) -> None:
+        if checked is not None:
+            checked(self)
+        _freeze_arrays(self)
+
+    described_class.__post_init__ = complete
     return dataclass(frozen=True, slots=True)(cls)
 
 

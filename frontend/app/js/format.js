@@ -50,7 +50,7 @@ export const scaleOf = (quantity, system) => SCALES[quantity][system];
 export const toShown = (si, s) =>
   s.decibels ? si > 0 ? 20 * Math.log10(si) : NaN : (si - (s.offset ?? 0)) / s.factor;
 /** @param {number} shown @param {Scale} s */
-export const toSi = (shown, s) => shown * s.factor + (s.offset ?? 0);
+export const toSi = (shown, s) => s.decibels ? 10 ** (shown / 20) : shown * s.factor + (s.offset ?? 0);
 
 /** 1, 2 or 5 times a power of ten, at most x. @param {number} x */
 export function niceStep(x) {
