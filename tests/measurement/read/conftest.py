@@ -1,6 +1,6 @@
 """Readers are tested in the process of the test: a copy of it for each of thousands of files takes a minute.
 
-`test_process.py` tests the copy and its limits; server, command line and Python door read through it in theirs.
+`test_process.py` tests the copy and its limits, through which server, command line and Python door read.
 """
 
 from __future__ import annotations
