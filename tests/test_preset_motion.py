@@ -105,7 +105,7 @@ def lift(studio: Studio, muscle: str, length: str, mass: str, effects: Any) -> S
         "duration": "10 s",
     }
     given = drive_of(DriveDocument.model_validate(document), studio)
-    return simulate(SimulationQuestion(given, points=4001, engine="rodas"))
+    return simulate(SimulationQuestion(given, points=4001))
 
 
 @pytest.mark.parametrize(

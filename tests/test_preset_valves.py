@@ -105,9 +105,7 @@ def test_times_of_switching_valves_beside_the_figures_that_did_not_make_them() -
 def run(name: str, **changes: Any) -> SimulationResult:
     flow = {} if "sonic_conductance" in valve(name).data else {"sonic_conductance": "3 l/(s*bar)"}
     document = {**HELD, "valve": {"preset": name, **flow}, "effects": None, **changes}
-    return simulate(
-        SimulationQuestion(drive_of(read_document(document, name), STUDIO), points=2001, engine="rodas")
-    )
+    return simulate(SimulationQuestion(drive_of(read_document(document, name), STUDIO), points=2001))
 
 
 @pytest.mark.parametrize("name", REGULATORS)

@@ -16,7 +16,7 @@ from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
-from mckibben.simulation.integrate.engine import kernel
+from mckibben.simulation.integrate.lane_buffers import lane_kernels
 from tests.shipped import shipped_studio
 
 DRIVES = int(os.environ.get("MCKIBBEN_DRIVES", "30"))
@@ -98,7 +98,7 @@ def documents(studio: Studio) -> Iterator[dict[str, Any]]:
 
 
 def test_random_drives_end_with_a_name() -> None:
-    kernel.warm().join()
+    lane_kernels.warm().join()
     studio = shipped_studio()
     outcomes: Counter[str] = Counter()
     for number, document in enumerate(documents(studio)):

@@ -28,6 +28,11 @@ def presets_folder() -> Path:
     return _packaged_or_checkout("presets", "presets")
 
 
+def installed_code_folder() -> Path:
+    """Code that was compiled while the package was installed; made by ``backend/compile_kernels.py``."""
+    return _PACKAGE / "_data" / "compiled"
+
+
 def plotly_javascript() -> tuple[Path, str]:
     """The plotly.js bundle inside the installed plotly wheel, and the wheel's version.
 

@@ -40,23 +40,25 @@ from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
 from mckibben.simulation.drive.transient import simulate
-from mckibben.simulation.integrate.engine import compiled_drive, integrate, kernel
+from mckibben.simulation.integrate.engine import Solution, compiled_drive, integrate
+from mckibben.simulation.integrate.lane_buffers import lane_kernels
 from tests.benchmarks.lift import DOCUMENT, ROWS, WITH_SPOOL, Lift, Positions, by_pieces
 from tests.benchmarks.translated import translated
 from tests.simulation.event_radau import Piece
+from tests.simulation.lsoda import integrated
 
 ACCURACY, ROUNDS = 1e-5, 15
 TOLERANCES = 10.0 ** np.arange(-3.5, -10.1, -0.25)
 
 
-def kernel_positions(lift: Lift, engine: str) -> Positions:
+def kernel_positions(lift: Lift, by: Callable[..., Solution] = integrate) -> Positions:
     """Our engine: the kernel, or the same machine code under scipy's solve_ivp."""
 
     def positions(number: int, tolerance: float) -> np.ndarray:
         start = lift.start(number)
-        rows = integrate(
+        rows = by(
             lift.compiled, parameters=lift.parameters[number], start=start.state, switches=start.switches,
-            times=lift.times, inputs=lift.inputs, grid=lift.grid, tolerance=tolerance, engine=engine,
+            times=lift.times, inputs=lift.inputs, grid=lift.grid, tolerance=tolerance,
         ).rows  # fmt: skip
         return rows[:, lift.stroke].copy()  # a view would keep all rows of a thousand runs
 
@@ -139,9 +141,9 @@ def compare_engines(lift: Lift, better: Lift) -> float:
     """The table of integrators, ours with quick and with better machine code; returns our tolerance."""
     references = [run.strokes for run in lift.references]
     candidates: dict[str, Positions | None] = {
-        "machine code, Rodas4 kernel": kernel_positions(lift, "rodas"),
-        "the same at level 1": kernel_positions(better, "rodas"),
-        "machine code, scipy solve_ivp LSODA": kernel_positions(lift, "lsoda"),
+        "machine code, Rodas4 kernel": kernel_positions(lift),
+        "the same at level 1": kernel_positions(better),
+        "machine code, scipy solve_ivp LSODA": kernel_positions(lift, integrated),
         "Python right-hand side, scipy odeint": python_positions(lift),
         "CasADi cvodes": casadi_positions(lift),
     }
@@ -182,7 +184,7 @@ def throughput(studio: Studio, tolerance: float) -> None:
     say("|---:|---:|---:|---:|---:|")
     for level in (0, 1):
         lift = Lift(studio, level=level)
-        positions, count = kernel_positions(lift, "rodas"), len(lift.parameters)
+        positions, count = kernel_positions(lift), len(lift.parameters)
         for threads in (1, 2):
             with ThreadPoolExecutor(threads) as pool:
                 began, used = time.perf_counter(), time.process_time()
@@ -197,7 +199,7 @@ def levels(studio: Studio, tolerance: float) -> None:
     say("|---:|---:|---:|")
     for level in range(4):
         lift = Lift(studio, level=level)
-        structure, positions = lift.drive.structure, kernel_positions(lift, "rodas")
+        structure, positions = lift.drive.structure, kernel_positions(lift)
         built = [timed(lambda: compiled_drive.__wrapped__(structure, level)) for _ in range(5)]  # noqa: B023
         ran = [timed(lambda: positions(0, tolerance)) for _ in range(20)]  # noqa: B023
         say(f"| {level} | {min(built) * 1e3:.0f} | {min(ran) * 1e3:.2f} |")
@@ -228,8 +230,8 @@ def costs(studio: Studio) -> None:
             drive = drive_of(read_document(document, "the lift"), studio).drive
             for _ in range(3):
                 built.append(timed(lambda: compiled_drive.__wrapped__(drive.structure)))  # noqa: B023
-            run = simulate(drive, points=ROWS, engine="rodas")
-            ran.append(min(simulate(drive, points=ROWS, engine="rodas").wall_seconds for _ in range(3)))
+            run = simulate(drive, points=ROWS)
+            ran.append(min(simulate(drive, points=ROWS).wall_seconds for _ in range(3)))
             states.append(len(run.states))
             steps.append(run.steps)
         say(
@@ -241,7 +243,7 @@ def costs(studio: Studio) -> None:
 
 def main() -> int:
     """Measure everything and print it."""
-    kernel.warm().join()
+    lane_kernels.warm().join()
     studio = Studio(presets=presets_folder())
     lift = Lift(studio)
     say(f"reference lift: {lift.compiled.size} states with the clock, {ROWS} rows")

@@ -81,7 +81,7 @@ class Sets:
                 rows.append(integrate(
                     self.compiled, parameters=self.parameters[index], start=self.starts.states[index],
                     switches=self.starts.switches[index], times=self.times, inputs=self.inputs,
-                    grid=self.grid, tolerance=tolerance, engine="rodas", restitution=self.drive.restitution,
+                    grid=self.grid, tolerance=tolerance, restitution=self.drive.restitution,
                 ).rows)  # fmt: skip
                 found.append(rows[-1][:, self.stroke].copy())
             return np.array(found)

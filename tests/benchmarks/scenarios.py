@@ -65,7 +65,7 @@ def run_scenario(studio: Studio, preset_id: str) -> Scenario:
     given = drive_of(preset_document(preset_id, studio), studio)
     duration = given.drive.duration
     grid = grid_of(duration=duration, begin=0.0, end=duration, points=POINTS)
-    run = run_drive(given, grid, engine="rodas")
+    run = run_drive(given, grid)
     return Scenario(preset, given, run, result_of(given, grid, run))
 
 

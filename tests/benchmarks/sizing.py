@@ -25,7 +25,8 @@ from mckibben.application.size.task import catalogue_of, task_of
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.resources import presets_folder
-from mckibben.simulation.integrate.engine import integrate, kernel
+from mckibben.simulation.integrate.engine import integrate
+from mckibben.simulation.integrate.lane_buffers import lane_kernels
 from mckibben.simulation.outcome import Watch
 from mckibben.sizing import Sizing, size
 from mckibben.sizing.batch import Bench
@@ -82,7 +83,7 @@ def events_of(prepared: Prepared) -> np.ndarray:
     return integrate(
         prepared.compiled, parameters=prepared.parameters, start=start.state, switches=start.switches,
         restitution=prepared.drive.restitution, times=line.times, inputs=prepared.inputs, grid=line.grid,
-        tolerance=TOLERANCE, engine="rodas",
+        tolerance=TOLERANCE,
     ).events  # fmt: skip
 
 
@@ -108,7 +109,7 @@ def ratio(bench: Bench, designs: list[Design]) -> None:
 
 def main() -> int:
     """Measure everything and print it."""
-    kernel.warm().join()
+    lane_kernels.warm().join()
     studio = Studio(presets=presets_folder())
     document = SizingTask.model_validate(TASK)
     task, catalogue = task_of(document), catalogue_of(document, studio)

@@ -128,7 +128,7 @@ def own_studio() -> Studio:
     # Imported here: each process limits its threads before numpy is loaded.
     from mckibben.documents.studio import Studio
     from mckibben.resources import presets_folder
-    from mckibben.simulation.integrate.engine import kernel
+    from mckibben.simulation.integrate.lane_buffers import lane_kernels
 
-    kernel.warm().join()
+    lane_kernels.warm().join()
     return Studio(presets=presets_folder())

@@ -17,6 +17,7 @@ from mckibben.export.subject import Subject
 from mckibben.simulation.drive.transient import Run, simulate
 from mckibben.simulation.timing.evaluation import timing_of, trace_of
 from tests.one_at_a_time import one_at_a_time
+from tests.simulation.lsoda import simulated as simulated_by_lsoda
 
 STRICT = Compiler("linux64", (("", ("gcc", "-Wall", "-Wextra", "-Werror", "-pedantic")),))
 KINDS = ("CoSimulation", "ModelExchange")
@@ -84,7 +85,7 @@ def our_run(subject: Subject, time: np.ndarray) -> Run:
     assert subject.runnable is not None
     drive = subject.runnable.drive
     grid = np.unique(np.clip(np.round(time, 9), 0.0, drive.duration))
-    return simulate(drive, grid=grid, tolerance=TOLERANCE, engine="rodas")
+    return simulate(drive, grid=grid, tolerance=TOLERANCE)
 
 
 def position_error(rows: np.ndarray, run: Run) -> float:
@@ -130,7 +131,7 @@ def timing_error(rows: np.ndarray, run: Run, subject: Subject) -> tuple[dict[str
     by the kernel and by LSODA are named and not compared.
     """
     ours, theirs = figures(run), figures(as_run(rows, run, subject))
-    others = figures(simulate(run.drive, grid=run.time, tolerance=TOLERANCE, engine="lsoda"))
+    others = figures(simulated_by_lsoda(run.drive, grid=run.time, tolerance=TOLERANCE))
     assert ours.keys() == theirs.keys() == others.keys()
 
     def difference(name: str, other: dict[str, float]) -> float:

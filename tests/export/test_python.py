@@ -14,13 +14,11 @@ from scipy.integrate import solve_ivp
 
 from mckibben.export.formats.python import write
 from mckibben.export.subject import Subject
-from mckibben.simulation.drive.transient import parameters_of, simulate
-from mckibben.simulation.integrate.lsoda import _Run
-from mckibben.simulation.integrate.problem import Problem
+from mckibben.simulation.drive.transient import parameters_of
 from mckibben.simulation.integrate.system import compiled_drive
-from mckibben.simulation.outcome import Watch
 from tests.export.models import assert_equal, cases, our_rates, ours, random_inputs, studio, subject
 from tests.export.test_c import DRIVES, drive, packed, random_rows
+from tests.simulation.lsoda import Problem, _Run, simulated
 
 ROWS = 1000
 
@@ -111,7 +109,7 @@ def test_the_written_drive_makes_the_run_of_the_engine():
             now = end
     grid = np.concatenate(times[1:])
     kept = np.concatenate(([True], np.diff(grid) > 1e-9))
-    run = simulate(runnable.drive, grid=grid[kept], engine="lsoda", tolerance=1e-7)
+    run = simulated(runnable.drive, grid=grid[kept], tolerance=1e-7)
     theirs = np.concatenate(strokes[1:])[kept]
     assert np.max(run.states["stroke"]) > 0.19
     assert np.max(np.abs(theirs - run.states["stroke"])) < 1e-4
@@ -136,7 +134,7 @@ def test_a_switch_changes_as_in_the_engine(name):
                 restitution=runnable.drive.restitution, state=point[: len(names)].copy(), switches=w.copy(),
                 times=np.array([0.0, 1.0]), inputs=np.zeros((1, 7)), grid=np.zeros(1), tolerance=1e-6,
             )  # fmt: skip
-            run = _Run(problem, Watch())
+            run = _Run(problem)
             run.packed[run.first_input : run.first_switch] = point[len(names) + len(parameters) :]
             run.change(number, 0.0)
             state, switches = module.change(

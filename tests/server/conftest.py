@@ -15,7 +15,7 @@ from fastapi.testclient import TestClient
 
 from mckibben.server.app import create_app
 from mckibben.server.settings import Settings
-from mckibben.simulation.integrate.engine import kernel
+from mckibben.simulation.integrate.lane_buffers import lane_kernels
 
 T = TypeVar("T")
 URL = "http://127.0.0.1:8000"
@@ -31,7 +31,7 @@ def _kernel_is_ready() -> None:
     ``warnings.catch_warnings`` is not safe between threads: what FastAPI silences while it builds a route
     could come out as an error of the test.
     """
-    kernel.warm().join()
+    lane_kernels.warm().join()
 
 
 @pytest.fixture

@@ -108,3 +108,12 @@ def test_a_file_that_vanishes_while_the_folder_is_tidied_costs_nothing(place: Pa
     (file.parent / "vanished").symlink_to(place / "nothing")
     kept_code._folder.cache_clear()
     assert kept(b"one") == b"code"
+
+
+def test_code_of_the_installation_is_found(place: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    keep(b"one", b"code")
+    monkeypatch.setattr(kept_code, "installed_code_folder", lambda: place)
+    monkeypatch.setenv("MCKIBBEN_CACHE", "off")
+    kept_code._folder.cache_clear()
+    assert kept(b"one") == b"code"
+    assert kept(b"two") is None

@@ -76,7 +76,7 @@ def specimen(drive: Drive, off: float, *, shift: float, friction: float, factor:
 
 def passes(drive: Drive, begin: float, end: float, time: float) -> bool:
     """Whether the load arrives in time and rests on its stop until the end of the fill."""
-    run = simulate(drive, points=1001, tolerance=1e-8, engine="rodas")
+    run = simulate(drive, points=1001, tolerance=1e-8)
     hits = [event.time for event in run.events if event.impact and event.switch == HIGH_STOP]
     if not hits or hits[0] - begin > time:
         return False

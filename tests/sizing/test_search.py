@@ -65,7 +65,7 @@ def test_every_proposal_is_a_drive_that_runs_as_it_says(studio: Studio, name: st
     assert answer["proposals"]
     for proposal in answer["proposals"]:
         document = read_document(proposal["drive"], "the drive")
-        run = simulate(SimulationQuestion(drive_of(document, studio), engine="rodas"))
+        run = simulate(SimulationQuestion(drive_of(document, studio)))
         assert run.outcome == "completed"
         up, down = run.timing.extend, run.timing.retract
         assert up.positioning_time == pytest.approx(proposal["time"], rel=2e-3)
@@ -243,7 +243,7 @@ def test_a_search_whose_time_is_over_keeps_the_drives_found_so_far(
         return
     assert len(result.proposals) == 3
     for p in result.proposals:  # each is a drive that does the task, by a run of its own
-        run = simulate(SimulationQuestion(drive_of(p.drive, studio), engine="rodas"))
+        run = simulate(SimulationQuestion(drive_of(p.drive, studio)))
         assert run.timing.extend.positioning_time == pytest.approx(p.time, rel=2e-3)
         assert p.time is not None
         assert p.time <= 0.5

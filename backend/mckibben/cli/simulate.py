@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from mckibben.application.run.drive_run import single_run_engine
 from mckibben.application.run.simulate import SimulationQuestion, simulate
 from mckibben.application.run.trace import trace_text
 from mckibben.application.text_file import write_text
@@ -26,7 +25,7 @@ def run(studio: Studio, *, drive: str, out: Path | None, as_json: bool) -> None:
     document = named_document(drive, studio)
     try:
         annotated = drive_of(document, studio)
-        result = simulate(SimulationQuestion(annotated, engine=single_run_engine(annotated)))
+        result = simulate(SimulationQuestion(annotated))
     except InputError as error:
         raise InputError(f"{drive}: {located(error.field, error.message)}", hint=error.hint) from error
     if out is not None:

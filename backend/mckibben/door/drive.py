@@ -11,7 +11,6 @@ from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
 from mckibben.application.linear.linearise import LinearQuestion, linear_view
 from mckibben.application.linear.text import condition_of, goals_of
-from mckibben.application.run.drive_run import single_run_engine
 from mckibben.application.run.simulate import POINTS, SimulationQuestion, prepare
 from mckibben.application.text_file import write_text
 from mckibben.documents.drive import DriveDocument
@@ -183,7 +182,6 @@ class Drive(Exportable):
             points=points,
             begin=None if begin is None else number_of(begin, "s", "begin"),
             end=None if end is None else number_of(end, "s", "end"),
-            engine=single_run_engine(annotated),
         )
         result = prepare(question)(Watch(progress=None if progress is None else _teller(progress)))
         return Run.of(result, _document=self._document, _name=self._name)

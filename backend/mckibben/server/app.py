@@ -45,7 +45,6 @@ from mckibben.server.routes import (
 from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
 from mckibben.server.server_timing import TimingMiddleware
 from mckibben.server.settings import Settings
-from mckibben.simulation.drive.isotonic import carrying
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.version import __version__
 
@@ -171,7 +170,6 @@ def _warm() -> None:
     It would otherwise hold up every request for two tenths of a second each time.
     """
     lane_kernels.warm().join()
-    carrying.warm().join()
     gc.freeze()
 
 

@@ -24,7 +24,6 @@ from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.server.jobs import JOBS
 from mckibben.server.settings import Settings
-from mckibben.simulation.drive.isotonic import carrying
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.simulation.outcome import Watch
 
@@ -93,7 +92,6 @@ def begin(settings: Settings, memory: int, compiled: bool) -> None:
     # ever takes longer, and goes on beside the first job.
     if compiled:
         lane_kernels.warm().join(_KERNELS_WITHIN)
-        carrying.warm().join(_KERNELS_WITHIN)
     else:
         load_readers()
     _own = _Own(studio, MeasurementStore(settings.data, quota=settings.quota), memory)

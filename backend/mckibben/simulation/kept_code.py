@@ -1,7 +1,8 @@
 """Machine code, kept on disk: compiled once on a machine, and not in every process again.
 
-Loading takes a hundredth of the time of compiling. Code is found by a key that holds all it was made from;
-the folder goes by the processor. Nothing fails when a file cannot be read or written: then it is compiled.
+Loading takes a hundredth of the time of compiling. Code is found by a key that holds all it was made from, in
+the user's folder or among what was compiled with the installation; the folder goes by the processor. Nothing
+fails when a file cannot be read or written: then it is compiled.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from functools import cache
 from hashlib import blake2b
 from pathlib import Path
 
-from mckibben.resources import cache_folder
+from mckibben.resources import cache_folder, installed_code_folder
 
 _SUM = 16  # bytes of the checksum before the code
 _MOST = 200e6  # bytes kept
@@ -27,15 +28,13 @@ _UNUSED = 30 * 24 * 3600.0  # s after which the code for another processor is re
 
 def kept(key: bytes) -> bytes | None:
     """The code of a key; None if there is none, or if it is not as it was written."""
-    folder = _folder()
-    if folder is None:
-        return None
-    try:
-        content = (folder / _name(key)).read_bytes()
-    except OSError:
-        return None
-    code = content[_SUM:]
-    return code if blake2b(code, digest_size=_SUM).digest() == content[:_SUM] else None
+    for folder in (_folder(), _of_processor(installed_code_folder())):
+        with suppress(OSError):
+            content = b"" if folder is None else (folder / _name(key)).read_bytes()
+            code = content[_SUM:]
+            if code and blake2b(code, digest_size=_SUM).digest() == content[:_SUM]:
+                return code
+    return None
 
 
 def keep(key: bytes, code: bytes) -> None:
@@ -85,7 +84,7 @@ def _folder() -> Path | None:
     place = cache_folder()
     if place is None:
         return None
-    folder = place / "code" / blake2b(_processor().encode(), digest_size=8).hexdigest()
+    folder = _of_processor(place)
     try:
         folder.mkdir(parents=True, exist_ok=True, mode=0o700)
         os.utime(folder)
@@ -96,6 +95,11 @@ def _folder() -> Path | None:
     return folder
 
 
+def _of_processor(place: Path) -> Path:
+    return place / "code" / blake2b(_processor().encode(), digest_size=8).hexdigest()
+
+
+@cache
 def _processor() -> str:
     """What machine code must suit."""
     with suppress(OSError):

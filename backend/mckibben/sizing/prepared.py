@@ -136,7 +136,6 @@ class Prepared:
                 inputs=inputs,
                 grid=line.grid,
                 tolerance=TOLERANCE,
-                engine="rodas",
             )
         names = [*(state.name for state in compiled.model.states), *compiled.model.output_names]
         rows = solution.rows[None, :, [names.index(name) for name in self.columns]]

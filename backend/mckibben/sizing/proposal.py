@@ -90,7 +90,7 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
     step = time_step(drive.duration)
     grid = np.linspace(0.0, drive.duration, ceil(drive.duration / step) + 1)
     with np.errstate(all="ignore"):
-        run = simulate(drive, grid=grid, engine="rodas")
+        run = simulate(drive, grid=grid)
     if run.outcome is not Outcome.COMPLETED or not np.isfinite(run.states["stroke"]).all():
         return None
     on = switch_on(task, group.duty)

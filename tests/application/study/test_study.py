@@ -61,7 +61,7 @@ def test_a_run_has_the_figures_of_a_simulation_of_its_document(studio):
     for run in (0, 7, 19):
         point = [result.table[name][run] for name in ("load.mass", "supply.pressure")]
         drive = drive_of(read_document(asked.document_of(point), "the drive"), studio)
-        alone = simulate(SimulationQuestion(drive, engine="rodas"))
+        alone = simulate(SimulationQuestion(drive))
         assert result.table["timing.extend.rise_time"][run] == pytest.approx(
             alone.timing.extend.rise_time, rel=1e-6
         )

@@ -16,6 +16,7 @@ from mckibben.simulation.timing.evaluation import timing_of, trace_of
 from mckibben.simulation.timing.table import PhaseFigures, TimingTable
 from tests.shipped import shipped_studio
 from tests.simulation.drive.independent import AMBIENT, RHO0, T0, R, Rig
+from tests.simulation.lsoda import simulated
 
 STUDIO = shipped_studio()
 POSITION = 1e-5  # m
@@ -24,7 +25,7 @@ RELATIVE, LAPSE, SPEED = 1e-3, 1e-4, 1e-3  # 0.1 %, 0.1 ms, 1 mm/s
 
 def run_of(document: dict, points: int = 4001, **options) -> Run:
     drive = drive_of(read_document(document, "the drive"), STUDIO).drive
-    return simulate(drive, points=points, engine="rodas", **options)
+    return simulate(drive, points=points, **options)
 
 
 def timing(run: Run) -> TimingTable:
@@ -149,11 +150,11 @@ LIFT = {
 
 
 @pytest.mark.parametrize("restitution", [0.0, 0.5])
-def test_both_engines_find_the_same_impacts(restitution: float) -> None:
+def test_another_integrator_finds_the_same_impacts(restitution: float) -> None:
     """A load that leaves its stop from rest is no impact, whatever rounding error its speed has."""
     stops = {"max_contraction": "12 %", "restitution": restitution}
     drive = drive_of(read_document({**LIFT, "stops": stops}, "the drive"), STUDIO).drive
-    rodas, lsoda = (simulate(drive, points=2001, engine=engine) for engine in ("rodas", "lsoda"))
+    rodas, lsoda = (run(drive, points=2001) for run in (simulate, simulated))
     hits = [[event for event in run.events if event.impact] for run in (rodas, lsoda)]
     assert [event.switch for event in hits[0]] == [event.switch for event in hits[1]]
     assert [event.time for event in hits[1]] == pytest.approx([event.time for event in hits[0]], abs=1e-4)

@@ -12,7 +12,8 @@ from mckibben.application.run.simulate import SimulationQuestion, SimulationResu
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.physics.errors import InputError
-from mckibben.simulation.drive.joint import JointStiffness, common_limits
+from mckibben.simulation.command.joint import common_command
+from mckibben.simulation.drive.joint import JointStiffness
 from tests.shipped import shipped_studio
 
 STUDIO = shipped_studio()
@@ -47,7 +48,7 @@ def changed(document: dict[str, Any], **controller: Any) -> dict[str, Any]:
 
 def run(document: dict[str, Any]) -> SimulationResult:
     annotated = drive_of(read_document(document, "joint"), STUDIO)
-    return simulate(SimulationQuestion(annotated, points=501, engine="rodas"))
+    return simulate(SimulationQuestion(annotated, points=501))
 
 
 def test_the_stiffness_of_a_joint_of_ideal_muscles_is_its_closed_form() -> None:
@@ -59,18 +60,33 @@ def test_the_stiffness_of_a_joint_of_ideal_muscles_is_its_closed_form() -> None:
     # k = 3 L P/(2 pi n^2) of each muscle, at 270 mm minus and plus the stroke.
     each = [3.0 * (0.27 - s * stroke) * p / (2.0 * pi * turns**2) for s, p in ((1, first), (-1, second))]
     assert joint.value(stroke, first, second) == pytest.approx(RADIUS**2 * sum(each), rel=1e-6)
-    mean = joint.common_pressure(20.0, stroke, difference=0.75e5)
-    assert joint.value(stroke, mean + 0.75e5, mean - 0.75e5) == pytest.approx(20.0, rel=1e-9)
-    assert joint.missing_pressure(20.0, stroke, mean + 0.75e5, mean - 0.75e5) == pytest.approx(0.0, abs=1e-6)
+    mean = joint.common_pressure(20.0, stroke)
+    assert joint.value(stroke, mean, mean) == pytest.approx(20.0, rel=1e-9)
 
 
 def test_the_difference_leaves_a_command_for_both() -> None:
-    regulated = drive_of(read_document(JOINT, "joint"), STUDIO).drive
-    valves = drive_of(read_document(VALVES, "joint"), STUDIO).drive
-    for difference in (-0.5, -0.2, 0.0, 0.3, 0.5):
-        for drive, lowest in ((regulated, 0.0), (valves, -1.0)):
-            for common in common_limits(drive, difference):
+    """Whatever stiffness is wanted, neither muscle is commanded more than there is."""
+    for regulated, lowest in ((1.0, 0.0), (0.0, -1.0)):
+        for difference in (-0.5, -0.2, 0.0, 0.3, 0.5):
+            for wanted in (0.0, 20.0, 1e4):
+                common, integral = common_command(
+                    difference,
+                    wanted,
+                    3e5,
+                    2e5,
+                    0.05,
+                    0.05,
+                    100.0,
+                    0.1,
+                    RADIUS,
+                    6e5,
+                    0.05,
+                    2.0,
+                    0.01,
+                    regulated,
+                )
                 assert lowest - 1e-12 <= common - abs(difference) <= common + abs(difference) <= 1.0 + 1e-12
+                assert integral == 0.1 or lowest < common < 1.0
 
 
 @pytest.mark.parametrize("document", [JOINT, VALVES], ids=["regulators", "valves"])
@@ -125,7 +141,7 @@ def test_a_pair_under_a_plain_controller_is_measured_from_its_middle() -> None:
 
 def test_the_preset_follows_both() -> None:
     annotated = drive_of(preset_document("joint-20", STUDIO), STUDIO)
-    result = simulate(SimulationQuestion(annotated, points=401, engine="rodas"))
+    result = simulate(SimulationQuestion(annotated, points=401))
     joint = result.joint
     assert joint is not None
     assert joint.stiffness_error is not None

@@ -29,7 +29,7 @@ def side_by_side(drives, **how):
 def test_each_has_the_readings_that_it_has_alone():
     drives = [with_mass(1.0 + 0.1 * number) for number in range(11)]
     for drive, found in zip(drives, side_by_side(drives), strict=True):
-        alone = simulate(drive, grid=GRID, engine="rodas").outputs
+        alone = simulate(drive, grid=GRID).outputs
         for name in READINGS:
             assert found[name] == pytest.approx(alone[name], rel=1e-12)
 

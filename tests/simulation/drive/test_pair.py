@@ -39,7 +39,7 @@ PAIR = Drive(
 
 
 def test_equal_pressures_hold_the_middle():
-    run = simulate(PAIR, engine="rodas")
+    run = simulate(PAIR)
     assert np.max(np.abs(run.states["stroke"])) < 1e-9
     expected = MODEL.force(length=0.3 * (1 - MIDDLE), pressure=PRESSURE)[0]
     assert run.outputs["force"][-1] == pytest.approx(expected, rel=1e-9)
@@ -50,7 +50,7 @@ def test_equal_pressures_hold_the_middle():
 def test_the_joint_swings_with_both_closed_stiffnesses(exponent):
     kick = signal("N", shape="pulse", on="0 s", off="0.01 s", level="5 N")
     case = replace(PAIR, load=replace(PAIR.load, force=kick), polytropic_exponent=exponent)
-    run = simulate(case, points=8001, tolerance=1e-9, engine="rodas")
+    run = simulate(case, points=8001, tolerance=1e-9)
     late = run.time > 0.05
     t, y = run.time[late], run.states["stroke"][late]
     y = y - 0.5 * (y.max() + y.min())
@@ -74,7 +74,7 @@ def test_the_valves_work_against_each_other_and_end_where_the_tensions_balance()
         command=signal(shape="pulse", on="0 s", off="0.1 s", level=1.0, initial=0.0),
         duration=4.0,
     )
-    run = simulate(case, points=4001, engine="rodas")
+    run = simulate(case, points=4001)
     first, second = (run.states[name][-1] - 101325.0 for name in ("pressure", "pressure@counter"))
     assert first > PRESSURE > second > 0.0
     stroke = run.states["stroke"][-1]

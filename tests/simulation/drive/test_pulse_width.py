@@ -11,13 +11,14 @@ from mckibben.documents.drive_files import read_document
 from mckibben.documents.drive_reading import drive_of
 from mckibben.physics import gas
 from mckibben.physics.errors import InputError
-from mckibben.simulation.command.pwm import Carrier, Pulse, PulseWidth
+from mckibben.simulation.command.pwm import Pulse, PulseWidth
 from mckibben.simulation.command.segments import Segments
 from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.linear.linearise import linearise
 from mckibben.simulation.timing.evaluation import timing_of, trace_of
+from tests.simulation.drive.sampled import Edges
 from tests.simulation.drive.test_muscle_valves import AMBIENT, HELD, STUDIO, SUPPLY, VALVE
 
 
@@ -46,11 +47,10 @@ def test_the_command_is_read_at_the_start_of_each_period() -> None:
     assert found.times == pytest.approx([0.0, 0.1, 0.14, 0.2, 0.25])
     assert found.start_values == pytest.approx([0.0, 1.0, 0.0, 1.0])
     # Sampled every 30 ms it is the same, of the commands that are held then.
-    carrier = Carrier(PulseWidth(10.0))
-    edges = [edge for n in range(5) for edge in carrier.edges((0.12 * n, 0.0), 0.03 * n, 0.03 * n + 0.03)]
-    times = [(instant, opening) for instant, muscle, opening in edges if muscle == 0]
-    assert [opening for _, opening in times] == [0.0, 1.0, 0.0]
-    assert [instant for instant, _ in times] == pytest.approx([0.0, 0.1, 0.136])
+    edges_of = Edges(PulseWidth(10.0))
+    edges = [edge for n in range(5) for edge in edges_of(0.03 * n, 0.03 * n + 0.03, 0.12 * n)]
+    assert [opening for _, opening in edges] == [0.0, 1.0, 0.0]
+    assert [instant for instant, _ in edges] == pytest.approx([0.0, 0.1, 0.136])
 
 
 def test_the_mean_of_a_choked_flow_is_its_duty_ratio() -> None:

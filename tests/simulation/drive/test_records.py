@@ -58,7 +58,7 @@ def test_motion_under_the_pressure_of_a_free_run_repeats_it():
         {"shape": "pulse", "on": "0 s", "off": "1 s", "initial": -1.0}, unit="1", field="command"
     )
     drive = Drive(model, Valve(1e-8, 1e-8), Load(mass=8.0), command, 2.0, 6e5)
-    free = simulate(drive, points=8001, tolerance=1e-7, engine="rodas")
+    free = simulate(drive, points=8001, tolerance=1e-7)
     driven = motion_of_record(
         drive, time=free.time, pressure=free.pressure, stroke=float(free.states["stroke"][0])
     )

@@ -33,7 +33,7 @@ HELD: dict[str, Any] = {
 
 def run(regulator: dict[str, Any], **changes: Any) -> SimulationResult:
     document = read_document({**HELD, "regulator": regulator, **changes}, "held")
-    return simulate(SimulationQuestion(drive_of(document, STUDIO), points=2001, engine="rodas"))
+    return simulate(SimulationQuestion(drive_of(document, STUDIO), points=2001))
 
 
 def test_the_orifices_open_with_the_error_beyond_the_dead_band() -> None:

@@ -35,7 +35,7 @@ CONTROLLED = {
 @pytest.mark.parametrize("scenario", sorted(FREE))
 def test_scenario(scenario: str) -> None:
     drive = FREE[scenario]
-    run = simulate(drive, points=401, engine="rodas")
+    run = simulate(drive, points=401)
     assert len(run.time) == 401
     assert np.max(np.abs(run.states["stroke"] - strokes(drive, run.start, run.time))) <= 1e-5
 

@@ -46,7 +46,6 @@ def run(
         "inputs": np.zeros((1, 1)),
         "grid": np.linspace(0.0, end, 101),
         "tolerance": 1e-8,
-        "engine": "rodas",
     }
     return integrate(compiled, **{**given, **options})
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass, replace
 from functools import cache
@@ -23,6 +24,7 @@ from mckibben.simulation.statics.model import StaticModel
 from tests.benchmarks.lift import DOCUMENT
 from tests.shipped import shipped_studio
 from tests.simulation.integrate.test_engine import K, Y, Z, system
+from tests.simulation.lsoda import integrated
 
 STUDIO = shipped_studio()
 SETS, TOLERANCE = 19, 1e-6
@@ -41,11 +43,13 @@ class Case:
     inputs: np.ndarray
     grid: np.ndarray
 
-    def one(self, index: int, tolerance: float = TOLERANCE, engine: str = "rodas") -> Solution:
-        return integrate(
+    def one(
+        self, index: int, tolerance: float = TOLERANCE, by: Callable[..., Solution] = integrate
+    ) -> Solution:
+        return by(
             self.compiled, parameters=self.parameters[index], start=self.starts[index],
             switches=self.switches[index], restitution=self.drive.restitution, times=self.times,
-            inputs=self.inputs, grid=self.grid, tolerance=tolerance, engine=engine,
+            inputs=self.inputs, grid=self.grid, tolerance=tolerance,
         )  # fmt: skip
 
     def many(self, chosen=None, tolerance: float = TOLERANCE, **options) -> ManySolutions:
@@ -130,7 +134,7 @@ def test_lsoda_on_the_scalar_code_agrees(name):
     case = case_of(name)
     found = case.many([0, 1], 1e-8)
     for index in (0, 1):
-        other = case.one(index, 1e-8, engine="lsoda")
+        other = case.one(index, 1e-8, by=integrated)
         assert np.array_equal(found.events[index][:, 1:3], other.events[:, 1:3]), "the same switches change"
         assert found.events[index][:, 0] == pytest.approx(other.events[:, 0], abs=1e-4)
         assert found.rows[index, :, case.stroke] == pytest.approx(other.rows[:, case.stroke], abs=1e-5)
@@ -206,7 +210,7 @@ def test_times_inputs_and_grids_of_each_set():
         alone = integrate(
             case.compiled, parameters=case.parameters[index], start=case.starts[index],
             switches=case.switches[index], times=times[index], inputs=inputs[index], grid=grids[index],
-            tolerance=TOLERANCE, engine="rodas",
+            tolerance=TOLERANCE,
         )  # fmt: skip
         assert found.rows[index, :, 0] == pytest.approx(alone.rows[:, case.stroke], abs=1e-6)
 

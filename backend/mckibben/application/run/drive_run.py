@@ -11,30 +11,24 @@ from mckibben.application.prediction_interval import PositionInterval, position_
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.transient import Run, segments_of
+from mckibben.simulation.drive.transient import Run
 from mckibben.simulation.drive.transient import simulate as run_by_command
-from mckibben.simulation.integrate.engine import engine_by_size
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.simulation.timing.evaluation import Grid
 
 Array = np.ndarray
 
 
-def single_run_engine(annotated: AnnotatedDrive) -> str:
-    """The engine for a single run: loading the kernel takes longer than LSODA for a few segments."""
-    return engine_by_size(len(segments_of(annotated.drive)[0]))
-
-
-def run_drive(annotated: AnnotatedDrive, grid: Grid, watch: Watch | None = None, engine: str = "auto") -> Run:
-    """The run on the fine grid; with a controller it waits for the compiled kernel."""
+def run_drive(annotated: AnnotatedDrive, grid: Grid, watch: Watch | None = None) -> Run:
+    """The run on the fine grid."""
     with np.errstate(all="ignore"):  # a diverging run ends with an outcome, not with warnings
         if annotated.drive.controller is not None:
             return simulate_controlled(annotated.drive, grid=grid.time, watch=watch)
-        return run_by_command(annotated.drive, grid=grid.time, watch=watch, engine=engine)
+        return run_by_command(annotated.drive, grid=grid.time)
 
 
 def measured_interval(
-    annotated: AnnotatedDrive, grid: Grid, run: Run, watch: Watch, engine: str = "auto"
+    annotated: AnnotatedDrive, grid: Grid, run: Run, watch: Watch
 ) -> PositionInterval | None:
     """The interval of the position at the rows; None too where a run with other values ends early."""
     rows = grid.rows
@@ -42,7 +36,7 @@ def measured_interval(
         return None
 
     def position_of(drive: Drive) -> Array:
-        other = run_drive(replace(annotated, drive=drive), grid, watch, engine)
+        other = run_drive(replace(annotated, drive=drive), grid, watch)
         position = np.full(len(rows), np.nan)
         if other.outcome is Outcome.COMPLETED:
             position = other.states["stroke"][rows] / drive.load.lever_ratio

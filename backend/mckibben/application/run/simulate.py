@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 import numpy as np
 
@@ -67,14 +67,12 @@ class SimulationQuestion:
         annotated: the drive with notes on its parts.
         points: rows of the result, at least two.
         begin, end: times of the first and last row [s]; None = the whole run.
-        engine: "rodas", "lsoda", or "auto" (rodas as soon as its kernel is compiled).
     """
 
     annotated: AnnotatedDrive
     points: int = POINTS
     begin: float | None = None
     end: float | None = None
-    engine: str = "auto"
 
 
 @result_class
@@ -163,8 +161,6 @@ class SimulationResult:
     """Advice if the run did not complete."""
     wall_ms: float
     """Computing time of the integration in ms."""
-    engine: Literal["rodas", "lsoda"]
-    """The integrator used."""
     steps: int
     """Steps of the integrator."""
     flags: list[Notice]
@@ -199,12 +195,9 @@ def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]
     grid = grid_of(duration=duration, begin=begin, end=end, points=question.points)
 
     def work(watch: Watch) -> SimulationResult:
-        run = run_drive(question.annotated, grid, watch, question.engine)
+        run = run_drive(question.annotated, grid, watch)
         return result_of(
-            question.annotated,
-            grid,
-            run,
-            measured_interval(question.annotated, grid, run, watch, question.engine),
+            question.annotated, grid, run, measured_interval(question.annotated, grid, run, watch)
         )
 
     return work
@@ -274,7 +267,6 @@ def result_of(
         outcome=run.outcome.label,
         message=None if run.outcome is Outcome.COMPLETED else run.outcome.advice(),
         wall_ms=run.wall_seconds * 1e3,
-        engine=run.engine,
         steps=run.steps,
         flags=[
             *start_notices(annotated.start),

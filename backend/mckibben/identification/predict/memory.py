@@ -260,7 +260,6 @@ class Memory:
                 length=self._length(effect, clock, rows),
                 temperature=float(np.mean(task.state.get("temperature", ROOM_TEMPERATURE))),
                 begins=begins,
-                among=len(task.measured),
             )
         except InputError:
             if len(models) == 1:

@@ -20,9 +20,8 @@ valve would switch between its ends at 0.5 mm error.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cache
 from typing import Any, NamedTuple
 
 from mckibben.facts.linear import CONTROLLER
@@ -64,7 +63,7 @@ def pid_step(
 ) -> tuple[float, float, float]:
     """One sample: (command, integral, rate) from reference, measurement and the last state.
 
-    Positional plain numbers on purpose: numba compiles it, see `compiled_pid_step`. Keep the measurement for
+    Positional plain numbers on purpose: numba compiles it too. Keep the measurement for
     the next call as ``last_measurement``. ``filter_time`` 0 takes the plain difference of two samples. The
     command is always within [low, high]. With ki = 0 the integral stays as it is (a constant bias).
     """
@@ -78,14 +77,6 @@ def pid_step(
     else:
         integral += step
     return min(max(command, low), high), integral, rate
-
-
-@cache
-def compiled_pid_step() -> Callable[..., tuple[float, float, float]]:
-    """`pid_step` as a numba function, for other numba functions; numba is imported at the first call."""
-    from numba import njit
-
-    return njit(pid_step, error_model="numpy", nogil=True)
 
 
 @dataclass(frozen=True, kw_only=True)

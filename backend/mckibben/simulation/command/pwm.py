@@ -31,6 +31,31 @@ class Pulse(NamedTuple):
     then: float
 
 
+def pulse_of(
+    command: float, period: float, one: float, min_on: float, min_off: float
+) -> tuple[float, float, float]:
+    """Opening from the start of a period on, how long [s], and opening for the rest.
+
+    Positional plain numbers on purpose: numba compiles it too.
+
+    Args:
+        command: -1 to 1; beyond, the nearest of them.
+        period: of the carrier [s].
+        one: 1 with one valve that vents when it does not fill, 0 with two.
+        min_on, min_off: shortest times a valve is open and closed [s].
+    """
+    command = min(max(command, -1.0), 1.0)
+    opened, closed, share = (1.0 if command > 0.0 else -1.0), 0.0, abs(command)
+    if one > 0.0:
+        opened, closed, share = 1.0, -1.0, 0.5 * (1.0 + command)
+    width = share * period
+    if width < min_on or width <= SHORTEST:
+        width = 0.0
+    elif period - width < min_off or period - width <= SHORTEST:
+        width = period
+    return opened, width, closed
+
+
 @dataclass(frozen=True, slots=True)
 class PulseWidth:
     """A carrier and the switching valves.
@@ -51,27 +76,21 @@ class PulseWidth:
         """Of the carrier [s]."""
         return 1.0 / self.frequency
 
+    @property
+    def constants(self) -> tuple[float, float, float, float]:
+        """The last four arguments of `pulse_of`, in their order."""
+        return self.period, float(self.valves == "one"), self.min_on, self.min_off
+
     def pulse(self, command: float) -> Pulse:
         """The pulse of a period."""
-        command = min(max(command, -1.0), 1.0)
-        if self.valves == "one":
-            opened, closed, share = 1.0, -1.0, 0.5 * (1.0 + command)
-        else:
-            opened, closed, share = (1.0 if command > 0.0 else -1.0), 0.0, abs(command)
-        width = share * self.period
-        if width < self.min_on or width <= SHORTEST:
-            width = 0.0
-        elif self.period - width < self.min_off or self.period - width <= SHORTEST:
-            width = self.period
-        return Pulse(opened, width, closed)
+        return Pulse(*pulse_of(command, *self.constants))
 
-    def switched(self, command: Segments) -> Segments:
-        """The openings of the valves for a command.
+    def periods(self, duration: float) -> int:
+        """Number of periods in a run [s].
 
         Raises:
-            InputError: more than `MOST_PERIODS` periods. Field "pwm.frequency".
+            InputError: more than `MOST_PERIODS`. Field "pwm.frequency".
         """
-        duration = float(command.times[-1])
         count = int(np.ceil(duration / self.period - 1e-9))
         if count > MOST_PERIODS:
             raise InputError(
@@ -79,6 +98,16 @@ class PulseWidth:
                 field="pwm.frequency",
                 hint="shorten the run, or leave the pulse-width modulation out",
             )
+        return count
+
+    def switched(self, command: Segments) -> Segments:
+        """The openings of the valves for a command.
+
+        Raises:
+            InputError: as `periods`.
+        """
+        duration = float(command.times[-1])
+        count = self.periods(duration)
         starts: list[float] = []
         levels: list[float] = []
         for number, value in enumerate(command.value(np.arange(count) * self.period)):
@@ -90,28 +119,3 @@ class PulseWidth:
                 starts.append(begin + pulse.width)
                 levels.append(pulse.then)
         return clipped(starts, levels, np.zeros(len(starts)), duration=duration)
-
-
-class Carrier:
-    """The pulses of a sampled command, which is read at the start of each period."""
-
-    def __init__(self, modulation: PulseWidth) -> None:
-        self._modulation, self._number = modulation, 0
-
-    def edges(self, command: tuple[float, float], begin: float, end: float) -> list[tuple[float, int, float]]:
-        """Instants in [begin, end), muscle (0 or 1) and opening; of a period also what comes after ``end``.
-
-        Args:
-            command: of both muscles, from ``begin`` on.
-            begin, end: of the sample [s].
-        """
-        found: list[tuple[float, int, float]] = []
-        while (start := self._number * self._modulation.period) < end - SHORTEST:
-            for muscle, each in enumerate(command):
-                pulse = self._modulation.pulse(each)
-                if pulse.width > 0.0:
-                    found.append((start, muscle, pulse.first))
-                if pulse.width < self._modulation.period:
-                    found.append((start + pulse.width, muscle, pulse.then))
-            self._number += 1
-        return sorted(found)

@@ -23,10 +23,9 @@ from mckibben.physics.custom import blamed_on_the_term
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY
-from mckibben.simulation.integrate.background import Background
 from mckibben.simulation.integrate.compiling import one_at_a_time
+from mckibben.simulation.integrate.lane_buffers import lane_kernels
 from mckibben.simulation.integrate.machine_code import Function, machine_code
-from mckibben.simulation.kept_code import one_process_at_a_time
 from mckibben.simulation.statics.model import StaticModel
 from mckibben.simulation.statics.symbolic import symbolic_state, values_of
 
@@ -35,16 +34,6 @@ _SHORTEST = 0.35  # shortest length of the search, share of the nominal length
 _LONGEST = 0.9999  # longest length over the thread length, at which the braid locks
 _LARGEST_STEP = 0.02  # of the search, share of the nominal length
 _STIFFNESS = 2e4  # N/m; a first guess
-
-
-def _load() -> Any:
-    with one_process_at_a_time("lane-kernels"):
-        from mckibben.simulation.integrate.row_by_row import carry
-
-        return carry.compiled()
-
-
-carrying = Background(_load, "carry")
 
 
 class IsotonicCode(NamedTuple):
@@ -172,7 +161,7 @@ def isotonic_lengths(
     }
     bounds = np.array([farthest[name] for name in code.states])
     lengths = np.empty((len(models), rows))
-    carry = carrying.awaited()
+    carry = lane_kernels.awaited().carry
     room = np.empty(max(2, 2 * count))
     carry(
         code.balance.address, code.rates.address, constants, table, np.zeros((len(models), count)), steps,

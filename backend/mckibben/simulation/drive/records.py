@@ -17,7 +17,6 @@ from mckibben.simulation.integrate.engine import (
     CompiledDrive,
     Outcome,
     compiled_driven,
-    engine_for_records,
     integrate,
 )
 from mckibben.simulation.integrate.many import integrate_many
@@ -65,13 +64,11 @@ def states_of_record(
     temperature: float = ROOM_TEMPERATURE,
     tolerance: float = TOLERANCE,
     begin: Mapping[str, float] | None = None,
-    engine: str | None = None,
 ) -> dict[str, np.ndarray]:
     """The states ("effect.state") and readings that `force_of_record` integrates, at each time of the record.
 
     Args:
         begin: states that do not begin at rest.
-        engine: see `mckibben.simulation.integrate.engine.integrate`; None = by the size of the record.
 
     Raises:
         InputError: as for `force_of_record`.
@@ -79,9 +76,7 @@ def states_of_record(
     compiled = compiled_driven(model.effects, motion=False)
     table = {"temperature": temperature, **_geometry(model), **_named(model)}
     inputs, start = _held_inputs(time, pressure, length), _start(compiled, time, begin or {})
-    return _run(
-        compiled, table, inputs, start, time, tolerance, engine or engine_for_records(len(time) - 1, runs=1)
-    )
+    return _run(compiled, table, inputs, start, time, tolerance)
 
 
 def states_of_records(
@@ -94,7 +89,6 @@ def states_of_records(
     begins: Sequence[Mapping[str, float]],
     temperature: float = ROOM_TEMPERATURE,
     tolerance: float = TOLERANCE,
-    among: int = 0,
 ) -> list[dict[str, np.ndarray]]:
     """Some states along one record of models with the same effects: as `states_of_record`, at once.
 
@@ -105,20 +99,10 @@ def states_of_records(
         begins: of each model, states that do not begin at rest.
         temperature: [K].
         tolerance: relative error per step.
-        among: rows of all records that are followed again and again; many short ones are worth the kernel.
 
     Raises:
         InputError: as for `force_of_record`.
     """
-    engine = engine_for_records(len(time) - 1, runs=len(models), among=among - 1)
-    if engine != "rodas":
-        return [
-            states_of_record(
-                model, time=time, pressure=pressure, length=length, temperature=temperature,
-                tolerance=tolerance, begin=begin, engine=engine,
-            )
-            for model, begin in zip(models, begins, strict=True)
-        ]  # fmt: skip
     compiled = compiled_driven(models[0].effects, motion=False)
     tables = [{"temperature": temperature, **_geometry(model), **_named(model)} for model in models]
     parameters = np.array([[table[name] for name in compiled.model.parameters] for table in tables])
@@ -276,7 +260,6 @@ def _run(
     start: np.ndarray,
     time: np.ndarray,
     tolerance: float,
-    engine: str,
 ) -> dict[str, np.ndarray]:
     model = compiled.model
     parameters = np.array([table[name] for name in model.parameters])
@@ -290,7 +273,6 @@ def _run(
         inputs=packed_inputs,
         grid=np.ascontiguousarray(time, dtype=float),
         tolerance=tolerance,
-        engine=engine,
     )
     if solution.outcome is not Outcome.COMPLETED:
         raise _unfollowed(time, len(solution.rows), solution.outcome.advice())

@@ -5,7 +5,6 @@ from __future__ import annotations
 import time
 from dataclasses import dataclass, field
 from math import sin
-from typing import Literal
 
 import numpy as np
 
@@ -19,7 +18,6 @@ from mckibben.simulation.drive.events import Event, events_of
 from mckibben.simulation.drive.initial_state import Start, start_of
 from mckibben.simulation.drive.parts import Drive, FlowControl, QuickExhaust, Regulator
 from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
-from mckibben.simulation.outcome import Watch
 from mckibben.simulation.statics.model import StaticModel
 
 GRAVITY = 9.80665  # m/s2
@@ -55,7 +53,6 @@ class Run:
     command: Segments
     drive: Drive
     steps: int
-    engine: Literal["rodas", "lsoda"]
     wall_seconds: float
     notes: list[str] = field(default_factory=list)
     counter_command: Segments | None = None
@@ -199,8 +196,6 @@ def simulate(
     points: int = 2001,
     grid: np.ndarray | None = None,
     tolerance: float = TOLERANCE,
-    engine: str = "auto",
-    watch: Watch | None = None,
     start: Start | None = None,
 ) -> Run:
     """Run a drive.
@@ -210,8 +205,6 @@ def simulate(
         points: rows of the evenly spaced time grid.
         grid: ascending times of the rows within the duration; replaces ``points``.
         tolerance: relative error per step.
-        watch: may end the run early.
-        engine: see `mckibben.simulation.integrate.engine.integrate`.
         start: where it begins; None = where it rests.
     """
     compiled = compiled_drive(drive.structure)
@@ -230,8 +223,6 @@ def simulate(
         inputs=inputs,
         grid=grid,
         tolerance=tolerance,
-        engine=engine,
-        watch=watch,
     )
     return run_of(drive, compiled, grid, start, solution, command, time.perf_counter() - began)
 
@@ -261,7 +252,6 @@ def run_of(
         command=command,
         drive=drive,
         steps=solution.steps,
-        engine=solution.engine,
         wall_seconds=wall_seconds,
     )
 

@@ -50,6 +50,7 @@ class Alone:
         first_step: float,
         measured: int = 0,
         loop: tuple[Any, ...] | None = None,
+        max_steps: int = MAX_STEPS,
     ) -> Solution:
         """Integrate from ``times[0]`` to ``times[-1]``, segment by segment.
 
@@ -62,6 +63,7 @@ class Alone:
             measured, loop: of a sampled controller, see
                 `mckibben.simulation.integrate.lane_kernel.rodas4_lanes`; ``times`` and ``inputs`` are then
                 room for the segments, after the first boundary infinite.
+            max_steps: accepted and rejected.
         """
         drive, kernels, rows = self.drive, self._kernels, len(grid)
         lanes = kernels.lanes
@@ -91,7 +93,7 @@ class Alone:
                 events,
                 counts,
                 statuses,
-                MAX_STEPS,
+                max_steps,
                 False,
                 measured,
                 kernels.no_loop if loop is None else loop,
@@ -106,6 +108,5 @@ class Alone:
             outcome_of(int(statuses[0])),
             steps,
             rejected,
-            "rodas",
             float(step[0]),
         )

@@ -32,13 +32,10 @@ class Background(Generic[Loaded]):
     Args:
         load: imports and returns it.
         name: of the thread.
-        is_kept: whether it has been compiled for this machine before; None = nobody asks.
     """
 
-    def __init__(
-        self, load: Callable[[], Loaded], name: str, is_kept: Callable[[], bool] | None = None
-    ) -> None:
-        self._load, self._name, self._is_kept = load, name, is_kept
+    def __init__(self, load: Callable[[], Loaded], name: str) -> None:
+        self._load, self._name = load, name
         self._lock = threading.Lock()
         self._thread: threading.Thread | None = None
         self._loaded: Loaded | None = None
@@ -50,16 +47,6 @@ class Background(Generic[Loaded]):
                 self._thread = threading.Thread(target=self._run, name=self._name, daemon=True)
                 self._thread.start()
             return self._thread
-
-    def ready(self) -> Loaded | None:
-        """It, or None while it is not ready."""
-        if self._loaded is None:
-            self.warm()
-        return self._loaded
-
-    def at_hand(self) -> bool:
-        """Whether `awaited` gives it without compiling; nothing is begun."""
-        return self._loaded is not None or (self._is_kept is not None and self._is_kept())
 
     def awaited(self) -> Loaded:
         """It, as soon as it is ready.

@@ -18,11 +18,16 @@ _KEPT_ROOMS = 4  # of a structure and its columns, for as many threads
 
 
 class LaneKernels(NamedTuple):
-    """The kernel of `mckibben.simulation.integrate.lane_kernel`, sizes of its arrays, and repeated calls."""
+    """What numba compiles.
+
+    The kernel of `mckibben.simulation.integrate.lane_kernel`, repeated calls, the kernel of
+    `mckibben.simulation.integrate.row_by_row`, and sizes of the first one's arrays.
+    """
 
     run: Callable[..., None]
     call_blocks: Callable[[int, np.ndarray, np.ndarray], None]
     find_roots: Callable[..., None]
+    carry: Callable[..., None]
     lanes: int
     window: int
     numbers: int
@@ -31,9 +36,9 @@ class LaneKernels(NamedTuple):
     no_loop: tuple[Any, ...]
 
 
-def _load() -> LaneKernels:
-    # numba: half a second cached, 20 s the first time ever, of which server and worker would take the cores
-    # from each other; one after the other, what every run needs first.
+def compile_kernels() -> LaneKernels:
+    """The kernels; compiled where nothing is kept of them, which takes 20 s."""
+    # Server and worker would take the cores from each other; one after the other, what every run needs first.
     with one_process_at_a_time("lane-kernels"):
         from mckibben.simulation.integrate.lane_control import CONTROL_ROWS
         from mckibben.simulation.integrate.lane_controller import NO_LOOP
@@ -41,19 +46,13 @@ def _load() -> LaneKernels:
         from mckibben.simulation.integrate.lane_rows import ENTRIES, NUMBERS, WINDOW
         from mckibben.simulation.integrate.lane_type import LANES
         from mckibben.simulation.integrate.repeated import call_blocks, find_roots
+        from mckibben.simulation.integrate.row_by_row import carry
 
-        run, call, find = rodas4_lanes.compiled(), call_blocks.compiled(), find_roots.compiled()
-    return LaneKernels(run, call, find, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS, NO_LOOP)
-
-
-def _is_kept() -> bool:
-    from mckibben.simulation.integrate.lane_kernel import rodas4_lanes
-    from mckibben.simulation.integrate.repeated import call_blocks, find_roots
-
-    return all(kernel.is_kept() for kernel in (rodas4_lanes, call_blocks, find_roots))
+        run, *others = (each.compiled() for each in (rodas4_lanes, call_blocks, find_roots, carry))
+    return LaneKernels(run, *others, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS, NO_LOOP)
 
 
-lane_kernels = Background(_load, "lane-kernels", _is_kept)
+lane_kernels = Background(compile_kernels, "lane-kernels")
 
 
 class Columns:

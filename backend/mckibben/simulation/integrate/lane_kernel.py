@@ -27,7 +27,7 @@ from typing import Any
 import numpy as np
 from numba import njit
 
-from mckibben.simulation.command import pid
+from mckibben.simulation.command import joint, pid, pwm
 from mckibben.simulation.integrate import (
     coefficients,
     lane_control,
@@ -144,7 +144,9 @@ _SIGNATURE = (
 
 @kernel(
     _SIGNATURE,
+    joint,
     pid,
+    pwm,
     coefficients,
     switching,
     lane_control,

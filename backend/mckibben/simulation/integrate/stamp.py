@@ -1,17 +1,58 @@
-"""Kernels: functions that numba compiles once per installation, under names that change with the code."""
+"""Kernels: functions that numba compiles once for a machine, and `mckibben.simulation.kept_code` keeps.
+
+numba's own cache goes by the age of a function's file, so neither an installation nor a change of a function
+that is called would be noticed. Here the key holds the sources, the versions and the processor.
+"""
 
 from __future__ import annotations
 
-import zlib
+import pickle
+import sys
 from collections.abc import Callable
 from pathlib import Path
 from types import ModuleType
 from typing import Any, Generic, TypeVar
 
+import llvmlite
+import numba
 from numba import njit
-from numba.core.caching import FunctionCache
+from numba.core.caching import _Cache
+from numba.core.compiler import CompileResult
+
+from mckibben.simulation.kept_code import keep, kept
 
 Compiled = TypeVar("Compiled", bound=Callable[..., Any])
+
+
+class _KeptCode(_Cache):
+    """Where numba looks for the code of a kernel before it compiles it, and puts it afterwards."""
+
+    def __init__(self, what: tuple[object, ...]) -> None:
+        self._what = (*what, numba.__version__, llvmlite.__version__, sys.version)
+
+    @property
+    def cache_path(self) -> None:
+        return None
+
+    def _key(self, signature: Any, codegen: Any) -> bytes:
+        return repr((self._what, str(signature), codegen.magic_tuple())).encode()
+
+    def load_overload(self, signature: Any, target: Any) -> Any:
+        target.refresh()
+        code = kept(self._key(signature, target.codegen()))
+        return None if code is None else CompileResult._rebuild(target, *pickle.loads(code))
+
+    def save_overload(self, signature: Any, result: Any) -> None:
+        keep(self._key(signature, result.codegen), pickle.dumps(result._reduce()))
+
+    def enable(self) -> None:
+        pass
+
+    def disable(self) -> None:
+        pass
+
+    def flush(self) -> None:
+        pass
 
 
 class Kernel(Generic[Compiled]):
@@ -20,36 +61,34 @@ class Kernel(Generic[Compiled]):
     Args:
         function: in Python.
         signature: as numba writes it.
+        sources: of the modules it is made from.
     """
 
-    def __init__(self, function: Compiled, signature: str) -> None:
-        self._signature = signature
-        self.dispatcher: Any = njit(error_model="numpy", cache=True, nogil=True)(function)
-
-    def is_kept(self) -> bool:
-        """Whether numba's cache has it as it is now: then `compiled` takes no compilation."""
-        cache = FunctionCache(self.dispatcher.py_func)
-        return cache.load_overload(self._signature, self.dispatcher.targetctx) is not None
+    def __init__(self, function: Compiled, signature: str, sources: bytes) -> None:
+        self.signature = signature
+        self.dispatcher: Any = njit(error_model="numpy", nogil=True)(function)
+        self.dispatcher._cache = _KeptCode((function.__qualname__, sources))
 
     def compiled(self) -> Compiled:
-        """The compiled function; from numba's cache, or compiled for it."""
+        """The compiled function: kept since the installation or an earlier process, or compiled now."""
         if not self.dispatcher.signatures:
-            self.dispatcher.compile(self._signature)
+            self.dispatcher.compile(self.signature)
             self.dispatcher.disable_compile()
         return self.dispatcher
 
 
 def kernel(signature: str, *modules: ModuleType, also: object = "") -> Callable[[Compiled], Kernel[Compiled]]:
-    """A decorator that makes a function a kernel, named by a hash of the sources of modules and of ``also``.
+    """A decorator that makes a function a kernel.
 
-    numba's cache goes by the name, and by the age of the function's own file alone: a change of the others
-    must not leave it with old code.
+    Args:
+        signature: as numba writes it.
+        modules: that it is made from besides its own.
+        also: what else its code depends on.
     """
-    sources = b"".join(Path(str(module.__file__)).read_bytes() for module in modules)
-    mark = zlib.crc32(sources + repr(also).encode())
 
-    def stamp(function: Compiled) -> Kernel[Compiled]:
-        function.__qualname__ += f"_{mark:08x}"  # type: ignore - a function has one
-        return Kernel(function, signature)
+    def made(function: Compiled) -> Kernel[Compiled]:
+        own = sys.modules[function.__module__]
+        sources = b"".join(Path(str(module.__file__)).read_bytes() for module in (own, *modules))
+        return Kernel(function, signature, sources + repr(also).encode())
 
-    return stamp
+    return made

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import time
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -10,7 +9,7 @@ import numpy as np
 from mckibben.simulation.command.pid import PidController, PidState
 from mckibben.simulation.command.shapes import Signal
 from mckibben.simulation.drive.control_loop import ControlLoop
-from mckibben.simulation.drive.controlled import loop_in_kernel, loop_in_python, run_of_loop
+from mckibben.simulation.drive.controlled import run_loop
 from mckibben.simulation.drive.initial_state import Rest, Start
 from mckibben.simulation.drive.joint import largest_difference
 from mckibben.simulation.drive.parts import Drive
@@ -21,7 +20,7 @@ from mckibben.simulation.drive.transient import (
     parameters_of,
     simulate,
 )
-from mckibben.simulation.integrate.engine import compiled_drive, kernel
+from mckibben.simulation.integrate.engine import compiled_drive
 from mckibben.simulation.linear.point import OperatingPoint
 from mckibben.simulation.outcome import Watch
 
@@ -51,18 +50,16 @@ def _start(point: OperatingPoint) -> Start:
     return Start(point.state.copy(), point.switches.copy(), point.stroke, Rest.STATED)
 
 
-def run_from(
-    point: OperatingPoint, drive: Drive, *, grid: Array, tolerance: float = TOLERANCE, engine: str = "rodas"
-) -> Run:
+def run_from(point: OperatingPoint, drive: Drive, *, grid: Array, tolerance: float = TOLERANCE) -> Run:
     """A run under the command of a drive, which may differ from that of the point in numbers only.
 
     Args:
         point: where it begins.
         drive: with the command, the load and the duration of the run.
         grid: times of the rows.
-        tolerance, engine: see `mckibben.simulation.drive.transient.simulate`.
+        tolerance: see `mckibben.simulation.drive.transient.simulate`.
     """
-    return simulate(drive, grid=grid, tolerance=tolerance, engine=engine, start=_start(point))
+    return simulate(drive, grid=grid, tolerance=tolerance, start=_start(point))
 
 
 def controlled_from(
@@ -86,7 +83,6 @@ def controlled_from(
         tolerance: relative error per step.
         joint: whether the loop of a joint's stiffness runs too; else the common command is constant.
     """
-    kernel.awaited()
     if joint:
         common = drive.common_command
         controller = replace(
@@ -100,7 +96,10 @@ def controlled_from(
         position=point.position,
     )
     duration = float(grid[-1])
-    controlled = replace(drive, controller=settled, reference=reference, duration=duration)
+    stiffness = drive.stiffness if joint else None
+    controlled = replace(
+        drive, controller=settled, reference=reference, duration=duration, stiffness=stiffness
+    )
     compiled = compiled_drive(drive.structure)
     samples = int(np.ceil(duration / controller.sample_time - 1e-9))
     loop = ControlLoop(
@@ -115,6 +114,4 @@ def controlled_from(
         tolerance=tolerance,
         watch=Watch(),
     )
-    began = time.perf_counter()
-    solution, commands = loop_in_python(loop, "rodas") if joint else loop_in_kernel(loop)
-    return run_of_loop(loop, solution, commands, time.perf_counter() - began)
+    return run_loop(loop)

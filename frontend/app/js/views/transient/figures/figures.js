@@ -171,7 +171,7 @@ function runLine() {
   if (!r) return "";
   return `${r.outcome === "completed" ? "Completed" : r.outcome.replace("_", " ")} in ${
     brief(r.wall_ms)
-  } ms · ${r.engine} · ` +
+  } ms · ` +
     `${r.steps} steps · answer after ${Math.round(roundTrip.value)} ms`;
 }
 

@@ -1,38 +1,69 @@
-"""The same run by scipy's LSODA: serves until the kernel is compiled, and checks it."""
+"""The same run by scipy's LSODA, which checks the kernel."""
 
 from __future__ import annotations
 
 import warnings
 from collections.abc import Callable
+from dataclasses import dataclass
 
 import numpy as np
+import pytest
+from scipy.integrate import solve_ivp
 
 from mckibben.physics.drive_terms import GUARD_STIFFNESS
+from mckibben.simulation.drive import transient
+from mckibben.simulation.drive.parts import Drive
+from mckibben.simulation.drive.transient import TOLERANCE, Run
 from mckibben.simulation.integrate.problem import (
     EVENT_WIDTH,
     LOWEST_REBOUND,
     SLOWEST_REBOUND,
-    Problem,
     Solution,
 )
-from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.integrate.system import CompiledDrive
+from mckibben.simulation.outcome import Outcome
 
 _MOST_CHANGES = 10_000  # switches that change more often in one run make it chatter
 
 
-class _EndedError(Exception):
-    """Aborts an integrator that has no way to stop it."""
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Problem:
+    """A run for an integrator.
 
-    def __init__(self, outcome: Outcome) -> None:
-        super().__init__(outcome.label)
-        self.outcome = outcome
+    Attributes:
+        drive: the compiled structure.
+        constants: of the run, as the codes take them.
+        stops: stroke of the end stop of each switch [m], NaN for others.
+        restitution: share of the speed that an impact on an end stop leaves, in the opposite direction.
+        state, switches: at the start; integrators overwrite them.
+        times: segment boundaries.
+        inputs: of each segment.
+        grid: times of the rows.
+        tolerance: relative error per step.
+    """
+
+    drive: CompiledDrive
+    constants: np.ndarray
+    stops: np.ndarray
+    restitution: float
+    state: np.ndarray
+    switches: np.ndarray
+    times: np.ndarray
+    inputs: np.ndarray
+    grid: np.ndarray
+    tolerance: float
+
+    @property
+    def absolute(self) -> np.ndarray:
+        """Absolute error per step of each state."""
+        return self.tolerance * self.drive.scales
 
 
 class _Run:
     """One run: state, switches, rows and events so far."""
 
-    def __init__(self, problem: Problem, watch: Watch) -> None:
-        self.problem, self.watch = problem, watch
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
         self.codes, self.size = problem.drive.codes, problem.drive.size
         kinds, inputs = len(problem.switches), problem.inputs.shape[1]
         self.packed = np.concatenate([problem.state, problem.constants, np.zeros(inputs + kinds)])
@@ -45,7 +76,7 @@ class _Run:
         """What is known so far."""
         events = np.array(self.events).reshape(-1, EVENT_WIDTH)
         problem, rows = self.problem, self.rows[: self.written]
-        return Solution(rows, problem.state, problem.switches, events, outcome, self.steps, 0, "lsoda")
+        return Solution(rows, problem.state, problem.switches, events, outcome, self.steps, 0)
 
     def at(self, y: np.ndarray) -> np.ndarray:
         """Arguments of the codes."""
@@ -53,9 +84,7 @@ class _Run:
         self.packed[self.first_switch :] = self.problem.switches
         return self.packed
 
-    def rates(self, now: float, y: np.ndarray) -> np.ndarray:
-        if ended := self.watch.ended(now / self.problem.times[-1]):
-            raise _EndedError(ended)
+    def rates(self, _time: float, y: np.ndarray) -> np.ndarray:
         return self.codes.rates(self.at(y))
 
     def jacobian(self, _time: float, y: np.ndarray) -> np.ndarray:
@@ -105,9 +134,9 @@ class _Run:
             self.change(int(wrong[0]), now)
 
 
-def by_lsoda(problem: Problem, watch: Watch) -> Solution:
+def by_lsoda(problem: Problem) -> Solution:
     """Integrate a problem segment by segment, and within it from event to event."""
-    run = _Run(problem, watch)
+    run = _Run(problem)
     for segment, inputs in enumerate(problem.inputs):
         begin, finish = float(problem.times[segment]), float(problem.times[segment + 1])
         last = segment == len(problem.inputs) - 1
@@ -115,10 +144,7 @@ def by_lsoda(problem: Problem, watch: Watch) -> Solution:
         while begin < finish:
             if len(run.events) > _MOST_CHANGES:
                 return run.solution(Outcome.STUCK)
-            try:
-                begin, ended = _piece(run, begin, finish, last=last)
-            except _EndedError as end:
-                return run.solution(end.outcome)
+            begin, ended = _piece(run, begin, finish, last=last)
             if ended is not None:
                 return run.solution(ended)
     return run.solution(Outcome.COMPLETED)
@@ -126,8 +152,6 @@ def by_lsoda(problem: Problem, watch: Watch) -> Solution:
 
 def _piece(run: _Run, begin: float, finish: float, *, last: bool) -> tuple[float, Outcome | None]:
     """Integrate to the next event or to ``finish``; returns the instant reached, and why the run must end."""
-    from scipy.integrate import solve_ivp
-
     problem = run.problem
     run.settle(begin)
     stop = np.searchsorted(problem.grid, finish, side="right" if last else "left")
@@ -164,3 +188,41 @@ def _piece(run: _Run, begin: float, finish: float, *, last: bool) -> tuple[float
     problem.state[:] = found.y_events[number][0]
     run.change(number, at)
     return at, None
+
+
+def integrated(
+    drive: CompiledDrive,
+    *,
+    parameters: np.ndarray,
+    start: np.ndarray,
+    times: np.ndarray,
+    inputs: np.ndarray,
+    grid: np.ndarray,
+    tolerance: float,
+    switches: np.ndarray | None = None,
+    restitution: float = 0.0,
+) -> Solution:
+    """As `mckibben.simulation.integrate.engine.integrate`."""
+    began = np.zeros(len(drive.model.switches)) if switches is None else np.array(switches, dtype=float)
+    problem = Problem(
+        drive=drive,
+        constants=drive.codes.constants(parameters),
+        stops=drive.stops(parameters),
+        restitution=restitution,
+        state=start.copy(),
+        switches=began,
+        times=times,
+        inputs=inputs,
+        grid=grid,
+        tolerance=tolerance,
+    )
+    return by_lsoda(problem)
+
+
+def simulated(
+    drive: Drive, *, points: int = 2001, grid: np.ndarray | None = None, tolerance: float = TOLERANCE
+) -> Run:
+    """As `mckibben.simulation.drive.transient.simulate`."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(transient, "integrate", lambda compiled, **given: integrated(compiled, **given))
+        return transient.simulate(drive, points=points, grid=grid, tolerance=tolerance)

@@ -1,0 +1,33 @@
+"""Hook of the build: the integrators are compiled with the installation, so no first run waits for them.
+
+It takes about 20 s. The code serves the processor that it was compiled on; on another one, or where this
+fails, the program compiles it when it is first needed.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+
+_BACKEND = Path(__file__).resolve().parent
+_COMPILED = _BACKEND / "mckibben" / "_data" / "compiled"  # `mckibben.resources.installed_code_folder`
+_CALL = "from mckibben.simulation.integrate.lane_buffers import compile_kernels; compile_kernels()"
+
+
+class CompileKernels(BuildHookInterface):
+    """Compiles them into the package."""
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """Called before the wheel is built, for an editable installation too."""
+        shutil.rmtree(_COMPILED, ignore_errors=True)
+        environment = {**os.environ, "PYTHONPATH": str(_BACKEND), "MCKIBBEN_CACHE": str(_COMPILED)}
+        done = subprocess.run([sys.executable, "-c", _CALL], env=environment, capture_output=True, text=True)
+        if done.returncode:
+            self.app.display_warning(f"the integrators are compiled at their first use: {done.stderr}")
+        build_data["artifacts"].append("backend/mckibben/_data/compiled")
