@@ -13,7 +13,7 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface  # type: ignore - only while it is built
 
 _BACKEND = Path(__file__).resolve().parent
 _COMPILED = _BACKEND / "mckibben" / "_data" / "compiled"  # `mckibben.resources.installed_code_folder`

@@ -222,7 +222,7 @@ class Drive(Exportable):
             else tuple(number_of(each, unit, "amplitudes") for each in amplitudes),
             goals=None if design is None else goals_of(design),
         )
-        return LinearView.of(linear_view(question, Watch(time_limit=float("inf"))), _name=self._name)
+        return LinearView.of(linear_view(question, Watch()), _name=self._name)
 
     def _annotated(self) -> AnnotatedDrive:
         return drive_of(self._document, self._studio)

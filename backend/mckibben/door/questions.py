@@ -277,4 +277,4 @@ def watch_of(progress: Callable[[float], object] | None) -> Watch:
         if progress is not None:
             progress(share)
 
-    return Watch(progress=None if progress is None else tell, time_limit=float("inf"))
+    return Watch(progress=None if progress is None else tell)

@@ -148,5 +148,5 @@ def _search(document: SizingTask, of: Studio, progress: Callable[[float], object
             progress(share)
 
     # No time limit: whoever calls can interrupt, and the first search on a computer compiles for a while.
-    watch = Watch(progress=None if progress is None else tell, time_limit=float("inf"))
+    watch = Watch(progress=None if progress is None else tell)
     return prepare_search(sizing_question(document, of))(watch)

@@ -119,7 +119,7 @@ def study(
         if progress is not None:
             progress(share)
 
-    watch = Watch(progress=None if progress is None else tell, time_limit=float("inf"))
+    watch = Watch(progress=None if progress is None else tell)
     workers = None
     if scheduler is not None:
         from mckibben.application.study.cluster import on_cluster

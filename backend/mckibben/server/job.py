@@ -8,12 +8,15 @@ from typing import Any, Literal
 
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
-from mckibben.simulation.outcome import TIME_LIMIT, Watch
+from mckibben.simulation.outcome import Watch
 
 #: What is left to do when a job is prepared: the bytes of the answer.
 Prepared = Callable[[Watch], bytes]
 #: Which processes do a job: those of long work, those that read files, those of models with typed terms.
 LaneName = Literal["long", "files", "models"]
+TIME_LIMIT = 10.0  # s, of a job that states no other
+#: Of work that is bounded in steps: it must end by itself, with the same answer however busy the machine is.
+LONGEST = 900.0  # s
 _OVERTIME = 10.0  # s beyond its own time limit after which a job is ended
 
 

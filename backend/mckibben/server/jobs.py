@@ -25,7 +25,7 @@ from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.report.diagnosis import gather as diagnosis_report
 from mckibben.report.sizing.gather import prepare_report
-from mckibben.server.job import Job, Prepared
+from mckibben.server.job import LONGEST, Job, Prepared
 from mckibben.server.questions.models import model_question
 from mckibben.server.schemas.diagnoses import DiagnosisRequest
 from mckibben.server.schemas.linearisations import LinearisationRequest, LinearPointInput
@@ -126,7 +126,7 @@ def _study(body: StudyDocument, studio: Studio, store: MeasurementStore) -> Prep
 #: The kinds of work.
 JOBS: Mapping[str, Job] = {
     "diagnosis": Job(_diagnosis, diagnose.TIME_LIMIT, hint=diagnose.HINT),
-    "linear view": Job(_linear_view, hint="ask for fewer amplitudes"),
+    "linear view": Job(_linear_view, LONGEST, hint="ask for fewer amplitudes"),
     "report": Job(_report, diagnose.TIME_LIMIT, hint=diagnose.HINT),
     "study": Job(_study, _STUDY_LIMIT, hint="ask for fewer runs, or a shorter duration of each"),
     "sizing": Job(_sizing, size.TIME_LIMIT, hint=size.HINT),

@@ -29,7 +29,7 @@ from mckibben.server.errors import input_error_answer, unexpected_answer
 from mckibben.server.jobs import JOBS
 from mckibben.server.lanes import Lanes
 from mckibben.server.workers import Workers
-from mckibben.simulation.outcome import TIME_LIMIT, Watch
+from mckibben.simulation.outcome import Watch
 
 P = ParamSpec("P")
 T = TypeVar("T")
@@ -56,7 +56,7 @@ async def prepared(request: Request, prepare: Callable[P, T], *args: P.args, **k
 
 
 async def finished(
-    request: Request, work: Work, written: Callable[[Any], bytes], *, time_limit: float = TIME_LIMIT
+    request: Request, work: Work, written: Callable[[Any], bytes], *, time_limit: float = float("inf")
 ) -> bytes:
     """The result of the work, converted by ``written``; the work is cancelled if the caller disconnects."""
     gone = threading.Event()
@@ -71,7 +71,7 @@ async def finished(
             gone.set()
 
 
-def events(work: Work, *, time_limit: float = TIME_LIMIT) -> EventSourceResponse:
+def events(work: Work, *, time_limit: float = float("inf")) -> EventSourceResponse:
     """``progress`` events while the work runs, then ``done`` with its result, or ``error``."""
     return EventSourceResponse(_events(work, time_limit))
 

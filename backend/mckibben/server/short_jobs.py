@@ -25,7 +25,7 @@ from mckibben.measurement.read import Correction, preview
 from mckibben.measurement.read.limits import MOST_SECONDS
 from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, fields_inside
-from mckibben.server.job import Job, Prepared
+from mckibben.server.job import LONGEST, Job, Prepared
 from mckibben.server.questions.curves import curves_question
 from mckibben.server.questions.inverse import Body as InverseBody
 from mckibben.server.questions.inverse import inverse_question
@@ -251,7 +251,7 @@ SHORT_JOBS: Mapping[str, Job] = {
     "fitted model": Job(_fitted_model, _COMPARE_WITHIN, "models", looks=False, hint=_FEWER),
     "computation of curves": Job(_curves, _COMPUTE_WITHIN, "models", looks=False, hint=_SIMPLER),
     "inverse question": Job(_inverse, _COMPUTE_WITHIN, "models", looks=False, hint=_SIMPLER),
-    "simulation": Job(_simulation, lane="models", hint=_SIMPLER),
+    "simulation": Job(_simulation, LONGEST, lane="models", hint=_SIMPLER),
     "export": Job(_export, _COMPARE_WITHIN, "models", looks=False, hint=_SIMPLER),
     "compiled export": Job(_export, _COMPILE_WITHIN, looks=False, hint="take the C sources"),
 }

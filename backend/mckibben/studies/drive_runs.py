@@ -24,7 +24,7 @@ from mckibben.simulation.drive.transient import (
 )
 from mckibben.simulation.integrate.engine import CompiledDrive, Solution, compiled_drive
 from mckibben.simulation.integrate.many import integrate_many
-from mckibben.simulation.outcome import Outcome, Watch
+from mckibben.simulation.outcome import Outcome
 from mckibben.simulation.timing.evaluation import grid_of
 from mckibben.studies.drive_figures import figures_of_run
 from mckibben.studies.table import COMPLETED, Row
@@ -123,7 +123,6 @@ class DriveRuns:
                 done.outcomes[index],
                 int(done.steps[index]),
                 int(done.rejected[index]),
-                "rodas",
             )
             start = Start(
                 starts.states[place], starts.switches[place], float(starts.strokes[place]), starts.why[place]
@@ -135,7 +134,7 @@ class DriveRuns:
 
     def _controlled(self, drive: Drive) -> Row:
         """A sampled controller acts between the steps of one run, so these run one by one."""
-        return self._row(simulate_controlled(drive, grid=_grid(drive), watch=Watch(time_limit=float("inf"))))
+        return self._row(simulate_controlled(drive, grid=_grid(drive)))
 
     def _row(self, run: Run) -> Row:
         figures, message = figures_of_run(run, self._paths)

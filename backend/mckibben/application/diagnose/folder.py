@@ -79,7 +79,7 @@ def here(studio: Studio) -> Diagnose:
 def diagnosed(file: str, question: ModelQuestion, studio: Studio) -> FileVerdict:
     """The verdict on a file; also that it is refused."""
     try:
-        return verdict_on(file, prepare(question, studio)(Watch(time_limit=float("inf"))))
+        return verdict_on(file, prepare(question, studio)(Watch()))
     except InputError as error:
         return FileVerdict(file, refused=one_line(error))
 

@@ -131,7 +131,7 @@ def _task_runs(content_at: Callable[[Array], object], paths: Sequence[str], stud
             question = sizing_question(read_task(content_at(point)), studio)
         except InputError as error:
             return Row(REFUSED, (float("nan"),) * len(paths), one_line(error))
-        result = prepare(question)(Watch(time_limit=float("inf")))
+        result = prepare(question)(Watch())
         if result.outcome != Outcome.COMPLETED.label:
             return Row(result.outcome, (float("nan"),) * len(paths), result.message or "")
         if not result.proposals:

@@ -25,7 +25,6 @@ from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.parts import Drive, Load, Tube, Valve
 from mckibben.simulation.drive.transient import simulate
-from mckibben.simulation.outcome import Watch
 from mckibben.simulation.statics.model import StaticModel
 
 #: Temperature of all tests [K]: warm, so that effects of the temperature show.
@@ -283,7 +282,7 @@ def _record(model: FitModel, pressure: float) -> tuple[np.ndarray, dict[str, np.
         max_contraction=1.2 * _reach(model),
         temperature=TEMPERATURE,
     )
-    run = simulate(drive, points=_POINTS, watch=Watch())
+    run = simulate(drive, points=_POINTS)
     if len(run.time) < _POINTS:
         raise InputError("the drive of the test does not move with this effect", field="effect")
     return run.time, {name: run.outputs[name] for name in _READINGS}

@@ -111,7 +111,7 @@ def _chosen(search: Searched, studio: Studio, rank: int, watch: Watch) -> Chosen
     points = min(max(ceil(duration / _STEP), _FEWEST), _MOST) + 1
     grid = grid_of(duration=duration, begin=0.0, end=duration, points=points)
     # The solver of the search, so that the figures agree to the last digit.
-    run = result_of(drive_model, grid, run_drive(drive_model, grid, watch, "rodas"))
+    run = result_of(drive_model, grid, run_drive(drive_model, grid, watch))
     on = switch_on(task, group.duty)
     return Chosen(
         rank=rank,

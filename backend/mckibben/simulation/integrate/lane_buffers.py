@@ -48,8 +48,9 @@ def compile_kernels() -> LaneKernels:
         from mckibben.simulation.integrate.repeated import call_blocks, find_roots
         from mckibben.simulation.integrate.row_by_row import carry
 
-        run, *others = (each.compiled() for each in (rodas4_lanes, call_blocks, find_roots, carry))
-    return LaneKernels(run, *others, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS, NO_LOOP)
+        run, call, find = rodas4_lanes.compiled(), call_blocks.compiled(), find_roots.compiled()
+        carried = carry.compiled()
+    return LaneKernels(run, call, find, carried, LANES, WINDOW, NUMBERS, ENTRIES, CONTROL_ROWS, NO_LOOP)
 
 
 lane_kernels = Background(compile_kernels, "lane-kernels")

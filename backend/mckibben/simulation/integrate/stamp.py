@@ -37,13 +37,13 @@ class _KeptCode(_Cache):
     def _key(self, signature: Any, codegen: Any) -> bytes:
         return repr((self._what, str(signature), codegen.magic_tuple())).encode()
 
-    def load_overload(self, signature: Any, target: Any) -> Any:
-        target.refresh()
-        code = kept(self._key(signature, target.codegen()))
-        return None if code is None else CompileResult._rebuild(target, *pickle.loads(code))
+    def load_overload(self, sig: Any, target_context: Any) -> Any:
+        target_context.refresh()
+        code = kept(self._key(sig, target_context.codegen()))
+        return None if code is None else CompileResult._rebuild(target_context, *pickle.loads(code))
 
-    def save_overload(self, signature: Any, result: Any) -> None:
-        keep(self._key(signature, result.codegen), pickle.dumps(result._reduce()))
+    def save_overload(self, sig: Any, data: Any) -> None:
+        keep(self._key(sig, data.codegen), pickle.dumps(data._reduce()))
 
     def enable(self) -> None:
         pass
@@ -67,7 +67,7 @@ class Kernel(Generic[Compiled]):
     def __init__(self, function: Compiled, signature: str, sources: bytes) -> None:
         self.signature = signature
         self.dispatcher: Any = njit(error_model="numpy", nogil=True)(function)
-        self.dispatcher._cache = _KeptCode((function.__qualname__, sources))
+        self.dispatcher._cache = _KeptCode((repr(function).split(" at ")[0], sources))
 
     def compiled(self) -> Compiled:
         """The compiled function: kept since the installation or an earlier process, or compiled now."""
