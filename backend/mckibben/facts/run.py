@@ -12,6 +12,11 @@ _LAGGED = Condition(
 _STEPS = Condition(
     "the reference jumps between constant levels", "the reference has no jump between constant levels"
 )
+_SETTLED = Condition(
+    "the position is within 2 % of the step before the last tenth of its time",
+    "the position does not stay within 2 % of the step",
+)
+_SWINGS = Condition("the position has two even periods in the second half of the step", "it does not swing")
 _TUBE = Condition("there is a tube", "there is no tube")
 _REGULATOR = Condition("there is a proportional pressure regulator", "there is no regulator")
 _STIFFNESS = Condition("the stiffness is controlled", "the stiffness is not controlled")
@@ -99,16 +104,41 @@ TRACKING = Group(
     ),
 )  # fmt: skip
 
-#: A jump of the reference.
+#: A step of the reference.
 STEP = Group(
     "step",
     "Step of the reference",
     Figure("time", "t", "s", "Time of the step", "First row after the jump of the reference.", _STEPS),
-    Figure("size", "Δr", "m", "Height of the step", "Signed jump of the reference.", _STEPS),
+    Figure(
+        "size", "Δr", "m", "Height of the step",
+        "Signed jump of the reference; of a first level its distance from where the load begins.", _STEPS,
+    ),
     Figure(
         "overshoot", "o", "1", "Overshoot of the step",
-        "Largest travel beyond the new level before the next jump, as a share of the jump.",
+        "Largest travel beyond the new level before the reference changes again, as a share of the jump.",
         _STEPS, quantity="ratio",
+    ),
+    Figure(
+        "settling_time", "t_s", "s", "Settling time of the step (2 %)",
+        "Time from the jump from which |position − reference| stays within 2 % of the jump until the "
+        "reference changes again.", _SETTLED, quantity="lapse",
+    ),
+    Figure(
+        "steady_error", "e_∞", "m", "Steady error of the step",
+        "Reference minus mean position over the last quarter of the time of the step.", _STEPS,
+    ),
+    Figure(
+        "swing_frequency", "f", "Hz", "Frequency of the swing",
+        "One over the mean period of the position about its middle, in the second half of the time of the "
+        "step.", _SWINGS,
+    ),
+    Figure(
+        "swing_amplitude", "â", "m", "Amplitude of the swing",
+        "Half of the range of the position within the last period.", _SWINGS,
+    ),
+    Figure(
+        "saturated", "", "1", "Time at the limits",
+        "Share of the time of the step with the command at its limits.", _STEPS, quantity="ratio",
     ),
 )  # fmt: skip
 

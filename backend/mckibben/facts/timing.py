@@ -31,6 +31,8 @@ _FREE = Condition("the load moves and hits no stop", "the load hits the stop")
 _COMMANDED = Condition("the command has the phase", "the command has no such phase")
 _MASS = Condition("the moving mass is known", "the moving mass is not known")
 
+#: A signal that settles only behind this share of its time counts as not settled.
+SETTLED_BEFORE = 0.9
 #: Phase -> what it is called; it begins when the valve is switched.
 PHASES: Mapping[str, str] = MappingProxyType({"extend": "fill", "retract": "vent"})
 

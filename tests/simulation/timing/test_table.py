@@ -1,4 +1,4 @@
-"""Timing and tracking figures on motions whose figures are known in closed form."""
+"""Timing figures on motions whose figures are known in closed form."""
 
 from __future__ import annotations
 
@@ -13,7 +13,6 @@ from mckibben.facts.timing import TIMING as FIGURES
 from mckibben.simulation.command.segments import Segments, phases
 from mckibben.simulation.timing.table import PhaseFigures, TimingTable, timing
 from mckibben.simulation.timing.trace import Impact, Trace
-from mckibben.simulation.timing.tracking import tracking
 
 GRAVITY = 9.80665
 
@@ -335,51 +334,3 @@ def test_phases_of_a_command():
     assert phases(command([0.0], [1.0])) == ((0.0, 4.0), None)
     assert phases(command([0.0, 1.0], [0.0, -1.0])) == (None, (1.0, 4.0))
     assert phases(command([0.0], [0.0])) == (None, None)
-
-
-@pytest.mark.parametrize("lag", [0.0, 0.0123, 0.1])
-@pytest.mark.parametrize("count", [401, 4001])
-def test_lag_of_a_sine_in_spite_of_gain_and_offset(lag, count):
-    t = np.linspace(0.0, 4.0, count)
-    reference = 0.02 * np.sin(2.0 * np.pi * t)
-    position = 0.002 + 0.015 * np.sin(2.0 * np.pi * (t - lag))
-    found = tracking(t, reference, position)
-    assert found.lag == pytest.approx(lag, abs=2e-4)
-    assert found.overshoot == []
-    complex_error = 0.02 - 0.015 * np.exp(-2j * np.pi * lag)
-    assert found.rms == pytest.approx(np.hypot(0.002, abs(complex_error) / np.sqrt(2.0)), rel=1e-3)
-
-
-def test_a_short_period_does_not_make_a_later_lag():
-    t = np.linspace(0.0, 4.0, 2001)
-    reference, position = (np.sin(2.0 * np.pi * (t - shift) / 0.25) for shift in (0.0, 0.03))
-    assert tracking(t, reference, position).lag == pytest.approx(0.03, abs=2e-4)
-
-
-def test_overshoot_of_every_step():
-    t = np.linspace(0.0, 4.0, 4001)
-    reference = np.where(t < 1.0, 0.0, np.where(t < 2.5, 0.02, 0.01))
-    position = reference.copy()
-    position[(t > 1.2) & (t < 1.3)] = 0.023
-    position[(t > 2.6) & (t < 2.7)] = 0.009
-    first, second = tracking(t, reference, position).overshoot
-    assert first.time == pytest.approx(1.0)
-    assert (first.size, first.overshoot) == pytest.approx((0.02, 0.15))
-    assert (second.size, second.overshoot) == pytest.approx((-0.01, 0.1))
-
-
-def test_lag_of_a_step_behind_a_pure_dead_time():
-    t = np.linspace(0.0, 4.0, 4001)
-    found = tracking(t, np.where(t < 1.0, 0.0, 0.02), np.where(t < 1.2, 0.0, 0.02))
-    assert found.lag == pytest.approx(0.2, abs=0.005)
-    assert found.max == pytest.approx(0.02)
-
-
-def test_lag_that_does_not_exist_says_why():
-    t = np.linspace(0.0, 1.0, 101)
-    assert "does not change" in tracking(t, 0 * t, t).notes["lag"]
-    away = tracking(t, t**2, -t)
-    assert away.lag is None
-    assert "fits" in away.notes["lag"]
-    with pytest.raises(ValueError, match="same length"):
-        tracking(t, t[1:], t)

@@ -5,9 +5,20 @@ from __future__ import annotations
 from math import pi
 
 from mckibben.application.run.simulate import SimulationResult
-from mckibben.facts.run import JOINT, TRACKING
+from mckibben.facts.run import JOINT, STEP, TRACKING
 from mckibben.facts.timing import PHASES, PRESSURE_FIGURES, TIMING
 from mckibben.report.summary.parts import Summary, Table, figure, shown
+
+_OF_STEPS = (
+    "time",
+    "size",
+    "overshoot",
+    "settling_time",
+    "steady_error",
+    "swing_frequency",
+    "swing_amplitude",
+)
+_MOST_STEPS = 12
 
 
 def summary_of(result: SimulationResult, name: str) -> Summary:
@@ -60,12 +71,18 @@ def _reasons(result: SimulationResult) -> set[str]:
     }
 
 
-def _tracking(result: SimulationResult) -> list[Table]:
+def _tracking(result: SimulationResult) -> Summary:
     follows = result.tracking
     if follows is None:
         return []
     rows = [[each.label, shown(each, getattr(follows, name))] for name, each in TRACKING.items()]
-    return [Table(TRACKING.title, ["", ""], rows)]
+    tables: Summary = [f"controlled: {follows.verdict}" + (f"; {follows.advice}" if follows.advice else "")]
+    tables.append(Table(TRACKING.title, ["", ""], rows))
+    if follows.steps:
+        heads = [STEP[name].label for name in _OF_STEPS]
+        steps = [[shown(STEP[n], getattr(each, n)) for n in _OF_STEPS] for each in follows.steps]
+        tables.append(Table(f"{STEP.title} ({len(steps)})", heads, steps[:_MOST_STEPS]))
+    return tables
 
 
 def _joint(result: SimulationResult) -> list[Table]:

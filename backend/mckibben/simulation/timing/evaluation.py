@@ -20,7 +20,7 @@ from mckibben.simulation.drive.transient import Run, constants_of, dead_times
 from mckibben.simulation.integrate.engine import SLOWEST_REBOUND
 from mckibben.simulation.timing.table import TimingTable, timing
 from mckibben.simulation.timing.trace import Impact, Trace
-from mckibben.simulation.timing.tracking import Tracking, tracking
+from mckibben.simulation.timing.tracking import Followed, Tracking, tracking
 
 Array = np.ndarray
 
@@ -216,10 +216,29 @@ def timing_of(drive: Drive, trace: Trace | None) -> TimingTable:
 
 def tracking_of(run: Run, trace: Trace | None) -> Tracking | None:
     """Tracking figures of a controlled run; None without a reference, or with too few rows."""
-    reference = run.drive.reference
-    if reference is None or trace is None or len(trace.time) < _FEWEST_TRACKED:
+    reference, controller = run.drive.reference, run.drive.controller
+    if reference is None or controller is None or trace is None or len(trace.time) < _FEWEST_TRACKED:
         return None
-    return tracking(trace.time, reference.value(trace.time), trace.position)
+    return tracking(
+        Followed(
+            time=trace.time,
+            reference=np.asarray(reference.value(trace.time)),
+            position=trace.position,
+            command=np.asarray(run.command.value(trace.time)),
+            limits=(controller.output_min, controller.output_max),
+            contact=trace.contact,
+            pressure=trace.pressure,
+            full_pressure=full_pressure_of(run.drive),
+            pulled_back=run.drive.pair,
+            integrates=controller.ki > 0.0,
+        )
+    )
+
+
+def full_pressure_of(drive: Drive) -> float:
+    """Highest gauge pressure that a muscle can be given [Pa]."""
+    highest = drive.supply_pressure
+    return highest if drive.regulator is None else min(highest, drive.regulator.range)
 
 
 def choked_intervals(time: Array, side: Array) -> list[ChokedInterval]:
