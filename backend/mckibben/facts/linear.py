@@ -21,13 +21,19 @@ _NO_INTEGRATOR = Condition("the pole is no integrator", "an integrator has no da
 _SWINGS = Condition("the pole oscillates", "this motion does not oscillate")
 _DECAYS = Condition("the motion decays", "this motion does not decay")
 _CONTROLLED = Condition("the drive has a controller", "the drive has no controller")
+_UNSTABLE = "the closed loop is unstable, or"
 _TURNS = Condition(
-    "the open loop crosses the negative real axis", "the phase of the loop never reaches −180°"
+    "the closed loop is stable and the open loop crosses the negative real axis",
+    f"{_UNSTABLE} the phase of the loop never reaches −180°",
 )
-_CROSSES = Condition("the gain of the loop is 1 at some frequency", "the gain of the loop is never 1")
+_CROSSES = Condition(
+    "the closed loop is stable and the gain of the loop is 1 at some frequency",
+    f"{_UNSTABLE} the gain of the loop is never 1",
+)
+_STABLE = Condition("the closed loop is stable", "the closed loop is unstable")
 _FOLLOWS = Condition(
-    "the closed loop follows at the lowest frequency and falls by 3 dB",
-    "the closed loop does not follow at the lowest frequency, or never falls by 3 dB",
+    "the closed loop is stable, follows at the lowest frequency and falls by 3 dB",
+    f"{_UNSTABLE} does not follow at the lowest frequency, or never falls by 3 dB",
 )
 _COMPLETED = Condition("the run is complete", "the run did not complete")
 _STAYS = Condition(
@@ -153,8 +159,7 @@ MARGINS = Group(
     ),
     Figure(
         "phase_margin", "φ_m", "rad", "Phase margin",
-        "Angle from L to −1 where |L| = 1, at the crossing with the least magnitude of it; negative where "
-        "the loop has turned too far.",
+        "Angle from L to −1 where |L| = 1, at the crossing with the least magnitude of it.",
         _CROSSES,
     ),
     Figure(
@@ -169,7 +174,7 @@ MARGINS = Group(
     ),
     Figure(
         "modulus_margin", "s_m", "1", "Modulus margin",
-        "Least distance of the open loop from −1, min |1 + L|.", quantity="number",
+        "Least distance of the open loop from −1, min |1 + L|.", _STABLE, quantity="number",
     ),
     Figure(
         "bandwidth", "f_b", "Hz", "Bandwidth of the closed loop (−3 dB of 1)",

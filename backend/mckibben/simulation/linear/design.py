@@ -97,10 +97,10 @@ def design(linear: Linearisation, goals: Goals, watch: Watch | None = None) -> D
     loop = trials[-1].margins
     if not loop.stable:
         remarks.append(
-            "the linear loop of the refined controller is unstable, and its margins say nothing: the drive "
+            "the linear loop of the refined controller is unstable, so it has no margins: the drive "
             "stays within bounds by what the linear model loses"
         )
-    elif loop.modulus_margin < LEAST_MODULUS - 0.01:
+    elif loop.modulus_margin is not None and loop.modulus_margin < LEAST_MODULUS - 0.01:
         remarks.append(
             f"the linear loop of the refined controller comes within {loop.modulus_margin:.2g} of -1, "
             f"less than {LEAST_MODULUS:g}: it relies on what the linear model loses"

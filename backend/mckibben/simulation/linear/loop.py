@@ -28,7 +28,7 @@ Complex = NDArray[np.complex128]
 
 @result_class
 class Margins:
-    """Stability of a closed loop, and how far it is from its limit."""
+    """Stability of a closed loop, and how far a stable one is from its limit."""
 
     FIGURES: ClassVar = MARGINS.name
 
@@ -39,7 +39,7 @@ class Margins:
     phase_margin: float | None
     crossover: float | None
     delay_margin: float | None
-    modulus_margin: float
+    modulus_margin: float | None
     bandwidth: float | None
 
 
@@ -77,13 +77,16 @@ def loop_frequencies(controller: PidController, axis: Array) -> Array:
 
 
 def margins(model: LinearModel, controller: PidController, axis: Array) -> Margins:
-    """Margins of the loop.
+    """Margins of the loop; an unstable one has none.
 
     Args:
         model: the plant.
         controller: the controller.
         axis: frequencies [Hz] around the poles of the model.
     """
+    radius = float(np.abs(closed_loop_eigenvalues(model, controller)).max(initial=0.0))
+    if not radius < 1.0 - 1e-12:
+        return Margins(False, None, None, None, None, None, None, None)
     frequency = loop_frequencies(controller, axis)
     loop, closed = loop_response(model, controller, frequency)
     log_gain = np.log(np.maximum(np.abs(loop), 1e-300))
@@ -109,9 +112,8 @@ def margins(model: LinearModel, controller: PidController, axis: Array) -> Margi
     start = np.flatnonzero(~low)
     fallen = np.flatnonzero(low[start[0] :]) if len(start) else []
     width = float(frequency[start[0] + fallen[0]]) if len(fallen) and start[0] == 0 else None
-    radius = float(np.abs(closed_loop_eigenvalues(model, controller)).max(initial=0.0))
     return Margins(
-        stable=radius < 1.0 - 1e-12,
+        stable=True,
         gain_margin=gain_margin,
         gain_margin_at=gain_at,
         phase_margin=phase_margin,

@@ -1,0 +1,25 @@
+"""What is said of a loop: an unstable one has no margins."""
+
+from __future__ import annotations
+
+import mckibben as mk
+from mckibben.facts.linear import MARGINS
+
+
+def test_an_unstable_loop_has_no_margins_and_swings() -> None:
+    """The linear view and the run of the same gains agree."""
+    reference = {"shape": "step", "at": "0.5 s", "level": "22 mm", "initial": "5 mm"}
+    drive = mk.Drive(
+        muscle="DMSP-20:300mm", valve="MPYE-5-M5", supply="6 bar", duration="5 s", load={"mass": "20 kg"},
+        controller={"kp": 20.0, "ki": 50.0, "reference": reference},
+    )  # fmt: skip
+    found = drive.linearise(at="position 15 mm", amplitudes=()).loop.margins
+    assert found is not None
+    assert not found.stable
+    assert [getattr(found, name) for name in MARGINS] == [None] * len(MARGINS)
+    assert drive.run().tracking.state == "swings"
+    slower = drive.changed(controller={"kp": 2.0, "ki": 2.0, "reference": reference})
+    found = slower.linearise(at="position 15 mm", amplitudes=()).loop.margins
+    assert found.stable
+    assert found.modulus_margin > 0.1
+    assert found.delay_margin > 0.0
