@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.application.run.simulate import SimulationResult
-from mckibben.facts.timing import TIMING
+from mckibben.facts.timing import AIR_FIGURES, PHASES, TIMING
 from mckibben.report.document import Head, figure_of, mark, paragraph, table
 from mckibben.report.figures import Scale, figure, percent
 from mckibben.report.html import Child, Html, html
@@ -27,7 +27,7 @@ _PANEL = 70.0  # height of a drawing: both strokes stand below the table of the 
 _SPEED, _ACCELERATION, _FLOW = Scale("mm/s", 1e-3), Scale("m/s²"), Scale("g/s", 1e-3)
 
 #: Figures that are those of one muscle times the number of muscles.
-_TOGETHER = {"impact_energy", "air_mass", "air_volume_anr", "tube_air_mass"}
+_TOGETHER = {"impact_energy", *AIR_FIGURES} - {"choked_share"}
 
 
 class _DrawnPhase(NamedTuple):
@@ -140,7 +140,7 @@ def _rules(run: SimulationResult, phase: _DrawnPhase, rows: NDArray) -> list[Rul
     at(_passes(time, travel, min(_LEAVES, 0.01 * stroke)), "starts", EDGE, "2 3")
     rise = [_passes(time, travel, share * stroke) for share in (0.1, 0.9)]
     at(rise[0], "10 %", EDGE, "6 3")
-    at(figures.delay_time, "50 %, delay", INK, "6 3")
+    at(figures.delay_time, "50 %", INK, "6 3")
     at(rise[1], "90 %", EDGE, "6 3")
     at(figures.positioning_time, "arrives", SECOND, "6 3")
     return rules

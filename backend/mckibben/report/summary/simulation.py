@@ -17,13 +17,13 @@ def summary_of(result: SimulationResult, name: str) -> Summary:
         result: the run.
         name: of the drive, for the title.
     """
-    start, note = result.start, result.timing.notes.get("extend.air_mass")
+    start, note = result.start, result.timing.notes.get("extend.supplied_mass")
     return [
         timing_table(result, name),
         *(f"– {reason}" for reason in sorted(_reasons(result))),
         f"start at {start.position * 1e3:.4g} mm ({start.contraction * 100:.3g} %), {start.reason}",
         f"air: {result.gas}",
-        *([] if note is None else [f"air mass {note}"]),
+        *([] if note is None else [f"its mass is counted {note}"]),
         *_tracking(result),
         *_joint(result),
         *notices(result),
