@@ -10,6 +10,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
+from typing import Literal
 
 from mckibben.facts.figure import Condition, Figure, Group
 
@@ -28,15 +29,16 @@ _STEADY = Condition(
 )
 _FLOWS = Condition(
     "air flows in the direction of the phase",
-    "no air is taken from the supply (fill) or let out (vent) in this phase",
+    "no air flows in the direction of the phase",
 )
 _FREE = Condition("the load moves and hits no stop", "the load hits the stop")
 _HITS = Condition("the load hits the stop ahead, or arrives without one", "the load does not arrive in this phase")
 _COMMANDED = Condition("the command has the phase", "the command has no such phase")
 _MASS = Condition("the moving mass is known", "the moving mass is not known")
 
+Phase = Literal["extend", "retract"]
 #: Phase -> what it is called; it begins when the valve is switched.
-PHASES: Mapping[str, str] = MappingProxyType({"extend": "fill", "retract": "vent"})
+PHASES: Mapping[Phase, str] = MappingProxyType({"extend": "fill", "retract": "vent"})
 
 
 #: State of the volumes of air, to be read after "a volume": that of ANR, ISO 8778.

@@ -371,5 +371,6 @@ def air(trace: Trace, flows: Interval, sign: float) -> Figures:
         )
         notes = {name: said for name in figures if name.startswith(("supplied", "vented"))}
     if figures["choked_share"] is None:
-        notes["choked_share"] = TIMING["choked_share"].exists_when.otherwise
+        done = "taken from the supply" if sign > 0.0 else "let out"
+        notes["choked_share"] = f"no air is {done} in this phase"
     return figures, notes
