@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from mckibben.facts.groups import FIGURES
 from mckibben.facts.result import result_class
-from mckibben.facts.timing import PHASES, Phase
+from mckibben.facts.timing import PHASES
 from mckibben.facts.units import CERTAIN, NAMES, QUANTITIES, SHIFTED, TYPED, System
 
 
@@ -88,8 +88,8 @@ class Units:
     """Name of a unit in documents -> what it is."""
     shifted: dict[str, tuple[float, float]]
     """Temperature scale -> factor and offset to SI; it cannot be part of a compound unit."""
-    phases: dict[Phase, str]
-    """Phase of a timing table -> what it is called."""
+    phases: dict[str, str]
+    """Phase of a timing table, extend or retract -> what it is called."""
     certain: tuple[float, float]
     """A probability below the first is only said to be below it, above the second to be above it."""
 

@@ -24,7 +24,7 @@ RUN = Group(
     Figure("time", "t", "s", "Time", "Time from the start of the run."),
     Figure(
         "position", "x", "m", "Position",
-        "Position of the load, positive towards a shorter muscle; 0 at the nominal length, of a pair in the"
+        "Position of the load, positive towards a shorter muscle; 0 at the rest length, of a pair in the"
         " middle.",
     ),
     Figure("velocity", "v", "m/s", "Velocity", "dx/dt of the load, positive towards a shorter muscle."),
@@ -65,7 +65,7 @@ RUN = Group(
         "Distance of the fittings; a slack muscle is longer.",
     ),
     Figure(
-        "contraction", "ε", "1", "Contraction", "1 − length/nominal length, by the distance of the fittings.",
+        "contraction", "ε", "1", "Contraction", "1 − length/rest length, by the distance of the fittings.",
         quantity="ratio",
     ),
     Figure("load_force", "", "N", "External force", "Force on the load besides gravity and spring."),

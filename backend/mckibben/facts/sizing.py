@@ -29,7 +29,7 @@ _STATED = Condition("the task or the maker states the limit", "no such limit is 
 _FIGURES = (
     Figure(
         "nominal_length", "L₀", "m", "Rest length",
-        "Nominal length of each muscle without its end fittings, as the search chose it.",
+        "Rest length of each muscle without its end fittings, as the search chose it.",
     ),
     Figure(
         "parallel", "", "1", "Muscles in parallel",

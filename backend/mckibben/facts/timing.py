@@ -10,7 +10,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import replace
 from types import MappingProxyType
-from typing import Literal
 
 from mckibben.facts.figure import Condition, Figure, Group
 
@@ -32,13 +31,14 @@ _FLOWS = Condition(
     "no air flows in the direction of the phase",
 )
 _FREE = Condition("the load moves and hits no stop", "the load hits the stop")
-_HITS = Condition("the load hits the stop ahead, or arrives without one", "the load does not arrive in this phase")
+_HITS = Condition(
+    "the load hits the stop ahead, or arrives without one", "the load does not arrive in this phase"
+)
 _COMMANDED = Condition("the command has the phase", "the command has no such phase")
 _MASS = Condition("the moving mass is known", "the moving mass is not known")
 
-Phase = Literal["extend", "retract"]
 #: Phase -> what it is called; it begins when the valve is switched.
-PHASES: Mapping[Phase, str] = MappingProxyType({"extend": "fill", "retract": "vent"})
+PHASES: Mapping[str, str] = MappingProxyType({"extend": "fill", "retract": "vent"})
 
 
 #: State of the volumes of air, to be read after "a volume": that of ANR, ISO 8778.
@@ -54,8 +54,8 @@ _MOTION = _section(
     "Motion",
     Figure(
         "stroke", "S", "m", "Stroke of the phase",
-        "Position at the end of the phase minus position at its start, in the direction of the phase: where the "
-        "load is then, not where its stop is; the demanded stroke where one is demanded.", _MOVES,
+        "Position at the end of the phase minus position at its start, in the direction of the phase: where "
+        "the load is then, not where its stop is; the demanded stroke where one is demanded.", _MOVES,
     ),
     Figure(
         "positioning_time", "t_pos", "s", "Positioning time",
@@ -74,8 +74,8 @@ _MOTION = _section(
     ),
     Figure(
         "settling_time", "t_s", "s", "Settling time (5 % of the stroke)",
-        "Time from which |s − S| ≤ 0.05 S until the end of the phase; not before the impact with which the load "
-        "arrives.",
+        "Time from which |s − S| ≤ 0.05 S until the end of the phase; not before the impact with which the "
+        "load arrives.",
         _SETTLES, quantity="lapse",
     ),
     Figure(
@@ -141,7 +141,8 @@ _PRESSURE_STEP = _section(
     ),
     Figure(
         "pressure_delay_time", "t_p50", "s", "Time to 50 % of the change of pressure",
-        "First time at 50 % of the change of pressure in the (first) muscle in the phase, the dead time in it.",
+        "First time at 50 % of the change of pressure in the (first) muscle in the phase, the dead time "
+        "in it.",
         _PRESSURE, quantity="lapse",
     ),
     Figure(
@@ -179,8 +180,8 @@ _AIR = _section(
     ),
     Figure(
         "choked_share", "", "1", "Share of the air that passes choked",
-        "Integral of the flow from the supply (fill) or to the atmosphere (vent) while the valve is choked, over "
-        "its integral in the phase.",
+        "Integral of the flow from the supply (fill) or to the atmosphere (vent) while the valve is choked, "
+        "over its integral in the phase.",
         _FLOWS, quantity="ratio",
     ),
 )  # fmt: skip

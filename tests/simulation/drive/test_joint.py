@@ -11,8 +11,8 @@ import pytest
 from mckibben.application.run.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import drive_of
-from mckibben.physics.errors import InputError
 from mckibben.physics.drive_terms import COUNTER
+from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.joint import JointStiffness, common_limits
 from mckibben.simulation.timing.evaluation import timing_of, trace_of
@@ -162,7 +162,8 @@ def test_the_air_of_both_muscles_is_in_both_phases(document: dict[str, Any]) -> 
     angle = {"shape": "pulse", "on": "1 s", "off": "2 s", "level": "10 deg"}
     stiffness = {"reference": {"shape": "step", "at": "0 s", "level": "18 N*m/rad"}}
     drive = drive_of(
-        read_document(changed(document, angle=angle, stiffness=stiffness) | {"duration": "3 s"}, "joint"), STUDIO
+        read_document(changed(document, angle=angle, stiffness=stiffness) | {"duration": "3 s"}, "joint"),
+        STUDIO,
     ).drive
     done = simulate_controlled(drive, grid=np.linspace(0.0, 3.0, 6001))
     table = timing_of(drive, trace_of(done))

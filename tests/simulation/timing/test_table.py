@@ -215,7 +215,7 @@ def test_the_average_speed_without_a_stop_is_that_of_the_way_to_the_arrival():
 
 
 def swinging_off(height: float) -> Trace:
-    """At 0.8 m/s against a stop at 0.2 m, from which it swings back and forth by ``height``, in a period of 0.5 s."""
+    """At 0.8 m/s against a stop at 0.2 m, from which it swings back by ``height`` every 0.5 s."""
     t = grid(2.2, 4401)
     late = np.maximum(t - 0.25, 0.0)
     w = 4.0 * np.pi

@@ -154,7 +154,7 @@ class SimulationResult:
     choked: list[ChokedInterval]
     """Choked intervals of the whole run, whatever rows are requested."""
     timing: TimingTable
-    """Times, speeds and air of the first fill and the exhaust after it."""
+    """Times, speeds and air of the first fill and the vent after it."""
     tracking: Tracking | None
     """Tracking figures of a controlled run."""
     outcome: OutcomeName

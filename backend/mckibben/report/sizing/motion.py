@@ -170,7 +170,8 @@ def _table(chosen: Chosen) -> Html:
     if chosen.count > 1:
         caption += f" Energy and air are for all {chosen.count} muscles of a side together."
     return html(
-        table(columns, rows, caption=caption), [paragraph(f"{note[:1].upper()}{note[1:]}.", note=True) for note in timing_remarks(timing)]
+        table(columns, rows, caption=caption),
+        [paragraph(f"{note[:1].upper()}{note[1:]}.", note=True) for note in timing_remarks(timing)],
     )
 
 

@@ -24,7 +24,8 @@ def summary_of(result: SimulationResult, name: str) -> Summary:
     return [
         timing_table(result, name),
         *(f"– {remark}" for remark in timing_remarks(result.timing)),
-        f"start at {round(start.position, 9) * 1e3 + 0.0:.4g} mm ({start.contraction * 100:.3g} %), {start.reason}",
+        f"start at {round(start.position, 9) * 1e3 + 0.0:.4g} mm "
+        f"({start.contraction * 100:.3g} %), {start.reason}",
         f"air: {result.gas}",
         *_tracking(result),
         *_joint(result),

@@ -120,8 +120,8 @@ def stop_of(drive: Drive, event: Event) -> float:
 def _exchanged(run: Run, suffix: str, *, from_states: bool) -> tuple[Array, Array]:
     """Air that a muscle has taken from the supply, and let out, since the start of the run [kg].
 
-    The integrals of the flows; where these do not conserve mass, the larger flow of each step is that which the
-    change of p V/(R T) in muscle and tube leaves, T the ambient temperature. What leaks is air let out.
+    The integrals of the flows; where these do not conserve mass, the larger flow of each step is that which
+    the change of p V/(R T) in muscle and tube leaves, T the ambient temperature. What leaks is air let out.
     """
     supplied, vented = run.states[f"supplied{suffix}"], run.states[f"vented{suffix}"]
     if not from_states:

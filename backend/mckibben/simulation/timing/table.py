@@ -1,4 +1,4 @@
-"""The timing table of a drive: figures of one fill and one exhaust, SI throughout.
+"""The timing table of a drive: figures of one fill and one vent, SI throughout.
 
 `mckibben.facts.timing` defines each figure. Impacts, and a load at rest on a stop, count neither for speeds
 nor for accelerations. The settling band is 5 % of the stroke by default: a load that stops between the end
@@ -79,12 +79,12 @@ class PhaseFigures:
 
 @result_class
 class TimingTable:
-    """Figures of the first fill and of the exhaust after it."""
+    """Figures of the first fill and of the vent after it."""
 
     extend: PhaseFigures = field(default_factory=PhaseFigures)
     """Figures of the first fill."""
     retract: PhaseFigures = field(default_factory=PhaseFigures)
-    """Figures of the exhaust after it."""
+    """Figures of the vent after it."""
     notes: dict[str, str] = field(default_factory=dict)
     """For example "extend.rise_time" -> why it is None, or a remark on it."""
 
@@ -366,8 +366,8 @@ def air(trace: Trace, flows: Interval, sign: float) -> Figures:
     notes: dict[str, str] = {}
     if trace.from_states:
         said = (
-            "from the change of pressure times volume at ambient temperature: with a stated polytropic exponent "
-            "the flows do not conserve mass, and the flow over time integrates to another amount"
+            "from the change of pressure times volume at ambient temperature: with a stated polytropic "
+            "exponent the flows do not conserve mass, and the flow over time integrates to another amount"
         )
         notes = {name: said for name in figures if name.startswith(("supplied", "vented"))}
     if figures["choked_share"] is None:

@@ -34,8 +34,8 @@ class Trace:
         choked: whether, or on which side, the valve is choked; 0 = not.
         supply_mass_flow: from the supply [kg/s]; default: the flow into the muscle.
         exhaust_mass_flow: to the atmosphere, positive [kg/s]; default: the flow out of the muscle.
-        supplied, vented: air taken from the supply and let out since the start [kg]; default: integrals of these
-            flows by the trapezoidal rule.
+        supplied, vented: air taken from the supply and let out since the start [kg]; default: integrals of
+            these flows by the trapezoidal rule.
         from_states: whether both are counted from the states because the flows do not conserve mass.
         tube_charge: the part of the air that is in the tube [kg]; default 0.
         impacts: in order of time. At each the trace has two rows, before and after it.

@@ -44,7 +44,7 @@ export function timingTable() {
   return h(
     "table",
     { class: "data timing" },
-    h("caption", { class: "unseen" }, "Timing of the first fill and of the venting after it"),
+    h("caption", { class: "unseen" }, Object.values(UNITS.phases).join(" and ")),
     h(
       "thead",
       null,

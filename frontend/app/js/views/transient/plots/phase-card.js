@@ -1,6 +1,7 @@
 // @ts-check
 // The phase plot on the page: legend, meaning of the dashed lines, point at the cursor, menu.
 import { h } from "../../../dom.js";
+import { UNITS } from "../../../facts.js";
 import { apart, computed, effect } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
 import { scaleOf, toShown, withUnit } from "../../../format.js";
@@ -88,8 +89,8 @@ export function phaseLegend() {
       h("i", { class: "ramp", style: `background:linear-gradient(to right,${stops})` }),
       `${Number(to.toPrecision(3))} ${end}`,
     ),
-    h("li", null, h("i", { class: "dash", style: `color:${p.soft}` }), "fill, static"),
-    h("li", null, h("i", { class: "dash", style: `color:${p.second}` }), "vent, static"),
+    h("li", null, h("i", { class: "dash", style: `color:${p.soft}` }), `${UNITS.phases.extend}, static`),
+    h("li", null, h("i", { class: "dash", style: `color:${p.second}` }), `${UNITS.phases.retract}, static`),
   );
 }
 
