@@ -87,6 +87,8 @@ def test_the_answer_is_the_declared_one(lift: dict[str, Any]) -> None:
     assert lift["outcome"] == "completed"
     assert lift["message"] is None
     assert lift["engine"] == "rodas"
+    mass = float(LIFT["load"]["mass"].removesuffix(" kg"))
+    assert lift["weight"] == pytest.approx(9.80665 * mass), "it hangs"
     assert set(lift["timing"]["extend"]) >= TIMING
     assert set(lift["timing"]["retract"]) >= TIMING
     assert set(lift["timing"]["extend"]) == set(FIGURES)

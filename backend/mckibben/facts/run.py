@@ -70,6 +70,10 @@ RUN = Group(
     ),
     Figure("load_force", "", "N", "External force", "Force on the load besides gravity and spring."),
     Figure("temperature", "T", "K", "Gas temperature", "Temperature of the air in the muscle."),
+    Figure(
+        "weight", "", "N", "Weight along the motion",
+        "m g sin(inclination) of the mass of the load, positive against the contraction.",
+    ),
     Figure("duration", "", "s", "Duration", "Duration of the whole run."),
     Figure(
         "supplied_volume_anr", "V_ANR", "m^3", "Air taken from the supply (ANR)",
