@@ -74,7 +74,10 @@ CHANNELS = Group(
     Figure(
         "displacement", "x", "m", "Stroke", "Rest length − length of the muscle."
     ),
-    Figure("diameter", "D", "m", "Diameter", "Diameter of the muscle at mid-span."),
+    Figure(
+        "diameter", "D", "m", "Diameter",
+        "Diameter at mid-span; it is compared with that of the braid, the middle of the wall.",
+    ),
     Figure("force", "F", "N", "Force", "Tension of the muscle."),
     Figure("load", "", "N", "Load", "Force that the muscle carries."),
     Figure(

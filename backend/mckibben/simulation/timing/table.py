@@ -36,6 +36,7 @@ SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0
 PRESSURE_BAND = 0.01
 # A level is passed, within this share of the step, in less than this share of the figure, or a note says so.
 _SHARP, _SHARP_TIME = 0.001, 0.01
+_MICROGRAM = 9  # decimals of a mass in kg; less is the error of the integration
 #: A signal that settles only in this last share of a phase counts as not settled.
 _STILL_MOVING = 0.1
 
@@ -347,7 +348,7 @@ def air(trace: Trace, flows: Interval, sign: float) -> Figures:
 
     def change(column: Array) -> float:
         first, last = np.interp([begin, end], trace.time, column)
-        return float(last - first)
+        return round(float(last - first), _MICROGRAM) + 0.0
 
     supplied, vented = change(trace.supplied), change(trace.vented)
     passed = (trace.time >= begin) & (trace.time <= end)

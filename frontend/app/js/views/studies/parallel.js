@@ -8,7 +8,7 @@ import { shown } from "./model.js";
 import { front, keepRange, numbersOf, pins, places, ranges } from "./rows.js";
 import { columnText, scaleFor, titleOf, valueText } from "./words.js";
 
-const HEIGHT = 263, TOP = 59, BOTTOM = 24, STEP = 124, SIDE = 62;
+const HEIGHT = 250, TOP = 59, BOTTOM = 24, STEP = 124, SIDE = 62;
 /** Half the width in which an axis takes the pointer, and the least length of a range [px]. */
 const REACH = 16, LEAST = 4;
 /** More lines would not be seen apart. */
