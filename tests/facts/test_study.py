@@ -24,6 +24,6 @@ def test_no_two_watched_figures_have_one_label() -> None:
     for figures in (DRIVE_FIGURES, TASK_FIGURES):
         labels = [WATCHED[path].label for path in figures]
         assert len(set(labels)) == len(labels), labels
-    # The air of a phase and that of a cycle.
-    air = {WATCHED[path].label for path in WATCHED if path.endswith("air_volume_anr")}
-    assert len(air) == 3
+    # The air that each phase takes and lets out, and that of a cycle.
+    air = {WATCHED[path].label for path in WATCHED if path.endswith("volume_anr")}
+    assert len(air) == 5

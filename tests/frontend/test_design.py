@@ -51,7 +51,7 @@ def test_first_open_shows_a_real_muscle_with_its_error(page: Page) -> None:
     open_design(page)
     expect(page.locator("#preset")).to_have_value("DMSP-20")
     expect(field(page, "Rest length")).to_have_value("300")
-    expect(page.locator("#rmse")).to_contain_text("% of full scale")
+    expect(page.locator("#rmse")).to_contain_text("% of the largest")
     assert page.locator("#force .tracepoints .point").count() > 40
     assert page.locator("#force .js-line").count() == 6
     ideal = page.locator("#rmse .rmse").nth(1).locator("b").inner_text()
@@ -61,7 +61,7 @@ def test_first_open_shows_a_real_muscle_with_its_error(page: Page) -> None:
 def test_the_whole_flow(page: Page, page_guard: PageGuard, tmp_path: Path) -> None:
     open_design(page)
     page.locator("#preset").select_option("DMSP-10")
-    expect(page.locator("#rmse")).to_contain_text("% of full scale")
+    expect(page.locator("#rmse")).to_contain_text("% of the largest")
     expect(page.get_by_label("Points to compare with")).to_have_value("martens-dmsp-10-250")
 
     # An order code sets preset and length and says what it means; the part that is not understood is marked.
@@ -79,7 +79,7 @@ def test_the_whole_flow(page: Page, page_guard: PageGuard, tmp_path: Path) -> No
     expect(page.locator("[data-field=order_code] mark")).to_have_count(0)
     page.locator("#preset").select_option("DMSP-10")
     expect(page.locator(".code-parts")).to_have_count(0)
-    expect(page.locator("#rmse")).to_contain_text("% of full scale")
+    expect(page.locator("#rmse")).to_contain_text("% of the largest")
 
     # The angle changes the error; undo brings it back.
     enter(page, "Rest length", "25 cm")

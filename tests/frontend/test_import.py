@@ -494,7 +494,7 @@ def test_a_transient_trace_is_imported_the_same_way(page: Page) -> None:
         dialog.locator(".ask[data-about='unit of pressure']").get_by_role("button", name="kPa").click()
     use(page)
     card = page.get_by_role("region", name="Measured trace")
-    expect(card).to_contain_text("Dots in the plots: pressure, displacement")
+    expect(card).to_contain_text("Dots in the plots: pressure, stroke")
     # The next one of its kind needs no panel.
     page.get_by_role("button", name="Remove t.csv").click()
     page.locator("#measured-file").set_input_files([trace("u.csv")])

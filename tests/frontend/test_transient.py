@@ -286,7 +286,7 @@ def test_one_model_of_the_air_at_a_time(page: Page) -> None:
     expect(card.locator("summary")).to_contain_text("Air: exponent 1.2")
     expect(told).to_contain_text("polytropic exponent 1.2")
     expect(field(page, "Heat transfer to the wall")).to_have_count(0)
-    expect(page.locator(".figure-notes", has_text="Remarks")).to_contain_text("does not conserve the mass")
+    expect(page.locator(".figure-notes", has_text="Remarks")).to_contain_text("the flows do not conserve mass")
     drive = asked_drive(page, lambda: model.select_option("energy"))
     assert "gas" not in drive
     expect(field(page, "Polytropic exponent")).to_have_count(0)
@@ -521,7 +521,7 @@ def test_a_measured_trace_lies_over_the_run(page: Page, page_guard: PageGuard, t
     page.locator("#measured-file").set_input_files(trace)
     use(page)
     card = page.get_by_role("region", name="Measured trace")
-    expect(card).to_contain_text("pressure, displacement")
+    expect(card).to_contain_text("pressure, stroke")
     expect(page.locator("#run-position .point")).to_have_count(150)
     page.get_by_role("button", name="Remove trace.csv").click()
     expect(page.locator("#run-position .point")).to_have_count(0)

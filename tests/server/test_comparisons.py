@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
@@ -138,18 +139,41 @@ def test_the_right_model_leaves_noise(shared_client: TestClient, rubbing: str) -
     assert all(abs(loop["area"]) < 0.2 for loop in answer["loops"])
 
 
-def test_the_map_covers_pressure_and_contraction(shared_client: TestClient, rubbing: str) -> None:
+def test_the_map_has_a_row_for_each_level(shared_client: TestClient, rubbing: str) -> None:
     answer = compare(shared_client, IDEAL, rubbing)
     chart = answer["heat_map"]
-    assert (chart["x"], chart["y"]) == ("contraction", "pressure")
-    assert len(chart["x_edges"]) == len(chart["y_edges"]) == 9
+    assert (chart["x"], chart["y"], chart["scaled"]) == ("contraction", "pressure", False)
+    assert chart["split"] is True, "the friction changes its sign with the direction"
+    assert [row["level"] for row in chart["rows"]] == pytest.approx([6e5, 4e5, 2e5], rel=0.02)
     # The turning rows at both ends, 0.004 apart from the next ones, may be left out.
-    assert chart["x_edges"][0] == pytest.approx(0.0, abs=0.0041)
-    assert chart["x_edges"][-1] == pytest.approx(0.16, abs=0.0041)
-    assert sum(map(sum, chart["count"])) == answer["rows_used"] > 440
-    for means, counts in zip(chart["mean"], chart["count"], strict=True):
-        for mean, count in zip(means, counts, strict=True):
-            assert (mean is None) == (count == 0)
+    assert chart["edges"][0] == pytest.approx(0.0, abs=0.0041)
+    assert chart["edges"][-1] == pytest.approx(0.16, abs=0.0041)
+    cells = [cell for row in chart["rows"] for cell in row["cells"] if cell]
+    assert sum(cell["count"] for cell in cells) == answer["rows_used"] > 440
+    for cell in cells:
+        assert cell["lengthening"] - cell["shortening"] == pytest.approx(30.0, abs=3.0), "twice 15 N"
+
+
+def test_the_rows_of_a_range_by_themselves(shared_client: TestClient, rubbing: str) -> None:
+    """Residuals of the curves, which hold all rows here, chosen by hand."""
+    within = {"pressure": [3.5e5, 4.5e5], "contraction": [0.05, 0.1], "direction": [1, 1]}
+    answer = compare(shared_client, IDEAL, rubbing, within=within)
+    chosen = [
+        residual
+        for s in answer["series"]
+        for residual, *place in zip(
+            s["residual"], s["x_pressure"], s["contraction"], s["direction"], strict=True
+        )
+        if all(low <= value <= high for value, (low, high) in zip(place, within.values(), strict=True))
+    ]
+    (inside,) = answer["inside"]
+    assert (inside["channel"], inside["count"]) == ("force", len(chosen))
+    assert len(chosen) > 10
+    assert inside["rms"] == pytest.approx(np.sqrt(np.mean(np.square(chosen))))
+    assert inside["mean"] == pytest.approx(np.mean(chosen))
+    (nothing,) = compare(shared_client, IDEAL, rubbing, within={"time": [-2.0, -1.0]})["inside"]
+    assert (nothing["rms"], nothing["count"]) == (None, 0)
+    assert compare(shared_client, IDEAL, rubbing)["inside"] == []
 
 
 def test_curves_carry_what_plots_need(shared_client: TestClient, rubbing: str) -> None:

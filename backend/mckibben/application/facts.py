@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from mckibben.facts.groups import FIGURES
 from mckibben.facts.result import result_class
+from mckibben.facts.timing import PHASES
 from mckibben.facts.units import CERTAIN, NAMES, QUANTITIES, SHIFTED, TYPED, System
 
 
@@ -75,7 +76,7 @@ class TypedUnit:
 
 @result_class
 class Units:
-    """How quantities are shown, and which units are read."""
+    """How quantities are shown, which units are read, and the words that belong to no single figure."""
 
     scales: dict[str, dict[System, ShownUnit]]
     """Quantity -> unit system -> unit in which it is shown."""
@@ -87,6 +88,8 @@ class Units:
     """Name of a unit in documents -> what it is."""
     shifted: dict[str, tuple[float, float]]
     """Temperature scale -> factor and offset to SI; it cannot be part of a compound unit."""
+    phases: dict[str, str]
+    """Phase of a timing table, extend or retract -> what it is called."""
     certain: tuple[float, float]
     """A probability below the first is only said to be below it, above the second to be above it."""
 
@@ -122,5 +125,6 @@ def units() -> Units:
         typed={unit: TypedUnit(*meaning) for unit, meaning in TYPED.items()},
         names={name: UnitName(factor, dimension) for name, (factor, dimension) in NAMES.items()},
         shifted=dict(SHIFTED),
+        phases=dict(PHASES),
         certain=CERTAIN,
     )

@@ -21,6 +21,7 @@ from mckibben.simulation.integrate.background import is_compiling
 from mckibben.simulation.outcome import Watch
 
 _SHOWN_AFTER = 1.0  # s
+_PIPE = 10_000  # columns, more than any table has
 _COMPILING = "compiling, once on this machine"
 
 
@@ -81,16 +82,19 @@ def write_summary(summary: Summary) -> None:
 
 
 def _write_table(content: Table) -> None:
-    """A table of right-aligned figures; the first column is left-aligned."""
+    """A table of right-aligned figures; the first column is left-aligned.
+
+    A terminal that is too narrow breaks cells and heads into lines; nothing is cut off. A pipe has no width.
+    """
+    console = Console(highlight=False)
+    narrow = console.is_terminal
+    if not narrow:
+        console = Console(highlight=False, width=_PIPE)
     table = RichTable(box=SIMPLE_HEAD)
     for index, column in enumerate(content.columns):
-        table.add_column(column, justify="left" if index == 0 else "right", no_wrap=True)
+        table.add_column(column, justify="right" if index else "left", no_wrap=not narrow, overflow="fold")
     for row in content.rows:
         table.add_row(*row)
-    console = Console(highlight=False)
-    if not console.is_terminal:
-        # A pipe has no width; figures must not be truncated.
-        console = Console(highlight=False, width=200)
     console.print(content.title, style="bold", soft_wrap=True)
     console.print(table)
 

@@ -282,7 +282,7 @@ class DriveDocument(Strict):
     )
     command: Command | None = Field(
         None,
-        description="Opening of the valve: 1 fill, 0 closed, -1 exhaust; for a regulator, the share of its "
+        description="Opening of the valve: 1 fill, 0 closed, -1 vent; for a regulator, the share of its "
         "range. Where a shape has no value, e.g. outside a pulse, the valve exhausts (0 for a regulator). "
         "Not needed with a controller or a measurement, which supply the command.",
         examples=[{"shape": "pulse", "on": "0 s", "off": "2 s"}],

@@ -114,7 +114,7 @@ def _signal_or_constant(given: Any, unit: str, field: str) -> Signal:
 
 
 _DEFAULT_MAX_CONTRACTION = 0.25
-_SHORTEST = 0.1  # shortest possible muscle, share of its nominal length
+_SHORTEST = 0.1  # shortest possible muscle, share of its rest length
 
 
 @dataclass(frozen=True, slots=True)

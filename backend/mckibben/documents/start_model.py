@@ -64,7 +64,7 @@ class PresetFacts:
         effects: the effects of the preset with all their parameters.
         limits: limits stated by the maker.
         tolerance: geometry field -> largest change by a fit, in either direction.
-        shortest, longest: range of nominal lengths that the maker sells, None where not known [m].
+        shortest, longest: range of rest lengths that the maker sells, None where not known [m].
         unverified: paths in the preset of the unverified values that the model uses, "effects.dahl.force".
         suspended_mass: largest mass that may hang freely on the muscle, None where not known [kg].
         coldest, hottest: ambient temperatures it is made for, None where not known [K].

@@ -105,7 +105,7 @@ class StaticC:
             yield C.inline(f"    {'int' if member == 'slack' else 'double'} {member};", meaning)
         yield f"}} {name}_result;"
         yield ""
-        yield "/* A muscle at rest at its nominal length, without pressure, at 293.15 K; states at rest. */"
+        yield "/* A muscle at rest at its rest length, without pressure, at 293.15 K; states at rest. */"
         yield f"void {name}_rest({name}_input *in);"
         if any(state.sliding for state in self._equations.state_variables.values()):
             yield "/* States of friction as a long slow motion in in->direction leaves them. */"

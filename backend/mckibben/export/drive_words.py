@@ -35,7 +35,7 @@ _STATES: Mapping[str, Words] = {
 }
 _INPUTS: Mapping[str, Words] = {
     "opening": Words(
-        "1", "Valve: 1 fill, 0 closed, -1 exhaust; regulator: share of its range; after all dead times."
+        "1", "Valve: 1 fill, 0 closed, -1 vent; regulator: share of its range; after all dead times."
     ),
     "counter_opening": Words("1", "The same of the second muscle of the pair."),
     "external_force": Words("N", "Force on the load against the pull."),

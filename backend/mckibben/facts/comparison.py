@@ -72,16 +72,19 @@ CHANNELS = Group(
     Figure("time", "t", "s", "Time", "Time of the row."),
     Figure("length", "L", "m", "Length", "Length of the muscle."),
     Figure(
-        "displacement", "x", "m", "Stroke", "How much shorter the muscle is than at rest."
+        "displacement", "x", "m", "Stroke", "Rest length − length of the muscle."
     ),
-    Figure("diameter", "D", "m", "Diameter", "Diameter of the muscle at mid-span."),
+    Figure(
+        "diameter", "D", "m", "Diameter",
+        "Diameter at mid-span; it is compared with that of the braid, the middle of the wall.",
+    ),
     Figure("force", "F", "N", "Force", "Tension of the muscle."),
     Figure("load", "", "N", "Load", "Force that the muscle carries."),
     Figure(
         "command", "u", "1", "Command", "Opening of the valve: 1 fill, 0 closed, −1 vent.",
         quantity="number",
     ),
-    Figure("temperature", "T", "K", "Temperature", "Temperature of the muscle."),
+    Figure("temperature", "T", "K", "Muscle temperature", "Temperature of the muscle, not of its air."),
     Figure("group", "", "1", "Group", "Number of the sweep or run.", quantity="number"),
 )  # fmt: skip
 

@@ -50,7 +50,7 @@ LINEAR_POINT = Group(
     "Operating point",
     Figure(
         "position", "x", "m", "Position",
-        "Position of the load, positive towards a shorter muscle; 0 at the nominal length, of a pair in the"
+        "Position of the load, positive towards a shorter muscle; 0 at the rest length, of a pair in the"
         " middle.",
     ),
     Figure(

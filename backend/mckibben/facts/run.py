@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from mckibben.facts.figure import Condition, Figure, Group
+from mckibben.facts.timing import AT_ANR
 
 _CONTROLLED = Condition("a controller follows a reference", "there is no reference to follow")
 _LAGGED = Condition(
@@ -28,7 +29,7 @@ RUN = Group(
     Figure("time", "t", "s", "Time", "Time from the start of the run."),
     Figure(
         "position", "x", "m", "Position",
-        "Position of the load, positive towards a shorter muscle; 0 at the nominal length, of a pair in the"
+        "Position of the load, positive towards a shorter muscle; 0 at the rest length, of a pair in the"
         " middle.",
     ),
     Figure("velocity", "v", "m/s", "Velocity", "dx/dt of the load, positive towards a shorter muscle."),
@@ -40,7 +41,8 @@ RUN = Group(
     Figure("force", "F", "N", "Force", "Tension of the muscle; of a pair of the first one."),
     Figure(
         "mass_flow", "ṁ", "kg/s", "Air flow",
-        "Mass flow of air into the muscle, negative out of it; of a pair of the first one.",
+        "Mass flow of air into the muscle, negative out of it; of a pair of the first one. With a stated "
+        "polytropic exponent it does not conserve mass: its integral is not the air of the timing table.",
     ),
     Figure(
         "command", "u", "1", "Command", "Command before dead times: 1 fill, 0 closed, −1 vent.",
@@ -68,17 +70,20 @@ RUN = Group(
         "Distance of the fittings; a slack muscle is longer.",
     ),
     Figure(
-        "contraction", "ε", "1", "Contraction", "1 − length/nominal length, by the distance of the fittings.",
+        "contraction", "ε", "1", "Contraction", "1 − length/rest length, by the distance of the fittings.",
         quantity="ratio",
     ),
     Figure("load_force", "", "N", "External force", "Force on the load besides gravity and spring."),
     Figure("temperature", "T", "K", "Gas temperature", "Temperature of the air in the muscle."),
+    Figure(
+        "weight", "", "N", "Weight along the motion",
+        "m g sin(inclination) of the mass of the load, positive against the contraction.",
+    ),
     Figure("duration", "", "s", "Duration", "Duration of the whole run."),
     Figure(
         "supplied_volume_anr", "V_ANR", "m^3", "Air taken from the supply (ANR)",
-        "Air that all muscles take from the supply over the whole run, with that for the tubes, as a volume"
-        " at 20 °C, "
-        "100 kPa and 65 % humidity.", quantity="normal",
+        "Air that all muscles and tubes take from the supply over the whole run, as a volume "
+        f"{AT_ANR}.", quantity="normal",
     ),
 )  # fmt: skip
 

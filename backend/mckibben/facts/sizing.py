@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 from mckibben.facts.figure import Condition, Figure, Group
+from mckibben.facts.timing import AT_ANR
 
 #: Duration of the fill [s]: this multiple of the required time, at least the shortest; of a task without one
 #: the last.
@@ -28,7 +29,7 @@ _STATED = Condition("the task or the maker states the limit", "no such limit is 
 _FIGURES = (
     Figure(
         "nominal_length", "L₀", "m", "Rest length",
-        "Nominal length of each muscle without its end fittings, as the search chose it.",
+        "Rest length of each muscle without its end fittings, as the search chose it.",
     ),
     Figure(
         "parallel", "", "1", "Muscles in parallel",
@@ -52,8 +53,8 @@ _FIGURES = (
     ),
     Figure(
         "air_volume_anr", "V_ANR", "m^3", "Air per cycle (ANR)",
-        "Air that all muscles take from the supply for one stroke and one return, with that for the tubes, "
-        f"as a volume at 20 °C, 100 kPa and 65 % humidity. The valve fills for {FILL_TIMES:g} times the "
+        "Air that all muscles and tubes take from the supply for one stroke and one return, as a volume "
+        f"{AT_ANR}. The valve fills for {FILL_TIMES:g} times the "
         f"required time of stroke or cycle, at least {SHORTEST_FILL:g} s, and {UNTIMED_FILL:g} s where none "
         "is required: after a short fill the muscle is not yet full.",
         quantity="normal",

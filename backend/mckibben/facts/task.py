@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import sqrt
 
 from mckibben.facts.figure import Figure, Group
+from mckibben.facts.timing import AT_ANR
 from mckibben.facts.units import NAMES, SHIFTED
 
 
@@ -168,7 +169,8 @@ TASK = Group(
     ),
     _stated(
         "operation.air_price", "1/m^3", "Price of air (ANR)",
-        "Price of a cubic metre of compressed air at 20 °C, 100 kPa and 65 % humidity. Default {usual}, a "
+        f"Price of a cubic metre of compressed air {AT_ANR}. "
+        "Default {usual}, a "
         "usual figure in euro (general knowledge, not verified: 0.01 to 0.03).", "0.025",
     ),
     _stated("operation.currency", "", "Currency", "Currency of the price."),

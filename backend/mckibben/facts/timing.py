@@ -1,6 +1,6 @@
-"""Figures of one phase of a switched drive, fill or exhaust, as Festo's ProPneu reports them.
+"""Figures of one phase of a switched drive, fill or vent, as Festo's ProPneu reports them.
 
-All times count from the switching instant of the phase (ProPneu prints those of the exhaust in run time).
+All times count from the switching instant of the phase (ProPneu prints those of the vent in run time).
 s is the travel since that instant, positive in the direction of the phase (fill: shorter); S the stroke of
 the phase: from its start to where it ends, or the demanded stroke.
 """
@@ -14,7 +14,10 @@ from types import MappingProxyType
 from mckibben.facts.figure import Condition, Figure, Group
 
 _MOVES = Condition("the command has the phase and the load moves in it", "the muscle does not move")
-_ARRIVES = Condition("the load arrives in the phase", "the load does not arrive in this phase")
+_ARRIVES = Condition(
+    "the load ends within 5 % of S of the stop that it hits, or hits none and settles",
+    "the load does not arrive in this phase",
+)
 _SETTLES = Condition(
     "the load is within the band before the last tenth of the phase", "still moving at the end of the phase"
 )
@@ -25,9 +28,12 @@ _STEADY = Condition(
 )
 _FLOWS = Condition(
     "air flows in the direction of the phase",
-    "no air is taken from the supply (fill) or let out (vent) in this phase",
+    "no air flows in the direction of the phase",
 )
 _FREE = Condition("the load moves and hits no stop", "the load hits the stop")
+_HITS = Condition(
+    "the load hits the stop ahead, or arrives without one", "the load does not arrive in this phase"
+)
 _COMMANDED = Condition("the command has the phase", "the command has no such phase")
 _MASS = Condition("the moving mass is known", "the moving mass is not known")
 
@@ -35,6 +41,11 @@ _MASS = Condition("the moving mass is known", "the moving mass is not known")
 SETTLED_BEFORE = 0.9
 #: Phase -> what it is called; it begins when the valve is switched.
 PHASES: Mapping[str, str] = MappingProxyType({"extend": "fill", "retract": "vent"})
+
+
+#: State of the volumes of air, to be read after "a volume": that of ANR, ISO 8778.
+AT_ANR = "at 20 °C, 100 kPa and 65 % humidity"
+_UNTIL = "from the end of the flow of the phase before to the end of its own flow"
 
 
 def _section(title: str, *figures: Figure) -> tuple[Figure, ...]:
@@ -45,12 +56,12 @@ _MOTION = _section(
     "Motion",
     Figure(
         "stroke", "S", "m", "Stroke of the phase",
-        "Position at the end of the phase minus position at its start, in the direction of the phase; the "
-        "demanded stroke where one is demanded.", _MOVES,
+        "Position at the end of the phase minus position at its start, in the direction of the phase: where "
+        "the load is then, not where its stop is; the demanded stroke where one is demanded.", _MOVES,
     ),
     Figure(
         "positioning_time", "t_pos", "s", "Positioning time",
-        "Time of the impact on the stop that ends the stroke; without an impact first time at s = 0.95 S.",
+        "Time of the first impact on the stop ahead; without an impact first time at s = 0.95 S.",
         _ARRIVES, quantity="lapse",
     ),
     Figure(
@@ -59,12 +70,14 @@ _MOTION = _section(
         _MOVES, quantity="lapse",
     ),
     Figure(
-        "delay_time", "t_50", "s", "Delay time (50 %)", "First time at s = 0.5 S.",
+        "delay_time", "t_50", "s", "Time to 50 % of the stroke",
+        "First time at s = 0.5 S, the dead time in it (ProPneu calls it delay time).",
         _MOVES, quantity="lapse",
     ),
     Figure(
         "settling_time", "t_s", "s", "Settling time (5 % of the stroke)",
-        "Time from which |s − S| ≤ 0.05 S until the end of the phase.",
+        "Time from which |s − S| ≤ 0.05 S until the end of the phase; not before the impact with which the "
+        "load arrives.",
         _SETTLES, quantity="lapse",
     ),
     Figure(
@@ -105,7 +118,7 @@ _MOTION = _section(
         "end_speed", "v_e", "m/s", "Speed on arrival",
         "ds/dt just before the first impact on the stop ahead; without an impact ds/dt at the positioning "
         "time.",
-        _ARRIVES,
+        _HITS,
     ),
     Figure(
         "impact_energy", "E", "J", "Impact energy",
@@ -125,13 +138,13 @@ _PRESSURE_STEP = _section(
     Figure(
         "pressure_rise_time", "t_pr", "s", "Pressure rise time (10–90 %)",
         "Time between first 10 and first 90 % of the change of pressure in the (first) muscle in the phase, "
-        "up or"
-        "down.",
+        "up or down.",
         _PRESSURE, quantity="lapse",
     ),
     Figure(
-        "pressure_delay_time", "t_p50", "s", "Pressure delay time (50 %)",
-        "First time at 50 % of the change of pressure in the (first) muscle in the phase.",
+        "pressure_delay_time", "t_p50", "s", "Time to 50 % of the change of pressure",
+        "First time at 50 % of the change of pressure in the (first) muscle in the phase, the dead time "
+        "in it.",
         _PRESSURE, quantity="lapse",
     ),
     Figure(
@@ -145,16 +158,22 @@ _PRESSURE_STEP = _section(
 _AIR = _section(
     "Air",
     Figure(
-        "air_mass", "m_a", "kg", "Air taken in or let out",
-        "Mass of air of all muscles that is taken from the supply (fill) or let out to the atmosphere "
-        "(exhaust), with"
-        "that for the tubes, until the flow of the phase has ended.",
+        "supplied_mass", "m_s", "kg", "Air taken from the supply",
+        f"Mass of air that all muscles and tubes take from the supply in the phase, {_UNTIL}.",
         _COMMANDED, quantity="air",
     ),
     Figure(
-        "air_volume_anr", "V_ANR", "m^3", "Air taken in or let out (ANR)",
-        "The same mass as a volume at 20 °C, 100 kPa and 65 % humidity: m_a/(1.185 kg/m³).",
-        _COMMANDED, quantity="normal",
+        "supplied_volume_anr", "V_s", "m^3", "Air taken from the supply (ANR)",
+        f"The same mass as a volume {AT_ANR}: m_s/(1.185 kg/m³).", _COMMANDED, quantity="normal",
+    ),
+    Figure(
+        "vented_mass", "m_v", "kg", "Air let out",
+        f"Mass of air that all muscles and tubes let out in the phase, leaks with it, {_UNTIL}.",
+        _COMMANDED, quantity="air",
+    ),
+    Figure(
+        "vented_volume_anr", "V_v", "m^3", "Air let out (ANR)",
+        f"The same mass as a volume {AT_ANR}: m_v/(1.185 kg/m³).", _COMMANDED, quantity="normal",
     ),
     Figure(
         "tube_air_mass", "m_t", "kg", "… of which in the tubes",
@@ -163,7 +182,8 @@ _AIR = _section(
     ),
     Figure(
         "choked_share", "", "1", "Share of the air that passes choked",
-        "Integral of the flow of the phase while the flow of the valve is choked over its integral.",
+        "Integral of the flow from the supply (fill) or to the atmosphere (vent) while the valve is choked, "
+        "over its integral in the phase.",
         _FLOWS, quantity="ratio",
     ),
 )  # fmt: skip

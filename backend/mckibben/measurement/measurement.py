@@ -285,7 +285,7 @@ def lengths(measurement: Measurement, nominal_length: float) -> Array:
         )
     if not np.min(result) > 0.0:
         raise InputError(
-            f"{measurement.name}: a nominal length of {nominal_length:g} m is shorter than the stroke",
+            f"{measurement.name}: a rest length of {nominal_length:g} m is shorter than the stroke",
             field="nominal_length",
         )
     return result

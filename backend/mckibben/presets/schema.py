@@ -111,10 +111,10 @@ class Limits(PresetModel):
     max_pressure: Quantity | None = Field(default=None, description="Highest gauge pressure.")
     max_force: Quantity | None = Field(default=None, description="Highest force.")
     max_contraction: Quantity | None = Field(
-        default=None, description="Highest contraction, share of the nominal length."
+        default=None, description="Highest contraction, share of the rest length."
     )
     max_pretension: Quantity | None = Field(
-        default=None, description="Highest stretch beyond the nominal length, share of it."
+        default=None, description="Highest stretch beyond the rest length, share of it."
     )
     min_nominal_length: Quantity | None = Field(default=None, description="Shortest muscle that is made.")
     max_nominal_length: Quantity | None = Field(default=None, description="Longest muscle that is made.")

@@ -168,7 +168,7 @@ def _details(body: str, _studio: Studio, store: MeasurementStore) -> Prepared:
 
 
 def _comparison(body: ComparisonRequest, studio: Studio, store: MeasurementStore) -> Prepared:
-    return lambda _: to_json(compare(model_question(body, studio, store), fit=body.fit))
+    return lambda _: to_json(compare(model_question(body, studio, store), fit=body.fit, within=body.within))
 
 
 def _experiments(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) -> Prepared:

@@ -15,6 +15,7 @@ from mckibben.sizing.trial import Trial
 #: Below this margin to a limit a drive has a reservation.
 THIN = 0.05
 _LIKELY = 0.8  # a drive less probable than this comes after all others
+_ERROR = f"± {SIZING['probability_error'].words}"
 _SIGMAS = 2.0  # probabilities closer than this many standard errors of their difference are a tie
 
 
@@ -89,13 +90,13 @@ def why_first(ordered: list[Proposal], task: Task) -> str | None:
         equal = "as many specimens of both succeed"
         if _share(first) != _share(second):
             shares = f"{_share(first)} and {_share(second)}"
-            equal = f"the shares of specimens that succeed, {shares}, do not differ significantly"
+            equal = f"the shares of specimens that succeed, {shares} ({_ERROR}), do not differ significantly"
         return f"{before}: {equal}, and {reason}."
     return f"{before}, because {_more_succeed(first, second)}."
 
 
 def _more_succeed(first: Proposal, second: Proposal) -> str:
-    return f"{_share(first)} of its specimens succeed, not {_share(second)} (± one standard error)"
+    return f"{_share(first)} of its specimens succeed, not {_share(second)} ({_ERROR})"
 
 
 def _name(proposal: Proposal) -> str:

@@ -9,7 +9,6 @@ from mckibben.facts.comparison import CHANNELS
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.residual.profiles import (
-    heat_map,
     loops,
     mean_loop,
     profiles,
@@ -88,28 +87,6 @@ def test_a_residual_of_zeros_has_profiles_too():
     for profile in profiles(np.zeros(ROWS), VARIABLES, FOLDS):
         assert profile.share_explained == 0.0
         assert profile.rmse == 0.0
-
-
-def test_the_map_has_the_mean_of_each_field():
-    chart = heat_map(1e-5 * PRESSURE + 100.0 * CONTRACTION, VARIABLES)
-    assert chart is not None
-    assert (chart.x, chart.y) == ("contraction", "pressure")
-    assert chart.mean.shape == chart.rms.shape == chart.count.shape == (8, 8)
-    assert int(np.sum(chart.count)) == ROWS
-    middles = [0.5 * (edges[1:] + edges[:-1]) for edges in (chart.x_edges, chart.y_edges)]
-    expected = 1e-5 * middles[1][:, None] + 100.0 * middles[0][None, :]
-    assert chart.mean == pytest.approx(expected, abs=0.4)
-    assert np.all(chart.rms >= np.abs(chart.mean) - 1e-12)
-
-
-def test_fields_without_rows_are_unknown():
-    diagonal = {"pressure": 1e5 + 5e5 * CONTRACTION / 0.2, "contraction": CONTRACTION}
-    chart = heat_map(NOISE, diagonal)
-    assert chart is not None
-    assert np.all(np.isnan(chart.mean[chart.count == 0]))
-    assert np.count_nonzero(chart.count) < 16
-    assert heat_map(NOISE, {"contraction": CONTRACTION}) is None
-    assert heat_map(NOISE, {"direction": DIRECTION, "pressure": PRESSURE}) is None
 
 
 def test_white_noise_is_white_nearly_always():

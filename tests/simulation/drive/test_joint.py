@@ -11,9 +11,12 @@ import pytest
 from mckibben.application.run.simulate import SimulationQuestion, SimulationResult, simulate
 from mckibben.documents.drive_files import preset_document, read_document
 from mckibben.documents.drive_reading import drive_of
+from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.joint import common_command
+from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.joint import JointStiffness
+from mckibben.simulation.timing.evaluation import timing_of, trace_of
 from tests.shipped import shipped_studio
 
 STUDIO = shipped_studio()
@@ -167,3 +170,29 @@ def test_what_cannot_be_is_refused_at_its_field(document: dict, field: str) -> N
     with pytest.raises(InputError) as caught:
         drive_of(read_document(document, "joint"), STUDIO)
     assert caught.value.field == field
+
+
+@pytest.mark.parametrize("document", [JOINT, VALVES], ids=["regulators", "valves"])
+def test_the_air_of_both_muscles_is_in_both_phases(document: dict[str, Any]) -> None:
+    """What is taken less what is let out stays in the muscles; while one vents, the other fills."""
+    angle = {"shape": "pulse", "on": "1 s", "off": "2 s", "level": "10 deg"}
+    stiffness = {"reference": {"shape": "step", "at": "0 s", "level": "18 N*m/rad"}}
+    drive = drive_of(
+        read_document(changed(document, angle=angle, stiffness=stiffness) | {"duration": "3 s"}, "joint"),
+        STUDIO,
+    ).drive
+    done = simulate_controlled(drive, grid=np.linspace(0.0, 3.0, 6001))
+    table = timing_of(drive, trace_of(done))
+    mass = [
+        done.states[f"pressure{side}"] * done.outputs[f"volume{side}"] / (287.05 * drive.temperature)
+        if f"gas_mass{side}" not in done.states
+        else done.states[f"gas_mass{side}"]
+        for side in ("", COUNTER)
+    ]
+    for phase, (begin, end) in ((table.extend, (1.0, 2.0)), (table.retract, (2.0, 3.0))):
+        gained = [float(np.interp(end, done.time, m) - np.interp(begin, done.time, m)) for m in mass]
+        assert phase.supplied_mass is not None
+        assert phase.vented_mass is not None
+        assert phase.supplied_mass - phase.vented_mass == pytest.approx(sum(gained), abs=2e-3 * max(gained))
+        assert phase.supplied_mass > 0.999 * max(gained) > 1e-6
+        assert phase.vented_mass > -0.999 * min(gained) > 1e-6

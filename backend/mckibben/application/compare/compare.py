@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar
 
@@ -10,6 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.application.compare.question import EffectDocument, ModelQuestion
+from mckibben.application.compare.residual_map import (
+    Over,
+    ResidualMap,
+    RowsInside,
+    residual_map,
+    rows_inside,
+)
 from mckibben.application.compare.series import (
     MAX_POINTS_PER_SERIES,
     MAX_SERIES,
@@ -48,9 +55,7 @@ from mckibben.identification.residual.profiles import (
     MeanLoop,
     Profile,
     ResidualLoop,
-    ResidualMap,
     Whiteness,
-    heat_map,
     loops,
     mean_loop,
     profiles,
@@ -125,6 +130,8 @@ class ComparisonResult:
     """The residual over each variable that it may depend on."""
     heat_map: ResidualMap | None
     """The residual over two variables; None where there are too few points."""
+    inside: list[RowsInside]
+    """The rows of the fit in the range that was asked for, by channel; empty without a range."""
     parts: list[ResidualPart]
     """What the squared residual is made of; the shares add up to 1."""
     whiteness: Whiteness
@@ -177,17 +184,22 @@ class Compared:
     envelope: dict[str, MeasuredRange]
 
 
-def compare(question: ModelQuestion, *, fit: bool = False) -> ComparisonResult:
+def compare(
+    question: ModelQuestion, *, fit: bool = False, within: Mapping[Over, Sequence[float]] | None = None
+) -> ComparisonResult:
     """Compare a model with measurements; see `compared_whole`."""
-    return compared_whole(question, fit=fit).result
+    return compared_whole(question, fit=fit, within=within).result
 
 
-def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
+def compared_whole(
+    question: ModelQuestion, *, fit: bool = False, within: Mapping[Over, Sequence[float]] | None = None
+) -> Compared:
     """Compare a model with measurements.
 
     Args:
         question: the model and the measurements.
         fit: fit the parameters that the effects declare as fitted, and those freed by the question.
+        within: variable -> range whose rows the answer looks at by themselves, SI.
 
     Raises:
         InputError: the measurement does not allow the comparison, or a geometry field cannot be freed.
@@ -250,7 +262,8 @@ def compared_whole(question: ModelQuestion, *, fit: bool = False) -> Compared:
         correlations=correlations_of(comparison.fit),
         geometry=geometry_of(start, comparison.fit_model.muscle),
         where=where,
-        heat_map=heat_map(residual, variables),
+        heat_map=residual_map(comparison),
+        inside=rows_inside(comparison, within) if within else [],
         parts=residual_parts(residual, variables),
         whiteness=white,
         cross=_cross(comparison, residual, variables),

@@ -53,7 +53,7 @@ class ComparedSeries:
 
 
 @dataclass(frozen=True, slots=True)
-class _Inputs:
+class KnownInputs:
     """What is known of each value of a comparison, SI, shape (values,); NaN where not known."""
 
     time: Array | None
@@ -64,7 +64,8 @@ class _Inputs:
     direction: Array
 
 
-def _inputs_of(comparison: Comparison) -> _Inputs:
+def inputs_of(comparison: Comparison) -> KnownInputs:
+    """What is known of each compared value."""
     predictor = comparison.predictor
     inputs = predictor.inputs
     count = len(predictor.measured)
@@ -75,7 +76,7 @@ def _inputs_of(comparison: Comparison) -> _Inputs:
         length = predictor.measured
     elif "displacement" in inputs:
         length = rest - inputs["displacement"]
-    return _Inputs(
+    return KnownInputs(
         time=inputs.get("time"),
         length=length,
         contraction=1.0 - length / rest,
@@ -91,7 +92,7 @@ def rows_of(comparison: Comparison) -> dict[str, NDArray[Any]]:
     Columns: channel (text), group (number), time where there is one, pressure, length, contraction, velocity,
     measured, predicted, residual (measured minus predicted).
     """
-    predictor, known = comparison.predictor, _inputs_of(comparison)
+    predictor, known = comparison.predictor, inputs_of(comparison)
     channel = np.empty(len(predictor.measured), dtype=object)
     for each in predictor.channels:
         channel[each.rows] = each.name
@@ -111,7 +112,7 @@ def rows_of(comparison: Comparison) -> dict[str, NDArray[Any]]:
 
 def series_of(comparison: Comparison, use: Literal["fit", "validation"]) -> tuple[list[ComparedSeries], bool]:
     """One curve per channel and group of rows, thinned for the screen; and whether any was thinned."""
-    predictor, known = comparison.predictor, _inputs_of(comparison)
+    predictor, known = comparison.predictor, inputs_of(comparison)
     place = np.arange(len(predictor.measured))
     series: list[ComparedSeries] = []
     thinned = False
@@ -122,8 +123,8 @@ def series_of(comparison: Comparison, use: Literal["fit", "validation"]) -> tupl
             labels, thinned = labels[:MAX_SERIES], True
         for number, label in enumerate(labels, 1):
             rows = inside[predictor.groups[inside] == label]
-            level = _constant_level(known.pressure[rows])
-            length = _constant_level(known.length[rows])
+            level = constant_level(known.pressure[rows])
+            length = constant_level(known.length[rows])
             name = _label(number, level, length, timed=predictor.kind == "transient")
             if len(rows) > MAX_POINTS_PER_SERIES:
                 rows, thinned = rows[np.linspace(0, len(rows) - 1, MAX_POINTS_PER_SERIES).astype(int)], True
@@ -148,7 +149,7 @@ def series_of(comparison: Comparison, use: Literal["fit", "validation"]) -> tupl
     return series, thinned
 
 
-def _constant_level(values: Array) -> float | None:
+def constant_level(values: Array) -> float | None:
     """The level of a constant quantity, else None."""
     level = float(np.mean(values))
     return level if np.ptp(values) <= _CONSTANT * abs(level) else None

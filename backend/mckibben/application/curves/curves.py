@@ -52,7 +52,7 @@ from mckibben.simulation.statics.model import Curves, StaticModel
 DEFAULT_PRESSURES = (1e5, 2e5, 3e5, 4e5, 5e5, 6e5)
 _OVER_PRESSURE_POINTS = 81
 _MAX_PRESSURES = 12  # of a family of curves
-_SHORTEST = 0.05  # shortest length accepted, share of the nominal length; no muscle contracts so far
+_SHORTEST = 0.05  # shortest length accepted, share of the rest length; no muscle contracts so far
 
 
 @dataclass(frozen=True, slots=True)
@@ -362,7 +362,7 @@ def _range(question: CurvesQuestion, model: StaticModel, free: Array) -> Array:
     columns = np.linspace(first, last, question.points)
     nearest = int(np.argmin(np.abs(columns)))
     if 0 < nearest < len(columns) - 1:
-        columns[nearest] = 0.0  # the nominal length, at which the blocked force is shown
+        columns[nearest] = 0.0  # the rest length, at which the blocked force is shown
     return columns
 
 

@@ -19,8 +19,8 @@ from mckibben.simulation.statics.model import StaticModel
 
 QuestionName = Literal["pressure", "contraction", "working_range", "stroke_pressure"]
 
-_LONGEST_STROKE = 0.95  # largest stroke accepted, share of the nominal length
-_SHORTEST = 0.05  # shortest length accepted, share of the nominal length
+_LONGEST_STROKE = 0.95  # largest stroke accepted, share of the rest length
+_SHORTEST = 0.05  # shortest length accepted, share of the rest length
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ class WorkingRange:
 
 @dataclass(frozen=True, slots=True, kw_only=True)
 class PressureForStroke:
-    """Which pressure lifts this load [N] by this stroke [m] from the nominal length, while filling?"""
+    """Which pressure lifts this load [N] by this stroke [m] from the rest length, while filling?"""
 
     NAME: ClassVar[QuestionName] = "stroke_pressure"
 

@@ -117,7 +117,10 @@ def absorbed_message(absorbed: Iterable[AbsorbedError], unit: str) -> list[str]:
     beyond = (
         f"; {len(far)} of them exceed three times the accuracy: that is no error of reading" if far else ""
     )
-    return [f"reading errors that the fit allows for within the accuracy: {'; '.join(parts)}{beyond}"]
+    return [
+        "reading errors that the fit allows for within the accuracy (± one standard error): "
+        f"{'; '.join(parts)}{beyond}"
+    ]
 
 
 def _shown(error: AbsorbedError) -> str:

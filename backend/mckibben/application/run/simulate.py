@@ -34,7 +34,7 @@ from mckibben.facts.run import RUN
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.physics.model import Model
-from mckibben.simulation.drive.transient import Run
+from mckibben.simulation.drive.transient import GRAVITY, Run
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.timing.evaluation import (
@@ -152,7 +152,7 @@ class SimulationResult:
     choked: list[ChokedInterval]
     """Choked intervals of the whole run, whatever rows are requested."""
     timing: TimingTable
-    """Times, speeds and air of the first fill and the exhaust after it."""
+    """Times, speeds and air of the first fill and the vent after it."""
     tracking: Tracking | None
     """Tracking figures of a controlled run."""
     outcome: OutcomeName
@@ -173,6 +173,7 @@ class SimulationResult:
     """Geometry of the muscle at rest, in all forms."""
     model: EffectSettings
     """The effects used, with all their values."""
+    weight: float
     duration: float
     supplied_volume_anr: float | None
 
@@ -282,6 +283,7 @@ def result_of(
         limits=_bounds(annotated),
         geometry=geometry_of(annotated.start),
         model=EffectSettings(drive.model.values),
+        weight=drive.load.mass * GRAVITY * float(np.sin(drive.load.inclination)),
         duration=drive.duration,
         supplied_volume_anr=None if trace is None else float(np.ptp(trace.supplied)) / ANR_DENSITY,
     )

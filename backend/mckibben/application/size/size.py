@@ -345,7 +345,7 @@ def _notes(proposal: Proposal, task: Task, document: SizingTask) -> list[str]:
         )
     if group.duty.pair:
         notes.append(
-            "Each muscle has its nominal length at one end of the swing. The run first fills the second "
+            "Each muscle has its rest length at one end of the swing. The run first fills the second "
             "muscle, then swings."
         )
     if group.muscle.extrapolated is not None:

@@ -35,7 +35,7 @@ class Lookup:
         pressure, contraction, force_axis: breakpoints.
         force, volume: at pressures (rows) and contractions (columns); at rest, without direction.
         inverse: pressure for the forces (rows) at contractions; NaN where no permitted pressure gives it.
-        blocked_force, free_contraction: over pressure: force at the nominal length, contraction without load,
+        blocked_force, free_contraction: over pressure: force at the rest length, contraction without load,
             NaN where there is none.
         force_error, force_error_pulling: largest error of bilinear interpolation between breakpoints, in all
             cells and in those in which the muscle pulls at all corners [N].
@@ -240,7 +240,7 @@ def _lines(name: str, notes: Sequence[str], lookup: Lookup) -> ExportedFile:
         "blocked_force_N": lookup.blocked_force,
         "free_contraction": lookup.free_contraction,
     }
-    text = _text([*notes, "", "Table: force at the nominal length and contraction without load."])
+    text = _text([*notes, "", "Table: force at the rest length and contraction without load."])
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(columns)
     writer.writerows([_cell(value) for value in row] for row in zip(*columns.values(), strict=True))

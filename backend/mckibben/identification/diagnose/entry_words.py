@@ -8,6 +8,8 @@ import numpy as np
 
 from mckibben.identification.diagnose.wrong_entry import WrongEntry
 
+_ERROR = "the squared error above the noise"
+
 
 def shown(value: float, unit: str) -> str:
     """A value of an entry with its unit, for sentences."""
@@ -33,6 +35,6 @@ def sentence_of(found: WrongEntry, titles: Mapping[str, str]) -> str:
     also = f"{', '.join(first)} and {last}" if first else last
     share = 100.0 * found.explains
     if not also:
-        return f"{what} explains {share:.0f} % of the error"
-    alone = f"; alone it explains {share:.0f} %" if share >= 1.0 else ""
+        return f"{what} explains {share:.0f} % of {_ERROR}"
+    alone = f"; alone it explains {share:.0f} % of {_ERROR}" if share >= 1.0 else ""
     return f"{what} explains the error together with {also}{alone}"

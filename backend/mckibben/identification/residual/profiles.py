@@ -8,12 +8,11 @@ from typing import ClassVar
 import numpy as np
 
 from mckibben.facts.comparison import CHANNELS, RESIDUAL
-from mckibben.facts.result import IntegerRows, Integers, Rows, Series, result_class
+from mckibben.facts.result import Integers, Series, result_class
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 
 _BINS = 10
-_MAP = (8, 8)  # bins of a map in x and y
 _LAGS = 24
 _BAND = 1.959964  # standard deviations of a 95 % band
 
@@ -106,52 +105,6 @@ def _range(name: str, low: float, high: float) -> str:
     first, last = (f"{round(end, digits) + 0.0:.{digits}f}" for end in ends)
     text = f"{first} to {last}" if wide > 0.0 else first.rstrip("0").rstrip(".") if digits else first
     return f"{figure.words} {text} {scale.unit}".replace(" -", " −").strip()
-
-
-@result_class
-class ResidualMap:
-    """Mean and rms of the residual over two variables, shape (y bins, x bins); NaN without rows."""
-
-    FIGURES: ClassVar = RESIDUAL.name
-
-    x: str
-    """The variable of the columns."""
-    y: str
-    """The variable of the rows."""
-    x_edges: Series
-    """Boundaries of the columns, SI; one more than columns."""
-    y_edges: Series
-    """Boundaries of the rows, SI; one more than rows."""
-    mean: Rows
-    rms: Rows
-    count: IntegerRows
-
-
-def heat_map(residual: np.ndarray, variables: Mapping[str, np.ndarray]) -> ResidualMap | None:
-    """The residual over pressure and contraction, or the first two variables; None with fewer than two."""
-    preferred = [name for name in ("contraction", "displacement", "time", "load") if name in variables]
-    others = [name for name in ("pressure", "velocity", "command") if name in variables]
-    if not preferred or not others:
-        return None
-    x, y = preferred[0], others[0]
-    edges = [
-        np.linspace(np.min(variables[name]), np.max(variables[name]), bins + 1)
-        for name, bins in ((x, _MAP[0]), (y, _MAP[1]))
-    ]
-    place = [
-        np.clip(np.searchsorted(e, variables[name], side="right") - 1, 0, len(e) - 2)
-        for name, e in zip((x, y), edges, strict=True)
-    ]
-    flat = place[1] * _MAP[0] + place[0]
-    size = _MAP[0] * _MAP[1]
-    count = np.bincount(flat, minlength=size)
-    with np.errstate(invalid="ignore", divide="ignore"):
-        mean = np.bincount(flat, residual, minlength=size) / count
-        rms = np.sqrt(np.bincount(flat, residual**2, minlength=size) / count)
-    shape = (_MAP[1], _MAP[0])
-    return ResidualMap(
-        x, y, edges[0], edges[1], mean.reshape(shape), rms.reshape(shape), count.reshape(shape)
-    )
 
 
 @result_class

@@ -32,7 +32,7 @@ def energy(
     softening: Value,
     onset: Value,
 ) -> Value:
-    """Stored energy V_b {C10 [S + y J^2 + y^2 J^3] + C01 (I2-3)} of the wall [J]; 0 at the nominal length."""
+    """Stored energy V_b {C10 [S + y J^2 + y^2 J^3] + C01 (I2-3)} of the wall [J]; 0 at the rest length."""
     axial = (length / muscle.nominal_length) ** 2
     hoop = 1.0 + (1.0 - axial) / ops.tan(muscle.braid_angle) ** 2
     radial = 1.0 / (axial * hoop)
@@ -55,7 +55,7 @@ def elastomer(
     softening: Value,
     onset: Value,
 ) -> Value:
-    """Tension dW/dL of the wall [N]; negative (it resists shortening) below the nominal length."""
+    """Tension dW/dL of the wall [N]; negative (it resists shortening) below the rest length."""
     constants = {"shear_modulus": shear_modulus, "mooney_constant": mooney_constant, "stiffening": stiffening}
     constants |= {"softening": softening, "onset": onset}
     return ops.derivative(lambda x: energy(length=x, muscle=muscle, **constants), length)
@@ -149,7 +149,7 @@ EFFECT = Effect(
         energy="conservative",
     ),
     confused_with=(
-        Twin("prestress", "lengths near the nominal length: there the prestress acts, the bladder does not"),
+        Twin("prestress", "lengths near the rest length: there the prestress acts, the bladder does not"),
         Twin(
             "linear_elasticity",
             "contractions beyond 10 %: a linear spring keeps rising, the bladder saturates",

@@ -89,7 +89,7 @@ EFFECT = Effect(
             lower=1.0e-4,
             upper=0.03,
             source=_WAY,
-            description="Travel over which friction builds up, as a share of the nominal length.",
+            description="Travel over which friction builds up, as a share of the rest length.",
             fitted=False,
         ),
         Parameter(

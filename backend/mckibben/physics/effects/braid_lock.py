@@ -15,7 +15,7 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-# Travel beyond the lock at which the stiffness is stated, as a share of the nominal length.
+# Travel beyond the lock at which the stiffness is stated, as a share of the rest length.
 REFERENCE_SHARE = 0.01
 # Below this share of the reference the spring is linear: the derivative by m has a logarithm, singular at 0.
 _LEAST_SHARE = 1e-6
@@ -52,7 +52,7 @@ EFFECT = Effect(
             upper=5.0e6,
             source=Source("2-20 times the muscle's own stiffness at high pressure", "E"),
             description="Stiffness of the jammed braid: force over travel, for an exponent other than 1 at "
-            "1 % of the nominal length beyond the lock.",
+            "1 % of the rest length beyond the lock.",
             off=0.0,
         ),
         Parameter(

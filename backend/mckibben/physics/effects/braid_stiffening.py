@@ -16,7 +16,7 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-# Travel beyond the onset at which the stiffness is stated, as a share of the nominal length.
+# Travel beyond the onset at which the stiffness is stated, as a share of the rest length.
 REFERENCE_SHARE = 0.01
 # Below this share of the reference the spring is linear: the derivative by m has a logarithm, singular at 0.
 _LEAST_SHARE = 1e-6
@@ -51,7 +51,7 @@ EFFECT = Effect(
             upper=2.0e6,
             source=Source("share of N E_t A_t/L0; 20-1500 kN/m over the sizes at 0.3 m", "E"),
             description="Stiffness of the braid beyond the onset: force over travel, for an exponent other "
-            "than 1 at 1 % of the nominal length beyond it.",
+            "than 1 at 1 % of the rest length beyond it.",
             off=0.0,
         ),
         Parameter(
@@ -62,8 +62,7 @@ EFFECT = Effect(
             lower=-0.1,
             upper=0.0,
             source=Source("the catalogue's permitted pretension is 3-5 % of L0", "E"),
-            description="Contraction at which the spring begins; 0 is the nominal length, -0.02 is 2 % "
-            "stretch.",
+            description="Contraction at which the spring begins; 0 is the rest length, -0.02 is 2 % stretch.",
             fitted=False,
         ),
         Parameter(
@@ -81,7 +80,7 @@ EFFECT = Effect(
     slots={"tension": tension},
     kinds=frozenset({"isobaric", "isometric", "isotonic", "static", "transient"}),
     signature=Signature(
-        text="nothing up to the nominal length, then a steep rise, the same at every pressure",
+        text="nothing up to the rest length, then a steep rise, the same at every pressure",
         direction="even",
         pressure_power=0.0,
         zero_at=("nominal_length", "shorter_than_nominal"),
@@ -92,7 +91,7 @@ EFFECT = Effect(
         Twin("rig_compliance", "replace the muscle by a rigid rod"),
         Twin("length_offset", "several pressures: the braid's share does not grow with pressure"),
     ),
-    prior=Prior(0.2, "it matters for muscles pulled beyond their nominal length"),
+    prior=Prior(0.2, "it matters for muscles pulled beyond their rest length"),
     references=(_COLBRUNN,),
     examples=(
         Example(

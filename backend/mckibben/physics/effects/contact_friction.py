@@ -43,7 +43,7 @@ def friction(
 
 
 _TONDU = Source("Tondu & Lopez, IEEE Control Systems 20(2) (2000) 15, second-hand", "S2")
-_BY_HAND = Source("f P pi D0 L0 at the nominal length, by hand", "D")
+_BY_HAND = Source("f P pi D0 L0 at the rest length, by hand", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 _VALUES = {"static_coefficient": 0.015, "kinetic_coefficient": 0.105, "stribeck_speed": 0.15}
 _NOMINAL = {"length": 0.3, "pressure": 3e5}

@@ -82,7 +82,7 @@ EFFECT = Effect(
         ),
         Parameter(
             *("break_strain", r"\varepsilon_b", "1", 0.002, 1.0e-4, 0.03, _WAY),
-            description="Travel over which friction builds up, as a share of the nominal length.",
+            description="Travel over which friction builds up, as a share of the rest length.",
             fitted=False,
         ),
         Parameter(

@@ -23,7 +23,7 @@ EFFECT = Effect(
     family="sensor",
     type="measurement",
     cause="The length is not measured from the rest position of the muscle, because of mounting, pretension "
-    "or a wrong nominal length. The whole working range is shifted.",
+    "or a wrong rest length. The whole working range is shifted.",
     equation=r"L_{read} = L + o_L",
     parameters=(
         Parameter(
@@ -49,7 +49,7 @@ EFFECT = Effect(
     ),
     confused_with=(
         Twin("end_caps", "gauge blocks, or two muscle lengths"),
-        Twin("contraction_factor", "the nominal length: the factor does nothing there"),
+        Twin("contraction_factor", "the rest length: the factor does nothing there"),
         Twin("rig_compliance", "replace the muscle by a rigid rod"),
         Twin("braid_stiffening", "several pressures: the braid's share does not grow with pressure"),
     ),

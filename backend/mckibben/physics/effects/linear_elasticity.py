@@ -1,4 +1,4 @@
-r"""Linear elasticity: the elastomer as a spring that is relaxed at the nominal length.
+r"""Linear elasticity: the elastomer as a spring that is relaxed at the rest length.
 
 The braid makes the wall stiffer than its rubber: for small strain of a tube of modulus E and cross-section
 :math:`A_w` it is :math:`k_e = \tfrac23\frac{E A_w}{L_0}[1+q^2+(q-1)^2]`, :math:`q=\cot^2\theta_0`, some 17
@@ -37,7 +37,7 @@ EFFECT = Effect(
     family="elastomer",
     type="static",
     cause="The braid stretches the elastomer around the muscle when it contracts. For small strain this "
-    "acts like a spring that is relaxed at the nominal length.",
+    "acts like a spring that is relaxed at the rest length.",
     equation=r"F_{el} = -k_e\,(L_0-L)\left(\frac{|L_0-L|}{d_r}\right)^{m-1},\quad d_r = \frac{L_0}{10}",
     parameters=(
         Parameter(

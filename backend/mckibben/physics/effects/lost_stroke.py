@@ -68,7 +68,7 @@ EFFECT = Effect(
             lower=0.03,
             upper=10.0,
             source=_REFERENCE,
-            description="Nominal length of the muscle for which the other values of the model hold.",
+            description="Rest length of the muscle for which the other values of the model hold.",
             fitted=False,
             reference=True,
         ),

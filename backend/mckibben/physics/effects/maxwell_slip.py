@@ -68,7 +68,7 @@ def rates(
 
 _MINH = Source("Vo-Minh, Tjahjowidodo, Ramon & Van Brussel, IEEE/ASME Trans. Mech. 16 (2011) 177", "M")
 _RANGE = Source("1-2.5 % of the maximum force", "E")
-_WAY = Source("break-away at 0.1-3 % of the nominal length", "E")
+_WAY = Source("break-away at 0.1-3 % of the rest length", "E")
 _DEFINITION = Source("definition, by hand", "D")
 _SIZE_20 = {"nominal_length": 0.3, "braid_diameter": 0.02, "braid_angle": 0.4363323129985824}
 
@@ -90,10 +90,8 @@ EFFECT = Effect(
         ),
         Parameter(
             *("break_strain", r"\varepsilon_b", "1", 0.02, 1.0e-3, 0.1),
-            Source(
-                "break-away at 0.1-3 % of the nominal length; the last cells of a wide spread, later", "E"
-            ),
-            description="Travel until the last cell slides, as a share of the nominal length.",
+            Source("break-away at 0.1-3 % of the rest length; the last cells of a wide spread, later", "E"),
+            description="Travel until the last cell slides, as a share of the rest length.",
             fitted=False,
         ),
         Parameter(

@@ -57,7 +57,7 @@ EFFECT = Effect(
         Twin("threshold_pressure", "lengths near the zero-force length: there the threshold vanishes"),
         Twin(
             "bladder_elasticity",
-            "lengths near the nominal length: there the prestress acts, the bladder does not",
+            "lengths near the rest length: there the prestress acts, the bladder does not",
         ),
     ),
     prior=Prior(0.5, "bladder and braid are seldom clamped at exactly the same length"),

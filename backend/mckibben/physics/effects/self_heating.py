@@ -1,7 +1,7 @@
 r"""Self-heating: a muscle that is worked warms its wall, and warm filled rubber is softer.
 
 Every cycle turns a part of its work into heat, so the heat per time grows with the speed. With the warmth w
-relative to steady work at :math:`v_r` = 5 % of the nominal length per second,
+relative to steady work at :math:`v_r` = 5 % of the rest length per second,
 
 .. math:: F_{el} \to F_{el}\,e^{-a w}, \qquad \tau\,\dot w = |\dot L|/v_r - w, \qquad w(0) = 0
 
@@ -15,7 +15,7 @@ from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 from mckibben.physics.parameter import Parameter, Source
 
-#: Speed at which the softening is stated, as a share of the nominal length per second [1/s].
+#: Speed at which the softening is stated, as a share of the rest length per second [1/s].
 REFERENCE_RATE = 0.05
 
 
@@ -51,7 +51,7 @@ EFFECT = Effect(
             lower=-0.5,
             upper=1.5,
             source=_SOFTENING,
-            description="Loss of the elastic force in steady work at 5 % of the nominal length per second; "
+            description="Loss of the elastic force in steady work at 5 % of the rest length per second; "
             "negative for rubber that stiffens when warm.",
             off=0.0,
         ),

@@ -104,7 +104,7 @@ EFFECT = Effect(
             lower=0.0,
             upper=1.0,
             source=_STRAIN,
-            description="Power of 250 mm over the nominal length; 0 = the coefficients are the muscle's own.",
+            description="Power of 250 mm over the rest length; 0 = the coefficients are the muscle's own.",
             fitted=False,
             reference=True,
         ),

@@ -7,7 +7,7 @@ from collections.abc import Iterable, Sequence
 from mckibben.application.compare.compare import ComparisonResult
 from mckibben.facts.comparison import CHECK, COMPARISON, RESIDUAL, error_scale
 from mckibben.facts.figure import Figure
-from mckibben.report.diagnosis.map import residual_map
+from mckibben.report.diagnosis.map import residual_drawing
 from mckibben.report.document import Head, bullets, paragraph, table
 from mckibben.report.figures import Scale, figure, percent, variable
 from mckibben.report.html import Child, Html, html
@@ -116,7 +116,7 @@ def where_it_fails(answer: ComparisonResult, first: ComparisonResult) -> Html:
         if profile.share_explained > _LEAST_SHARE
     ]  # fmt: skip
     parts: list[Child] = [bullets([*words, f"{answer.sentences[-1]}."])]
-    drawn = residual_map(answer, first)
+    drawn = residual_drawing(answer, first)
     if drawn is not None:
         parts.append(drawn)
     if rows:  # below the map: a table may continue on the next page, a map may not

@@ -54,9 +54,11 @@ def _absorbed(errors: Sequence[AbsorbedError], material: DiagnosisMaterial) -> H
         ]
         for error in errors
     ]
+    value, accuracy, rms, stderr = (
+        READING_ERROR[name].label for name in ("value", "accuracy", "rms", "stderr")
+    )
     columns = [
-        Head("Reading"),
-        *(Head(READING_ERROR[name].label, number=True) for name in ("value", "accuracy", "rms")),
+        Head("Reading"), *(Head(label, number=True) for label in (f"{value} {stderr}", accuracy, rms)),
     ]  # fmt: skip
     return table(
         columns,

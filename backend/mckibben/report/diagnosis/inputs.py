@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from mckibben.application.measurement.summary import ChannelSummary
+from mckibben.facts.comparison import PARAMETER
 from mckibben.report.diagnosis.material import DataSource, DiagnosisMaterial
 from mckibben.report.diagnosis.model import named
 from mckibben.report.document import Head, bullets, facts, heading, paragraph, table
@@ -75,7 +76,7 @@ def _condition(name: str, value: float | str) -> str:
 
 
 _GEOMETRY = (
-    ("nominal_length", "Nominal length", "m"),
+    ("nominal_length", "Rest length", "m"),
     ("braid_diameter", "Braid diameter at the braid angle", "m"),
     ("braid_angle", "Braid angle to the axis", "rad"),
     ("wall_thickness", "Wall thickness", "m"),
@@ -112,7 +113,8 @@ def muscle_section(material: DiagnosisMaterial) -> Html:
     parts: list[Child] = []
     if facts_of_muscle.preset:
         parts.append(paragraph(f"Based on the preset {facts_of_muscle.preset}."))
-    parts.append(table([Head("At rest"), Head("Value", number=True), Head("Source")], rows))
+    value = " ".join(PARAMETER[name].label for name in ("value", *(["stderr"] if fitted else [])))
+    parts.append(table([Head("At rest"), Head(value, number=True), Head("Source")], rows))
     if facts_of_muscle.limits:
         limits = [
             [

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 
 from mckibben.application.compare.compare import ComparisonResult
+from mckibben.application.compare.residual_map import MapRow, ResidualMap
 from mckibben.facts.comparison import RESIDUAL, TIMES_NOISE, error_scale
-from mckibben.report.diagnosis.levels import LevelMap, level_map
 from mckibben.report.document import figure_of
 from mckibben.report.figures import Scale, plain, variable
 from mckibben.report.heat import Shade, heat
@@ -20,57 +21,59 @@ _LINEAR = 2.0  # standard deviations
 _ROUNDING = 1e-9
 
 
-def residual_map(answer: ComparisonResult, first: ComparisonResult) -> Html | None:
+def residual_drawing(answer: ComparisonResult, first: ComparisonResult) -> Html | None:
     """The drawing with its caption; ``first``: the first model of the case, which fixes the colours."""
-    scale = error_scale(answer.unit)
-    levels = level_map(answer.series, answer.noise_floor)
-    return _of_ranges(answer, scale) if levels is None else _of_levels(answer, first, levels, scale)
-
-
-def _of_levels(answer: ComparisonResult, first: ComparisonResult, levels: LevelMap, scale: Scale) -> Html:
-    across, x_scale = variable(levels.x)
-    _, y_scale = variable("pressure")
-    names, values = [], []
-    for row in levels.rows:
-        level = plain(y_scale.of(row.level), 3, exact=True)
-        if levels.split:
-            names += [f"{level} □", f"{level} ●"]
-            values += [scale.all(row.shortening), scale.all(row.lengthening)]
-        else:
-            names.append(level)
-            values.append(scale.all(row.mean))
-    sigma = None if first.noise_floor is None else scale.of(first.noise_floor)
-    begun = level_map(first.series, first.noise_floor) or levels
-    most = _rounded_up(max(scale.of(begun.largest), _LINEAR * (sigma or 0.0), 1e-12))
-    drawing = heat(
-        Axis(across.capitalize(), x_scale.unit), Axis("Pressure", y_scale.unit),
-        x_scale.all(levels.x_edges), names, values,
-        title=f"{_MEAN} over {across} at each pressure level", shade=Shade(most, sigma),
-    )  # fmt: skip
-    ways = "; ● lengthening, □ shortening" if levels.split else ""
-    dots = "" if sigma is None else ", a dot: none beside the noise"
-    return figure_of(
-        drawing,
-        f"{_MEAN} in {scale.unit} at each measured level{ways}; red: measured above modelled{dots}. "
-        f"Full colour at {plain(most, 3, exact=True)} {scale.unit}, fixed by the first model.",
-    )
-
-
-def _of_ranges(answer: ComparisonResult, scale: Scale) -> Html | None:
-    heat_map = answer.heat_map
-    if heat_map is None:
+    chart = answer.heat_map
+    if chart is None or any(row.channel is not None for row in chart.rows):
         return None
-    (across, x_scale), (up, y_scale) = variable(heat_map.x), variable(heat_map.y)
+    scale = TIMES_NOISE if chart.scaled else error_scale(answer.unit)
+    rows = chart.rows[::-1]
+    if rows[0].level is not None:
+        return _of_levels(chart, rows, first, scale)
+    (across, x_scale), (up, y_scale) = variable(chart.x), variable(chart.y)
     drawing = heat(
         Axis(across.capitalize(), x_scale.unit), Axis(up.capitalize(), y_scale.unit),
-        x_scale.all(heat_map.x_edges), y_scale.all(heat_map.y_edges),
-        [scale.all(row) for row in heat_map.mean],
+        x_scale.all(chart.edges), y_scale.all([rows[0].low, *(row.high for row in rows)]),
+        [_values(row, "mean", scale) for row in rows],
         title=f"{_MEAN} over {across} and {up}",
     )  # fmt: skip
     unit = f" in {scale.unit}" if scale.unit else ""
     if scale == TIMES_NOISE:
         unit = " as a multiple of the noise"
     return figure_of(drawing, f"{_MEAN}{unit} over {across} and {up}; red: measured above modelled.")
+
+
+def _values(row: MapRow, name: str, scale: Scale) -> list[float]:
+    return scale.all([None if cell is None else getattr(cell, name) for cell in row.cells])
+
+
+def _of_levels(chart: ResidualMap, rows: Sequence[MapRow], first: ComparisonResult, scale: Scale) -> Html:
+    across, x_scale = variable(chart.x)
+    _, y_scale = variable(chart.y)
+    names, values = [], []
+    for row in rows:
+        level = plain(y_scale.of(row.level or 0.0), 3, exact=True)
+        if chart.split:
+            names += [f"{level} □", f"{level} ●"]
+            values += [_values(row, "shortening", scale), _values(row, "lengthening", scale)]
+        else:
+            names.append(level)
+            values.append(_values(row, "mean", scale))
+    sigma = None if first.noise_floor is None else scale.of(first.noise_floor)
+    begun = first.heat_map or chart
+    most = _rounded_up(max(scale.of(begun.largest), _LINEAR * (sigma or 0.0), 1e-12))
+    drawing = heat(
+        Axis(across.capitalize(), x_scale.unit), Axis("Pressure", y_scale.unit),
+        x_scale.all(chart.edges), names, values,
+        title=f"{_MEAN} over {across} at each pressure level", shade=Shade(most, sigma),
+    )  # fmt: skip
+    ways = "; ● lengthening, □ shortening" if chart.split else ""
+    dots = "" if sigma is None else ", a dot: none beside the noise"
+    return figure_of(
+        drawing,
+        f"{_MEAN} in {scale.unit} at each measured level{ways}; red: measured above modelled{dots}. "
+        f"Full colour at {plain(most, 3, exact=True)} {scale.unit}, fixed by the first model.",
+    )
 
 
 def _rounded_up(value: float) -> float:

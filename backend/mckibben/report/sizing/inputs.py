@@ -94,7 +94,7 @@ def _of_drive(material: SizingMaterial, chosen: Chosen) -> list[str]:
         )
     if material.pair:
         lines += [
-            "Each muscle of the pair has its nominal length at one end of the swing. The run first fills the "
+            "Each muscle of the pair has its rest length at one end of the swing. The run first fills the "
             "second muscle, then swings; the static reserve assumes the second muscle is empty, in the run "
             "it is still venting.",
             "The stiffness is for an empty second muscle.",

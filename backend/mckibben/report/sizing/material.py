@@ -117,7 +117,7 @@ class SpecimenSpread:
     Attributes:
         blocked_force: two standard deviations, share of the blocked force.
         shift: one standard deviation of the shift of the curve along the contraction [-].
-        hysteresis: largest width of the loop, share of the nominal length; None if unknown.
+        hysteresis: largest width of the loop, share of the rest length; None if unknown.
         friction: largest friction force of one muscle [N].
         supply: largest deviation of the supply pressure, share of it.
         demands: what a specimen must achieve, in words.

@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.application.run.simulate import SimulationResult
-from mckibben.facts.timing import TIMING
+from mckibben.facts.timing import AIR_FIGURES, PHASES, TIMING
 from mckibben.report.document import Head, figure_of, mark, paragraph, table
 from mckibben.report.figures import Scale, figure, percent
 from mckibben.report.html import Child, Html, html
@@ -17,6 +17,7 @@ from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Line, Mark, R
 from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sizing.words import BAR, MILLIMETRES
 from mckibben.report.stack import Panel, stack
+from mckibben.report.summary.simulation import timing_remarks
 from mckibben.simulation.timing.table import PhaseFigures, TimingTable
 
 _MOST_ROWS = 420
@@ -27,11 +28,10 @@ _PANEL = 70.0  # height of a drawing: both strokes stand below the table of the 
 _SPEED, _ACCELERATION, _FLOW = Scale("mm/s", 1e-3), Scale("m/s²"), Scale("g/s", 1e-3)
 
 #: Figures that are those of one muscle times the number of muscles.
-_TOGETHER = {"impact_energy", "air_mass", "air_volume_anr", "tube_air_mass"}
+_TOGETHER = {"impact_energy", *AIR_FIGURES} - {"choked_share"}
 
 
 class _DrawnPhase(NamedTuple):
-    name: str
     key: str
     begin: float
     end: float
@@ -41,21 +41,16 @@ class _DrawnPhase(NamedTuple):
 def motion_section(material: SizingMaterial, chosen: Chosen) -> Html:
     """Both phases as drawings, then the table."""
     on, off = chosen.fill
-    up = _DrawnPhase("Stroke, from the moment the valve starts filling", "extend", on, off, 1.0)
-    back = _DrawnPhase(
-        "Return, from the moment the valve starts venting",
-        "retract",
-        off,
-        chosen.run.duration,
-        -1.0,
-    )
+    up = _DrawnPhase("extend", on, off, 1.0)
+    back = _DrawnPhase("retract", off, chosen.run.duration, -1.0)
     parts: list[Child] = []
     if chosen.run.message is not None:
         parts.append(paragraph(f"The run did not complete: {chosen.run.message}"))
     for phase in (up, back):
         drawing = _drawing(material, chosen, phase)
         if drawing is not None:
-            parts.append(figure_of(drawing, f"{phase.name}.", panels=True))
+            title = f"{PHASES[phase.key].capitalize()}, from the moment the valve is switched."
+            parts.append(figure_of(drawing, title, panels=True))
     if not chosen.proposal.drive.load.mass:
         parts.append(
             paragraph(
@@ -140,7 +135,7 @@ def _rules(run: SimulationResult, phase: _DrawnPhase, rows: NDArray) -> list[Rul
     at(_passes(time, travel, min(_LEAVES, 0.01 * stroke)), "starts", EDGE, "2 3")
     rise = [_passes(time, travel, share * stroke) for share in (0.1, 0.9)]
     at(rise[0], "10 %", EDGE, "6 3")
-    at(figures.delay_time, "50 %, delay", INK, "6 3")
+    at(figures.delay_time, "50 %", INK, "6 3")
     at(rise[1], "90 %", EDGE, "6 3")
     at(figures.positioning_time, "arrives", SECOND, "6 3")
     return rules
@@ -162,21 +157,21 @@ def _table(chosen: Chosen) -> Html:
     timing = chosen.run.timing
     rows: list[list[Child]] = []
     for name, each in TIMING.items():
-        values = [getattr(_of_phase(timing, phase), name) for phase in ("extend", "retract")]
+        values = [getattr(_of_phase(timing, phase), name) for phase in PHASES]
         if all(value is None for value in values):
             continue
         times = chosen.count if name in _TOGETHER else 1
         rows.append([each.label, *(_figure(v, times, each.scale) for v in values)])
     columns = [
         Head("Timing"),
-        Head("Stroke (filling)", number=True),
-        Head("Return (venting)", number=True),
+        *(Head(words.capitalize(), number=True) for words in PHASES.values()),
     ]
     caption = "Times are measured from the moment the valve switches."
     if chosen.count > 1:
         caption += f" Energy and air are for all {chosen.count} muscles of a side together."
     return html(
-        table(columns, rows, caption=caption), [paragraph(f"{note}.", note=True) for note in _notes(timing)]
+        table(columns, rows, caption=caption),
+        [paragraph(f"{note[:1].upper()}{note[1:]}.", note=True) for note in timing_remarks(timing)],
     )
 
 
@@ -184,15 +179,3 @@ def _figure(value: float | None, times: int, scale: Scale) -> Html:
     if scale.unit == "%":
         return percent(value, 3)
     return figure(None if value is None else value * times, scale)
-
-
-def _notes(timing: TimingTable) -> list[str]:
-    """Remarks on figures or why they are missing; figures with the same remark share a line."""
-    about: dict[str, list[str]] = {}
-    for place, why in timing.notes.items():
-        phase, _, name = place.partition(".")
-        if name in TIMING:
-            phase_name = "stroke" if phase == "extend" else "return"
-            label = TIMING[name].label.partition(" (")[0].lower()
-            about.setdefault(why, []).append(f"{label} ({phase_name})")
-    return [f"{', '.join(names).capitalize()}: {why}" for why, names in about.items()]

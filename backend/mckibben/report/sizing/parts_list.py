@@ -15,7 +15,7 @@ from mckibben.report.sizing.material import KnownFigure, Part
 from mckibben.report.sources import Figure
 from mckibben.sizing import Design
 
-# Figures of a muscle preset used in a sizing; the nominal length is chosen by the search.
+# Figures of a muscle preset used in a sizing; the rest length is chosen by the search.
 _OF_MUSCLE = (
     "geometry.",
     "effects.",
@@ -33,7 +33,7 @@ def parts_of(design: Design, studio: Studio) -> list[Part]:
     group, library = design.group, studio.library
     muscle = library.muscle(group.muscle.id)
     valve = library.get("valves", group.valve.id)
-    length = f"nominal length {design.length * 1e3:.4g} mm"
+    length = f"rest length {design.length * 1e3:.4g} mm"
     code = begin_of_order_code(preset=muscle.id, length=design.length)
     parts = [
         _part("muscle", muscle, group.muscles, f"{muscle.title}, {length}", studio.catalogue, code),

@@ -130,7 +130,7 @@ def _spread_table(spread: SpecimenSpread) -> Html:
             html("± ", figure(spread.blocked_force, SHARE, 3, exact=True), " (two standard deviations)"),
             html(
                 "the curve shifted along the contraction by ± ", figure(2.0 * spread.shift, SHARE, 2),
-                " of the length",
+                " of the length (two standard deviations)",
             ),
         ],
         [
@@ -138,7 +138,7 @@ def _spread_table(spread: SpecimenSpread) -> Html:
             "uniform, from the loop of the model to the whole loop",
             mark("unknown for this muscle")
             if spread.hysteresis is None
-            else html(figure(spread.hysteresis, SHARE, 3, exact=True), " of the nominal length wide"),
+            else html(figure(spread.hysteresis, SHARE, 3, exact=True), " of the rest length wide"),
             "assumed to be zero, so the share is too high"
             if spread.hysteresis is None
             else html(
@@ -149,7 +149,7 @@ def _spread_table(spread: SpecimenSpread) -> Html:
         [
             "Supply pressure",
             "uniform",
-            html("± ", figure(spread.supply, SHARE, 3, exact=True)),
+            html("± ", figure(spread.supply, SHARE, 3, exact=True), " (the largest deviation)"),
             "the pressure at the valve",
         ],
     ]  # fmt: skip

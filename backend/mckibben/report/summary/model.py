@@ -18,7 +18,7 @@ def summary_of(start: StartModel, name: str, *, with_length: bool) -> Summary:
     muscle = start.muscle
     rows = [
         [
-            "nominal length",
+            "rest length",
             figure(muscle.nominal_length * 1e3, unit=" mm") if with_length else "that of the data",
         ],
         ["braid diameter", figure(muscle.braid_diameter * 1e3, unit=" mm")],

@@ -6,8 +6,11 @@ from math import pi
 
 from mckibben.application.run.simulate import SimulationResult
 from mckibben.facts.run import JOINT, STEP, TRACKING
-from mckibben.facts.timing import PHASES, PRESSURE_FIGURES, TIMING
+from mckibben.facts.timing import PHASES, TIMING
 from mckibben.report.summary.parts import Summary, Table, figure, shown
+from mckibben.simulation.timing.table import TimingTable
+
+_MOST_NAMED = 6  # of the figures with one remark
 
 _OF_STEPS = (
     "time",
@@ -28,13 +31,13 @@ def summary_of(result: SimulationResult, name: str) -> Summary:
         result: the run.
         name: of the drive, for the title.
     """
-    start, note = result.start, result.timing.notes.get("extend.air_mass")
+    start = result.start
     return [
         timing_table(result, name),
-        *(f"– {reason}" for reason in sorted(_reasons(result))),
-        f"start at {start.position * 1e3:.4g} mm ({start.contraction * 100:.3g} %), {start.reason}",
+        *(f"– {remark}" for remark in timing_remarks(result.timing)),
+        f"start at {round(start.position, 9) * 1e3 + 0.0:.4g} mm "
+        f"({start.contraction * 100:.3g} %), {start.reason}",
         f"air: {result.gas}",
-        *([] if note is None else [f"air mass {note}"]),
         *_tracking(result),
         *_joint(result),
         *notices(result),
@@ -59,16 +62,17 @@ def timing_table(result: SimulationResult, name: str) -> Table:
     return Table(f"{name}: {result.outcome}", ["", *PHASES.values()], rows)
 
 
-def _reasons(result: SimulationResult) -> set[str]:
-    """Why figures are missing, and which of the pressure are blurred."""
-    timing = result.timing
-    return {
-        f"{words}: {why}"
-        for phase, words in PHASES.items()
-        for name in TIMING
-        if (getattr(getattr(timing, phase), name) is None or name in PRESSURE_FIGURES)
-        and (why := timing.notes.get(f"{phase}.{name}"))
-    }
+def timing_remarks(timing: TimingTable) -> list[str]:
+    """Remarks on figures, or why they are missing, by phase; figures with the same remark share a line."""
+    about: dict[tuple[str, str], list[str]] = {}
+    for place, why in timing.notes.items():
+        phase, _, name = place.partition(".")
+        about.setdefault((PHASES[phase], why), []).append(TIMING[name].words)
+    return [f"{words}, {_several(names)}: {why}" for (words, why), names in about.items()]
+
+
+def _several(names: list[str]) -> str:
+    return ", ".join(names) if len(names) <= _MOST_NAMED else f"{len(names)} figures"
 
 
 def _tracking(result: SimulationResult) -> Summary:

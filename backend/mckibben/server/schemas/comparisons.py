@@ -6,6 +6,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field, StringConstraints
 
+from mckibben.application.compare.residual_map import Over
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.experiment import ExperimentInput
 from mckibben.documents.muscle import EffectsInput, MuscleInput
@@ -35,6 +36,7 @@ class UsedMeasurement(Strict):
     )
 
 
+RangeInput = Annotated[list[float], Field(min_length=2, max_length=2, description="From and to.")]
 StatedNoise = float | Annotated[str, Field(min_length=1, max_length=100)]
 
 
@@ -102,6 +104,9 @@ class ComparisonRequest(ModelRequest):
     """A model, the measurements to compare it with, and whether to fit it."""
 
     fit: bool = Field(False, description="Fit the effects' parameters to the data.")
+    within: dict[Over, RangeInput] = Field(
+        default={}, description="Variable -> range (SI) whose rows the answer looks at in 'inside'."
+    )
 
 
 EffectsJson = dict[str, dict[str, float | str]]

@@ -56,7 +56,7 @@ class StrokePressureQuestion(_Question):
 
     question: Literal["stroke_pressure"] = Field(description="Asks for the pressure of a stroke.")
     load: Load = Field(description="The load to lift.")
-    stroke: Length = Field(description="From the nominal length.")
+    stroke: Length = Field(description="From the rest length.")
 
 
 InverseRequest = Annotated[

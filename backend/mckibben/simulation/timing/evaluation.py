@@ -78,14 +78,8 @@ def trace_of(run: Run) -> Trace | None:
     out, lever, drive = run.outputs, run.drive.load.lever_ratio, run.drive
     suffixes = ("", COUNTER) if drive.pair else ("",)
 
-    def total(name: str) -> Array:
-        return np.sum([run.states[f"{name}{suffix}"] for suffix in suffixes], axis=0)
-
-    tube, charge = tube_charge_of(run), None
-    if drive.polytropic_exponent is not None and "gas_mass" not in run.states:
-        charge = tube.copy()
-        for suffix in suffixes:
-            charge += run.states[f"pressure{suffix}"] * out[f"volume{suffix}"] / (_R * drive.temperature)
+    from_states = drive.polytropic_exponent is not None and "gas_mass" not in run.states
+    exchanged = [_exchanged(run, suffix, from_states=from_states) for suffix in suffixes]
     columns = {
         "time": run.time,
         "position": run.states["stroke"] / lever,
@@ -98,10 +92,9 @@ def trace_of(run: Run) -> Trace | None:
         "choked": _choked_side(run),
         "supply_mass_flow": np.sum([out[f"supply_flow{suffix}"] for suffix in suffixes], axis=0),
         "exhaust_mass_flow": np.sum([out[f"exhaust_flow{suffix}"] for suffix in suffixes], axis=0),
-        "supplied": total("supplied"),
-        "vented": total("vented"),
-        "tube_charge": tube,
-        **({} if charge is None else {"charge": charge}),
+        "supplied": np.sum([supplied for supplied, _ in exchanged], axis=0),
+        "vented": np.sum([vented for _, vented in exchanged], axis=0),
+        "tube_charge": np.sum([_tube_charge(run, suffix) for suffix in suffixes], axis=0),
     }
     usable = np.all([np.isfinite(column) for column in columns.values()], axis=0)
     count = int(np.argmin(usable)) if not usable.all() else len(usable)
@@ -116,7 +109,7 @@ def trace_of(run: Run) -> Trace | None:
         if event.impact
     )
     columns = _with_events(columns, events, run)
-    return Trace(**columns, impacts=impacts)
+    return Trace(**columns, impacts=impacts, from_states=from_states)
 
 
 def stop_of(drive: Drive, event: Event) -> float:
@@ -124,13 +117,32 @@ def stop_of(drive: Drive, event: Event) -> float:
     return drive.stops[event.switch == HIGH_STOP]
 
 
-def tube_charge_of(run: Run) -> Array:
-    """Air in the tubes [kg]."""
-    tube, states = run.drive.tube_in_use, run.states
-    pressures = [states[name] for name in ("tube_pressure", f"tube_pressure{COUNTER}") if name in states]
-    if tube is None or not pressures:
+def _exchanged(run: Run, suffix: str, *, from_states: bool) -> tuple[Array, Array]:
+    """Air that a muscle has taken from the supply, and let out, since the start of the run [kg].
+
+    The integrals of the flows; where these do not conserve mass, the larger flow of each step is that which
+    the change of p V/(R T) in muscle and tube leaves, T the ambient temperature. What leaks is air let out.
+    """
+    supplied, vented = run.states[f"supplied{suffix}"], run.states[f"vented{suffix}"]
+    if not from_states:
+        return supplied, vented
+    temperature = run.drive.temperature
+    gas = run.states[f"pressure{suffix}"] * run.outputs[f"volume{suffix}"] / (_R * temperature)
+    charge = np.diff(gas + _tube_charge(run, suffix))
+    taken, left = np.diff(supplied), np.diff(vented)
+    filling, venting = np.abs(taken) > np.abs(left), np.abs(left) > np.abs(taken)
+    return (
+        np.concatenate([[0.0], np.cumsum(np.where(filling, charge + left, taken))]),
+        np.concatenate([[0.0], np.cumsum(np.where(venting, taken - charge, left))]),
+    )
+
+
+def _tube_charge(run: Run, suffix: str) -> Array:
+    """Air in the tube of a muscle [kg]."""
+    tube, pressure = run.drive.tube_in_use, run.states.get(f"tube_pressure{suffix}")
+    if tube is None or pressure is None:
         return np.zeros(len(run.time))
-    return np.sum(pressures, axis=0) * tube.volume / (_R * run.drive.temperature)
+    return pressure * tube.volume / (_R * run.drive.temperature)
 
 
 def _with_events(columns: dict[str, Array], events: list[Event], run: Run) -> dict[str, Array]:

@@ -1,4 +1,4 @@
-"""The timing table of a drive: figures of one fill and one exhaust, SI throughout.
+"""The timing table of a drive: figures of one fill and one vent, SI throughout.
 
 `mckibben.facts.timing` defines each figure. Impacts, and a load at rest on a stop, count neither for speeds
 nor for accelerations. The settling band is 5 % of the stroke by default: a load that stops between the end
@@ -6,8 +6,7 @@ stops may swing on the air by a few per cent long after it has arrived for pract
 gives the time until that oscillation has decayed. Where the pressure stands still near a level of a figure,
 as between two pulses of a modulated valve, its last digits decide whether it passes before or behind the
 pause: a note says from when to when it is within 0.1 % of the step. With a stated polytropic exponent, which
-does not conserve mass, the air is counted from the states at begin and end of the phase at ambient
-temperature.
+does not conserve mass, the air is counted from pressure and volume at ambient temperature.
 
 A figure that does not exist is None; ``notes`` says why under ``extend.<figure>``.
 """
@@ -24,16 +23,20 @@ from mckibben.facts.result import result_class
 from mckibben.facts.timing import MOTION_FIGURES, PRESSURE_FIGURES, TIMING
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.simulation.command.segments import Interval
-from mckibben.simulation.timing.trace import Trace
+from mckibben.simulation.timing.trace import Impact, Trace
 
 # Figures that need an arrival.
 _TIMED = ("positioning_time", "rise_time", "delay_time", "settling_time", "average_speed")
+# Why there is no settling time; with an impact the load has arrived all the same.
+_SETTLES = TIMING["settling_time"].exists_when.otherwise
+_SWINGS = "arrives, but swings until the end of the phase"
 
 #: Travel [m] and pressure change [Pa] below these count as none.
 SMALLEST_STROKE, SMALLEST_STEP = 1e-5, 100.0
 PRESSURE_BAND = 0.01
 # A level is passed, within this share of the step, in less than this share of the figure, or a note says so.
 _SHARP, _SHARP_TIME = 0.001, 0.01
+_MICROGRAM = 9  # decimals of a mass in kg; less is the error of the integration
 #: A signal that settles only in this last share of a phase counts as not settled.
 _STILL_MOVING = 0.1
 
@@ -67,20 +70,22 @@ class PhaseFigures:
     pressure_rise_time: float | None = None
     pressure_delay_time: float | None = None
     pressure_settling_time: float | None = None
-    air_mass: float | None = None
-    air_volume_anr: float | None = None
+    supplied_mass: float | None = None
+    supplied_volume_anr: float | None = None
+    vented_mass: float | None = None
+    vented_volume_anr: float | None = None
     tube_air_mass: float | None = None
     choked_share: float | None = None
 
 
 @result_class
 class TimingTable:
-    """Figures of the first fill and of the exhaust after it."""
+    """Figures of the first fill and of the vent after it."""
 
     extend: PhaseFigures = field(default_factory=PhaseFigures)
     """Figures of the first fill."""
     retract: PhaseFigures = field(default_factory=PhaseFigures)
-    """Figures of the exhaust after it."""
+    """Figures of the vent after it."""
     notes: dict[str, str] = field(default_factory=dict)
     """For example "extend.rise_time" -> why it is None, or a remark on it."""
 
@@ -109,7 +114,7 @@ def timing(
         stroke: demanded stroke of the fill [m]; figures for a stroke that is not reached are None.
         band: settling band as a share of the stroke.
         delays: dead times of the valve for opening and closing [s]; so long the flow of the phase before goes
-            on.
+            on, and counts there.
     """
     notes: dict[str, str] = {}
     table: dict[str, PhaseFigures] = {}
@@ -122,8 +127,9 @@ def timing(
         else:
             phase = _Phase(window, sign, stroke if sign > 0.0 else None, band)
             figures, reasons = phase.motion(mass)
-            late = delays[1] if sign > 0.0 else delays[0]
-            for part, why in (phase.step(), air(trace, interval or (0.0, 0.0), sign, late)):
+            late, later = delays if sign > 0.0 else delays[::-1]
+            flows = window.time[0] + late, window.time[-1] + later
+            for part, why in (phase.step(), air(trace, flows, sign)):
                 figures |= part
                 reasons |= why
         table[name] = PhaseFigures(**figures)
@@ -158,31 +164,38 @@ class _Phase:
         notes: dict[str, str] = {}
         impact = self._impact()
         self._extremes(figures, notes, impact)
-        stroke, timed = (
-            self.stroke,
-            ("positioning_time", "rise_time", "delay_time", "settling_time", "average_speed"),
-        )
+        stroke = self.stroke
         figures["stroke"] = stroke
+        stop = None if impact is None else self._travel_to(impact)
+        if stop is not None:
+            behind = stop - self.reached
+            ends = "on the stop" if self.contact[-1] else f"{1e3 * behind:.3g} mm before the stop that it hit"
+            notes["stroke"] = f"the phase ends {ends}"
         if not stroke >= SMALLEST_STROKE:
             why = (
                 f"the phase ends {-1e3 * stroke:.3g} mm behind its start"
                 if stroke < 0.0
                 else "no stroke is left"
             )
-            notes |= dict.fromkeys((*timed, "end_speed", "overshoot"), why)
+            notes |= dict.fromkeys((*_TIMED, "end_speed", "overshoot"), why)
         else:
             for name, share in (("delay_time", 0.5), ("rise_time", 0.9)):
                 figures[name] = self._first(share * stroke)
             if (late := figures["rise_time"]) is not None:
                 figures["rise_time"] = late - (self._first(0.1 * stroke) or 0.0)
             settled = self._settled(self.travel, stroke, self.band * stroke)
-            arrival = self._first((1.0 - self.band) * stroke)
-            travelled = (1.0 - self.band) * stroke
-            if impact is not None and (not self.demanded or abs(self.reached - stroke) < 1e-3 * stroke):
-                arrival = impact[0]
-                travelled = float(np.interp(arrival, self.time, self.travel))
-            elif not self.demanded and settled is None:
+            arrival, travelled = self._first((1.0 - self.band) * stroke), (1.0 - self.band) * stroke
+            why = unsettled = _SETTLES
+            if self.demanded:
+                best = 1e3 * float(self.travel.max())
+                why = unsettled = f"{best:.3g} mm of the {1e3 * stroke:.3g} mm are reached, or not kept"
+            elif stop is not None and stop - self.reached > self.band * stop:
+                arrival, why = None, f"the load leaves the stop again: {notes['stroke']}"
+            elif stop is None and settled is None:
                 arrival = None
+            if impact is not None and arrival is not None and abs(self.reached - stroke) < 1e-3 * stroke:
+                arrival, travelled = self._since(impact), self._travel_to(impact)
+                settled, unsettled = settled and max(settled, arrival), _SWINGS
             figures |= {"settling_time": settled, "positioning_time": arrival}
             if arrival:
                 figures["average_speed"] = travelled / arrival
@@ -191,22 +204,19 @@ class _Phase:
             if impact is None:
                 figures["overshoot"] = max(0.0, float(self.travel.max()) / stroke - 1.0)
             else:
-                notes["overshoot"] = "the load hits the stop"
-            why = "still moving at the end of the phase"
-            if self.demanded:
-                best = 1e3 * float(self.travel.max())
-                why = f"{best:.3g} mm of the {1e3 * stroke:.3g} mm are reached, or not kept"
-            notes |= {name: why for name in (*timed, "end_speed") if figures[name] is None}
+                notes["overshoot"] = TIMING["overshoot"].exists_when.otherwise
+            reasons = {**dict.fromkeys((*_TIMED, "end_speed"), why), "settling_time": unsettled}
+            notes |= {name: reason for name, reason in reasons.items() if figures[name] is None}
         if impact is None:
             figures["impact_energy"] = 0.0
             notes["impact_energy"] = "no stop is reached"
         else:
-            figures["end_speed"] = impact[1]
+            figures["end_speed"] = self.sign * impact.velocity
             notes.pop("end_speed", None)
             if mass is None:
-                notes["impact_energy"] = "the moving mass is not known"
+                notes["impact_energy"] = TIMING["impact_energy"].exists_when.otherwise
             else:
-                figures["impact_energy"] = 0.5 * mass * impact[1] ** 2
+                figures["impact_energy"] = 0.5 * mass * impact.velocity**2
         return figures, notes
 
     def step(self) -> Figures:
@@ -245,7 +255,7 @@ class _Phase:
         return None
 
     def _extremes(
-        self, figures: dict[str, float | None], notes: dict[str, str], impact: tuple[float, float] | None
+        self, figures: dict[str, float | None], notes: dict[str, str], impact: Impact | None
     ) -> None:
         """Largest speed and accelerations, without a load at rest on a stop."""
         free = np.flatnonzero(~self.contact)
@@ -277,12 +287,17 @@ class _Phase:
             best = max(best, (t0 + share * width, speed), key=lambda pair: pair[1])
         return best
 
-    def _impact(self) -> tuple[float, float] | None:
-        """Instant and speed of the first impact on the stop ahead."""
-        for impact in self.window.impacts:
-            if self.sign * impact.velocity > 0.0:
-                return impact.time - float(self.window.time[0]), self.sign * impact.velocity
-        return None
+    def _impact(self) -> Impact | None:
+        """The first impact on the stop ahead."""
+        return next((impact for impact in self.window.impacts if self.sign * impact.velocity > 0.0), None)
+
+    def _since(self, impact: Impact) -> float:
+        """When an impact is, in the time of the phase."""
+        return impact.time - float(self.window.time[0])
+
+    def _travel_to(self, impact: Impact) -> float:
+        """Travel from the start of the phase to the stop of an impact."""
+        return self.sign * (impact.position - float(self.window.position[0]))
 
     def _first(self, level: float) -> float | None:
         """First instant at which the travel reaches the level."""
@@ -327,35 +342,36 @@ class _Phase:
         return None if under_way and not self.contact[-1] else at
 
 
-def air(trace: Trace, interval: Interval, sign: float, late: float) -> Figures:
-    """Figures of the air of a phase, whose flow goes on for ``late`` [s] after its command."""
-    begin = interval[0]
-    end = min(interval[1] + late, float(trace.time[-1]))
+def air(trace: Trace, flows: Interval, sign: float) -> Figures:
+    """Figures of the air of a phase between the instants at which its flow begins and ends."""
+    begin, end = np.minimum(flows, trace.time[-1])
 
     def change(column: Array) -> float:
         first, last = np.interp([begin, end], trace.time, column)
-        return float(last - first)
+        return round(float(last - first), _MICROGRAM) + 0.0
 
-    name, flow = ("supplied", trace.supply_mass_flow) if sign > 0.0 else ("vented", trace.exhaust_mass_flow)
-    notes: dict[str, str] = {}
-    if trace.charge is None:
-        mass = change(getattr(trace, name))
-    else:  # what leaks meanwhile counts too
-        mass = sign * change(trace.charge) + change(trace.vented if sign > 0.0 else trace.supplied)
-        notes["air_mass"] = (
-            "from begin and end of the phase at ambient temperature: a stated polytropic exponent does not "
-            "conserve the mass of the air"
-        )
+    supplied, vented = change(trace.supplied), change(trace.vented)
     passed = (trace.time >= begin) & (trace.time <= end)
+    flow = trace.supply_mass_flow if sign > 0.0 else trace.exhaust_mass_flow
     flowing, time = np.where(passed, flow, 0.0), trace.time
     whole = float(np.trapezoid(flowing, time))
     choked = float(np.trapezoid(flowing * (trace.choked != 0), time))
     figures = {
-        "air_mass": mass,
-        "air_volume_anr": mass / ANR_DENSITY,
+        "supplied_mass": supplied,
+        "supplied_volume_anr": supplied / ANR_DENSITY,
+        "vented_mass": vented,
+        "vented_volume_anr": vented / ANR_DENSITY,
         "tube_air_mass": sign * change(trace.tube_charge),
         "choked_share": choked / whole if whole > 0.0 else None,
     }
+    notes: dict[str, str] = {}
+    if trace.from_states:
+        said = (
+            "from the change of pressure times volume at ambient temperature: with a stated polytropic "
+            "exponent the flows do not conserve mass, and the flow over time integrates to another amount"
+        )
+        notes = {name: said for name in figures if name.startswith(("supplied", "vented"))}
     if figures["choked_share"] is None:
-        notes["choked_share"] = TIMING["choked_share"].exists_when.otherwise
+        done = "taken from the supply" if sign > 0.0 else "let out"
+        notes["choked_share"] = f"no air is {done} in this phase"
     return figures, notes

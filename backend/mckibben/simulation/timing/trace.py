@@ -34,9 +34,9 @@ class Trace:
         choked: whether, or on which side, the valve is choked; 0 = not.
         supply_mass_flow: from the supply [kg/s]; default: the flow into the muscle.
         exhaust_mass_flow: to the atmosphere, positive [kg/s]; default: the flow out of the muscle.
-        supplied, vented: integrals of these flows [kg]; default: by the trapezoidal rule.
-        charge: air in muscle and tube if the air rested at ambient temperature [kg]; None where the gas has a
-            temperature of its own and the integrals are right.
+        supplied, vented: air taken from the supply and let out since the start [kg]; default: integrals of
+            these flows by the trapezoidal rule.
+        from_states: whether both are counted from the states because the flows do not conserve mass.
         tube_charge: the part of the air that is in the tube [kg]; default 0.
         impacts: in order of time. At each the trace has two rows, before and after it.
 
@@ -57,9 +57,9 @@ class Trace:
     exhaust_mass_flow: Array = None  # type: ignore
     supplied: Array = None  # type: ignore
     vented: Array = None  # type: ignore
-    charge: Array | None = None
     tube_charge: Array = None  # type: ignore
     impacts: tuple[Impact, ...] = ()
+    from_states: bool = False
 
     def __post_init__(self) -> None:
         flow = np.asarray(self.mass_flow, dtype=np.float64)
@@ -104,5 +104,4 @@ class Trace:
 
 def _columns(trace: Trace) -> list[Field[Any]]:
     """The fields that are columns of this trace."""
-    absent = {"impacts", *(("charge",) if trace.charge is None else ())}
-    return [item for item in fields(trace) if item.name not in absent]
+    return [item for item in fields(trace) if item.name not in ("impacts", "from_states")]

@@ -59,10 +59,10 @@ export function varied(path, value, form = "range") {
 
 /** Figures that one usually wants. @type {Record<Study["subject"], string[]>} */
 export const USUAL = {
-  drive: ["positioning_time", "rise_time", "max_speed", "impact_energy", "air_volume_anr"].map((name) =>
+  drive: ["positioning_time", "rise_time", "max_speed", "impact_energy", "supplied_volume_anr"].map((name) =>
     `timing.extend.${name}`
   ),
-  model: ["positioning_time", "rise_time", "max_speed", "impact_energy", "air_volume_anr"].map((name) =>
+  model: ["positioning_time", "rise_time", "max_speed", "impact_energy", "supplied_volume_anr"].map((name) =>
     `timing.extend.${name}`
   ),
   task: ["best.time", "best.air_volume_anr", "best.probability"],

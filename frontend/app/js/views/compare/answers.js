@@ -126,6 +126,16 @@ export const shown = computed(() => {
   if (isAhead.value) return comparisonAhead.answer.value;
   return compare.value.before && previous.value ? previous.value : answer.value;
 });
+/** The request of what is drawn. */
+const shownText = computed(() => {
+  if (isAhead.value) return comparisonAhead.answered.value;
+  return compare.value.before && previous.value ? comparisonBefore.answered.value : comparison.answered.value;
+});
+const insideQuestion = new Question(compareWith, { memory: new Memory(REMEMBERED), patience: 0 });
+/** The rows in the chosen range, by channel; null while they are not known. */
+export const inside = computed(() =>
+  insideQuestion.stale.value ? null : insideQuestion.answer.value?.inside ?? null
+);
 export const isBefore = computed(() => compare.value.before && previous.value !== null && !isAhead.value);
 
 // ---- the diagnosis
@@ -226,6 +236,13 @@ export function startComparing() {
   comparisonBefore.follow(() => previousText.value, { active: () => isCompared.value });
   comparisonFirst.follow(() => firstText.value, { active: () => isCompared.value });
   comparisonAhead.follow(() => previewed.value?.text ?? null, { delay: GLANCE_MS, active: isShown });
+  insideQuestion.follow(
+    () =>
+      brush.value && shownText.value
+        ? JSON.stringify({ ...JSON.parse(shownText.value), within: brush.value })
+        : null,
+    { delay: AFTER_MS, active: isShown },
+  );
   diagnosisQuestion.follow(() => fault.value ? null : modelText.value, { active: () => isCompared.value });
 }
 

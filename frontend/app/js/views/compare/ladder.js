@@ -1,7 +1,7 @@
 // @ts-check
 // From the start to the noise: a row for each step so far and each one proposed, with the way back for each.
 import { h, icon, mathml } from "../../dom.js";
-import { figure } from "../../facts.js";
+import { figure, inSentence } from "../../facts.js";
 import { units } from "../../state.js";
 import { effectsById } from "../../store.js";
 import { ahead, answer, compare, diagnosis, preset, stale } from "./answers.js";
@@ -216,6 +216,7 @@ export function ladderCard() {
       : state.value === "verdict"
       ? "hatched: proposed"
       : "";
+  const errors = inSentence(figure("parameter.stderr").label);
   return h(
     "section",
     { class: "card ladder", "aria-label": "From the start to the noise" },
@@ -230,7 +231,7 @@ export function ladderCard() {
         h(
           "tr",
           null,
-          h("th", { scope: "col", class: "text" }, "Step"),
+          h("th", { scope: "col", class: "text" }, "Step ", h("small", null, errors)),
           h("td", { class: "fall-cell" }, h("small", null, h("u", { class: "held-key" }), "held-out")),
           h(
             "th",

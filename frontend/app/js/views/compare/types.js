@@ -8,7 +8,9 @@
 /** @typedef {S["ParameterValue"]} Fitted */
 /** @typedef {S["ComparisonResult"]} Comparison */
 /** @typedef {S["ComparedSeries"]} Series */
-/** @typedef {S["ResidualMap"]} HeatMap */
+/** @typedef {S["ResidualMap"]} Grid */
+/** @typedef {S["MapRow"]} Row */
+/** @typedef {S["MapCell"]} Cell */
 /** @typedef {S["Profile"]} Where */
 /** @typedef {S["DiagnosisResult"]} Diagnosis */
 /** @typedef {S["CandidateResult"]} Candidate */

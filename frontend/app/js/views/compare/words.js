@@ -136,20 +136,6 @@ export function isInside(s, i, brush) {
   });
 }
 
-/** RMS and number of the residuals in the selected range.
- * @param {Series[]} all @param {import("../../types.js").Brush | null} brush */
-export function rmsInside(all, brush) {
-  let sum = 0, rows = 0;
-  for (const s of all) {
-    s.residual.forEach((r, i) => {
-      if (r == null || !isInside(s, i, brush)) return;
-      sum += r * r;
-      rows++;
-    });
-  }
-  return { rms: rows ? Math.sqrt(sum / rows) : null, rows };
-}
-
 /** A number of any size with some significant digits: 2.03·10⁻⁶. @param {number} x @param {number} digits */
 export function figures(x, digits) {
   const size = Math.abs(x);

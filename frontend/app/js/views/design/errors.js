@@ -1,5 +1,5 @@
 // @ts-check
-// The error of the model against measured points, in newtons and in % of full scale, beside the ideal braid.
+// The error of the model against measured points, in newtons and in % of the largest force, beside the ideal braid.
 import { h, icon } from "../../dom.js";
 import { units } from "../../state.js";
 import { design, editDesign } from "../../muscle/document.js";
@@ -40,7 +40,7 @@ function figure(name, c, first, widest) {
     { class: `rmse${first ? " first" : ""}` },
     h("span", null, name),
     h("b", { class: "num" }, withUnit(c.rmse, "force", units.value)),
-    h("span", { class: "num" }, `${brief(c.nrmse_percent ?? NaN)} % of full scale`),
+    h("span", { class: "num" }, `${brief(c.nrmse_percent ?? NaN)} % of the largest`),
     h("span", { class: "bar" }, h("i", { style: `width:${(100 * (c.rmse ?? 0)) / widest}%` })),
   );
 }

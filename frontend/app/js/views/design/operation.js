@@ -1,6 +1,7 @@
 // @ts-check
 // The operation card: pressures, load, direction of motion, temperature, dead volume, fixed length.
 import { h, icon } from "../../dom.js";
+import { figure } from "../../facts.js";
 import { computed, signal } from "../../reactive.js";
 import { commit, preview, units } from "../../state.js";
 import { design, editDesign, patchDesign } from "../../muscle/document.js";
@@ -212,7 +213,7 @@ export function operationCard() {
       null,
       h("summary", null, "Temperature, closed valve, fixed length"),
       designField("temperature", {
-        label: "Temperature",
+        label: figure("channel.temperature").label,
         symbol: "T",
         quantity: "temperature",
         bounds: () => [253.15, 353.15],

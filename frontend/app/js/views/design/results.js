@@ -130,7 +130,7 @@ function verdict() {
   ];
 }
 
-/** What is left of each limit, as one bar each: empty at the limit, full at 100 % or more. */
+/** The used share of each limit as a bar, full at the limit. */
 function margins() {
   const c = curves.value;
   if (!c) return h("div", { class: "margins" });

@@ -82,9 +82,9 @@ function start() {
     h(
       "p",
       null,
-      "Enter what is to be moved, how far and how fast, the supply pressure and the available space. Every combination " +
-        "of muscles, valves and tubes of the catalogue is tried. You get a ranked list of drives that fulfil the task, each " +
-        "with its limits and its probability of success, and the reasons why other drives do not.",
+      "Enter what is to be moved, how far and how fast, the supply pressure and the available space. The chosen " +
+        "muscles, valves and tubes of the catalogue are combined. You get a ranked list of drives that fulfil the task, " +
+        "each with its limits and the share of its simulated specimens that succeed, and the reasons against others.",
     ),
     h(
       "p",

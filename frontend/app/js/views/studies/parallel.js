@@ -8,11 +8,22 @@ import { shown } from "./model.js";
 import { front, keepRange, numbersOf, pins, places, ranges } from "./rows.js";
 import { columnText, scaleFor, titleOf, valueText } from "./words.js";
 
-const HEIGHT = 250, TOP = 46, BOTTOM = 24, STEP = 124, SIDE = 62;
+const HEIGHT = 250, TOP = 59, BOTTOM = 24, STEP = 124, SIDE = 62;
 /** Half the width in which an axis takes the pointer, and the least length of a range [px]. */
 const REACH = 16, LEAST = 4;
 /** More lines would not be seen apart. */
 const MOST_LINES = 1500;
+
+/** Letters that have room over an axis. */
+const ROOM = 19;
+/** A name in two lines at most, broken where both are about as long. @param {string} name */
+function twoLines(name) {
+  const words = name.split(" ");
+  if (name.length <= ROOM || words.length < 2) return [name];
+  const ways = words.slice(1).map((_w, i) => [words.slice(0, i + 1).join(" "), words.slice(i + 1).join(" ")]);
+  const longest = (/** @type {string[]} */ way) => Math.max(...way.map((line) => line.length));
+  return ways.reduce((best, way) => longest(way) < longest(best) ? way : best);
+}
 
 /** @param {(number | null)[]} values @returns {[number, number]} */
 function extremes(values) {
@@ -141,8 +152,8 @@ function drawing() {
         svg("text", { x: x(k), y: at, "text-anchor": "middle", class: kind }, text);
       return [
         svg("line", { x1: x(k), x2: x(k), y1: TOP, y2: HEIGHT - BOTTOM, class: "axis" }),
-        label(13, name.replace(" (ANR)", ""), "name"), // the unit says it too
-        label(26, [more.join(", "), scale.unit].filter(Boolean).join(", "), "unit"),
+        ...twoLines(name.replace(" (ANR)", "")).map((words, i) => label(13 + 13 * i, words, "name")), // the unit says it
+        label(39, [more.join(", "), scale.unit].filter(Boolean).join(", "), "unit"),
         label(TOP - 6, text(most)),
         label(HEIGHT - BOTTOM + 14, text(least)),
         ...rangeOn(x(k), ranges.value[c.name]?.map((v) => y(k, v)), (from, to) =>

@@ -18,7 +18,7 @@ const TITLES = {
   "supply.pressure": "Supply pressure",
   "tube.length": "Tube length",
   "load.force": "Load force",
-  "gas.temperature": "Temperature",
+  "gas.temperature": figure("task.ambient_temperature").label,
   "gas.ambient_pressure": "Ambient pressure",
 };
 

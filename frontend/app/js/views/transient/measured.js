@@ -2,6 +2,7 @@
 // A measured trace shown in the plots: the file is read by the server.
 import { h, icon } from "../../dom.js";
 import { apart, computed, effect, signal } from "../../reactive.js";
+import { figure, inSentence } from "../../facts.js";
 import { view } from "../../state.js";
 import { aboutFile, ApiError } from "../../server/client.js";
 import { keep, measurement } from "../../server/measurements.js";
@@ -72,11 +73,17 @@ function summary() {
         onclick: () => editTransient({ measurement: null }, "remove measured trace"),
       }, icon("close")),
     ),
-    timed && used.length ? h("p", { class: "muted" }, `Dots in the plots: ${used.join(", ")}.`) : h(
-      "p",
-      { class: "error" },
-      timed ? "None of its columns can be shown in the plots." : "It has no time column.",
-    ),
+    timed && used.length
+      ? h(
+        "p",
+        { class: "muted" },
+        `Dots in the plots: ${used.map((name) => inSentence(figure(`channel.${name}`).label)).join(", ")}.`,
+      )
+      : h(
+        "p",
+        { class: "error" },
+        timed ? "None of its columns can be shown in the plots." : "It has no time column.",
+      ),
     m.messages.length
       ? h("ul", { class: "plain muted" }, ...m.messages.map((text) => h("li", null, text)))
       : null,

@@ -13,7 +13,6 @@ import {
   arrangementOf,
   countedAt,
   driveDocument,
-  inclinationOf,
   inSi,
   partsOfDrive,
 } from "../../drive/document.js";
@@ -64,7 +63,6 @@ export function setDrive(path, value, label, done = true) {
 export const numberAt = (path) => siNumber(at(drive.value, path), countedAt(drive.value, path));
 
 export const arrangement = computed(() => arrangementOf(drive.value.load));
-export const inclination = computed(() => inclinationOf(drive.value.load));
 
 /** The part of a window that lies in a run; null: all of it.
  * @param {[number, number] | null} range @param {number} duration @returns {[number, number] | null} */

@@ -7,7 +7,6 @@ import { downloadText, fileName, toCsv } from "../../../ui/table.js";
 import { compare } from "../answers.js";
 import { caseId } from "../cases.js";
 import { fitting } from "../model/history.js";
-import { mapOf } from "../where/map.js";
 import { isQuiet, mapScale, placeOf } from "../where/scale.js";
 import { tint } from "../where/colours.js";
 import { signed } from "../words.js";
@@ -40,7 +39,7 @@ export const hidden = computed(() => rows.value.filter((row) => !row.differs).le
 
 /** The map of a model in small, on the scale of the case. @param {Column} c */
 function mini(c) {
-  const map = c.comparison && mapOf(c.comparison), s = mapScale.value;
+  const map = c.comparison?.heat_map ?? null, s = mapScale.value;
   if (!map || !s) return h("div", { class: "mini-map" });
   return h(
     "div",
@@ -54,7 +53,7 @@ function mini(c) {
         h(
           "span",
           null,
-          ...(cell ? map.split ? [cell.up, cell.down] : [cell.mean] : []).map((mean) =>
+          ...(cell ? map.split ? [cell.lengthening, cell.shortening] : [cell.mean] : []).map((mean) =>
             h("i", { style: `background:${tint(mean === null || isQuiet(mean, s) ? 0 : placeOf(mean, s))}` })
           ),
         )

@@ -1,6 +1,7 @@
 // @ts-check
 // Entries that may be wrong: the question before the physics, with an answer in one click.
 import { h, icon } from "../../../dom.js";
+import { figure, inSentence } from "../../../facts.js";
 import { capitalized, number, plainScale, quantityOf, readable, scaleOf } from "../../../format.js";
 import { edit, units } from "../../../state.js";
 import { answer, chosen, compare, diagnosis, editCompare, stale } from "../answers.js";
@@ -110,7 +111,7 @@ function proof(entry, result) {
   const estimate = typeof entry.value === "number" && entry.stderr !== null
     ? ` The data say ${
       measuredText(entry.value, entry.stderr, scaleOfUnit(entry.unit)).replaceAll(" ", "\u00a0")
-    }.`
+    } (${inSentence(figure("diagnosis.stderr").label)}).`
     : "";
   return h(
     "p",
@@ -169,9 +170,9 @@ export function contextBlock(result) {
     h(
       "p",
       { class: "muted" },
-      `Effects are ranked once this is settled. Ranked now, wrong ones could take the blame for ${
-        inUnits((answer.value?.rmse_beyond_accuracy ?? 0) - first.rmse_after, result)
-      }.`,
+      `Effects are ranked once this is settled. Ranked now, wrong ones could take the blame for the fall from ${
+        inUnits(answer.value?.rmse_beyond_accuracy, result)
+      } to ${inUnits(first.rmse_after, result)}.`,
     ),
   );
 }

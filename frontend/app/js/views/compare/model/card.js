@@ -1,6 +1,7 @@
 // @ts-check
 // The effects in the model: values with standard errors and bounds; they can be changed, removed, fitted again.
 import { h, icon, mathml } from "../../../dom.js";
+import { figure, inSentence } from "../../../facts.js";
 import { computed, signal } from "../../../reactive.js";
 import { commit, preview, units } from "../../../state.js";
 import { effectsById } from "../../../store.js";
@@ -63,7 +64,10 @@ function range(id, p) {
   return h(
     "p",
     { class: "hint" },
-    fit?.stderr == null ? "" : `${sigmaText(fit.stderr / s.factor)} · `.replace(/^ · $/, ""),
+    fit?.stderr == null ? "" : sigmaText(fit.stderr / s.factor).replace(
+      /^± (.*)$/,
+      `± $1 (${inSentence(figure("parameter.stderr").label).replace("± ", "")}) · `,
+    ),
     bounds,
     fit?.at_bound ? h("span", { class: "at-bound" }, " · at its bound") : null,
   );

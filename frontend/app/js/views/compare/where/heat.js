@@ -8,12 +8,12 @@ import { number, scaleOf, toShown } from "../../../format.js";
 import { palette } from "../../../plots/theme.js";
 import { brush, fault, lookCompare, shown, stale } from "../answers.js";
 import { channelScale, channelWords, errorText, errorUnit, rangeText, VARIABLES } from "../words.js";
-import { mapOf } from "./map.js";
 import { inkOn, tint } from "./colours.js";
 import { isQuiet, mapScale, marksOf, placeOf } from "./scale.js";
 
-/** @typedef {import("./map.js").Grid} Grid */
-/** @typedef {import("./map.js").Cell} Cell */
+/** @typedef {import("../types.js").Grid} Grid */
+/** @typedef {import("../types.js").Row} Row */
+/** @typedef {import("../types.js").Cell} Cell */
 /** @typedef {import("../types.js").Comparison} Comparison */
 /** @typedef {[number, number]} Range */
 
@@ -21,10 +21,13 @@ const MEAN = figure("residual.mean");
 /** Height of all rows together, and of a row at least and at most. */
 const ROWS_PX = 272, LEAST_PX = 24, MOST_PX = 128;
 
-const grid = computed(() => shown.value ? mapOf(shown.value) : null);
+const grid = computed(() => shown.value?.heat_map ?? null);
 
 /** @param {Grid} map @param {number} ix @returns {Range} */
-const columnRange = (map, ix) => [map.edges[ix], map.edges[ix + 1]];
+const columnRange = (map, ix) => [map.edges[ix] ?? 0, map.edges[ix + 1] ?? 0];
+
+/** @param {Row} row @returns {Range} */
+const rowRange = (row) => [row.low, row.high];
 
 /** @param {Range} a @param {Range | undefined} b */
 const within = (a, b) => {
@@ -37,16 +40,16 @@ const within = (a, b) => {
 const isChosen = (map, ix, iy) => {
   const b = brush.value;
   return Boolean(b) && within(columnRange(map, ix), b?.[map.x]) &&
-    (map.rows[iy].channel !== undefined || within(map.rows[iy].range, b?.[map.y]));
+    (map.rows[iy].channel !== null || within(rowRange(map.rows[iy]), b?.[map.y]));
 };
 
 /** Chooses a cell; with Shift the range grows to it; the chosen cell alone again clears the choice.
  * @param {Grid} map @param {number} ix @param {number} iy @param {boolean} more */
 function choose(map, ix, iy, more) {
-  const b = brush.peek(), x = columnRange(map, ix), y = map.rows[iy].range;
+  const b = brush.peek(), x = columnRange(map, ix), y = rowRange(map.rows[iy]);
   const same = (/** @type {Range | undefined} */ r, /** @type {Range} */ to) =>
     r !== undefined && r[0] === to[0] && r[1] === to[1];
-  if (map.rows[iy].channel !== undefined) {
+  if (map.rows[iy].channel !== null) {
     const was = b?.[map.x], isSame = was?.[0] === x[0] && was?.[1] === x[1];
     const range = more && was ? /** @type {Range} */ ([Math.min(was[0], x[0]), Math.max(was[1], x[1])]) : x;
     return lookCompare({ brush: !more && isSame ? null : { [map.x]: range } });
@@ -113,7 +116,7 @@ function value(mean, a, way) {
 function describe(c, a, at, split) {
   const asText = (/** @type {number | null} */ si) => errorText(si, a.unit, a.predicted, units.value);
   const means = split
-    ? `lengthening ${asText(c.up)}, shortening ${asText(c.down)}`
+    ? `lengthening ${asText(c.lengthening)}, shortening ${asText(c.shortening)}`
     : `mean ${asText(c.mean)}`;
   return `${at}: ${means}, RMS ${asText(c.rms)}, ${c.count} rows`;
 }
@@ -121,26 +124,15 @@ function describe(c, a, at, split) {
 /** The name of a cell: what stands in it comes first, as who speaks to the page says what is seen.
  * @param {Cell} c @param {Comparison} a @param {string} at @param {boolean} split */
 function nameOf(c, a, at, split) {
-  const seen = (split ? [c.up, c.down] : [c.mean]).map((mean) => valueText(mean, a)).filter(Boolean);
+  const seen = (split ? [c.lengthening, c.shortening] : [c.mean]).map((mean) => valueText(mean, a)).filter(
+    Boolean,
+  );
   const what = split ? "lengthening and shortening" : "mean";
   return seen.every((text) => text === "·")
     ? describe(c, a, at, split)
     : `${seen.join(" ")}: ${what} at ${at}, RMS ${
       errorText(c.rms, a.unit, a.predicted, units.value)
     }, ${c.count} rows`;
-}
-
-const WITHIN = 1.15; // error over noise up to which a row counts as noise, where it has many readings
-
-/** Whether the error of a row is not above the noise by more than chance. @param {Comparison} a @param {Grid} map
- * @param {import("./map.js").Row} row */
-function isNoise(a, map, row) {
-  const sigma = map.scaled ? 1 : a.noise_floor;
-  const cells = row.cells.flatMap((c) => c ? [c] : []);
-  const n = cells.reduce((sum, c) => sum + c.count, 0);
-  if (!sigma || !n) return false;
-  const rms = Math.sqrt(cells.reduce((sum, c) => sum + c.count * c.rms ** 2, 0) / n);
-  return rms <= sigma * Math.max(WITHIN, 1 + 2 / Math.sqrt(2 * n)); // two standard deviations of an RMS
 }
 
 /** Numbers of an axis with one number of decimals, as many as one of them needs; 0 has none.
@@ -157,21 +149,21 @@ function table(a, map) {
   const yScale = ys ? scaleOf(ys.quantity, system) : null;
   const inRows = (/** @type {number} */ si) => yScale ? toShown(si, yScale) : si;
   const inColumns = (/** @type {number} */ si) => xScale ? toShown(si, xScale) : si;
-  const edges = map.edges.slice(0, -1), edgeTexts = evenly(edges.map(inColumns), 1);
-  const ranges = map.rows.filter((row) => row.channel === undefined && row.level === null);
-  const ends = evenly(ranges.flatMap((row) => row.range.map(inRows)), 1);
+  const edges = map.edges.slice(0, -1).map((v) => v ?? 0), edgeTexts = evenly(edges.map(inColumns), 1);
+  const ranges = map.rows.filter((row) => row.channel === null && row.level === null);
+  const ends = evenly(ranges.flatMap((row) => rowRange(row).map(inRows)), 1);
   const shownAt = (/** @type {number} */ si) => number(inRows(si), 2);
-  const label = (/** @type {import("./map.js").Row} */ row) =>
-    row.channel !== undefined
+  const label = (/** @type {Row} */ row) =>
+    row.channel !== null
       ? channelWords(row.channel)
       : row.level === null
       ? ends.slice(2 * ranges.indexOf(row), 2 * ranges.indexOf(row) + 2).join("…")
       : `${shownAt(row.level)} ${yScale?.unit ?? ""}`;
   const cell = (/** @type {Cell | null} */ c, /** @type {number} */ ix, /** @type {number} */ iy) => {
     if (!c) return h("td", null, h("span", { class: "none" }));
-    const range = map.rows[iy].range;
+    const range = rowRange(map.rows[iy]);
     const where = `${
-      map.rows[iy].level === null && map.rows[iy].channel === undefined
+      map.rows[iy].level === null && map.rows[iy].channel === null
         ? rangeText(map.y, range, system)
         : label(map.rows[iy])
     }, ${rangeText(map.x, columnRange(map, ix), system)}`;
@@ -190,7 +182,9 @@ function table(a, map) {
           onkeydown: walk,
           onclick: (/** @type {MouseEvent} */ e) => choose(map, ix, iy, e.shiftKey),
         },
-        ...(map.split ? [value(c.up, a, "●"), " ", value(c.down, a, "□")] : [value(c.mean, a, "")]),
+        ...(map.split
+          ? [value(c.lengthening, a, "●"), " ", value(c.shortening, a, "□")]
+          : [value(c.mean, a, "")]),
       ),
     );
   };
@@ -210,11 +204,11 @@ function table(a, map) {
           h(
             "th",
             { scope: "row" },
-            isNoise(a, map, row)
+            row.within_noise
               ? h("span", { class: "is-noise", title: "Its error is within the noise" }, icon("check"))
               : null,
             h("span", null, label(row)),
-            isNoise(a, map, row) ? h("span", { class: "unseen" }, ", within the noise") : null,
+            row.within_noise ? h("span", { class: "unseen" }, ", within the noise") : null,
             map.split ? h("small", { "aria-hidden": "true" }, h("i", null, "●"), h("i", null, "□")) : null,
           ),
           ...row.cells.map((c, ix) => cell(c, ix, iy)),

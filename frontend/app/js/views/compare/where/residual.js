@@ -1,6 +1,7 @@
 // @ts-check
 // The residual over one variable with the band of the noise and a range to select, or as histogram and others.
 import { h, icon } from "../../../dom.js";
+import { figure } from "../../../facts.js";
 import { apart, computed, effect } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
 import { number, scaleOf, toShown, toSi } from "../../../format.js";
@@ -11,7 +12,7 @@ import { chartMenu } from "../../../plots/export.js";
 import { menuButton } from "../../../ui/menu.js";
 import { plotlyReady } from "../../../plots/library.js";
 import { brushLayer } from "./brush-layer.js";
-import { brush, lookCompare, shown, stale } from "../answers.js";
+import { brush, inside as inRange, lookCompare, shown, stale } from "../answers.js";
 import { pinned } from "../pinned.js";
 import { channel, channels, residualOver, residuals, variables, viewOf } from "./pictures.js";
 import { crossCorrelation } from "./cross.js";
@@ -19,7 +20,7 @@ import { autocorrelation, histogram, loops } from "./leftover.js";
 import { partsBar } from "./parts.js";
 import { scale } from "./scale.js";
 import { residualSpec } from "./residual-spec.js";
-import { channelWords, errorText, rangeText, rmsInside, VARIABLES } from "../words.js";
+import { channelWords, errorText, rangeText, VARIABLES } from "../words.js";
 
 /** @typedef {import("../../../types.js").Tab} Tab */
 /** @typedef {import("./leftover.js").Picture} Picture */
@@ -36,6 +37,8 @@ const TABS = [
   ["cross", "Input", "Input: correlation of the residual with the input of the test"],
   ["loops", "Loops", "Loops: area of each loop of the residual"],
 ];
+
+const RMS = figure("residual.rms");
 
 const host = h("div", {
   class: "plot",
@@ -93,7 +96,7 @@ function inside() {
   if (!a) return null;
   if (whole.value) return h("span", null, ...whole.value.words, ofPins());
   if (!b) return h("span", { class: "muted" }, "Drag over the plot to see the error in a range.");
-  const { rms, rows } = rmsInside(residuals.value, b);
+  const rows = inRange.value?.find((one) => one.channel === channel.value) ?? null;
   const unit = residuals.value[0]?.unit ?? a.unit;
   const ranges = Object.entries(b).map(([name, range]) => rangeText(name, range, system)).filter(Boolean);
   return [
@@ -101,8 +104,12 @@ function inside() {
       "span",
       { id: "brush-rms" },
       `${ranges.join(", ")}: `,
-      h("b", null, `RMS ${errorText(rms, unit, channel.value, system)}`),
-      `, ${rows} rows`,
+      h(
+        "b",
+        { title: RMS.definition },
+        `RMS ${rows ? errorText(rows.rms, unit, channel.value, system) : "…"}`,
+      ),
+      rows ? `, ${rows.count} rows${a.validation ? " of the fit" : ""}` : "",
     ),
     h("button", {
       type: "button",

@@ -7,7 +7,6 @@ import { brief } from "../../../format.js";
 import { first } from "../answers.js";
 import { channelScale } from "../words.js";
 import { allSeries, channel, channels, noiseOf } from "./pictures.js";
-import { mapOf } from "./map.js";
 
 /** `most`: the residual at full colour; `sigma`: the noise, null where it is not known; SI.
  * @typedef {{most: number, sigma: number | null}} Scale */
@@ -26,9 +25,9 @@ export function scaleFor(name) {
   const a = first.value;
   if (!a) return null;
   const sigma = noiseOf(a, name);
-  const map = channels.value.length > 1 ? null : mapOf(a);
+  const map = channels.value.length > 1 ? null : a.heat_map;
   const cells = map
-    ? map.rows.flatMap((row) => row.cells.flatMap((c) => c ? [c.mean, c.up, c.down] : []))
+    ? map.rows.flatMap((row) => row.cells.flatMap((c) => c ? [c.mean, c.lengthening, c.shortening] : []))
     : [];
   let most = Math.max(0, ...cells.map((v) => Math.abs(v ?? 0)));
   if (!map) {
@@ -45,7 +44,7 @@ export const scale = computed(() => scaleFor(channel.value));
 
 /** The scale of the map; that of several channels is in units of their noise. */
 export const mapScale = computed(() => {
-  const map = first.value && mapOf(first.value);
+  const map = first.value?.heat_map ?? null;
   if (!map || channels.value.length < 2) return scale.value;
   const sizes = map.rows.flatMap((row) => row.cells.map((c) => Math.abs(c?.mean ?? 0)));
   return { most: roundedUp(Math.max(LINEAR, ...sizes)), sigma: 1 };

@@ -31,9 +31,9 @@ function keyFigures(r) {
   const { tracking, timing: { extend, notes } } = r;
   const timed = (/** @type {import("../../../types.js").PhaseFigure} */ name) =>
     big(`timing.${name}`, extend[name], notes[`extend.${name}`]);
-  const air = tracking || extend.air_volume_anr == null
+  const air = tracking || extend.supplied_volume_anr == null
     ? big("run.supplied_volume_anr", r.supplied_volume_anr)
-    : timed("air_volume_anr");
+    : timed("supplied_volume_anr");
   return h(
     "div",
     { class: "bigs", id: "key-figures" },

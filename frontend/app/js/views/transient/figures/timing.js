@@ -1,9 +1,9 @@
 // @ts-check
 // The timing table: figures, their definitions, and why one is missing.
 import { h } from "../../../dom.js";
-import { figuresOf } from "../../../facts.js";
+import { figuresOf, inSentence, UNITS } from "../../../facts.js";
 import { units } from "../../../state.js";
-import { brief, scaleOf, toShown } from "../../../format.js";
+import { brief, capitalized, scaleOf, toShown } from "../../../format.js";
 import { run } from "../model.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
@@ -19,10 +19,11 @@ export const TIMING = figuresOf("timing").map((each) => ({
 }));
 
 /** @type {["extend" | "retract", string][]} */
-const PHASES = [["extend", "Fill"], ["retract", "Vent"]];
+const PHASES = /** @type {any} */ (Object.entries(UNITS.phases));
 
-/** The full name of a figure, for use outside the table. @param {Figure} figure @param {string} phase */
-export const figureName = ({ label }, phase) => `${label}, ${phase === "extend" ? "fill" : "vent"}`;
+/** The full name of a figure, for use outside the table. @param {Figure} figure
+ * @param {"extend" | "retract"} phase */
+export const figureName = ({ label }, phase) => `${label}, ${UNITS.phases[phase]}`;
 
 /** How a figure is shown. @param {DeclaredFigure} figure */
 const scaleOfFigure = ({ quantity }) => scaleOf(/** @type {Quantity} */ (quantity), units.value);
@@ -43,7 +44,7 @@ export function timingTable() {
   return h(
     "table",
     { class: "data timing" },
-    h("caption", { class: "unseen" }, "Timing of the first fill and of the venting after it"),
+    h("caption", { class: "unseen" }, Object.values(UNITS.phases).join(" and ")),
     h(
       "thead",
       null,
@@ -51,7 +52,7 @@ export function timingTable() {
         "tr",
         null,
         h("td", null),
-        ...PHASES.map(([, name]) => h("th", { scope: "col" }, name)),
+        ...PHASES.map(([, name]) => h("th", { scope: "col" }, capitalized(name))),
         h("td", null),
       ),
     ),
@@ -84,8 +85,8 @@ export function reasons() {
     for (const figure of TIMING) {
       const isMissing = figureOf(r, phase, figure) === null, note = r.timing.notes[`${phase}.${figure.name}`];
       if (!isMissing && !note) continue;
-      const text = `${name}: ${note ?? figure.otherwise}`, group = isMissing ? why : remarks;
-      group.set(text, [...group.get(text) ?? [], figure.label.toLowerCase()]);
+      const text = `${capitalized(name)}: ${note ?? figure.otherwise}`, group = isMissing ? why : remarks;
+      group.set(text, [...group.get(text) ?? [], inSentence(figure.label)]);
     }
   }
   return [noteList("Why figures are missing", why), noteList("Remarks on figures", remarks)];

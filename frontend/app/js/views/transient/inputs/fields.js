@@ -216,7 +216,7 @@ export const SPECS = {
     hint: "1 isothermal, 1.4 adiabatic. The mass of the air is then not conserved.",
   },
   "gas.temperature": {
-    label: "Temperature",
+    label: declared("task.ambient_temperature").label,
     symbol: "T",
     quantity: "temperature",
     bounds: [253.15, 353.15],

@@ -21,7 +21,7 @@ function shownAs(key, si) {
 }
 /** @param {string} key */
 const labelOf = (key) => declared(key).label;
-/** A head or the name of a row with its definition. @param {string} key @returns {Head} */
+/** A head or the name of a row with its definition. @param {string} key */
 const named = (key) => ({ text: labelOf(key), title: declared(key).definition });
 
 /** @typedef {string | {text: string, title: string}} Head */
@@ -155,7 +155,13 @@ export const TRIALS = { own: "own", rule: "by the rule", refined: "refined" };
 /** @param {Design} design */
 export function trialsTable(design) {
   /** @param {string} key @param {(t: Trial) => number | null} value @returns {[Head, ...string[]]} */
-  const row = (key, value) => [named(key), ...design.trials.map((t) => shownAs(key, value(t)))];
+  const row = (key, value) => {
+    const { text, title } = named(key), scale = scaleOf(declared(key).quantity, units.value);
+    const inUnit = design.trials.map((t) => value(t)).map((si) =>
+      figure(si === null ? null : toShown(si, scale))
+    );
+    return [{ text: `${text} ${scale.unit}`.trim(), title }, ...inUnit];
+  };
   return table(`Controllers: steps of ${shownAs("design.step", design.goals.step)}`, [
     "",
     ...design.trials.map((t) => TRIALS[t.name]),

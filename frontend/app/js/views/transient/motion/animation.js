@@ -6,7 +6,7 @@ import { units, view } from "../../../state.js";
 import { brief, withUnit } from "../../../format.js";
 import { paired, readout, setWindow } from "../plots/charts.js";
 import { cursor, cursorKeys, moveCursor, row, span } from "../cursor.js";
-import { inclination, numberAt, run, timeWindow } from "../model.js";
+import { numberAt, run, timeWindow } from "../model.js";
 import { draw, outline, place } from "./outline.js";
 import { pairPicture } from "./pair-picture.js";
 
@@ -67,7 +67,7 @@ function picture() {
     for (const [stop, x] of /** @type {[Element, number][]} */ ([[stops[0], right], [stops[1], left - 4]])) {
       place(stop, { x, y: y - 29, width: 4, height: 58 });
     }
-    const weight = (numberAt("load.mass") ?? 0) * 9.80665 * Math.sin(inclination.value);
+    const { weight } = r;
     mass.textContent = withUnit(numberAt("load.mass") ?? 0, "mass", units.value);
     pullText.textContent = Math.abs(weight) > 0.5 ? withUnit(Math.abs(weight), "force", units.value) : "";
     pull.setAttribute("visibility", Math.abs(weight) > 0.5 ? "visible" : "hidden");

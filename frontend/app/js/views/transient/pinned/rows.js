@@ -40,7 +40,7 @@ function flat(part, path = "") {
 /** @type {Record<string, string>} */
 const NAMES = {
   "muscle.preset": "Muscle",
-  "muscle.nominal_length": "Length of the muscle",
+  "muscle.nominal_length": figure("geometry.nominal_length").label,
   "valve.preset": "Valve",
   "tube.preset": "Tube",
   "command.shape": "Command",

@@ -1,6 +1,7 @@
 // @ts-check
 // The phase plot on the page: legend, meaning of the dashed lines, point at the cursor, menu.
 import { h } from "../../../dom.js";
+import { UNITS } from "../../../facts.js";
 import { apart, computed, effect } from "../../../reactive.js";
 import { units, view } from "../../../state.js";
 import { scaleOf, toShown, withUnit } from "../../../format.js";
@@ -10,14 +11,12 @@ import { openDialog } from "../../../ui/dialog.js";
 import { dataTable, downloadText, toCsv } from "../../../ui/table.js";
 import { extent } from "../../../plots/axes.js";
 import { row, span } from "../cursor.js";
-import { inclination, lookTransient, numberAt, run, transient } from "../model.js";
+import { lookTransient, numberAt, run, transient } from "../model.js";
 import { isSteady, phaseSpec, phaseTable } from "./phase.js";
 import { plot } from "./plot.js";
 import { statics } from "../statics.js";
 
 /** @typedef {import("./phase.js").Load} Load */
-
-const GRAVITY = 9.80665;
 
 export const phase = plot(
   "phase",
@@ -28,7 +27,7 @@ export const phase = plot(
 /** The static load without the external force, which is a column of the run.
  * @type {import("../../../reactive.js").Signal<Load>} */
 const load = computed(() => ({
-  weight: (numberAt("load.mass") ?? 0) * GRAVITY * Math.sin(inclination.value),
+  weight: run.value?.weight ?? 0,
   spring: numberAt("load.spring") ?? 0,
   ratio: numberAt("load.lever_ratio") ?? 1,
 }));
@@ -88,8 +87,8 @@ export function phaseLegend() {
       h("i", { class: "ramp", style: `background:linear-gradient(to right,${stops})` }),
       `${Number(to.toPrecision(3))} ${end}`,
     ),
-    h("li", null, h("i", { class: "dash", style: `color:${p.soft}` }), "fill, static"),
-    h("li", null, h("i", { class: "dash", style: `color:${p.second}` }), "vent, static"),
+    h("li", null, h("i", { class: "dash", style: `color:${p.soft}` }), `${UNITS.phases.extend}, static`),
+    h("li", null, h("i", { class: "dash", style: `color:${p.second}` }), `${UNITS.phases.retract}, static`),
   );
 }
 

@@ -252,7 +252,7 @@ export function lowerSpec(v, p) {
       },
       {
         id: "exhaust",
-        name: "exhaust",
+        name: "atmosphere",
         values: run.exhaust_flow.map((x) => x == null ? null : -x),
         color: p.second,
         dash: "dash",
