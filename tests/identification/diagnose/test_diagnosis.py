@@ -15,8 +15,7 @@ from mckibben.identification.diagnose.steps import SingleAddition
 from mckibben.identification.diagnose.words import sentence_of
 from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import predictor_of
-from mckibben.identification.predict.fit_model import FitModel, free_geometry
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free, free_geometry
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.custom import custom_effect

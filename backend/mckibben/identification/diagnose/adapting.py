@@ -22,8 +22,7 @@ import numpy as np
 
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.levenberg import minimise
-from mckibben.identification.predict.fit_model import FitModel, free_numbers, held_beside
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free, free_numbers, held_beside
 from mckibben.identification.predict.predictor import Predictor
 
 _EVALUATIONS = 10  # of a refit: from the fit to the present data it is a few Gauss-Newton steps away

@@ -54,8 +54,7 @@ from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel, unfitted
 from mckibben.identification.fit.fitter import CancelledError, Fitter
 from mckibben.identification.fit.least_squares import FitResult, fit_report
-from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.predict.specimens import SpecimensPredictor

@@ -12,8 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.identification.predict.fit_model import LOAD, SUPPLY, FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import LOAD, SUPPLY, FitModel, Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.measurement.measurement import STROKES, Measurement
 from mckibben.measurement.rescaled import rescaled

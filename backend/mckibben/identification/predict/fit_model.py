@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.identification.predict.free import Free
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY, NEUTRAL_ANGLE, Muscle
@@ -193,3 +192,27 @@ def free_geometry(muscle: Muscle, names: Iterable[str], tolerance: Mapping[str, 
         upper = min(value + width, 0.9999 * NEUTRAL_ANGLE) if name == "braid_angle" else value + width
         choice.append(Free(name, value, max(value - width, 1e-6), upper, _UNITS[name]))
     return tuple(choice)
+
+
+@dataclass(frozen=True, slots=True)
+class Free:
+    """A free parameter: name, start, bounds, SI unit, the value at which it has no effect, a usual change.
+
+    ``natural``: its bounds are those of its definition, such as 0 and 1 of a share. ``holds``: constants of
+    effects that act exactly as it does, and so keep their values beside it.
+    """
+
+    name: str
+    start: float
+    lower: float
+    upper: float
+    unit: str
+    off: float | None = None
+    usual: float | None = None
+    natural: bool = False
+    holds: frozenset[str] = frozenset()
+
+    @property
+    def typical(self) -> float:
+        """A change that matters: the usual one, or a hundredth of the range between the bounds."""
+        return self.usual or 0.01 * (self.upper - self.lower)

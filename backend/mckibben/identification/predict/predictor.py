@@ -12,8 +12,7 @@ from typing import Self
 import numpy as np
 
 from mckibben.facts.result import Number, result_class
-from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.reading_errors import ReadingError, ReadingWeights, reading_weights
 from mckibben.physics.effect import Effect
 

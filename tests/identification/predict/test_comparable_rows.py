@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.identification.predict.jumps import jumps
+from mckibben.identification.predict.comparable_rows import jumps
 from mckibben.measurement.derivative import rates
 from mckibben.measurement.motion import RecordedMotion, directions
 
