@@ -17,8 +17,7 @@ from pathlib import Path
 import numpy as np
 
 from mckibben.application.linear.linearise import LinearQuestion, linear_view
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document
 from mckibben.door.figures.linear import bode_figure
 from mckibben.door.figures.style import SOFT, add_line, blank, colours, name_axes
 from mckibben.simulation.command.shapes import Step

@@ -28,8 +28,7 @@ def test_a_document_gives_one_json_object(run: Run) -> None:
 def test_it_agrees_with_the_kernel(run: Run) -> None:
     # One process per run answers by LSODA, the server by the kernel.
     from mckibben.application.run.simulate import SimulationQuestion, simulate
-    from mckibben.documents.drive_files import read_document
-    from mckibben.documents.drive_reading import drive_of
+    from mckibben.documents.drive_reading import drive_of, read_document
 
     answer = json.loads(run("simulate", write("lift.json", EXAMPLE), "--json")[1])
     given = drive_of(read_document(EXAMPLE, "the drive"), shipped_studio())

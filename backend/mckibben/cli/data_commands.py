@@ -65,7 +65,7 @@ def compare(
     data: DataFolder = None,
 ) -> None:
     """Compare a model with measurements: the error in numbers, with or without a fit."""
-    from mckibben.application.measurement.options import file_options
+    from mckibben.application.measurement.files import file_options
     from mckibben.cli.compare import run
     from mckibben.cli.options import open_studio
 
@@ -162,7 +162,7 @@ def diagnose(
 
     Of a folder: one line for each of its files, on this computer or on a cluster.
     """
-    from mckibben.application.measurement.options import file_options
+    from mckibben.application.measurement.files import file_options
     from mckibben.cli.diagnose import run
     from mckibben.cli.diagnose_folder import FolderOptions
     from mckibben.cli.options import open_studio
@@ -215,7 +215,7 @@ def convert(
     strict: Strict = False,
 ) -> None:
     """A measurement file as the canonical CSV, with its conditions and where they stand."""
-    from mckibben.application.measurement.options import file_options
+    from mckibben.application.measurement.files import file_options
     from mckibben.cli.convert import run
 
     options = file_options(

@@ -9,8 +9,7 @@ from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.diagnose.diagnose import prepare
 from mckibben.application.diagnose.next_experiment import NO_EXPERIMENT, schedule_csv
 from mckibben.application.measurement.files import measurements_of
-from mckibben.application.model.save_muscle import keep
-from mckibben.application.model.saved import model_text, saved_model
+from mckibben.application.model.saved import keep, model_text, saved_model
 from mckibben.cli.diagnose_folder import FolderOptions, run_folder
 from mckibben.cli.model import model_question, muscle_length
 from mckibben.cli.options import ModelOptions

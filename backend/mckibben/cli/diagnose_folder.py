@@ -7,8 +7,17 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from mckibben.application.diagnose.folder import Ask, FileVerdict, diagnose_each, files_of, here
-from mckibben.application.diagnose.folder_file import check_out, diagnose_kept, fingerprint, finish
+from mckibben.application.diagnose.folder import (
+    Ask,
+    FileVerdict,
+    check_out,
+    diagnose_each,
+    diagnose_kept,
+    files_of,
+    fingerprint,
+    finish,
+    here,
+)
 from mckibben.application.study.file import journal_of
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import progress, remark, write_json, write_summary
@@ -96,7 +105,7 @@ def run_folder(
     if options.scheduler is None:
         diagnose = here(studio)
     else:
-        from mckibben.application.diagnose.folder_cluster import on_cluster
+        from mckibben.application.diagnose.folder import on_cluster
 
         diagnose = on_cluster(studio, options.scheduler, again=options.again)
     each = partial(diagnose_each, found, ask, diagnose)

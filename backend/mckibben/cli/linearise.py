@@ -4,11 +4,9 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mckibben.application.linear.linearise import LinearQuestion, linear_view
-from mckibben.application.linear.text import condition_of, goals_of
+from mckibben.application.linear.linearise import LinearQuestion, condition_of, goals_of, linear_view
 from mckibben.cli.output import progress, write_json, write_summary
-from mckibben.documents.drive_files import named_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, named_document
 from mckibben.documents.located import located
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError

@@ -163,8 +163,7 @@ def folders(presets: Path | None, effects: Sequence[Path] | None, data: Path | N
 
 def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path | None) -> Studio:
     """Presets and effects for a command that runs without a server."""
-    from mckibben.documents.studio import Studio
-    from mckibben.documents.unused_files import unused_files
+    from mckibben.documents.studio import Studio, unused_files
     from mckibben.resources import presets_folder
 
     chosen = folders(presets, effects, data)

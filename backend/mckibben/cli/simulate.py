@@ -5,12 +5,10 @@ from __future__ import annotations
 from pathlib import Path
 
 from mckibben.application.run.drive_run import single_run_engine
-from mckibben.application.run.simulate import SimulationQuestion, simulate
-from mckibben.application.run.trace import trace_text
+from mckibben.application.run.simulate import SimulationQuestion, simulate, trace_text
 from mckibben.application.text_file import write_text
 from mckibben.cli.output import remark, write_json, write_summary
-from mckibben.documents.drive_files import named_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, named_document
 from mckibben.documents.located import located
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError

@@ -9,7 +9,7 @@ from mckibben.application.size.size import Searched, prepare_search, sizing_ques
 from mckibben.cli.output import progress, remark, write_json, write_summary
 from mckibben.documents.located import located
 from mckibben.documents.studio import Studio
-from mckibben.documents.task_files import read_task_file
+from mckibben.documents.task import read_task_file
 from mckibben.physics.errors import InputError
 from mckibben.presets.reading import BadDocumentError
 from mckibben.report.summary.sizing import notices, summary_of

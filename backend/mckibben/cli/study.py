@@ -8,7 +8,7 @@ from mckibben.application.study.file import check_out, journal_of, prepare_file
 from mckibben.application.study.study import prepare, study_question
 from mckibben.cli.output import progress, remark, write_json, write_summary
 from mckibben.documents.studio import Studio
-from mckibben.documents.study_files import in_file, read_study_file
+from mckibben.documents.study import in_file, read_study_file
 from mckibben.physics.errors import InputError
 from mckibben.report.summary.study import notices, summary_of
 from mckibben.simulation.outcome import Outcome

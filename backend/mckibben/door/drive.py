@@ -9,14 +9,18 @@ from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
-from mckibben.application.linear.linearise import LinearQuestion, linear_view
-from mckibben.application.linear.text import condition_of, goals_of
+from mckibben.application.linear.linearise import LinearQuestion, condition_of, goals_of, linear_view
 from mckibben.application.run.drive_run import single_run_engine
 from mckibben.application.run.simulate import POINTS, SimulationQuestion, prepare
 from mckibben.application.text_file import write_text
 from mckibben.documents.drive import DriveDocument
-from mckibben.documents.drive_files import named_document, preset_document, read_document
-from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
+from mckibben.documents.drive_reading import (
+    AnnotatedDrive,
+    drive_of,
+    named_document,
+    preset_document,
+    read_document,
+)
 from mckibben.documents.studio import Studio
 from mckibben.door.exported import Exportable
 from mckibben.door.linear import LinearView

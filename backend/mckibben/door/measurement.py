@@ -16,8 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from mckibben.application.json_text import to_json
 from mckibben.application.measurement.convert import CHANNEL_HEADERS, converted
 from mckibben.application.measurement.experiment import QuestionMeasurement, stated_in
-from mckibben.application.measurement.files import ARGUMENT, measurements_of
-from mckibben.application.measurement.options import FileOptions, file_options
+from mckibben.application.measurement.files import ARGUMENT, FileOptions, file_options, measurements_of
 from mckibben.application.measurement.summary import MeasurementSummary, details_of
 from mckibben.application.measurement.summary import summary_of as facts_of
 from mckibben.door.frames import csv_of, frame_of

@@ -8,8 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from mckibben.application.run.simulate import SimulationResult
-from mckibben.application.run.trace import trace_columns, trace_text
+from mckibben.application.run.simulate import SimulationResult, trace_columns, trace_text
 from mckibben.documents.drive import DriveDocument
 from mckibben.door.frames import frame_of
 from mckibben.door.result import ResultOf

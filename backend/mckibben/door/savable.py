@@ -8,8 +8,7 @@ from os import PathLike
 from pathlib import Path
 from typing import Self
 
-from mckibben.application.model.save_muscle import keep
-from mckibben.application.model.saved import model_text
+from mckibben.application.model.saved import keep, model_text
 from mckibben.application.text_file import write_text
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.studio import Studio

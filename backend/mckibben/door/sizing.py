@@ -20,8 +20,7 @@ from mckibben.application.size.task import heading_of
 from mckibben.application.text_file import write_text
 from mckibben.documents.located import at_file
 from mckibben.documents.studio import Studio
-from mckibben.documents.task import SizingTask
-from mckibben.documents.task_files import named_task, read_task
+from mckibben.documents.task import SizingTask, named_task, read_task
 from mckibben.door.drive import Drive
 from mckibben.door.frames import frame_of_rows
 from mckibben.door.problem import reported

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 from mckibben.application.study.file import prepare_file, table_text
 from mckibben.application.study.study import StudyQuestion, StudyResult, prepare, study_question
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.study_files import in_file, read_study, read_study_file
+from mckibben.documents.drive_reading import read_document
+from mckibben.documents.study import in_file, read_study, read_study_file
 from mckibben.door.drive import Drive
 from mckibben.door.frames import frame_of
 from mckibben.door.problem import reported

@@ -11,13 +11,11 @@ from collections.abc import Mapping
 from mckibben.application.diagnose import diagnose
 from mckibben.application.json_text import to_json
 from mckibben.application.linear import linearise
-from mckibben.application.linear.linearise import LinearQuestion
-from mckibben.application.linear.text import checked, stated_condition
+from mckibben.application.linear.linearise import LinearQuestion, checked, stated_condition
 from mckibben.application.size import size
 from mckibben.application.study import study
 from mckibben.application.study.store import StudyStore
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document
 from mckibben.documents.studio import Studio
 from mckibben.documents.study import StudyDocument
 from mckibben.documents.task import SizingTask

@@ -43,9 +43,8 @@ if TYPE_CHECKING:
 from dataclasses import replace
 
 from mckibben.application.run.simulate import SimulationQuestion
-from mckibben.documents.convert import stated_muscle
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document
+from mckibben.documents.start_model import stated_muscle
 from mckibben.export.source import of_drive, of_saved, stated_source
 from mckibben.export.subject import Stated
 from mckibben.export.use_case import ExportQuestion

@@ -21,7 +21,7 @@ from mckibben.facts.result import result_class
 from mckibben.facts.study import STUDY
 from mckibben.physics.errors import fields_inside
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
-from mckibben.studies.drive_figures import figures_named
+from mckibben.studies.drive_runs import figures_named
 from mckibben.studies.optimise import FigureGoal, FigureLimit, front
 from mckibben.studies.plan import Plan, RobustPlan
 from mckibben.studies.run import Workers, in_threads, run_plan

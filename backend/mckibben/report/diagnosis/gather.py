@@ -20,8 +20,7 @@ from mckibben.documents.start_model import PresetFacts, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.documents.value_names import value_names, value_words
 from mckibben.identification.predict.fit_model import LOAD
-from mckibben.measurement.corrected import FROM_DRIVE
-from mckibben.measurement.experiment import ACCURACY, FIELDS, LOAD_FORCE, Experiment, shown_value
+from mckibben.measurement.experiment import ACCURACY, FIELDS, FROM_DRIVE, LOAD_FORCE, Experiment, shown_value
 from mckibben.measurement.points import Points
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import GEOMETRY

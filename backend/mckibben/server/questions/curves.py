@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mckibben.application.curves.curves import CurvesQuestion
-from mckibben.documents.convert import stated_muscle
+from mckibben.documents.start_model import stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.server.schemas.curves import CurvesRequest
 from mckibben.simulation.statics.characteristics import Conditions

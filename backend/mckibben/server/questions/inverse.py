@@ -12,7 +12,7 @@ from mckibben.application.curves.inverse import (
     PressureForStroke,
     WorkingRange,
 )
-from mckibben.documents.convert import stated_muscle
+from mckibben.documents.start_model import stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.server.schemas.inverse import (
     ContractionQuestion,

@@ -2,16 +2,15 @@
 
 from __future__ import annotations
 
-from mckibben.application.compare.noise import with_noise
 from mckibben.application.compare.question import ModelQuestion, question_of
+from mckibben.application.compare.stated_question import with_noise
 from mckibben.application.diagnose.doubts import with_decisions
 from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
-from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.experiment import stated_accuracy, stated_experiment
 from mckibben.documents.muscle import MuscleInput
-from mckibben.documents.start_model import StartModel
+from mckibben.documents.start_model import StartModel, stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.points import find_points

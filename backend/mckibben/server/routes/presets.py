@@ -8,7 +8,7 @@ import orjson
 from fastapi import APIRouter, Path, Request
 from fastapi.concurrency import run_in_threadpool
 
-from mckibben.application.model.save_muscle import keep
+from mckibben.application.model.saved import keep
 from mckibben.documents.saved_model import read_saved_model
 from mckibben.presets import MusclePreset
 from mckibben.server import request_examples

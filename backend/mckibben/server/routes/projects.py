@@ -14,8 +14,7 @@ from fastapi import APIRouter, Path, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from pydantic import ConfigDict, Field
 
-from mckibben.application.project.projects import files_of, missing_files, packed
-from mckibben.application.project.studies import give_back, table_of
+from mckibben.application.project.projects import files_of, give_back, missing_files, packed, table_of
 from mckibben.application.study.store import StudyStore
 from mckibben.documents.strict import Strict
 from mckibben.projects.project import Project, ProjectSummary, Revision

@@ -6,9 +6,9 @@ from fastapi import APIRouter
 from pydantic import Field
 
 from mckibben.application.diagnose.signatures import AtlasQuestion, Signatures, signatures
-from mckibben.documents.convert import stated_muscle
 from mckibben.documents.muscle import MuscleInput
 from mckibben.documents.quantity import PositivePressure
+from mckibben.documents.start_model import stated_muscle
 from mckibben.documents.strict import Strict
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute

@@ -12,7 +12,7 @@ from mckibben.documents.studio import Studio
 from mckibben.simulation.outcome import Watch
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design, Group
-from mckibben.sizing.chance import chance
+from mckibben.sizing.proposal import chance
 from mckibben.sizing.spread import spread_of
 from tests.sizing.conftest import LIFT, understood
 

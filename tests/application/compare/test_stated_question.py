@@ -8,8 +8,8 @@ from typing import Any, cast
 
 import pytest
 
-from mckibben.application.compare.noise import with_noise
 from mckibben.application.compare.question import ModelQuestion
+from mckibben.application.compare.stated_question import with_noise
 from mckibben.physics.errors import InputError
 
 

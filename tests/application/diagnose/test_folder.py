@@ -1,4 +1,4 @@
-"""Diagnoses of a folder on a Dask scheduler with two workers; what needs it is skipped without Dask."""
+"""Diagnoses of a folder, on a Dask scheduler with two workers too; what needs it is skipped without Dask."""
 
 from __future__ import annotations
 
@@ -9,9 +9,18 @@ from pathlib import Path
 import pytest
 
 from mckibben.application.compare.question import ModelQuestion
-from mckibben.application.diagnose.folder import FileVerdict, diagnose_each, files_of, here
-from mckibben.application.diagnose.folder_cluster import on_cluster, packed, unpacked
-from mckibben.application.diagnose.folder_file import diagnose_kept, finish, verdicts_text
+from mckibben.application.diagnose.folder import (
+    FileVerdict,
+    diagnose_each,
+    diagnose_kept,
+    files_of,
+    finish,
+    here,
+    on_cluster,
+    packed,
+    unpacked,
+    verdicts_text,
+)
 from mckibben.application.measurement.files import measurements_of
 from mckibben.cli.model import model_question
 from mckibben.cli.options import ModelOptions

@@ -1,4 +1,4 @@
-"""Tables of studies go along with a project, whole, and only where they hold."""
+"""Projects in files: tables of studies go along with a project, whole, and only where they hold."""
 
 from __future__ import annotations
 
@@ -8,12 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from mckibben.application.project import studies as project_studies
-from mckibben.application.project.studies import give_back, study_from, table_of
+from mckibben.application.project import projects
+from mckibben.application.project.projects import give_back, study_from, table_of
 from mckibben.application.study.store import StudyStore
 from mckibben.application.study.study import prepare, study_question
 from mckibben.documents.studio import Studio
-from mckibben.documents.study_files import read_study
+from mckibben.documents.study import read_study
 from mckibben.physics.errors import InputError
 from mckibben.projects.project import StoredStudy
 from mckibben.resources import presets_folder
@@ -77,7 +77,7 @@ def test_a_table_of_another_version_is_not_shown(
 def test_a_large_table_is_not_taken_and_that_is_said(
     made: tuple[StudyStore, StoredStudy], studio: Studio, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(project_studies, "MOST_BYTES", 100)
+    monkeypatch.setattr(projects, "MOST_BYTES", 100)
     found, (words,) = table_of(SMALL, made[0], studio)
     assert found == []
     assert "4 runs" in words

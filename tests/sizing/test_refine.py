@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import minimize, rosen
 
-from mckibben.sizing.simplex import simplex_search
+from mckibben.sizing.refine import simplex_search
 
 
 def bent(x: np.ndarray) -> float:
