@@ -14,7 +14,7 @@ from starlette.middleware.gzip import GZipMiddleware
 
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
-from mckibben.report.versions import versions
+from mckibben.report.document import versions
 from mckibben.server import errors, static
 from mckibben.server.lanes import Lanes
 from mckibben.server.routes import (

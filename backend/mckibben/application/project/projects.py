@@ -3,8 +3,8 @@
 What a project keeps does not depend on the folder of measurements: opening it brings the files back. As one
 file (a ZIP archive) it goes to another machine, with its history.
 
-Tables of studies are taken from the runs that are kept, and given back where they are missing. Rows hold for a
-study together with the program, its presets and the files of the user. A table goes along with these named:
+Tables of studies are taken from the runs that are kept, and given back where they are missing. Rows hold for
+a study together with the program, its presets and the files of the user. A table goes along with these named:
 where they are others, it stays in the project and is not shown as a result.
 """
 

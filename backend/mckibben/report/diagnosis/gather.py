@@ -34,7 +34,7 @@ from mckibben.report.diagnosis import (
     PastModel,
     diagnosis_report,
 )
-from mckibben.report.versions import versions
+from mckibben.report.document import versions
 from mckibben.simulation.outcome import Watch
 
 _MODEL_FILE = "model.json"

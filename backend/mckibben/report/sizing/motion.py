@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,13 +12,13 @@ from numpy.typing import NDArray
 
 from mckibben.application.run.simulate import SimulationResult
 from mckibben.facts.timing import TIMING
+from mckibben.report.chart import chart
 from mckibben.report.document import Head, figure_of, mark, paragraph, table
 from mckibben.report.figures import Scale, figure, percent
 from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Line, Mark, Rule
 from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sizing.words import BAR, MILLIMETRES
-from mckibben.report.stack import Panel, stack
 from mckibben.simulation.timing.table import PhaseFigures, TimingTable
 
 _MOST_ROWS = 420
@@ -28,6 +30,8 @@ _SPEED, _ACCELERATION, _FLOW = Scale("mm/s", 1e-3), Scale("m/s²"), Scale("g/s",
 
 #: Figures that are those of one muscle times the number of muscles.
 _TOGETHER = {"impact_energy", "air_mass", "air_volume_anr", "tube_air_mass"}
+
+_FOOT = 36.0  # height of the numbers and title of the x axis
 
 
 class _DrawnPhase(NamedTuple):
@@ -196,3 +200,42 @@ def _notes(timing: TimingTable) -> list[str]:
             label = TIMING[name].label.partition(" (")[0].lower()
             about.setdefault(why, []).append(f"{label} ({phase_name})")
     return [f"{', '.join(names).capitalize()}: {why}" for why, names in about.items()]
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One of the drawings."""
+
+    axis: Axis
+    marks: Sequence[Mark]
+    title: str
+
+
+def stack(
+    x: Axis, panels: Sequence[Panel], *, height: float = 84.0, left: float = 84.0, room: float = 150.0
+) -> Html:
+    """The drawings, with numbers on the x axis of the lowest one.
+
+    Args:
+        x: the common axis; its ``ends`` must be given.
+        panels: from the top.
+        height: of each.
+        left: where the axes begin.
+        room: width of the legends.
+    """
+    parts: list[Html] = []
+    for number, panel in enumerate(panels):
+        last = number == len(panels) - 1
+        parts.append(
+            chart(
+                replace(x, bare=not last),
+                panel.axis,
+                panel.marks,
+                title=panel.title,
+                height=height + (_FOOT if last else 0.0),
+                left=left,
+                legend=True,
+                room=room,
+            )
+        )
+    return html(parts)

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mckibben.application.compare.series import ComparedSeries
-from mckibben.report.diagnosis.levels import level_map
+from mckibben.report.diagnosis.errors import level_map
 
 NOISE = 0.01  # N
 LEVELS = (2e5, 1e5, 4e5)
