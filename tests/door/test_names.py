@@ -14,8 +14,8 @@ import mckibben as mk
 from mckibben.door.comparison import Comparison
 from mckibben.door.curves import Curves
 from mckibben.door.diagnosis import Diagnosis
+from mckibben.door.drive import Run
 from mckibben.door.linear import LinearView
-from mckibben.door.run import Run
 from mckibben.door.sizing import Proposal, Sizing
 from mckibben.door.study import Study
 

@@ -76,7 +76,7 @@ class Sizing(ResultOf[SizingResult], SizingResult):
 
     def plot(self) -> Figure:
         """Air per cycle over the time of the stroke, for all drives that fulfil the task."""
-        from mckibben.door.figures.others import sizing_figure
+        from mckibben.door.figures import sizing_figure
 
         return sizing_figure(self._result, self._heading)
 

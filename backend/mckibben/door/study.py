@@ -67,7 +67,7 @@ class Study(ResultOf[StudyResult], StudyResult):
 
     def plot(self) -> Figure:
         """What the method asks for: the Pareto front, influences, or the distribution of the first figure."""
-        from mckibben.door.figures.study import study_figure
+        from mckibben.door.figures import study_figure
 
         return study_figure(self, self.title or self._name)
 

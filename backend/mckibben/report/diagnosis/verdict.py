@@ -1,4 +1,4 @@
-"""The answer on the first page, the effects that were tried, those the data cannot distinguish, and what no effect explains."""
+"""The answer on the first page, and its evidence: effects that were tried, twins, what no effect explains."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The task as stated, every field with its value and meaning, assumed values, and simplifications of the computation."""
+"""Every field of the task with its value and meaning, assumed values, simplifications of the computation."""
 
 from __future__ import annotations
 

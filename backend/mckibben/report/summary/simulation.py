@@ -7,7 +7,7 @@ from math import pi
 from mckibben.application.run.simulate import SimulationResult
 from mckibben.facts.run import JOINT, TRACKING
 from mckibben.facts.timing import PHASES, PRESSURE_FIGURES, TIMING
-from mckibben.report.summary.parts import Summary, Table, figure, shown
+from mckibben.report.summary import Summary, Table, figure, shown
 
 
 def summary_of(result: SimulationResult, name: str) -> Summary:
