@@ -10,6 +10,7 @@ import pytest
 
 import mckibben as mk
 from mckibben.door import figures
+from mckibben.report.chart import family
 
 ROOT = Path(__file__).parents[2]
 
@@ -22,7 +23,7 @@ def test_the_colours_and_the_font_are_those_of_the_page() -> None:
     names |= {"accent": figures.ACCENT, "second": figures.SECOND, "load": figures.LOAD}
     assert {name: shown[name] for name in names} == names
     stops = re.findall(r"\[(\d+), (\d+), (\d+)\]", light)
-    assert figures.colours(len(stops)) == [f"rgb({','.join(stop)})" for stop in stops]
+    assert family(len(stops)) == [f"rgb({','.join(stop)})" for stop in stops]
     chart = (ROOT / "frontend" / "app" / "js" / "plots" / "chart.js").read_text("utf-8")
     assert figures.FONT in chart
 
@@ -35,7 +36,7 @@ def test_curves_show_their_numbers_with_units() -> None:
     assert [trace.name for trace in figure.data] == ["6 bar", "1 bar"]
     assert np.asarray(figure.data[0].y) == pytest.approx(curves.force[0])
     # The colours follow the pressures, not the order in which they were asked for.
-    assert [trace.line.color for trace in figure.data] == list(reversed(figures.colours(2)))
+    assert [trace.line.color for trace in figure.data] == list(reversed(family(2)))
 
 
 def test_a_comparison_shows_points_model_and_residual() -> None:

@@ -24,11 +24,9 @@ from mckibben.physics.errors import InputError, fields_inside
 from mckibben.report.diagnosis import gather as diagnosis_report
 from mckibben.report.sizing.gather import prepare_report
 from mckibben.server.job import Job, Prepared
-from mckibben.server.questions.models import model_question
-from mckibben.server.schemas.diagnoses import DiagnosisRequest
-from mckibben.server.schemas.linearisations import LinearisationRequest, LinearPointInput
-from mckibben.server.schemas.reports import ReportRequest
-from mckibben.server.schemas.sizing_reports import SizingReportRequest
+from mckibben.server.questions import model_question
+from mckibben.server.schemas.drives import LinearisationRequest, LinearPointInput, SizingReportRequest
+from mckibben.server.schemas.models import DiagnosisRequest, ReportRequest
 from mckibben.server.short_jobs import SHORT_JOBS
 from mckibben.simulation.linear.point import Condition
 from mckibben.simulation.linear.trials import Goals

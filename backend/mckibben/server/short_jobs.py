@@ -26,16 +26,18 @@ from mckibben.measurement.read.limits import MOST_SECONDS
 from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.server.job import Job, Prepared
-from mckibben.server.questions.curves import curves_question
-from mckibben.server.questions.inverse import Body as InverseBody
-from mckibben.server.questions.inverse import inverse_question
-from mckibben.server.questions.models import measurements_of_question, model_question
-from mckibben.server.schemas.comparisons import ComparisonRequest
+from mckibben.server.questions import Body as InverseBody
+from mckibben.server.questions import (
+    curves_question,
+    inverse_question,
+    measurements_of_question,
+    model_question,
+)
 from mckibben.server.schemas.curves import CurvesRequest
-from mckibben.server.schemas.diagnoses import DiagnosisRequest
+from mckibben.server.schemas.drives import SimulationRequest
 from mckibben.server.schemas.exports import ExportRequest
+from mckibben.server.schemas.models import ComparisonRequest, DiagnosisRequest
 from mckibben.server.schemas.presets import FittedMuscleRequest
-from mckibben.server.schemas.simulations import SimulationRequest
 from mckibben.simulation.outcome import Watch
 
 if TYPE_CHECKING:

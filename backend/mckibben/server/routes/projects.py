@@ -101,7 +101,7 @@ class HistoryAnswer(Strict):
     history: list[Revision] = Field(description="The versions that are kept.")
 
 
-router = APIRouter(prefix="/api/projects", tags=["projects"], route_class=StrictRoute)
+projects_router = APIRouter(prefix="/api/projects", tags=["projects"], route_class=StrictRoute)
 
 Id = Annotated[str, Path(pattern="^[0-9a-f]{32}$", description="Id of the project.")]
 _ZIP = {"application/zip": {"schema": {"type": "string", "format": "binary"}}}
@@ -114,7 +114,7 @@ _FILE = {
 }
 
 
-@router.get("", response_model=ProjectsAnswer, responses=errors(409, 422))
+@projects_router.get("", response_model=ProjectsAnswer, responses=errors(409, 422))
 def list_projects(
     projects: ProjectsDep,
     deleted: Annotated[bool, Query(description="Those in the bin instead of the others.")] = False,
@@ -124,7 +124,7 @@ def list_projects(
     return JsonAnswer({"projects": found, "place": projects.place})
 
 
-@router.post(
+@projects_router.post(
     "",
     status_code=201,
     response_model=ProjectAnswer,
@@ -139,7 +139,7 @@ def create_project(body: NewProject, projects: ProjectsDep, store: StoreDep, stu
     return JsonAnswer(_answer(made, remarks), status_code=201)
 
 
-@router.post(
+@projects_router.post(
     "/import",
     status_code=201,
     dependencies=[BeforeWork],
@@ -157,7 +157,7 @@ async def import_project(
     return await run_in_threadpool(lambda: JsonAnswer(_answer(projects.open(made)), status_code=201))
 
 
-@router.get(
+@projects_router.get(
     "/{project_id}",
     dependencies=[BeforeWork],
     response_model=ProjectAnswer,
@@ -185,7 +185,7 @@ async def open_project(
     return await run_in_threadpool(answer)
 
 
-@router.put(
+@projects_router.put(
     "/{project_id}",
     response_model=ProjectAnswer,
     responses=errors(400, 404, 409, 413, 415, 422),
@@ -208,7 +208,7 @@ def save_project(
     return JsonAnswer(_answer(saved, remarks))
 
 
-@router.patch(
+@projects_router.patch(
     "/{project_id}",
     response_model=ProjectSummary,
     responses=errors(400, 404, 409, 413, 415, 422),
@@ -222,7 +222,7 @@ def describe_project(project_id: Id, body: ProjectChange, projects: ProjectsDep)
     return JsonAnswer(_info(changed))
 
 
-@router.post(
+@projects_router.post(
     "/{project_id}/copies",
     status_code=201,
     response_model=ProjectAnswer,
@@ -234,7 +234,7 @@ def copy_project(project_id: Id, body: ProjectCopy, projects: ProjectsDep) -> Js
     return JsonAnswer(_answer(projects.duplicate(project_id, title=body.title)), status_code=201)
 
 
-@router.delete("/{project_id}", response_model=ProjectSummary, responses=errors(404, 409, 422))
+@projects_router.delete("/{project_id}", response_model=ProjectSummary, responses=errors(404, 409, 422))
 def delete_project(
     project_id: Id,
     projects: ProjectsDep,
@@ -244,19 +244,19 @@ def delete_project(
     return JsonAnswer(_info(projects.erase(project_id) if erase else projects.delete(project_id)))
 
 
-@router.post("/{project_id}/restore", response_model=ProjectSummary, responses=errors(404, 409, 422))
+@projects_router.post("/{project_id}/restore", response_model=ProjectSummary, responses=errors(404, 409, 422))
 def restore_project(project_id: Id, projects: ProjectsDep) -> JsonAnswer:
     """Take a project out of the bin."""
     return JsonAnswer(_info(projects.restore(project_id)))
 
 
-@router.get("/{project_id}/history", response_model=HistoryAnswer, responses=errors(404, 409, 422))
+@projects_router.get("/{project_id}/history", response_model=HistoryAnswer, responses=errors(404, 409, 422))
 def read_history(project_id: Id, projects: ProjectsDep) -> JsonAnswer:
     """The versions of a project, the last one first; open one with ``?version=``."""
     return JsonAnswer({"history": [asdict(each) for each in projects.history(project_id)]})
 
 
-@router.get(
+@projects_router.get(
     "/{project_id}/file",
     response_class=Response,
     responses={200: {"content": _ZIP, "description": "The packed project."}, **errors(404, 409, 422)},

@@ -1,4 +1,4 @@
-"""Schemas of the linear view."""
+"""Requests about drives: simulations, linearisations, sizings and studies."""
 
 from __future__ import annotations
 
@@ -7,14 +7,33 @@ from typing import Annotated
 from pydantic import Field
 
 from mckibben.application.linear.linearise import MOST_AMPLITUDES
-from mckibben.documents.drive import DriveOrId, Position
+from mckibben.documents.drive import LONGEST, DriveOrId, Position
 from mckibben.documents.quantity import Contraction, Pressure, QuantityField
 from mckibben.documents.strict import Strict
+from mckibben.documents.study import Subject
+from mckibben.documents.task import SizingTask
+from mckibben.server.schemas.common import streamed
+
+Instant = Annotated[float, QuantityField("s", "0.5 s", at_least=0.0, at_most=LONGEST)]
 
 Share = Annotated[float, QuantityField("1", "5 %", at_least=0.0, at_most=1.0)]
 Settling = Annotated[float, QuantityField("s", "0.5 s", at_least=0.01, at_most=20.0)]
 Amplitude = Annotated[float, Field(gt=0.0, le=1e6)]
 Matrix = list[list[float]]
+
+_IN = "in the unit of the figure"
+
+
+class SimulationRequest(Strict):
+    """A drive, and the part of its run to return."""
+
+    drive: DriveOrId = Field(description="A drive document, or the id of a drive preset.")
+    points: Annotated[int, Field(ge=2, le=20_001)] = Field(2001, description="Rows of the answer.")
+    begin: Instant | None = Field(None, alias="from", description="First row; 0 when left out.")
+    end: Instant | None = Field(None, alias="to", description="Last row; the end of the run when left out.")
+
+
+SimulationEvents = streamed()
 
 
 class LinearPointInput(Strict):
@@ -62,3 +81,33 @@ class LinearisationRequest(Strict):
         "and 20 % of full command or of the tension; an empty list: no sweep.",
     )
     design: DesignInput | None = Field(None, description="Goals of a controller design; null: no design.")
+
+
+class SizingReportRequest(Strict):
+    """The search runs again, so that no figure of the report comes from the caller."""
+
+    task: SizingTask = Field(description="As for `/api/sizings`.")
+    proposal: Annotated[int, Field(ge=1, le=30)] = Field(
+        1, description="Rank of the proposal, 1 the best. A task without proposals also has a report."
+    )
+    title: str = Field(
+        "", max_length=200, description="Name beside the figures of the task. Empty = that of the task."
+    )
+
+
+class StudyOptionsRequest(Strict):
+    """Which subject."""
+
+    subject: Subject = Field(description="What is to be studied.")
+
+
+class StudyKeptAnswer(Strict):
+    """What is kept of a study."""
+
+    runs: int = Field(description="Runs that are kept from before.")
+
+
+StudyEvents = streamed(
+    '{"table": columns of new runs, "planned": runs of the plan, "kept": how many so far are from before} or '
+    "absent; runs come as they end"
+)

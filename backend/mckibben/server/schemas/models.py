@@ -1,8 +1,31 @@
-"""Request and answer of ``/api/comparisons``: a model compared with measurements."""
+"""Requests about a model and its measurements, and the experiment behind them.
+
+1. *Before a file is stored.* ``POST /api/measurements/preview?name=...&muscle=DMSP-20`` answers
+   ``experiment``: every field that matters for this kind of test, see `FormField`. ``muscle`` is the
+   id of the preset that the user has chosen (may be left out).
+2. *For stored measurements and presets.* ``POST /api/experiments`` takes the body of a diagnosis
+   (``DiagnosisRequest``) and answers the same per measurement, with what the request says included: call it
+   again after each change of muscle, drive or value. ``problem`` holds a conflict, or a missing value.
+3. *In comparisons, diagnoses and reports* a request states, additions only:
+
+   - ``measurements: [{"id": ..., "use": "fit", "experiment": {"rest_length": "250 mm", "load": "3 kg"}}]``;
+   - ``experiment: {...}`` beside ``measurement`` or ``measurements``: for every measurement that does not say
+     it itself;
+   - ``accuracy: "length 1 mm, force 0.5 %, pressure 20 mbar"`` for all measurements;
+   - ``strict: true``: refuse instead of assuming.
+
+   A value is a text with unit (or an SI number), or ``{"value": "250 mm", "origin": "suggested"}`` for a
+   proposal that the user took over. ``muscle.nominal_length`` of the request counts as said by the user,
+   unless it is the default of the preset. A file with another rest length (by more than 2 %) is then a
+   conflict (422, ``field`` "measurements.0.experiment.rest_length") that ``experiment.rest_length`` decides.
+4. *Answers* hold ``experiment`` (fields in which all measurements agree), ``assumptions`` (sentences; they
+   also begin ``messages`` and the sentence of the verdict), ``specimens`` (one per measurement, with its own
+   ``experiment``) and ``absorbed`` (what the stated accuracy took up).
+"""
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from typing import Annotated, Any, Literal
 
 from pydantic import Field, StringConstraints
 
@@ -10,6 +33,7 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.experiment import ExperimentInput
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.strict import Strict
+from mckibben.server.schemas.common import streamed
 
 MeasurementId = Annotated[
     str,
@@ -105,3 +129,39 @@ class ComparisonRequest(ModelRequest):
 
 
 EffectsJson = dict[str, dict[str, float | str]]
+
+
+class DiagnosisRequest(ModelRequest):
+    """The start model and the measurements to explain."""
+
+
+DiagnosisEvents = streamed("a candidate or null")
+
+
+class HistoryStep(Strict):
+    """An earlier model in the user's history."""
+
+    label: str = Field(
+        max_length=200, examples=["start model"], description="What the model is called in the report."
+    )
+    effects: EffectsInput | None = Field(None, description="As in the request.")
+    freed: list[ParameterPath] = Field(
+        default=[], max_length=64, description="Additional parameters that were fitted, as effect.parameter."
+    )
+    muscle: MuscleInput | None = Field(None, description="Null: that of the request.")
+
+
+class ReportRequest(ComparisonRequest):
+    """A comparison request, with further content of the report."""
+
+    history: list[HistoryStep] = Field(default=[], max_length=32, description="Oldest first.")
+    title: str = Field("", max_length=200, description="Empty = names of the measurements.")
+    diagnose: bool = Field(True, description="Include a diagnosis; takes some seconds.")
+
+
+ReportAnswer: dict[int | str, dict[str, Any]] = {
+    200: {
+        "description": "A self-contained HTML file.",
+        "content": {"text/html": {"schema": {"type": "string"}}},
+    }
+}

@@ -1,9 +1,20 @@
-"""Conversion of a comparison or diagnosis request."""
+"""Conversion of request bodies to the questions of the use cases."""
 
 from __future__ import annotations
 
+from typing import assert_never
+
 from mckibben.application.compare.question import ModelQuestion, question_of
 from mckibben.application.compare.stated_question import with_noise
+from mckibben.application.curves.curves import CurvesQuestion
+from mckibben.application.curves.inverse import (
+    ContractionForForce,
+    InverseQuestion,
+    MuscleCondition,
+    PressureForForce,
+    PressureForStroke,
+    WorkingRange,
+)
 from mckibben.application.diagnose.doubts import with_decisions
 from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
 from mckibben.documents.drive import DriveDocument
@@ -16,7 +27,17 @@ from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.points import find_points
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError, fields_inside
-from mckibben.server.schemas.comparisons import ModelRequest
+from mckibben.server.schemas.curves import (
+    ContractionQuestion,
+    CurvesRequest,
+    PressureQuestion,
+    StrokePressureQuestion,
+    WorkingRangeQuestion,
+)
+from mckibben.server.schemas.models import ModelRequest
+from mckibben.simulation.statics.characteristics import Conditions
+
+Body = PressureQuestion | ContractionQuestion | WorkingRangeQuestion | StrokePressureQuestion
 
 
 def model_question(body: ModelRequest, studio: Studio, store: MeasurementStore) -> ModelQuestion:
@@ -130,3 +151,53 @@ def _start_of_drive(document: DriveDocument, studio: Studio) -> StartModel:
     except InputError as error:
         field = (error.field or "").removeprefix("drive.")
         raise (error.at(field) if field.startswith(("muscle", "effects")) else error) from error
+
+
+def curves_question(body: CurvesRequest, studio: Studio) -> CurvesQuestion:
+    """The question of a request.
+
+    Raises:
+        InputError: an unknown preset, effect or parameter, or no complete muscle.
+    """
+    return CurvesQuestion(
+        start=studio.start_model(stated_muscle(body.muscle), body.effects),
+        pressures=tuple(body.pressures),
+        points=body.points,
+        unclipped=body.unclipped,
+        contraction_from=body.contraction_from,
+        contraction_to=body.contraction_to,
+        load=body.load,
+        fixed_length=body.fixed_length,
+        further_stiffness=body.further_stiffness,
+        conditions=Conditions(
+            direction=body.direction,
+            temperature=body.temperature,
+            dead_volume=body.dead_volume,
+            polytropic_exponent=body.polytropic_exponent,
+        ),
+    )
+
+
+def inverse_question(body: Body, studio: Studio) -> InverseQuestion:
+    """The question of a request.
+
+    Raises:
+        InputError: an unknown preset, effect or parameter, or no complete muscle.
+    """
+    start = studio.start_model(stated_muscle(body.muscle), body.effects)
+    condition = MuscleCondition(start, body.temperature)
+    match body:
+        case PressureQuestion(force=force, length=length, contraction=contraction, direction=direction):
+            return PressureForForce(
+                condition=condition, force=force, length=length, contraction=contraction, direction=direction
+            )
+        case ContractionQuestion(force=force, pressure=pressure, direction=direction):
+            return ContractionForForce(
+                condition=condition, force=force, pressure=pressure, direction=direction
+            )
+        case WorkingRangeQuestion(load=load, pressure=pressure, preload=preload):
+            return WorkingRange(condition=condition, load=load, pressure=pressure, preload=preload)
+        case StrokePressureQuestion(load=load, stroke=stroke):
+            return PressureForStroke(condition=condition, load=load, stroke=stroke)
+        case _:
+            assert_never(body)
