@@ -10,15 +10,9 @@ import sys
 
 # In the order of the help.
 from mckibben.cli import studio_commands, data_commands, drive_commands, project_commands  # isort: skip
-from mckibben.cli.app import app
-from mckibben.cli.running import run_app
+from mckibben.cli.app import app, run
 
-__all__ = ["app", "data_commands", "drive_commands", "main", "project_commands", "studio_commands"]
-
-
-def run(arguments: list[str]) -> int:
-    """Run one command line; the exit code."""
-    return run_app(app, arguments)
+__all__ = ["app", "data_commands", "drive_commands", "main", "project_commands", "run", "studio_commands"]
 
 
 def main() -> None:

@@ -77,9 +77,10 @@ def run(
     with progress("trying effects") as watch:
         result = work(watch)
     if report is not None:
-        from mckibben.cli.report import write
+        from mckibben.report.diagnosis.gather import ReportOptions, report_of
 
-        write(report, studio, question, result)
+        text = report_of(question, studio, ReportOptions(), result)
+        write_file(report, "--report", "report", text)
     if save_preset is not None:
         _keep(saved_model(question, result, studio), studio, save_preset)
     if save is not None:

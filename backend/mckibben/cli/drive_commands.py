@@ -8,7 +8,6 @@ from typing import Annotated
 import typer
 
 from mckibben.cli.app import app
-from mckibben.cli.linear_options import Amplitudes, At, DesignGoals, Output, Source
 from mckibben.cli.options import (
     AsJson,
     DataFolder,
@@ -20,6 +19,31 @@ from mckibben.cli.options import (
     PresetsFolder,
 )
 from mckibben.physics.errors import InputError
+
+At = Annotated[
+    str | None,
+    typer.Option(
+        "--at",
+        help='Operating point: "position 40 mm", "contraction 10 %", "pressure 3 bar" or, of a regulator, '
+        '"command 50 %". Default: the middle of the positions that can be held.',
+    ),
+]
+Source = Annotated[str, typer.Option("--input", help="command, supply_pressure or load_force.")]
+Output = Annotated[
+    str, typer.Option("--output", help="position, velocity, pressure, force, mass_flow or position_reading.")
+]
+Amplitudes = Annotated[
+    str | None,
+    typer.Option("--amplitudes", help='Sines for the nonlinear drive, e.g. "1 %,20 %"; "none" for no sweep.'),
+]
+DesignGoals = Annotated[
+    str | None,
+    typer.Option(
+        "--design",
+        help='Also design a position controller, e.g. "overshoot 5 %, settling 0.5 s, step 10 mm, '
+        'no saturation".',
+    ),
+]
 
 
 @app.command()

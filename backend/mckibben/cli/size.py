@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from mckibben.application.size.size import Searched, prepare_search, sizing_question
-from mckibben.cli.output import progress, remark, write_json, write_summary
+from mckibben.cli.output import progress, remark, write_file, write_json, write_summary
 from mckibben.documents.located import located
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import read_task_file
@@ -52,7 +52,6 @@ def run(studio: Studio, *, task: str, as_json: bool, report: Wanted | None = Non
 
 
 def _write_report(search: Searched, studio: Studio, wanted: Wanted) -> None:
-    from mckibben.cli.report import save
     from mckibben.report.sizing.gather import report_of
 
     try:
@@ -62,4 +61,4 @@ def _write_report(search: Searched, studio: Studio, wanted: Wanted) -> None:
         if error.field == "proposal":
             message = f"--proposal {wanted.proposal}: {message}"
         raise InputError(message, hint=error.hint) from error
-    save(wanted.path, text)
+    write_file(wanted.path, "--report", "report", text)
