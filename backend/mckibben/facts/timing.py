@@ -168,6 +168,6 @@ _AIR = _section(
 
 TIMING = Group("timing", "Timing of a phase", *_MOTION, *_PRESSURE_STEP, *_AIR)
 
-MOTION_FIGURES, PRESSURE_FIGURES, AIR_FIGURES = (
-    tuple(figure.name for figure in part) for part in (_MOTION, _PRESSURE_STEP, _AIR)
+MOTION_FIGURES, PRESSURE_FIGURES = (
+    tuple(figure.name for figure in part) for part in (_MOTION, _PRESSURE_STEP)
 )

@@ -35,7 +35,6 @@ from mckibben.measurement.measurement import Measurement, StatedValue
 
 #: Who says a value: the file, the user, a preset that was chosen, a proposal that the user took over, nobody.
 Origin = Literal["file", "you", "preset", "suggested", "assumed"]
-ORIGINS: tuple[Origin, ...] = ("file", "you", "preset", "suggested", "assumed")
 
 GRAVITY = 9.80665  # m/s2
 _ZEROS = {"force_zero": "force", "pressure_zero": "pressure"}

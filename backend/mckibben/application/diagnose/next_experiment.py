@@ -47,8 +47,6 @@ class ExperimentProposal:
     minutes: float | None
     matters: bool
     """Whether the two models predict different results for this rig."""
-    differs_in: str
-    """Simulated experiment where the models as they are differ most."""
     difference: float
 
 
@@ -101,7 +99,6 @@ def proposal(pair: SeparatingExperiment) -> ExperimentProposal:
         pair.separation,
         pair.minutes,
         pair.matters,
-        pair.differs_in,
         pair.difference,
     )
 

@@ -321,8 +321,6 @@ class PreviewResult:
     """All columns that nothing is read from, and why."""
     stated: list[StatedCondition]
     """The conditions with their origin."""
-    table_choices: list[str]
-    """Sheets, groups or structs that could be meant; 'sheet' of a mapping picks one."""
     tables: list[TableOption]
     """All sheets, groups or structs that 'sheet' of a mapping picks; empty where none are."""
     raw: RawTable | None
@@ -454,7 +452,6 @@ def preview_of(preview: Preview, experiment: list[FormField]) -> PreviewResult:
         questions=_questions(preview.questions),
         unread=_unread(preview.unread),
         stated=_stated(preview.stated),
-        table_choices=list(preview.choices),
         tables=[TableOption(name, is_read) for name, is_read in preview.tables],
         raw=_raw(preview),
         points=dict(preview.points),

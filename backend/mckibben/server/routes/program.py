@@ -65,7 +65,6 @@ class Health(Strict):
         description="Whether the integrators are being compiled for this machine: once after an "
         "installation, about 20 s of a core. What needs them waits."
     )
-    can_save_presets: bool = Field(description="Whether the server has a folder for the user's presets.")
 
 
 health_router = APIRouter(prefix="/api/health", tags=["health"], route_class=StrictRoute)
@@ -80,7 +79,6 @@ async def read_health(request: Request) -> JsonAnswer:
             "status": "ok",
             "version": __version__,
             "plotly": request.app.state.plotly.version,
-            "can_save_presets": settings.user_presets is not None,
             "workers": settings.workers,
             "running": 0 if workers is None else workers.each["long"].running,
             "waiting": 0 if workers is None else workers.each["long"].waiting,

@@ -128,9 +128,6 @@ class ComparisonRequest(ModelRequest):
     fit: bool = Field(False, description="Fit the effects' parameters to the data.")
 
 
-EffectsJson = dict[str, dict[str, float | str]]
-
-
 class DiagnosisRequest(ModelRequest):
     """The start model and the measurements to explain."""
 
