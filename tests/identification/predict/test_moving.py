@@ -192,8 +192,8 @@ def test_without_a_command_the_measured_pressure_moves_the_load():
     found = predictor.predict(fit_model(HIDDEN))
     # Straight lines between rows 10 ms apart stand for the pressure.
     assert found == pytest.approx(predictor.measured, abs=2e-4)
-    assert predictor.reveals(CATALOGUE["bladder_elasticity"])
-    assert not predictor.reveals(CATALOGUE["leak"])  # the pressure is as measured, wherever the air went
+    assert not predictor.why_hidden(CATALOGUE["bladder_elasticity"])
+    assert predictor.why_hidden(CATALOGUE["leak"])  # the pressure is as measured, wherever the air went
 
 
 def test_a_slow_motion_passes_through_equilibria():
@@ -266,11 +266,11 @@ def test_a_controller_is_not_run_again():
 
 def test_what_acts_on_the_air_or_the_force_alone():
     predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
-    assert predictor.reveals(CATALOGUE["leak"])
-    assert not predictor.reveals(CATALOGUE["force_offset"])  # no force was measured
+    assert not predictor.why_hidden(CATALOGUE["leak"])
+    assert predictor.why_hidden(CATALOGUE["force_offset"])  # no force was measured
     assert "states that there is none" in predictor.why_hidden(CATALOGUE["tube_resistance"])
     forced = predictor_of(measured(drive(), keep=("displacement", "force")), MUSCLE, drive({}))
-    assert forced.reveals(CATALOGUE["force_offset"])
+    assert not forced.why_hidden(CATALOGUE["force_offset"])
 
 
 def test_a_tube_that_the_drive_does_not_state_is_tried():
@@ -278,7 +278,7 @@ def test_a_tube_that_the_drive_does_not_state_is_tried():
     tube = Tube(inside_diameter=4e-3, length=1.0)
     measurement = measured(drive(tube=tube), noise={"pressure": 300.0, "displacement": 3e-5})
     predictor = predictor_of(measurement, MUSCLE, drive(assumed_tube=tube))
-    assert predictor.reveals(CATALOGUE["tube_resistance"])
+    assert not predictor.why_hidden(CATALOGUE["tube_resistance"])
     found = diagnose(
         predictor,
         fit_model(HIDDEN),

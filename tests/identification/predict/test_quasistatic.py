@@ -257,18 +257,18 @@ def test_what_data_can_reveal():
     grid = predictor_of(force_map(), MUSCLE)
     lifted = isotonic("load_force: 250 N")
     for name in (*REMEMBERING, *DELAYS):
-        assert not grid.reveals(CATALOGUE[name]), name  # a map has no order in time
-        assert ordered.reveals(CATALOGUE[name]) == ("isobaric" in CATALOGUE[name].kinds), name
-    assert ordered.reveals(CATALOGUE["prestress"])
-    assert not ordered.reveals(CATALOGUE["dead_volume"])
-    assert lifted.reveals(CATALOGUE["rig_compliance"])
+        assert grid.why_hidden(CATALOGUE[name]), name  # a map has no order in time
+        assert (not ordered.why_hidden(CATALOGUE[name])) == ("isobaric" in CATALOGUE[name].kinds), name
+    assert not ordered.why_hidden(CATALOGUE["prestress"])
+    assert ordered.why_hidden(CATALOGUE["dead_volume"])
+    assert not lifted.why_hidden(CATALOGUE["rig_compliance"])
 
 
 def test_a_trial_in_the_wide_structure_is_the_prediction():
     predictor = mapped()
     model = fit_model(bladder_elasticity={"shear_modulus": 0.5e6})
     before = predictor.trial(model)
-    predictor = predictor.prepared(model, [e for e in CATALOGUE.values() if predictor.reveals(e)])
+    predictor = predictor.prepared(model, [e for e in CATALOGUE.values() if not predictor.why_hidden(e)])
     assert predictor.trial(model) == pytest.approx(before, abs=1e-7)
     further = model.adding(CATALOGUE["prestress"], {"force": 50.0})
     assert predictor.trial(further) == pytest.approx(before - 50.0, abs=1e-7)

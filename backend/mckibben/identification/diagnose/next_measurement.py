@@ -27,8 +27,8 @@ class SeparatingExperiment:
         protocol: the simulated experiment that separates them best; empty when none can be simulated.
         separation: rms difference in standard deviations of a reading, after both models have adapted.
         minutes: how long it takes; None without a protocol.
-        difference: largest one of the two models as they are in a simulated experiment, in standard deviations
-            of a reading.
+        difference: largest one of the models as they are in a simulated experiment, in standard deviations of
+            a reading.
         by_muscle_test: False where the catalogue declares that no test of the muscle separates the two.
     """
 

@@ -203,10 +203,6 @@ class Predictor(ABC):
     def why_hidden(self, effect: Effect) -> str:
         """Why these data cannot reveal an effect; empty if they can."""
 
-    def reveals(self, effect: Effect) -> bool:
-        """Whether these data can reveal an effect."""
-        return not self.why_hidden(effect)
-
     @abstractmethod
     def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> Predictor:
         """This predictor, prepared for a search over the start model with any of the candidates."""
