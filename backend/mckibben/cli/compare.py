@@ -33,7 +33,7 @@ def run(
     """
     with progress("fitting" if fit else "comparing"):
         measurements = measurements_of(
-            files, studio, correction, said, given=standard_input(files),
+            files, studio, correction, said, contents=standard_input(files),
             muscle_length=muscle_length(studio, model),
         )  # fmt: skip
         question = model_question(studio, measurements, model, free=free, strict=correction.strict, refit=fit)

@@ -54,7 +54,7 @@ def run(
 
     def asked(names: Sequence[str]) -> ModelQuestion:
         measurements = measurements_of(
-            names, studio, correction, said, given=standard_input(names),
+            names, studio, correction, said, contents=standard_input(names),
             muscle_length=muscle_length(studio, model),
         )  # fmt: skip
         return model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)

@@ -55,9 +55,9 @@ def control_of(document: DriveDocument, regulated: bool) -> Control:
     Raises:
         InputError: no set point or two, a joint's without a joint, an impossible gain; names the field.
     """
-    given = document.controller
-    assert given is not None  # noqa: S101 - asked for drives with a controller only
-    load, values = document.load, given.model_dump(exclude_none=True)
+    stated = document.controller
+    assert stated is not None  # noqa: S101 - asked for drives with a controller only
+    load, values = document.load, stated.model_dump(exclude_none=True)
     joint, second = values.pop("angle", None), values.pop("stiffness", None)
     position = values.pop("reference", None)
     if load.arrangement != "antagonist" or load.pulley_radius is None:
@@ -80,8 +80,8 @@ def control_of(document: DriveDocument, regulated: bool) -> Control:
         reference = signal_from(position, unit="m", field="controller.reference")
     else:
         assert load.pulley_radius is not None  # noqa: S101 - of a pair
-        turned = _signal_or_constant(joint, "rad", "controller.angle")
-        reference = Scaled(of=turned, factor=load.pulley_radius)
+        angle = _signal_or_constant(joint, "rad", "controller.angle")
+        reference = Scaled(of=angle, factor=load.pulley_radius)
     rest = 0.0 if regulated else -1.0
     if second is None:
         return Control(controller_from(values, output_min=rest), reference, None)
@@ -110,10 +110,10 @@ def control_of(document: DriveDocument, regulated: bool) -> Control:
     return Control(controller, reference, StiffnessControl(wanted, **gains))
 
 
-def _signal_or_constant(given: Any, unit: str, field: str) -> Signal:
-    if not isinstance(given, Mapping):
-        given = {"shape": "step", "level": given, "initial": given}
-    return signal_from(given, unit=unit, field=field)
+def _signal_or_constant(value: Any, unit: str, field: str) -> Signal:
+    if not isinstance(value, Mapping):
+        value = {"shape": "step", "level": value, "initial": value}
+    return signal_from(value, unit=unit, field=field)
 
 
 _DEFAULT_MAX_CONTRACTION = 0.25

@@ -132,8 +132,8 @@ class Measurement(Result):
                 raise InputError(f"there is no channel '{channel}'", hint=did_you_mean(channel, _ARRAY_UNITS))
         rows = {channel: _length_of(channel, values) for channel, values in channels.items()}
         if len(set(rows.values())) > 1:
-            told = ", ".join(f"{channel} {count}" for channel, count in rows.items())
-            raise InputError(f"the channels have different numbers of values: {told}")
+            counts = ", ".join(f"{channel} {count}" for channel, count in rows.items())
+            raise InputError(f"the channels have different numbers of values: {counts}")
         for channel, values in channels.items():
             plain = channel in ("direction", "group")
             headers[channel if plain else f"{channel} [{stated.get(channel, _ARRAY_UNITS[channel])}]"] = (

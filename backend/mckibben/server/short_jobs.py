@@ -70,12 +70,14 @@ def export_question(body: ExportRequest, studio: Studio) -> ExportQuestion:
     Raises:
         InputError: not exactly one of muscle, model and drive, or one that cannot be used.
     """
-    given = [name for name in ("muscle", "model", "drive") if getattr(body, name) is not None]
-    if len(given) != 1:
-        what = "nothing to take along" if not given else f"{' and '.join(given)} at once"
-        raise InputError(what, field=given[1] if given else "muscle", hint="give muscle, model or drive")
+    subjects = [name for name in ("muscle", "model", "drive") if getattr(body, name) is not None]
+    if len(subjects) != 1:
+        what = "nothing to take along" if not subjects else f"{' and '.join(subjects)} at once"
+        raise InputError(
+            what, field=subjects[1] if subjects else "muscle", hint="give muscle, model or drive"
+        )
     if body.effects is not None and body.muscle is None:
-        raise InputError(f"the {given[0]} has its own effects", field="effects", hint="leave it out")
+        raise InputError(f"the {subjects[0]} has its own effects", field="effects", hint="leave it out")
     stated = _stated(body, studio)
     if body.title:
         stated = replace(stated, title=body.title)

@@ -32,7 +32,7 @@ def measurements_of(
     studio: Studio,
     correction: Correction | None = None,
     said: Mapping[str, ExperimentValue] | None = None,
-    given: Mapping[str, bytes] | None = None,
+    contents: Mapping[str, bytes] | None = None,
     *,
     muscle_length: float | None = None,
 ) -> list[QuestionMeasurement]:
@@ -43,7 +43,7 @@ def measurements_of(
         studio: for presets.
         correction: how the files are to be read; it is for files, not for presets.
         said: about the experiment of all of them.
-        given: name -> content, of names that are no files: standard input.
+        contents: name -> content, of names that are no files: standard input.
         muscle_length: rest length of the muscle that is stated beside the files [m], if it is.
 
     Raises:
@@ -59,7 +59,7 @@ def measurements_of(
         if entry.words:
             reading = _read_as(entry.words, name, reading)
             own |= _said_in(entry.words, name)
-        found.append(QuestionMeasurement(_read(entry, studio, reading, given or {}), own))
+        found.append(QuestionMeasurement(_read(entry, studio, reading, contents or {}), own))
     return found
 
 
@@ -168,15 +168,15 @@ def _read_as(entry: Mapping[str, Any], source: str, correction: Correction) -> C
 
 
 def _said_in(entry: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
-    given = {key: value for key, value in entry.items() if key not in ("file", *_READING)}
-    return said_values(given, source)
+    values = {key: value for key, value in entry.items() if key not in ("file", *_READING)}
+    return said_values(values, source)
 
 
-def said_values(given: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
+def said_values(values: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
     """The values of an experiment from JSON or options.
 
     Args:
-        given: field -> value.
+        values: field -> value.
         source: a file, `OPTION` or `ARGUMENT`, for messages and as the place of the values.
 
     Raises:
@@ -187,9 +187,9 @@ def said_values(given: Mapping[str, Any], source: str) -> dict[str, ExperimentVa
     from mckibben.documents.problems import first_problem
 
     try:
-        read = ExperimentInput.model_validate(dict(given))
+        read = ExperimentInput.model_validate(dict(values))
     except ValidationError as error:
-        problem = first_problem(error.errors(), ExperimentInput, dict(given), "the experiment")
+        problem = first_problem(error.errors(), ExperimentInput, dict(values), "the experiment")
         name = str(problem.field or "").partition(".")[0]
         raise InputError(f"{_place(name, source)}: {problem.message}", hint=problem.hint) from error
     except InputError as error:
@@ -225,11 +225,11 @@ def option_of(name: str) -> str:
     return f"--experiment {name}" if option == "--experiment" else option
 
 
-def _read(entry: _Entry, studio: Studio, correction: Correction, given: Mapping[str, bytes]) -> Points:
+def _read(entry: _Entry, studio: Studio, correction: Correction, contents: Mapping[str, bytes]) -> Points:
     """A file, the file of a preset with points, or a preset of the catalogue when there is no such file."""
     name = entry.name
-    if name in given:
-        return Points(read_file(name, correction, given[name]))
+    if name in contents:
+        return Points(read_file(name, correction, contents[name]))
     if entry.preset is not None:
         preset = _points_in(entry.preset, name, studio)
     else:
@@ -361,9 +361,9 @@ def file_options(
         prefix=prefix,
     )
     options = {"rest_length": rest_length, "load": load, "supply": supply, "accuracy": accuracy}
-    given = _experiment(experiment or (), prefix)
-    given |= {name: value for name, value in options.items() if value is not None}
-    said = said_values(given, prefix)
+    values = _experiment(experiment or (), prefix)
+    values |= {name: value for name, value in options.items() if value is not None}
+    said = said_values(values, prefix)
     conditions = dict(correction.conditions)
     conditions |= {name: said[name].value for name in _CONDITIONS if name in said}
     if accuracy is not None:
@@ -377,7 +377,7 @@ def _experiment(stated: Sequence[str] | Mapping[str, object], prefix: str) -> di
         for name in stated:
             _check_field(str(name), f"{prefix}experiment {name!r}")
         return dict(stated)
-    given: dict[str, object] = {}
+    values: dict[str, object] = {}
     for text in stated:
         where = f"{prefix}experiment {text!r}"
         name, separator, value = (part.strip() for part in text.partition("="))
@@ -386,8 +386,8 @@ def _experiment(stated: Sequence[str] | Mapping[str, object], prefix: str) -> di
                 f"{where}: is not 'field=value'", hint=f'e.g. {prefix}experiment "force_zero=2.5 N"'
             )
         _check_field(name, where)
-        given[name] = value
-    return given
+        values[name] = value
+    return values
 
 
 def _check_field(name: str, where: str) -> None:

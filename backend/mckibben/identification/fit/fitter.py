@@ -11,7 +11,7 @@ import numpy as np
 
 from mckibben.identification.fit.effort import SearchEffort
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
-from mckibben.identification.predict.fit_model import FitModel, Free, free_numbers, held_beside
+from mckibben.identification.predict.fit_model import FitModel, Free, fixed_beside, free_numbers
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.effect import Effect
 from mckibben.physics.parameter import Parameter
@@ -111,7 +111,7 @@ class Fitter:
         off = self.acting(fitted_model, effect)
         freed = fitted_model.freed | {f"{effect.id}.{n}" for n in off if not effect.parameter(n).fitted}
         start = self._placed(fitted_model, effect) | between(effect, off)
-        for name in held_beside(self.geometry):
+        for name in fixed_beside(self.geometry):
             owner, _, parameter = name.partition(".")
             if owner == effect.id and parameter in start:
                 start[parameter] = effect.parameter(parameter).default
@@ -176,7 +176,7 @@ class Fitter:
     def further(self, fitted_model: FittedModel, effect: Effect) -> set[str]:
         """Names of the further constants of an effect that may still be freed."""
         names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted and not p.reference}
-        return names - fitted_model.freed - held_beside(self.geometry)
+        return names - fitted_model.freed - fixed_beside(self.geometry)
 
     def _would_matter(self, fitted_model: FittedModel, moved: FitModel, names: set[str]) -> bool:
         """Whether freeing constants may lower the error, by the linear model of their changes.
@@ -220,7 +220,7 @@ class Fitter:
         there = between(effect, {p.name: p.off})[p.name]
         return hidden - self._blind(fitted_model.fit_model.with_numbers([name], [there]), hidden)
 
-    def holding(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
+    def fixing(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
         """The model with a freed constant fixed at a value again, refitted."""
         return self.fit(fitted_model.fit_model.with_numbers([name], [value]), fitted_model.freed - {name})
 

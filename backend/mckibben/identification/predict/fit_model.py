@@ -129,12 +129,12 @@ def free_numbers(
         load: the unknown load with its bounds.
     """
     geometry = tuple(geometry)
-    held = held_beside(geometry)
+    fixed = fixed_beside(geometry)
     of_effects = [
         _free(effect.id, p, fit_model.values[effect.id][p.name], p.bounds(fit_model.blocked_force))
         for effect in fit_model.effects
         for p in effect.parameters
-        if (p.fitted or f"{effect.id}.{p.name}" in freed) and f"{effect.id}.{p.name}" not in held
+        if (p.fitted or f"{effect.id}.{p.name}" in freed) and f"{effect.id}.{p.name}" not in fixed
     ]
     others = [Free(f.name, fit_model.number(f.name), f.lower, f.upper, f.unit) for f in geometry]
     if load is not None:
@@ -142,9 +142,9 @@ def free_numbers(
     return (*of_effects, *others)
 
 
-def held_beside(free: Iterable[Free]) -> frozenset[str]:
+def fixed_beside(free: Iterable[Free]) -> frozenset[str]:
     """The constants that keep their values beside these parameters."""
-    return frozenset().union(*(each.holds for each in free))
+    return frozenset().union(*(each.fixes for each in free))
 
 
 def _free(effect: str, p: Parameter, value: float, bounds: tuple[float, float]) -> Free:
@@ -198,7 +198,7 @@ def free_geometry(muscle: Muscle, names: Iterable[str], tolerance: Mapping[str, 
 class Free:
     """A free parameter: name, start, bounds, SI unit, the value at which it has no effect, a usual change.
 
-    ``natural``: its bounds are those of its definition, such as 0 and 1 of a share. ``holds``: constants of
+    ``natural``: its bounds are those of its definition, such as 0 and 1 of a share. ``fixes``: constants of
     effects that act exactly as it does, and so keep their values beside it.
     """
 
@@ -210,7 +210,7 @@ class Free:
     off: float | None = None
     usual: float | None = None
     natural: bool = False
-    holds: frozenset[str] = frozenset()
+    fixes: frozenset[str] = frozenset()
 
     @property
     def typical(self) -> float:

@@ -16,7 +16,7 @@ from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.noise import allowing_for_errors
 
 
-def as_compared(predictor: Predictor, fitted: FittedModel) -> FittedModel:
+def reweighted(predictor: Predictor, fitted: FittedModel) -> FittedModel:
     """A fitted model whose residual and derivatives are weighed by its own slopes.
 
     Args:

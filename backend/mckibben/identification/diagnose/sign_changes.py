@@ -12,7 +12,7 @@ _PARALLEL = 0.9  # cosine between changes of the prediction above which an effec
 _TOLD = 4  # most effects named per constant
 
 
-def turned_constants(fitter: Fitter, first: FitModel, best: FittedModel) -> list[str]:
+def sign_changes(fitter: Fitter, first: FitModel, best: FittedModel) -> list[str]:
     """A sentence on each constant whose sign has changed, with what else could have moved it.
 
     Args:

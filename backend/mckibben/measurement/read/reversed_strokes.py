@@ -20,7 +20,7 @@ from mckibben.measurement.read.signs import SHORTENING_POSITIVE, STROKE_SIGN
 _LOOKED_AT = 20_000  # readings that show a sign
 
 
-def turn_strokes(
+def reverse_strokes(
     columns: dict[str, NDArray], by_use: dict[str, HeaderColumn], reading: ChannelReading
 ) -> list[Question]:
     """Turn each stroke that is negative and certainly counts the other way; what is to be said of it.
@@ -31,7 +31,7 @@ def turn_strokes(
     said = []
     for channel in ("displacement", "contraction"):
         column, stroke = by_use.get(channel), columns.get(channel)
-        if column is None or stroke is None or not _is_turned(channel, by_use, columns, reading.conditions):
+        if column is None or stroke is None or not _is_reversed(channel, by_use, columns, reading.conditions):
             continue
         columns[channel] = 0.0 - stroke
         by_use[channel] = column._replace(sign=-column.sign, extends=False)
@@ -44,7 +44,7 @@ def turn_strokes(
     return said
 
 
-def _is_turned(
+def _is_reversed(
     channel: str, by_use: Mapping[str, HeaderColumn], columns: Mapping[str, NDArray],
     conditions: Mapping[str, object],
 ) -> bool:  # fmt: skip
