@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,63 +11,24 @@ from mckibben.cli.app import app
 from mckibben.cli.options import (
     AsJson,
     DataFiles,
-    DataFolder,
     EffectIds,
-    EffectsFolders,
     Free,
     Ideal,
     Keep,
     ModelOptions,
     MuscleText,
-    PresetsFolder,
     SavedModelFile,
     Use,
+    with_shared_options,
 )
 
-Sheet = Annotated[
-    str | None, typer.Option("--sheet", metavar="NAME", help="Sheet, group or struct with the measurement.")
-]
-Head = Annotated[
-    int | None, typer.Option("--head", metavar="ROW", help="Row of the column names, counted from 1.")
-]
-Columns = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--column",
-        metavar="C=NAME",
-        help='What a column is, e.g. "force=-Kraft [kN]": sign and unit; repeatable.',
-    ),
-]
-Ignored = Annotated[
-    list[str] | None,
-    typer.Option("--ignore", metavar="NAME", help="A column that is not wanted; repeatable."),
-]
-RestLength = Annotated[
-    str | None,
-    typer.Option("--rest-length", help='Length of the muscle without air and load, e.g. "300 mm".'),
-]
-Load = Annotated[str | None, typer.Option("--load", help='Mass or force on the muscle, e.g. "6 kg".')]
-Supply = Annotated[str | None, typer.Option("--supply", help='Supply pressure, gauge, e.g. "6 bar".')]
-Accuracy = Annotated[
-    str | None,
-    typer.Option(
-        "--accuracy", help='Standard deviation by channel, e.g. "length 1 mm, force 0.5 %", or a sensor.'
-    ),
-]
-Experiment = Annotated[
-    list[str] | None,
-    typer.Option(
-        "--experiment",
-        metavar="FIELD=VALUE",
-        help='More about the test, e.g. "force_zero=2.5 N" or "inclination=45 deg"; repeatable.',
-    ),
-]
-Strict = Annotated[
-    bool, typer.Option("--strict", help="Refuse a file instead of assuming what it does not say.")
-]
+if TYPE_CHECKING:
+    from mckibben.application.measurement.files import FileOptions
+    from mckibben.documents.studio import Studio
 
 
 @app.command()
+@with_shared_options
 def compare(
     files: DataFiles,
     muscle: MuscleText = "",
@@ -79,51 +40,28 @@ def compare(
     free: Free = None,
     use: Use = None,
     keep: Keep = None,
-    sheet: Sheet = None,
-    head: Head = None,
-    column: Columns = None,
-    ignore: Ignored = None,
-    rest_length: RestLength = None,
-    load: Load = None,
-    supply: Supply = None,
-    accuracy: Accuracy = None,
-    experiment: Experiment = None,
-    strict: Strict = False,
+    *,
+    reading: FileOptions,
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    studio: Studio,
 ) -> None:
     """Compare a model with measurements: the error in numbers, with or without a fit."""
-    from mckibben.application.measurement.files import file_options
     from mckibben.cli.compare import run
-    from mckibben.cli.options import open_studio
 
-    options = file_options(
-        sheet=sheet,
-        head=head,
-        columns=column,
-        ignored=ignore,
-        rest_length=rest_length,
-        load=load,
-        supply=supply,
-        accuracy=accuracy,
-        experiment=experiment,
-        strict=strict,
-    )
     run(
-        open_studio(presets, effects, data),
+        studio,
         files=files,
         model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
         fit=fit,
         free=free or [],
-        correction=options.correction,
-        said=options.said,
+        correction=reading.correction,
+        said=reading.said,
         as_json=as_json,
     )
 
 
 @app.command()
+@with_shared_options
 def diagnose(
     files: DataFiles,
     muscle: MuscleText = "",
@@ -173,50 +111,26 @@ def diagnose(
     ] = None,
     use: Use = None,
     keep: Keep = None,
-    sheet: Sheet = None,
-    head: Head = None,
-    column: Columns = None,
-    ignore: Ignored = None,
-    rest_length: RestLength = None,
-    load: Load = None,
-    supply: Supply = None,
-    accuracy: Accuracy = None,
-    experiment: Experiment = None,
-    strict: Strict = False,
+    *,
+    reading: FileOptions,
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    studio: Studio,
 ) -> None:
     """Which physical effect a model of measurements is missing, and what the data cannot distinguish.
 
     Of a folder: one line for each of its files, on this computer or on a cluster.
     """
-    from mckibben.application.measurement.files import file_options
     from mckibben.cli.diagnose import run
     from mckibben.cli.diagnose_folder import FolderOptions
-    from mckibben.cli.options import open_studio
 
-    options = file_options(
-        sheet=sheet,
-        head=head,
-        columns=column,
-        ignored=ignore,
-        rest_length=rest_length,
-        load=load,
-        supply=supply,
-        accuracy=accuracy,
-        experiment=experiment,
-        strict=strict,
-    )
     run(
-        open_studio(presets, effects, data),
+        studio,
         files=files,
         model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
         free=free or [],
         noise=noise,
-        correction=options.correction,
-        said=options.said,
+        correction=reading.correction,
+        said=reading.said,
         as_json=as_json,
         report=report,
         save=save,
@@ -227,41 +141,21 @@ def diagnose(
 
 
 @app.command()
+@with_shared_options
 def convert(
     file: Annotated[str, typer.Argument(metavar="DATA", help="A measurement file of any laboratory.")],
     out: Annotated[
         Path | None,
         typer.Option("--out", "-o", metavar="FILE", help="Write it there instead of printing it."),
     ] = None,
-    sheet: Sheet = None,
-    head: Head = None,
-    column: Columns = None,
-    ignore: Ignored = None,
-    rest_length: RestLength = None,
-    load: Load = None,
-    supply: Supply = None,
-    accuracy: Accuracy = None,
-    experiment: Experiment = None,
-    strict: Strict = False,
+    *,
+    reading: FileOptions,
 ) -> None:
     """A measurement file as the canonical CSV, with its conditions and where they stand."""
-    from mckibben.application.measurement.files import file_options
     from mckibben.cli.convert import run
 
-    options = file_options(
-        sheet=sheet,
-        head=head,
-        columns=column,
-        ignored=ignore,
-        rest_length=rest_length,
-        load=load,
-        supply=supply,
-        accuracy=accuracy,
-        experiment=experiment,
-        strict=strict,
-    )
     run(
         file=file,
-        correction=options.correction,
+        correction=reading.correction,
         out=out,
     )

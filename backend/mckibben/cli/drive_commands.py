@@ -3,22 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from mckibben.cli.app import app
 from mckibben.cli.options import (
     AsJson,
-    DataFolder,
     DriveFile,
-    EffectsFolders,
     Exported,
     ExportFile,
     ExportFormat,
-    PresetsFolder,
+    with_shared_options,
 )
 from mckibben.physics.errors import InputError
+
+if TYPE_CHECKING:
+    from mckibben.documents.studio import Studio
 
 At = Annotated[
     str | None,
@@ -47,22 +48,22 @@ DesignGoals = Annotated[
 
 
 @app.command()
+@with_shared_options
 def simulate(
     drive: DriveFile,
     out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the run as CSV.")] = None,
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """Simulate a drive: timing table, trace, limits."""
-    from mckibben.cli.options import open_studio
     from mckibben.cli.simulate import run
 
-    run(open_studio(presets, effects, data), drive=drive, out=out, as_json=as_json)
+    run(studio, drive=drive, out=out, as_json=as_json)
 
 
 @app.command()
+@with_shared_options
 def linearise(
     drive: DriveFile,
     at: At = None,
@@ -71,19 +72,18 @@ def linearise(
     amplitudes: Amplitudes = None,
     design: DesignGoals = None,
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """Linear models of a drive: poles, Bode, margins, sweep of the nonlinear drive, controller design."""
     from mckibben.cli.linearise import Wanted, run
-    from mckibben.cli.options import open_studio
 
     wanted = Wanted(at, source, output, amplitudes, design)
-    run(open_studio(presets, effects, data), drive=drive, wanted=wanted, as_json=as_json)
+    run(studio, drive=drive, wanted=wanted, as_json=as_json)
 
 
 @app.command()
+@with_shared_options
 def size(
     task: Annotated[str, typer.Argument(metavar="TASK", help="A sizing task (JSON file).")],
     report: Annotated[
@@ -99,38 +99,36 @@ def size(
         ),
     ] = "",
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """From a task to ranked drives from the catalogue, with the reasons against the others."""
-    from mckibben.cli.options import open_studio
     from mckibben.cli.size import Wanted, run
 
     if report is None and (proposal is not None or title):
         option = "--title" if proposal is None else "--proposal"
         raise InputError(f"{option} belongs to a report, and none is requested", hint="--report FILE")
     wanted = None if report is None else Wanted(report, proposal or 1, title)
-    run(open_studio(presets, effects, data), task=task, as_json=as_json, report=wanted)
+    run(studio, task=task, as_json=as_json, report=wanted)
 
 
 @app.command()
+@with_shared_options
 def export(
     source: Exported,
     format_id: ExportFormat,
     out: ExportFile,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """Take a model or drive along: FMU, source code, lookup tables, equations, JSON."""
     from mckibben.cli.export import run
-    from mckibben.cli.options import open_studio
 
-    run(open_studio(presets, effects, data), source=source, format_id=format_id, out=out)
+    run(studio, source=source, format_id=format_id, out=out)
 
 
 @app.command()
+@with_shared_options
 def study(
     study: Annotated[str, typer.Argument(metavar="STUDY", help="A study (JSON file).")],
     out: Annotated[
@@ -155,16 +153,14 @@ def study(
         ),
     ] = None,
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """Many runs of a drive or task: sweeps, Monte Carlo, sensitivities, optimisation, robust designs."""
-    from mckibben.cli.options import open_studio
     from mckibben.cli.study import run
 
     run(
-        open_studio(presets, effects, data),
+        studio,
         study=study,
         out=out,
         resume=resume,

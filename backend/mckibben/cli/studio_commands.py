@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -20,7 +20,11 @@ from mckibben.cli.options import (
     PresetsFolder,
     ProjectsAddress,
     SavedModelFile,
+    with_shared_options,
 )
+
+if TYPE_CHECKING:
+    from mckibben.documents.studio import Studio
 
 
 class LogLevel(StrEnum):
@@ -89,6 +93,7 @@ def serve(
 
 
 @app.command()
+@with_shared_options
 def curves(
     muscle: MuscleText = "",
     ideal: Ideal = False,
@@ -103,16 +108,14 @@ def curves(
         help="Also the stiffness: tangent, valve closed, that which the force implies, and the secant.",
     ),
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """Force, stiffness, volume and diameter of a muscle over its contraction."""
     from mckibben.cli.curves import run
-    from mckibben.cli.options import open_studio
 
     run(
-        open_studio(presets, effects, data),
+        studio,
         model=ModelOptions(muscle, ideal, effect or (), model=model),
         pressure=pressure,
         stiffness=stiffness,

@@ -66,7 +66,7 @@ class PresetFacts:
         limits: limits stated by the maker.
         tolerance: geometry field -> largest change by a fit, in either direction.
         shortest, longest: range of nominal lengths that the maker sells, None where not known [m].
-        unverified: paths in the preset of the unverified values that the model uses, "effects.dahl.force".
+        unverified: paths in the preset of the unverified values that the model uses, "effects.ID.force".
         suspended_mass: largest mass that may hang freely on the muscle, None where not known [kg].
         coldest, hottest: ambient temperatures it is made for, None where not known [K].
         fit: how its values were fitted to measurements, None where they were not.

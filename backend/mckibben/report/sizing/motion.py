@@ -26,7 +26,7 @@ _AFTER, _LEAST_AFTER = 1.2, 0.02  # shown time: this multiple of the motion, and
 _LEAVES = 1e-5  # travel from which the load has started to move [m]
 _MILLISECONDS = Scale("ms", 1e-3)
 _PANEL = 70.0  # height of a drawing: both strokes stand below the table of the operating points
-_SPEED, _ACCELERATION, _FLOW = Scale("mm/s", 1e-3), Scale("m/s²"), Scale("g/s", 1e-3)
+_SPEED, _FLOW = Scale("mm/s", 1e-3), Scale("g/s", 1e-3)
 
 #: Figures that are those of one muscle times the number of muscles.
 _TOGETHER = {"impact_energy", "air_mass", "air_volume_anr", "tube_air_mass"}

@@ -26,7 +26,6 @@ from mckibben.server.schemas.common import errors
 from mckibben.server.short_jobs import FilesOfProject, PackedProject
 
 _TITLE = Field(description="Title, in one line, at most 200 characters.", examples=["Lift, second muscle"])
-_NOTES = Field(description="Notes of the user, plain text.")
 _DOCUMENT = Field(
     description="The document: any JSON object. Measurements whose ids stand anywhere in it are kept with it."
 )

@@ -16,13 +16,12 @@ from mckibben.documents.quantity import (
     Temperature,
     Volume,
 )
-from mckibben.documents.strict import Series, Strict
+from mckibben.documents.strict import Strict
 
 Direction = Annotated[
     Literal[-1, 0, 1],
     Field(description="Sign of dL/dt, for friction: -1 filling (shortening), 1 venting, 0 none."),
 ]
-Rows = Annotated[list[Series], Field(description="One row per pressure, one number per length.")]
 _DEFAULT_PRESSURES = [1e5, 2e5, 3e5, 4e5, 5e5, 6e5]
 
 

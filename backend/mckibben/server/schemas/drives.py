@@ -19,9 +19,6 @@ Instant = Annotated[float, QuantityField("s", "0.5 s", at_least=0.0, at_most=LON
 Share = Annotated[float, QuantityField("1", "5 %", at_least=0.0, at_most=1.0)]
 Settling = Annotated[float, QuantityField("s", "0.5 s", at_least=0.01, at_most=20.0)]
 Amplitude = Annotated[float, Field(gt=0.0, le=1e6)]
-Matrix = list[list[float]]
-
-_IN = "in the unit of the figure"
 
 
 class SimulationRequest(Strict):
