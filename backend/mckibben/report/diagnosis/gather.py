@@ -25,16 +25,11 @@ from mckibben.measurement.points import Points
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.presets.quantity import Quantity, quantities
-from mckibben.report.diagnosis import (
-    Command,
-    DataSource,
-    DiagnosisMaterial,
-    Figure,
-    MuscleFacts,
-    PastModel,
-    diagnosis_report,
-)
+from mckibben.report.command import Command
+from mckibben.report.diagnosis.material import DataSource, DiagnosisMaterial, MuscleFacts, PastModel
+from mckibben.report.diagnosis.writing import diagnosis_report
 from mckibben.report.document import versions
+from mckibben.report.sources import Figure
 from mckibben.simulation.outcome import Watch
 
 _MODEL_FILE = "model.json"
