@@ -1,7 +1,7 @@
 """The command line: ``mckibben`` alone starts the studio; the other commands work without a browser.
 
 Exit 0: done. Exit 2: the input cannot be used; one line on stderr says where, what is wrong and what would be
-right. Each command is a module, imported only when it runs.
+right. A command imports what it works with when it runs, so that others and --help need not wait for that.
 """
 
 from __future__ import annotations

@@ -46,18 +46,26 @@ def compare(
     studio: Studio,
 ) -> None:
     """Compare a model with measurements: the error in numbers, with or without a fit."""
-    from mckibben.cli.compare import run
+    from mckibben.application.compare.compare import compare as compare_model
+    from mckibben.application.measurement.files import measurements_of
+    from mckibben.cli.model import model_question, muscle_length
+    from mckibben.cli.output import progress, standard_input, write_json, write_summary
+    from mckibben.report.summary.comparison import summary_of
 
-    run(
-        studio,
-        files=files,
-        model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
-        fit=fit,
-        free=free or [],
-        correction=reading.correction,
-        said=reading.said,
-        as_json=as_json,
-    )
+    chosen = ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model)
+    with progress("fitting" if fit else "comparing"):
+        measurements = measurements_of(
+            files, studio, reading.correction, reading.said, contents=standard_input(files),
+            muscle_length=muscle_length(studio, chosen),
+        )  # fmt: skip
+        question = model_question(
+            studio, measurements, chosen, free=free or [], strict=reading.correction.strict, refit=fit
+        )
+        result = compare_model(question, fit=fit)
+    if as_json:
+        write_json(result)
+    else:
+        write_summary(summary_of(result))
 
 
 @app.command()
@@ -152,10 +160,16 @@ def convert(
     reading: FileOptions,
 ) -> None:
     """A measurement file as the canonical CSV, with its conditions and where they stand."""
-    from mckibben.cli.convert import run
+    from mckibben.application.measurement.convert import converted
+    from mckibben.application.measurement.files import read_file
+    from mckibben.application.text_file import write_text
+    from mckibben.cli.output import progress, remark, standard_input
 
-    run(
-        file=file,
-        correction=reading.correction,
-        out=out,
-    )
+    with progress("reading"):
+        result = converted(read_file(file, reading.correction, standard_input([file]).get(file)))
+    if out is None:
+        typer.echo(result.text, nl=False)
+    else:
+        write_text(out, result.text, named=f"--out {out}")
+    for message in result.messages:
+        remark(message)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
@@ -112,12 +113,18 @@ def curves(
     studio: Studio,
 ) -> None:
     """Force, stiffness, volume and diameter of a muscle over its contraction."""
-    from mckibben.cli.curves import run
+    from mckibben.application.curves.curves import CurvesQuestion, pressures_of
+    from mckibben.application.curves.curves import curves as curves_of
+    from mckibben.cli.options import start_model
+    from mckibben.cli.output import write_json, write_summary
+    from mckibben.report.summary.curves import summary_of
 
-    run(
-        studio,
-        model=ModelOptions(muscle, ideal, effect or (), model=model),
-        pressure=pressure,
-        stiffness=stiffness,
-        as_json=as_json,
-    )
+    start = start_model(studio, ModelOptions(muscle, ideal, effect or (), model=model))
+    question = CurvesQuestion(start, further_stiffness=stiffness)
+    if pressure is not None:
+        question = replace(question, pressures=pressures_of(pressure.split(","), "--pressure"))
+    result = curves_of(question, studio)
+    if as_json:
+        write_json(result)
+    else:
+        write_summary(summary_of(result, muscle or model))
