@@ -10,8 +10,7 @@ import pytest
 from scipy.linalg import expm
 
 from mckibben.application.run.simulate import SimulationQuestion, SimulationResult, simulate
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.physics import gas
 from mckibben.physics.effects import spool_lag
 from mckibben.presets import ValvePreset

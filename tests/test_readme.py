@@ -11,8 +11,7 @@ from pathlib import Path
 import pytest
 
 from mckibben.application.run.simulate import SimulationQuestion, simulate
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.documents.studio import Studio
 from mckibben.physics.catalogue import EffectCatalogue
 from mckibben.physics.errors import InputError

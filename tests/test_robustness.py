@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 
 from mckibben.application.run.simulate import SimulationQuestion, simulate
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
 from mckibben.simulation.integrate.lane_buffers import lane_kernels

@@ -19,8 +19,7 @@ if TYPE_CHECKING:
     from mckibben.door.drive import Drive
     from mckibben.door.listing import effects, presets
     from mckibben.door.measurement import Measurement, read
-    from mckibben.door.model import Model
-    from mckibben.door.model_files import load
+    from mckibben.door.model import Model, load
     from mckibben.door.problem import Problem
     from mckibben.door.project import Project
     from mckibben.door.sizing import size
@@ -39,7 +38,7 @@ _MODULES = {
     "Problem": "problem",
     "Project": "project",
     "effects": "listing",
-    "load": "model_files",
+    "load": "model",
     "presets": "listing",
     "read": "measurement",
     "size": "sizing",

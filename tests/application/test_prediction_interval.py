@@ -11,8 +11,7 @@ from mckibben.application.curves.curves import CurvesQuestion, CurvesResult, cur
 from mckibben.application.prediction_interval import SHARE
 from mckibben.application.run.drive_run import run_drive
 from mckibben.application.run.simulate import SimulationQuestion, simulate
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
+from mckibben.documents.drive_reading import AnnotatedDrive, drive_of, read_document
 from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.presets.fit import Covariance, FitRecord, MeasuredSpan
 from mckibben.simulation.timing.evaluation import grid_of

@@ -86,10 +86,9 @@ def diagnosed(case: Case) -> Line:
 
 def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
     """What a user would give of a case: measurement, muscle or drive, start model."""
-    from mckibben.documents.convert import stated_muscle
-    from mckibben.documents.drive_files import read_document
-    from mckibben.documents.drive_reading import drive_of
+    from mckibben.documents.drive_reading import drive_of, read_document
     from mckibben.documents.muscle import MuscleInput
+    from mckibben.documents.start_model import stated_muscle
     from mckibben.identification.predict import predictor_of
     from mckibben.identification.predict.fit_model import FitModel
     from mckibben.measurement.points import Points, joined

@@ -35,8 +35,7 @@ from typing import Any
 import numpy as np
 from scipy.integrate import odeint
 
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
 from mckibben.simulation.drive.transient import simulate

@@ -80,8 +80,7 @@ def doubted(given: tuple[frozenset[str], Case]) -> Line:
 
 def parts_of(case: Case, studio: Any) -> tuple[Any, Any, Any, Any, Any]:
     """Predictor, start model, measurement, the predictor of a changed measurement, and the drive."""
-    from mckibben.documents.drive_files import read_document
-    from mckibben.documents.drive_reading import drive_of
+    from mckibben.documents.drive_reading import drive_of, read_document
     from mckibben.identification.diagnose.entries import read_otherwise
     from mckibben.identification.predict import predictor_of
     from mckibben.measurement.points import Points, joined

@@ -15,7 +15,7 @@ import tempfile
 from collections.abc import Iterator
 from pathlib import Path
 
-from mckibben.documents.drive_files import read_document
+from mckibben.documents.drive_reading import read_document
 from mckibben.export.fmu.dialects import FMI2, FMI3, Dialect
 from mckibben.export.source import of_drive, stated_source
 from mckibben.export.subject import Subject, subject_of

@@ -24,8 +24,7 @@ from unittest.mock import patch
 import numpy as np
 
 from mckibben.application.size.task import catalogue_of, task_of
-from mckibben.documents.drive_files import preset_document, read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document, read_document
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError

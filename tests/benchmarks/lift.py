@@ -8,8 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.documents.studio import Studio
 from mckibben.simulation.drive.initial_state import Start, start_of
 from mckibben.simulation.drive.transient import parameters_of, segments_of

@@ -17,8 +17,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.shapes import Step
 from mckibben.simulation.drive.parts import Drive

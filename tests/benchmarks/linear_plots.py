@@ -17,10 +17,9 @@ from pathlib import Path
 import numpy as np
 
 from mckibben.application.linear.linearise import LinearQuestion, linear_view
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import drive_of
-from mckibben.door.figures.linear import bode_figure
-from mckibben.door.figures.style import SOFT, add_line, blank, colours, name_axes
+from mckibben.documents.drive_reading import drive_of, preset_document
+from mckibben.door.figures import SOFT, add_line, blank, bode_figure, name_axes
+from mckibben.report.chart import family
 from mckibben.simulation.command.shapes import Step
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import dead_times
@@ -70,7 +69,7 @@ def steps(name: str, linear: Linearisation, folder: Path) -> None:
         edge = linear.point.command + offset_of(linear, sign)
         to_edge = moved(linear, given, edge, time)  # a pair moves before both of its muscles react
         runs = {}
-        for size, colour in zip(SIZES, colours(len(SIZES)), strict=True):
+        for size, colour in zip(SIZES, family(len(SIZES)), strict=True):
             runs[size] = (moved(linear, given, edge + sign * size, time) - to_edge) / (sign * size)
             add_line(
                 figure, time, runs[size] * 1e3, f"nonlinear, {100 * size:g} %", colour=colour, row=row,

@@ -14,8 +14,7 @@ import numpy as np
 
 from mckibben.application.run.drive_run import run_drive
 from mckibben.application.run.simulate import SimulationResult, result_of
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
+from mckibben.documents.drive_reading import AnnotatedDrive, drive_of, preset_document
 from mckibben.documents.studio import Studio
 from mckibben.presets import DrivePreset
 from mckibben.resources import presets_folder

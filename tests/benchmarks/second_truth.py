@@ -71,8 +71,8 @@ def names(chosen: str = "cases") -> list[str]:
 
 def parts_of(case: str) -> tuple[Any, Any, dict[str, Any], bytes]:
     """Predictor and start model of a case, its answer, and the file of its second test."""
-    from mckibben.documents.convert import stated_muscle
     from mckibben.documents.muscle import MuscleInput
+    from mckibben.documents.start_model import stated_muscle
     from mckibben.identification.predict import predictor_of
     from mckibben.identification.predict.fit_model import FitModel
     from mckibben.measurement.read import read_measurement

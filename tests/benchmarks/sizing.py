@@ -31,8 +31,8 @@ from mckibben.simulation.outcome import Watch
 from mckibben.sizing import Sizing, size
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design
-from mckibben.sizing.chance import chance
 from mckibben.sizing.prepared import Prepared
+from mckibben.sizing.proposal import chance
 from tests.benchmarks.engine import say
 from tests.benchmarks.translated import translated
 

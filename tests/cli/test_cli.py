@@ -322,7 +322,7 @@ def test_an_unexpected_error_is_one_line_and_exit_one(run: Run, monkeypatch: pyt
     def broken(*_: object, **__: object) -> None:
         raise RuntimeError("odd\nthing")
 
-    monkeypatch.setattr("mckibben.cli.options.open_studio", broken)
+    monkeypatch.setattr("mckibben.cli.options.start_model", broken)
     code, out, err = run("curves", "--muscle", "DMSP-20")
     assert (code, out) == (1, "")
     assert err == "mckibben: unexpected RuntimeError: odd thing (MCKIBBEN_DEBUG=1 shows where)\n"

@@ -27,8 +27,7 @@ def test_a_document_gives_one_json_object(run: Run) -> None:
 
 def test_it_gives_the_digits_of_the_other_doors(run: Run) -> None:
     from mckibben.application.run.simulate import SimulationQuestion, simulate
-    from mckibben.documents.drive_files import read_document
-    from mckibben.documents.drive_reading import drive_of
+    from mckibben.documents.drive_reading import drive_of, read_document
 
     answer = json.loads(run("simulate", write("lift.json", EXAMPLE), "--json")[1])
     given = drive_of(read_document(EXAMPLE, "the drive"), shipped_studio())

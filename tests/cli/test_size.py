@@ -8,12 +8,12 @@ from typing import Any
 
 import pytest
 
-from mckibben.application.model.save_muscle import keep
+from mckibben.application.model.saved import keep
 from mckibben.application.size.size import SizingResult
 from mckibben.documents.saved_model import read_saved_model
 from mckibben.documents.studio import Studio
 from mckibben.resources import presets_folder
-from tests.application.model.test_save_muscle import MODEL
+from tests.application.model.test_saved import MODEL
 from tests.cli.conftest import Run, result_of, write
 from tests.server.answers import valid
 from tests.server.test_sizings import IMPOSSIBLE, TASK

@@ -11,8 +11,7 @@ from typing import Any
 
 import pytest
 
-from mckibben.documents.drive_files import preset_document, read_document
-from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
+from mckibben.documents.drive_reading import AnnotatedDrive, drive_of, preset_document, read_document
 from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
 from mckibben.presets import PresetLibrary

@@ -11,11 +11,11 @@ import pytest
 
 from mckibben.application.study.study import StudyQuestion, study_question
 from mckibben.documents.studio import Studio
+from mckibben.documents.study import read_study, read_study_file
 from mckibben.documents.study_fields import with_values
-from mckibben.documents.study_files import read_study, read_study_file
 from mckibben.physics.errors import InputError
 from mckibben.resources import presets_folder
-from tests.application.model.test_save_muscle import MODEL
+from tests.application.model.test_saved import MODEL
 from tests.shipped import shipped_studio
 
 MASS: dict[str, Any] = {"path": "load.mass", "from": "8 kg", "to": "12 kg"}

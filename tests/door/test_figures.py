@@ -9,7 +9,8 @@ import numpy as np
 import pytest
 
 import mckibben as mk
-from mckibben.door.figures import style
+from mckibben.door import figures
+from mckibben.report.chart import family
 
 ROOT = Path(__file__).parents[2]
 
@@ -18,13 +19,13 @@ def test_the_colours_and_the_font_are_those_of_the_page() -> None:
     theme = (ROOT / "frontend" / "app" / "js" / "plots" / "theme.js").read_text("utf-8")
     light = theme[theme.index("LIGHT = {") : theme.index("DARK = {")]
     shown = dict(re.findall(r'(\w+): "(#\w+)"', light))
-    names = {"ink": style.INK, "soft": style.SOFT, "grid": style.GRID, "line": style.LINE}
-    names |= {"accent": style.ACCENT, "second": style.SECOND, "load": style.LOAD}
+    names = {"ink": figures.INK, "soft": figures.SOFT, "grid": figures.GRID, "line": figures.LINE}
+    names |= {"accent": figures.ACCENT, "second": figures.SECOND, "load": figures.LOAD}
     assert {name: shown[name] for name in names} == names
     stops = re.findall(r"\[(\d+), (\d+), (\d+)\]", light)
-    assert style.colours(len(stops)) == [f"rgb({','.join(stop)})" for stop in stops]
+    assert family(len(stops)) == [f"rgb({','.join(stop)})" for stop in stops]
     chart = (ROOT / "frontend" / "app" / "js" / "plots" / "chart.js").read_text("utf-8")
-    assert style.FONT in chart
+    assert figures.FONT in chart
 
 
 def test_curves_show_their_numbers_with_units() -> None:
@@ -35,7 +36,7 @@ def test_curves_show_their_numbers_with_units() -> None:
     assert [trace.name for trace in figure.data] == ["6 bar", "1 bar"]
     assert np.asarray(figure.data[0].y) == pytest.approx(curves.force[0])
     # The colours follow the pressures, not the order in which they were asked for.
-    assert [trace.line.color for trace in figure.data] == list(reversed(style.colours(2)))
+    assert [trace.line.color for trace in figure.data] == list(reversed(family(2)))
 
 
 def test_a_comparison_shows_points_model_and_residual() -> None:

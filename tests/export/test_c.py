@@ -11,8 +11,8 @@ from types import ModuleType
 import numpy as np
 import pytest
 
-from mckibben.documents.convert import stated_muscle
-from mckibben.documents.drive_files import preset_document, read_document
+from mckibben.documents.drive_reading import preset_document, read_document
+from mckibben.documents.start_model import stated_muscle
 from mckibben.export.c_static import RESULT_MEMBERS
 from mckibben.export.formats import python
 from mckibben.export.formats.c import sources

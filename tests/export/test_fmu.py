@@ -17,7 +17,7 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from mckibben.documents.drive_files import preset_document, read_document
+from mckibben.documents.drive_reading import preset_document, read_document
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.export.c_static import RESULT_MEMBERS
 from mckibben.export.fmu import build, package

@@ -16,7 +16,7 @@ import numpy as np
 import pytest
 import symengine as se
 
-from mckibben.documents.drive_files import preset_document, read_document
+from mckibben.documents.drive_reading import preset_document, read_document
 from mckibben.documents.saved_model import read_saved_model
 from mckibben.documents.start_model import StatedMuscle
 from mckibben.export.drive_words import words_for

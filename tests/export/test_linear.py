@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 from scipy.io import loadmat
 
-from mckibben.documents.drive_files import preset_document
+from mckibben.documents.drive_reading import preset_document
 from mckibben.documents.saved_model import read_saved_model
 from mckibben.export.source import of_drive, of_saved, stated_source
 from mckibben.export.subject import subject_of

@@ -9,7 +9,7 @@ import pytest
 from mckibben.facts.groups import FIGURES
 from mckibben.facts.linear import CONTROLLER, MARGINS
 from mckibben.physics.units import si
-from mckibben.report.summary.parts import shown
+from mckibben.report.summary import shown
 from mckibben.simulation.command.pid import controller_from
 
 

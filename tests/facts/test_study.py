@@ -6,7 +6,7 @@ from mckibben.application.size.size import ProposedDrive
 from mckibben.application.study.subject import TASK_FIGURES
 from mckibben.facts.result import described
 from mckibben.facts.study import BEST, WATCHED
-from mckibben.studies.drive_figures import DRIVE_FIGURES
+from mckibben.studies.drive_runs import DRIVE_FIGURES
 
 
 def test_what_can_be_watched_is_of_a_drive_or_of_a_task() -> None:

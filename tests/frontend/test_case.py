@@ -15,8 +15,8 @@ from playwright.sync_api import FilePayload, Page, Route, expect
 from mckibben.application.diagnose.diagnose import prepare
 from mckibben.application.json_text import to_json
 from mckibben.measurement.store import MeasurementStore
-from mckibben.server.questions.models import model_question
-from mckibben.server.schemas.diagnoses import DiagnosisRequest
+from mckibben.server.questions import model_question
+from mckibben.server.schemas.models import DiagnosisRequest
 from tests.frontend.comparing import (
     NOISE,
     changed,

@@ -9,8 +9,7 @@ from typing import Any
 import numpy as np
 
 from mckibben.identification.fit.fitted_model import FittedModel
-from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read import read_measurement

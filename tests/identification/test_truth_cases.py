@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.muscle import MuscleInput
+from mckibben.documents.start_model import stated_muscle
 from mckibben.measurement.measurement import lengths
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.catalogue import default_catalogue

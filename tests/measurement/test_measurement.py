@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from mckibben.measurement.kind import explain_kind
 from mckibben.measurement.measurement import (
     KINDS,
     Measurement,
     build,
-    detect_kind,
     group_rows,
     lengths,
 )
@@ -171,7 +171,7 @@ KIND_CASES = {
 @pytest.mark.parametrize("case", KIND_CASES)
 def test_kind_is_detected(case):
     columns, conditions, expected = KIND_CASES[case]
-    assert detect_kind(columns, conditions) == expected
+    assert explain_kind(columns, conditions)[0] == expected
     result = make(columns, conditions=conditions)
     assert (result.kind, result.kind_detected) == (expected, True)
     assert f"kind detected: {expected}" in result.messages

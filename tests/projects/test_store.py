@@ -11,7 +11,6 @@ import pytest
 from sqlalchemy import select
 
 from mckibben.physics.errors import InputError
-from mckibben.projects import queries
 from mckibben.projects import store as module
 from mckibben.projects.database import Database
 from mckibben.projects.project import ChangedElsewhereError, Revision, StoredFile, StoredStudy
@@ -104,7 +103,7 @@ def test_automatic_saves_replace_each_other_for_some_minutes(
 def test_a_long_history_loses_its_oldest_automatic_revisions_first(
     store: ProjectStore, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(queries, "_MOST_REVISIONS", 5)
+    monkeypatch.setattr(module, "_MOST_REVISIONS", 5)
     monkeypatch.setattr(module, "_MERGED", 1)
     identity = store.create({"step": 0}, title="Lift").summary.id
     for step in range(1, 8):
@@ -244,14 +243,14 @@ def test_a_longer_table_of_the_same_study_replaces_it(store: ProjectStore) -> No
 def test_study_tables_saved_first_give_way(store: ProjectStore, monkeypatch: pytest.MonkeyPatch) -> None:
     now = [1_000_000_000_000]
     monkeypatch.setattr(module, "_now", lambda: now[0])
-    monkeypatch.setattr(queries, "_MOST_STUDIES", 3)
+    monkeypatch.setattr(module, "_MOST_STUDIES", 3)
     identity = store.create(DOCUMENT, title="Lift").summary.id
     for number in range(1, 6):
         now[0] += 1000
         study = StoredStudy(f"{number}", "b" * 64, 1, b"x" * number)
         store.save(identity, {}, base_version=number, studies=[study])
     assert [each.study for each in store.studies(identity)] == ["5", "4", "3"]
-    monkeypatch.setattr(queries, "_MOST_STUDY_BYTES", 12)
+    monkeypatch.setattr(module, "_MOST_STUDY_BYTES", 12)
     now[0] += 1000
     store.save(identity, {}, base_version=6, studies=[StoredStudy("6", "b" * 64, 1, b"x" * 6)])
     assert [each.study for each in store.studies(identity)] == ["6", "5"]

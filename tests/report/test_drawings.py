@@ -12,7 +12,7 @@ from mckibben.report.bars import Bar, bars
 from mckibben.report.chart import chart, family, ticks
 from mckibben.report.heat import Shade, heat
 from mckibben.report.marks import Axis, Band, Dots, Line, Rule
-from mckibben.report.stack import Panel, stack
+from mckibben.report.sizing.motion import Panel, stack
 
 SVG = "{http://www.w3.org/2000/svg}"
 X, Y = Axis("Contraction", "%"), Axis("Force", "N")

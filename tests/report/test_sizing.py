@@ -12,11 +12,13 @@ import pytest
 
 from mckibben.application.size.size import RejectedParts, SizingResult
 from mckibben.documents.task import TaskOperation
-from mckibben.report.sizing import Command, Entry, Margin, SizingMaterial, SpecimenSpread, sizing_report
+from mckibben.report.command import Command
 from mckibben.report.sizing.inputs import task_section
+from mckibben.report.sizing.material import Entry, Margin, SizingMaterial, SpecimenSpread
 from mckibben.report.sizing.others import rejected_section
 from mckibben.report.sizing.safety import margins_section, uncertainty_section
 from mckibben.report.sizing.words import entry_value
+from mckibben.report.sizing.writing import sizing_report
 
 NASTY = "<script>alert(1)</script>\"'&</title>"
 REJECTED = RejectedParts(

@@ -17,8 +17,8 @@ from mckibben.physics.errors import InputError
 from mckibben.server import long_work
 from mckibben.server.app import create_app
 from mckibben.server.long_work import events
-from mckibben.server.questions.models import model_question
-from mckibben.server.schemas.diagnoses import DiagnosisRequest
+from mckibben.server.questions import model_question
+from mckibben.server.schemas.models import DiagnosisRequest
 from mckibben.server.settings import Settings
 from mckibben.simulation.outcome import Outcome, Watch
 from tests.identification.synthetic import BRAID, CYCLE_HEADER, LIFT, cycle_rows, text

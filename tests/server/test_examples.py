@@ -11,8 +11,8 @@ from fastapi.testclient import TestClient
 
 from mckibben.documents.study import StudyDocument
 from mckibben.server.app import create_app
-from mckibben.server.schemas.diagnoses import DiagnosisRequest
-from mckibben.server.schemas.sizing_reports import SizingReportRequest
+from mckibben.server.schemas.drives import SizingReportRequest
+from mckibben.server.schemas.models import DiagnosisRequest
 from mckibben.server.settings import Settings
 from tests.server.conftest import CSV, URL
 from tests.server.typescript import published

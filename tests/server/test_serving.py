@@ -16,8 +16,7 @@ from typing import Any
 import pytest
 import uvicorn
 
-from mckibben.server.guard import GuardedProtocol, connections_for
-from mckibben.server.logs import Seldom, WithoutToken
+from mckibben.server.serving import GuardedProtocol, Seldom, WithoutToken, connections_for
 from tests.running_server import MAIN, RunningServer
 from tests.server.conftest import run_async
 

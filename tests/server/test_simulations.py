@@ -18,8 +18,7 @@ from fastapi import Request
 from fastapi.testclient import TestClient
 
 from mckibben.application.run.simulate import SimulationQuestion, SimulationResult, simulate
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.facts.timing import TIMING as FIGURES
 from mckibben.server.long_work import events, finished
 from mckibben.simulation.integrate.lane_buffers import lane_kernels

@@ -11,7 +11,7 @@ from fastapi.testclient import TestClient
 from mckibben.application.study import file as study_file
 from mckibben.application.study.store import StudyStore
 from mckibben.application.study.study import StudyResult, prepare, study_question
-from mckibben.documents.study_files import read_study
+from mckibben.documents.study import read_study
 from mckibben.server.app import create_app
 from mckibben.server.settings import Settings
 from mckibben.simulation.outcome import Watch

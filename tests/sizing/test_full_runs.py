@@ -18,7 +18,7 @@ from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.outcome import Watch
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design, Group
-from mckibben.sizing.chance import chance
+from mckibben.sizing.proposal import chance
 from mckibben.sizing.spread import deviation_of
 from tests.sizing.conftest import LIFT, understood
 

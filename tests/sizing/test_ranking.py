@@ -8,8 +8,7 @@ from typing import Any
 
 import pytest
 
-from mckibben.sizing.chance import Chance
-from mckibben.sizing.proposal import Proposal
+from mckibben.sizing.proposal import Chance, Proposal
 from mckibben.sizing.ranking import ranked, reservations, why_first
 from mckibben.sizing.task import DesignLimits, Task
 

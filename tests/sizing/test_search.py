@@ -9,10 +9,8 @@ from typing import Any
 import pytest
 
 from mckibben.application.run.simulate import SimulationQuestion, simulate
-from mckibben.application.size.drive import drive_document
-from mckibben.application.size.size import SizingResult, prepare, sizing_question
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.application.size.size import SizingResult, drive_document, prepare, sizing_question
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.physics.errors import InputError

@@ -37,7 +37,7 @@ def test_sobol_indices_of_ishigamis_function():
     first, total = ishigami_indices()
     assert [item.first for item in found.influences] == pytest.approx(first, abs=0.03)
     assert [item.total for item in found.influences] == pytest.approx(total, abs=0.03)
-    assert (found.blocks, found.planned_blocks) == (4096, 4096)
+    assert found.blocks == plan.blocks == 4096
     for item, exact in zip(found.influences, total, strict=True):
         assert abs((item.total or np.nan) - exact) < 2.0 * (item.total_error or np.nan)
 
@@ -78,7 +78,7 @@ def test_blocks_with_a_failed_run_are_left_out_and_counted():
     table, _ = run_plan(plan, Y, in_threads(some_fail), Watch(), chunk=512)
     (found,) = plan.sensitivity(table, 0.95)
     blocks = np.array([outcome == COMPLETED for outcome in table.outcomes]).reshape(-1, 5).all(axis=1)
-    assert found.planned_blocks == 1024
+    assert plan.blocks == 1024
     assert 0 < found.blocks == blocks.sum() < 1024
     assert found.influences[1].first == pytest.approx(ishigami_indices()[0][1], abs=0.06)
 

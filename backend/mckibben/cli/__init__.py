@@ -1,7 +1,7 @@
 """The command line: ``mckibben`` alone starts the studio; the other commands work without a browser.
 
 Exit 0: done. Exit 2: the input cannot be used; one line on stderr says where, what is wrong and what would be
-right. Each command is a module, imported only when it runs.
+right. A command imports what it works with when it runs, so that others and --help need not wait for that.
 """
 
 from __future__ import annotations
@@ -10,15 +10,9 @@ import sys
 
 # In the order of the help.
 from mckibben.cli import studio_commands, data_commands, drive_commands, project_commands  # isort: skip
-from mckibben.cli.app import app
-from mckibben.cli.running import run_app
+from mckibben.cli.app import app, run
 
-__all__ = ["app", "data_commands", "drive_commands", "main", "project_commands", "studio_commands"]
-
-
-def run(arguments: list[str]) -> int:
-    """Run one command line; the exit code."""
-    return run_app(app, arguments)
+__all__ = ["app", "data_commands", "drive_commands", "main", "project_commands", "run", "studio_commands"]
 
 
 def main() -> None:

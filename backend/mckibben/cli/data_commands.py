@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -11,33 +11,24 @@ from mckibben.cli.app import app
 from mckibben.cli.options import (
     AsJson,
     DataFiles,
-    DataFolder,
     EffectIds,
-    EffectsFolders,
     Free,
     Ideal,
     Keep,
     ModelOptions,
     MuscleText,
-    PresetsFolder,
     SavedModelFile,
     Use,
+    with_shared_options,
 )
-from mckibben.cli.reading import (
-    Accuracy,
-    Columns,
-    Experiment,
-    Head,
-    Ignored,
-    Load,
-    RestLength,
-    Sheet,
-    Strict,
-    Supply,
-)
+
+if TYPE_CHECKING:
+    from mckibben.application.measurement.files import FileOptions
+    from mckibben.documents.studio import Studio
 
 
 @app.command()
+@with_shared_options
 def compare(
     files: DataFiles,
     muscle: MuscleText = "",
@@ -49,51 +40,36 @@ def compare(
     free: Free = None,
     use: Use = None,
     keep: Keep = None,
-    sheet: Sheet = None,
-    head: Head = None,
-    column: Columns = None,
-    ignore: Ignored = None,
-    rest_length: RestLength = None,
-    load: Load = None,
-    supply: Supply = None,
-    accuracy: Accuracy = None,
-    experiment: Experiment = None,
-    strict: Strict = False,
+    *,
+    reading: FileOptions,
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    studio: Studio,
 ) -> None:
     """Compare a model with measurements: the error in numbers, with or without a fit."""
-    from mckibben.application.measurement.options import file_options
-    from mckibben.cli.compare import run
-    from mckibben.cli.options import open_studio
+    from mckibben.application.compare.compare import compare as compare_model
+    from mckibben.application.measurement.files import measurements_of
+    from mckibben.cli.model import model_question, muscle_length
+    from mckibben.cli.output import progress, standard_input, write_json, write_summary
+    from mckibben.report.summary.comparison import summary_of
 
-    options = file_options(
-        sheet=sheet,
-        head=head,
-        columns=column,
-        ignored=ignore,
-        rest_length=rest_length,
-        load=load,
-        supply=supply,
-        accuracy=accuracy,
-        experiment=experiment,
-        strict=strict,
-    )
-    run(
-        open_studio(presets, effects, data),
-        files=files,
-        model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
-        fit=fit,
-        free=free or [],
-        correction=options.correction,
-        said=options.said,
-        as_json=as_json,
-    )
+    chosen = ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model)
+    with progress("fitting" if fit else "comparing"):
+        measurements = measurements_of(
+            files, studio, reading.correction, reading.said, contents=standard_input(files),
+            muscle_length=muscle_length(studio, chosen),
+        )  # fmt: skip
+        question = model_question(
+            studio, measurements, chosen, free=free or [], strict=reading.correction.strict, refit=fit
+        )
+        result = compare_model(question, fit=fit)
+    if as_json:
+        write_json(result)
+    else:
+        write_summary(summary_of(result))
 
 
 @app.command()
+@with_shared_options
 def diagnose(
     files: DataFiles,
     muscle: MuscleText = "",
@@ -143,50 +119,26 @@ def diagnose(
     ] = None,
     use: Use = None,
     keep: Keep = None,
-    sheet: Sheet = None,
-    head: Head = None,
-    column: Columns = None,
-    ignore: Ignored = None,
-    rest_length: RestLength = None,
-    load: Load = None,
-    supply: Supply = None,
-    accuracy: Accuracy = None,
-    experiment: Experiment = None,
-    strict: Strict = False,
+    *,
+    reading: FileOptions,
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    studio: Studio,
 ) -> None:
     """Which physical effect a model of measurements is missing, and what the data cannot distinguish.
 
     Of a folder: one line for each of its files, on this computer or on a cluster.
     """
-    from mckibben.application.measurement.options import file_options
     from mckibben.cli.diagnose import run
     from mckibben.cli.diagnose_folder import FolderOptions
-    from mckibben.cli.options import open_studio
 
-    options = file_options(
-        sheet=sheet,
-        head=head,
-        columns=column,
-        ignored=ignore,
-        rest_length=rest_length,
-        load=load,
-        supply=supply,
-        accuracy=accuracy,
-        experiment=experiment,
-        strict=strict,
-    )
     run(
-        open_studio(presets, effects, data),
+        studio,
         files=files,
         model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
         free=free or [],
         noise=noise,
-        correction=options.correction,
-        said=options.said,
+        correction=reading.correction,
+        said=reading.said,
         as_json=as_json,
         report=report,
         save=save,
@@ -197,41 +149,27 @@ def diagnose(
 
 
 @app.command()
+@with_shared_options
 def convert(
     file: Annotated[str, typer.Argument(metavar="DATA", help="A measurement file of any laboratory.")],
     out: Annotated[
         Path | None,
         typer.Option("--out", "-o", metavar="FILE", help="Write it there instead of printing it."),
     ] = None,
-    sheet: Sheet = None,
-    head: Head = None,
-    column: Columns = None,
-    ignore: Ignored = None,
-    rest_length: RestLength = None,
-    load: Load = None,
-    supply: Supply = None,
-    accuracy: Accuracy = None,
-    experiment: Experiment = None,
-    strict: Strict = False,
+    *,
+    reading: FileOptions,
 ) -> None:
     """A measurement file as the canonical CSV, with its conditions and where they stand."""
-    from mckibben.application.measurement.options import file_options
-    from mckibben.cli.convert import run
+    from mckibben.application.measurement.convert import converted
+    from mckibben.application.measurement.files import read_file
+    from mckibben.application.text_file import write_text
+    from mckibben.cli.output import progress, remark, standard_input
 
-    options = file_options(
-        sheet=sheet,
-        head=head,
-        columns=column,
-        ignored=ignore,
-        rest_length=rest_length,
-        load=load,
-        supply=supply,
-        accuracy=accuracy,
-        experiment=experiment,
-        strict=strict,
-    )
-    run(
-        file=file,
-        correction=options.correction,
-        out=out,
-    )
+    with progress("reading"):
+        result = converted(read_file(file, reading.correction, standard_input([file]).get(file)))
+    if out is None:
+        typer.echo(result.text, nl=False)
+    else:
+        write_text(out, result.text, named=f"--out {out}")
+    for message in result.messages:
+        remark(message)

@@ -9,8 +9,7 @@ from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.diagnose.diagnose import prepare
 from mckibben.application.diagnose.next_experiment import NO_EXPERIMENT, schedule_csv
 from mckibben.application.measurement.files import measurements_of
-from mckibben.application.model.save_muscle import keep
-from mckibben.application.model.saved import model_text, saved_model
+from mckibben.application.model.saved import keep, model_text, saved_model
 from mckibben.cli.diagnose_folder import FolderOptions, run_folder
 from mckibben.cli.model import model_question, muscle_length
 from mckibben.cli.options import ModelOptions
@@ -55,7 +54,7 @@ def run(
 
     def asked(names: Sequence[str]) -> ModelQuestion:
         measurements = measurements_of(
-            names, studio, correction, said, given=standard_input(names),
+            names, studio, correction, said, contents=standard_input(names),
             muscle_length=muscle_length(studio, model),
         )  # fmt: skip
         return model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)
@@ -78,9 +77,10 @@ def run(
     with progress("trying effects") as watch:
         result = work(watch)
     if report is not None:
-        from mckibben.cli.report import write
+        from mckibben.report.diagnosis.gather import ReportOptions, report_of
 
-        write(report, studio, question, result)
+        text = report_of(question, studio, ReportOptions(), result)
+        write_file(report, "--report", "report", text)
     if save_preset is not None:
         _keep(saved_model(question, result, studio), studio, save_preset)
     if save is not None:

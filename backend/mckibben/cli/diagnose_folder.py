@@ -7,14 +7,24 @@ from dataclasses import dataclass
 from functools import partial
 from pathlib import Path
 
-from mckibben.application.diagnose.folder import Ask, FileVerdict, diagnose_each, files_of, here
-from mckibben.application.diagnose.folder_file import check_out, diagnose_kept, fingerprint, finish
+from mckibben.application.diagnose.folder import (
+    Ask,
+    FileVerdict,
+    check_out,
+    diagnose_each,
+    diagnose_kept,
+    files_of,
+    fingerprint,
+    finish,
+    here,
+)
 from mckibben.application.study.file import journal_of
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import progress, remark, write_json, write_summary
 from mckibben.documents.studio import Studio
+from mckibben.facts.comparison import error_scale
 from mckibben.physics.errors import InputError
-from mckibben.report.summary.folder import folder_summary
+from mckibben.report.summary import Summary, Table, in_unit
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,7 +106,7 @@ def run_folder(
     if options.scheduler is None:
         diagnose = here(studio)
     else:
-        from mckibben.application.diagnose.folder_cluster import on_cluster
+        from mckibben.application.diagnose.folder import on_cluster
 
         diagnose = on_cluster(studio, options.scheduler, again=options.again)
     each = partial(diagnose_each, found, ask, diagnose)
@@ -136,3 +146,23 @@ def _named(model: ModelOptions) -> list[bytes]:
     """The contents of the files that the options of the model name."""
     named = [Path(name) for name in (model.muscle, model.drive, model.model) if name]
     return [path.read_bytes() for path in named if path.is_file()]
+
+
+def folder_summary(folder: str, verdicts: Sequence[FileVerdict]) -> Summary:
+    """One line for each file; then why files were refused."""
+    rows = [
+        [
+            item.file,
+            item.title or "refused",
+            ", ".join(item.effects) or "–",
+            *(_error(item, value) for value in (item.start, item.best, item.noise)),
+        ]
+        for item in verdicts
+    ]
+    columns = ["file", "verdict", "missing", "error before", "error after", "noise"]
+    refused = [f"{item.file}: refused: {item.refused}" for item in verdicts if item.refused is not None]
+    return [Table(f"Diagnoses of {folder}", columns, rows), *refused]
+
+
+def _error(item: FileVerdict, value: float | None) -> str:
+    return "–" if item.unit is None else in_unit(value, error_scale(item.unit))

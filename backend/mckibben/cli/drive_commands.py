@@ -2,43 +2,91 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
 from mckibben.cli.app import app
-from mckibben.cli.linear_options import Amplitudes, At, DesignGoals, Output, Source
 from mckibben.cli.options import (
     AsJson,
-    DataFolder,
     DriveFile,
-    EffectsFolders,
     Exported,
     ExportFile,
     ExportFormat,
-    PresetsFolder,
+    with_shared_options,
 )
+from mckibben.documents.located import located
 from mckibben.physics.errors import InputError
+
+if TYPE_CHECKING:
+    from mckibben.application.size.size import Searched
+    from mckibben.documents.studio import Studio
+
+At = Annotated[
+    str | None,
+    typer.Option(
+        "--at",
+        help='Operating point: "position 40 mm", "contraction 10 %", "pressure 3 bar" or, of a regulator, '
+        '"command 50 %". Default: the middle of the positions that can be held.',
+    ),
+]
+Source = Annotated[str, typer.Option("--input", help="command, supply_pressure or load_force.")]
+Output = Annotated[
+    str, typer.Option("--output", help="position, velocity, pressure, force, mass_flow or position_reading.")
+]
+Amplitudes = Annotated[
+    str | None,
+    typer.Option("--amplitudes", help='Sines for the nonlinear drive, e.g. "1 %,20 %"; "none" for no sweep.'),
+]
+DesignGoals = Annotated[
+    str | None,
+    typer.Option(
+        "--design",
+        help='Also design a position controller, e.g. "overshoot 5 %, settling 0.5 s, step 10 mm, '
+        'no saturation".',
+    ),
+]
+
+# Fields of a question about the linear view that are options.
+_LINEAR_OPTIONS = ("at", "input", "output", "amplitudes", "design")
 
 
 @app.command()
+@with_shared_options
 def simulate(
     drive: DriveFile,
     out: Annotated[Path | None, typer.Option("--out", metavar="FILE", help="Write the run as CSV.")] = None,
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """Simulate a drive: timing table, trace, limits."""
-    from mckibben.cli.options import open_studio
-    from mckibben.cli.simulate import run
+    from mckibben.application.run.simulate import SimulationQuestion, trace_text
+    from mckibben.application.run.simulate import simulate as simulate_drive
+    from mckibben.application.text_file import write_text
+    from mckibben.cli.output import remark, write_json, write_summary
+    from mckibben.documents.drive_reading import drive_of, named_document
+    from mckibben.report.summary.simulation import notices, summary_of
 
-    run(open_studio(presets, effects, data), drive=drive, out=out, as_json=as_json)
+    document = named_document(drive, studio)
+    with _errors_of(drive):
+        annotated = drive_of(document, studio)
+        result = simulate_drive(SimulationQuestion(annotated))
+    if out is not None:
+        write_text(out, trace_text(document, result), named=f"--out {out}")
+    if not as_json:
+        write_summary(summary_of(result, drive))
+        return
+    write_json(result)
+    for sentence in notices(result):
+        remark(sentence)
 
 
 @app.command()
+@with_shared_options
 def linearise(
     drive: DriveFile,
     at: At = None,
@@ -47,19 +95,58 @@ def linearise(
     amplitudes: Amplitudes = None,
     design: DesignGoals = None,
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """Linear models of a drive: poles, Bode, margins, sweep of the nonlinear drive, controller design."""
-    from mckibben.cli.linearise import Wanted, run
-    from mckibben.cli.options import open_studio
+    from mckibben.application.linear.linearise import LinearQuestion, condition_of, goals_of, linear_view
+    from mckibben.cli.output import progress, write_json, write_summary
+    from mckibben.documents.drive_reading import drive_of, named_document
+    from mckibben.report.summary.linear import summary_of
 
-    wanted = Wanted(at, source, output, amplitudes, design)
-    run(open_studio(presets, effects, data), drive=drive, wanted=wanted, as_json=as_json)
+    try:
+        point = None if at is None else condition_of(at)
+        goals = None if design is None else goals_of(design)
+        sines = None if amplitudes is None else _amplitudes(amplitudes, source)
+    except InputError as error:
+        raise InputError(f"--{error.field} {error.message}", hint=error.hint) from error
+    document = named_document(drive, studio)
+    with _errors_of(drive, _LINEAR_OPTIONS):
+        annotated = drive_of(document, studio, measured=True)
+        question = LinearQuestion(
+            annotated, at=point, input=source, output=output, amplitudes=sines, goals=goals
+        )
+        with progress("linearising") as watch:
+            result = linear_view(question, watch)
+    if as_json:
+        write_json(result)
+    else:
+        write_summary(summary_of(result, drive))
+
+
+def _amplitudes(text: str, source: str) -> tuple[float, ...]:
+    """Amplitudes of sines; "none" for no sweep."""
+    from mckibben.physics.units import si
+
+    if text.strip().lower() == "none":
+        return ()
+    unit = "N" if source == "load_force" else "1"
+    return tuple(si(part.strip(), unit, field="amplitudes") for part in text.split(","))
+
+
+@contextmanager
+def _errors_of(source: str, options: Collection[str] = ()) -> Iterator[None]:
+    """Errors name the file, and the field in it or the option."""
+    try:
+        yield
+    except InputError as error:
+        place = f"--{error.field}: {error.message}" if error.field in options else None
+        message = place or located(error.field, error.message)
+        raise InputError(f"{source}: {message}", hint=error.hint) from error
 
 
 @app.command()
+@with_shared_options
 def size(
     task: Annotated[str, typer.Argument(metavar="TASK", help="A sizing task (JSON file).")],
     report: Annotated[
@@ -75,38 +162,83 @@ def size(
         ),
     ] = "",
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """From a task to ranked drives from the catalogue, with the reasons against the others."""
-    from mckibben.cli.options import open_studio
-    from mckibben.cli.size import Wanted, run
+    from mckibben.application.size.size import prepare_search, sizing_question
+    from mckibben.cli.output import progress, remark, write_file, write_json, write_summary
+    from mckibben.documents.task import read_task_file
+    from mckibben.presets.reading import BadDocumentError
+    from mckibben.report.summary.sizing import notices, summary_of
 
     if report is None and (proposal is not None or title):
         option = "--title" if proposal is None else "--proposal"
         raise InputError(f"{option} belongs to a report, and none is requested", hint="--report FILE")
-    wanted = None if report is None else Wanted(report, proposal or 1, title)
-    run(open_studio(presets, effects, data), task=task, as_json=as_json, report=wanted)
+    try:
+        work = prepare_search(sizing_question(read_task_file(Path(task), studio), studio))
+        with progress("searching drives") as watch:
+            search = work(watch)
+    except BadDocumentError as bad:
+        finding = bad.findings[0]
+        raise InputError(f"{task}: {located(finding.field, finding.message)}", hint=finding.hint) from bad
+    except InputError as error:
+        message = located(error.field, error.message).removesuffix(".")
+        raise InputError(f"{task}: {message}", hint=error.hint) from error
+    if report is not None:
+        write_file(report, "--report", "report", _sizing_report(search, studio, proposal or 1, title))
+    if not as_json:
+        write_summary(summary_of(search.result, task))
+        return
+    write_json(search.result)
+    for sentence in notices(search.result):
+        remark(sentence)
+
+
+def _sizing_report(search: Searched, studio: Studio, proposal: int, title: str) -> str:
+    from mckibben.report.sizing.gather import report_of
+
+    try:
+        return report_of(search, studio, proposal=proposal, title=title)
+    except InputError as error:
+        place = f"--proposal {proposal}: " if error.field == "proposal" else ""
+        raise InputError(f"{place}{error.message}", hint=error.hint) from error
 
 
 @app.command()
+@with_shared_options
 def export(
     source: Exported,
     format_id: ExportFormat,
     out: ExportFile,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """Take a model or drive along: FMU, source code, lookup tables, equations, JSON."""
-    from mckibben.cli.export import run
-    from mckibben.cli.options import open_studio
+    from mckibben.cli.output import remark
+    from mckibben.export.registry import format_named
+    from mckibben.export.source import stated_source
+    from mckibben.export.use_case import ExportQuestion, write_export
 
-    run(open_studio(presets, effects, data), source=source, format_id=format_id, out=out)
+    try:
+        chosen = format_named(format_id)
+    except InputError as error:
+        raise InputError(f"--as {format_id}: {error.message}", hint=error.hint) from error
+    stated = stated_source(source, studio)
+    try:
+        written = write_export(
+            ExportQuestion(stated, format_id), out, studio, named=f"-o {out}", remark=remark
+        )
+    except InputError as error:
+        if error.message.startswith("-o "):
+            raise
+        raise InputError(f"{source}: {located(error.field, error.message)}", hint=error.hint) from error
+    for path in written:
+        remark(f"{chosen.title}: {path}")
 
 
 @app.command()
+@with_shared_options
 def study(
     study: Annotated[str, typer.Argument(metavar="STUDY", help="A study (JSON file).")],
     out: Annotated[
@@ -131,20 +263,49 @@ def study(
         ),
     ] = None,
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """Many runs of a drive or task: sweeps, Monte Carlo, sensitivities, optimisation, robust designs."""
-    from mckibben.cli.options import open_studio
-    from mckibben.cli.study import run
+    from mckibben.application.study.file import check_out, journal_of, prepare_file
+    from mckibben.application.study.study import prepare, study_question
+    from mckibben.cli.output import progress, remark, write_json, write_summary
+    from mckibben.documents.study import in_file, read_study_file
+    from mckibben.report.summary.study import notices, summary_of
+    from mckibben.simulation.outcome import Outcome
 
-    run(
-        open_studio(presets, effects, data),
-        study=study,
-        out=out,
-        resume=resume,
-        scheduler=scheduler,
-        chunk=chunk,
-        as_json=as_json,
-    )
+    if resume and out is None:
+        raise InputError("--resume continues the table of --out, and none is named", hint="--out table.csv")
+    document = read_study_file(Path(study))
+    if out is not None:
+        check_out(out, resume)
+    try:
+        question = study_question(document, studio)
+    except InputError as error:
+        raise in_file(study, error) from error
+    workers = None
+    if scheduler is not None:
+        from mckibben.application.study.cluster import on_cluster
+
+        workers = on_cluster(question, scheduler)
+    if out is None:
+        work = prepare(question, workers=workers, chunk=chunk)
+    else:
+        work = prepare_file(question, out, resume=resume, workers=workers, chunk=chunk)
+    try:
+        with progress("running the study") as watch:
+            result = work(watch)
+    except KeyboardInterrupt:
+        if out is not None:
+            remark(f"stopped; the runs made so far are in {journal_of(out)}: --resume continues")
+        raise
+    if out is not None:
+        remark(f"table: {out}")
+        if result.outcome != Outcome.COMPLETED.label:
+            remark(f"the study is not complete: --resume continues it from {journal_of(out)}")
+    if not as_json:
+        write_summary(summary_of(result, Path(study).name))
+        return
+    write_json(result)
+    for sentence in notices(result):
+        remark(sentence)

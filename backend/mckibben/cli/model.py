@@ -10,7 +10,7 @@ from mckibben.application.compare.stated_question import SavedStart, stated_ques
 from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
 from mckibben.cli.options import ModelOptions, start_model, stated_model
 from mckibben.documents.drive import DriveDocument
-from mckibben.documents.drive_files import read_document
+from mckibben.documents.drive_reading import read_document
 from mckibben.documents.located import at_file
 from mckibben.documents.model_files import drive_document, saved_model
 from mckibben.documents.muscle_files import is_file, muscle_alone

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import functools
+import inspect
 import sys
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from contextlib import redirect_stdout
 from dataclasses import dataclass
 from pathlib import Path
@@ -23,6 +25,7 @@ from mckibben.documents.muscle_files import (
 from mckibben.physics.errors import InputError, did_you_mean
 
 if TYPE_CHECKING:
+    from mckibben.application.measurement.files import FileOptions
     from mckibben.documents.start_model import StartModel
     from mckibben.documents.studio import Studio
 
@@ -58,6 +61,47 @@ Free = Annotated[
 SavedModelFile = Annotated[
     str,
     typer.Option("--model", metavar="FILE", help="A model that 'diagnose --save' wrote; others override it."),
+]
+Sheet = Annotated[
+    str | None, typer.Option("--sheet", metavar="NAME", help="Sheet, group or struct with the measurement.")
+]
+Head = Annotated[
+    int | None, typer.Option("--head", metavar="ROW", help="Row of the column names, counted from 1.")
+]
+Columns = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--column",
+        metavar="C=NAME",
+        help='What a column is, e.g. "force=-Kraft [kN]": sign and unit; repeatable.',
+    ),
+]
+Ignored = Annotated[
+    list[str] | None,
+    typer.Option("--ignore", metavar="NAME", help="A column that is not wanted; repeatable."),
+]
+RestLength = Annotated[
+    str | None,
+    typer.Option("--rest-length", help='Length of the muscle without air and load, e.g. "300 mm".'),
+]
+Load = Annotated[str | None, typer.Option("--load", help='Mass or force on the muscle, e.g. "6 kg".')]
+Supply = Annotated[str | None, typer.Option("--supply", help='Supply pressure, gauge, e.g. "6 bar".')]
+Accuracy = Annotated[
+    str | None,
+    typer.Option(
+        "--accuracy", help='Standard deviation by channel, e.g. "length 1 mm, force 0.5 %", or a sensor.'
+    ),
+]
+Experiment = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--experiment",
+        metavar="FIELD=VALUE",
+        help='More about the test, e.g. "force_zero=2.5 N" or "inclination=45 deg"; repeatable.',
+    ),
+]
+Strict = Annotated[
+    bool, typer.Option("--strict", help="Refuse a file instead of assuming what it does not say.")
 ]
 Use = Annotated[
     list[str] | None,
@@ -161,10 +205,11 @@ def folders(presets: Path | None, effects: Sequence[Path] | None, data: Path | N
     return Folders(presets or data / "presets", tuple(effects or ()), data)
 
 
-def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path | None) -> Studio:
+def open_studio(
+    presets: PresetsFolder = None, effects: EffectsFolders = None, data: DataFolder = None
+) -> Studio:
     """Presets and effects for a command that runs without a server."""
-    from mckibben.documents.studio import Studio
-    from mckibben.documents.unused_files import unused_files
+    from mckibben.documents.studio import Studio, unused_files
     from mckibben.resources import presets_folder
 
     chosen = folders(presets, effects, data)
@@ -173,6 +218,56 @@ def open_studio(presets: Path | None, effects: Sequence[Path] | None, data: Path
     for sentence in unused_files(studio, chosen.user_presets):
         typer.echo(sentence, err=True)
     return studio
+
+
+def reading(
+    sheet: Sheet = None,
+    head: Head = None,
+    column: Columns = None,
+    ignore: Ignored = None,
+    rest_length: RestLength = None,
+    load: Load = None,
+    supply: Supply = None,
+    accuracy: Accuracy = None,
+    experiment: Experiment = None,
+    strict: Strict = False,
+) -> FileOptions:
+    """How measurement files are to be read, and what is said about their experiment."""
+    from mckibben.application.measurement.files import file_options
+
+    return file_options(
+        sheet=sheet, head=head, columns=column, ignored=ignore, rest_length=rest_length, load=load,
+        supply=supply, accuracy=accuracy, experiment=experiment, strict=strict,
+    )  # fmt: skip
+
+
+#: Parameter of a command -> what makes its value from the options that it stands for.
+_SHARED: dict[str, Callable[..., object]] = {"reading": reading, "studio": open_studio}
+
+
+def with_shared_options(command: Callable[..., None]) -> Callable[..., None]:
+    """A command for typer: options of its own, and those that ``reading`` and ``studio`` stand for."""
+    # Their types are known to type checkers only: importing them takes as long as some commands do.
+    types = {"FileOptions": object, "Studio": object}
+    shared = {
+        name: inspect.signature(_SHARED[name], eval_str=True, locals=types).parameters.values()
+        for name in inspect.signature(command).parameters
+        if name in _SHARED
+    }
+
+    def run(**options: object) -> None:
+        for name, parts in shared.items():
+            options[name] = _SHARED[name](**{part.name: options.pop(part.name) for part in parts})
+        command(**options)
+
+    own = inspect.signature(command, eval_str=True, locals=types).parameters.values()
+    parts = [part for each in own for part in shared.get(each.name, (each,))]
+    functools.update_wrapper(run, command)
+    run.__annotations__ = {}
+    run.__signature__ = inspect.Signature(  # type: ignore - typer reads it
+        [part.replace(kind=inspect.Parameter.KEYWORD_ONLY) for part in parts]
+    )
+    return run
 
 
 def start_model(

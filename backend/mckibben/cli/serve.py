@@ -51,7 +51,7 @@ def run(
     # Imported only after the port is bound: errors of the address are reported at once.
     import uvicorn
 
-    from mckibben.documents.unused_files import unused_files
+    from mckibben.documents.studio import unused_files
     from mckibben.server.app import create_app
     from mckibben.server.security import new_token
     from mckibben.server.serving import WAITING_CONNECTIONS, serving

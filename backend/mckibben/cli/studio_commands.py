@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from enum import StrEnum
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
 
@@ -20,7 +21,11 @@ from mckibben.cli.options import (
     PresetsFolder,
     ProjectsAddress,
     SavedModelFile,
+    with_shared_options,
 )
+
+if TYPE_CHECKING:
+    from mckibben.documents.studio import Studio
 
 
 class LogLevel(StrEnum):
@@ -89,6 +94,7 @@ def serve(
 
 
 @app.command()
+@with_shared_options
 def curves(
     muscle: MuscleText = "",
     ideal: Ideal = False,
@@ -103,18 +109,22 @@ def curves(
         help="Also the stiffness: tangent, valve closed, that which the force implies, and the secant.",
     ),
     as_json: AsJson = False,
-    presets: PresetsFolder = None,
-    effects: EffectsFolders = None,
-    data: DataFolder = None,
+    *,
+    studio: Studio,
 ) -> None:
     """Force, stiffness, volume and diameter of a muscle over its contraction."""
-    from mckibben.cli.curves import run
-    from mckibben.cli.options import open_studio
+    from mckibben.application.curves.curves import CurvesQuestion, pressures_of
+    from mckibben.application.curves.curves import curves as curves_of
+    from mckibben.cli.options import start_model
+    from mckibben.cli.output import write_json, write_summary
+    from mckibben.report.summary.curves import summary_of
 
-    run(
-        open_studio(presets, effects, data),
-        model=ModelOptions(muscle, ideal, effect or (), model=model),
-        pressure=pressure,
-        stiffness=stiffness,
-        as_json=as_json,
-    )
+    start = start_model(studio, ModelOptions(muscle, ideal, effect or (), model=model))
+    question = CurvesQuestion(start, further_stiffness=stiffness)
+    if pressure is not None:
+        question = replace(question, pressures=pressures_of(pressure.split(","), "--pressure"))
+    result = curves_of(question, studio)
+    if as_json:
+        write_json(result)
+    else:
+        write_summary(summary_of(result, muscle or model))

@@ -150,26 +150,26 @@ def tube_of(tube: TubeInput | None, preset: TubePreset | None) -> Tube | None:
     return Tube(inside, length)
 
 
-def flow_control_of(given: FlowControlInput | None) -> FlowControl | None:
+def flow_control_of(document: FlowControlInput | None) -> FlowControl | None:
     """Its restrictions while filling and while venting; None without one."""
-    if given is None:
+    if document is None:
         return None
-    ratio = _DEFAULT_RATIO if given.critical_pressure_ratio is None else given.critical_pressure_ratio
-    free = inf if given.free_conductance is None else given.free_conductance
-    if free < given.sonic_conductance:
+    ratio = _DEFAULT_RATIO if document.critical_pressure_ratio is None else document.critical_pressure_ratio
+    free = inf if document.free_conductance is None else document.free_conductance
+    if free < document.sonic_conductance:
         raise InputError(
             f"the free direction passes less ({free * 1e8:.4g} l/(s*bar)) than the throttled one "
-            f"({given.sonic_conductance * 1e8:.4g} l/(s*bar))",
+            f"({document.sonic_conductance * 1e8:.4g} l/(s*bar))",
             field="flow_control.free_conductance",
             hint="the conductance of the check valve, or leave it out",
         )
-    throttled = given.sonic_conductance
-    ways = (throttled, free) if given.meter == "in" else (free, throttled)
+    throttled = document.sonic_conductance
+    ways = (throttled, free) if document.meter == "in" else (free, throttled)
     return FlowControl(*ways, ratio, ratio)
 
 
 def quick_exhaust_of(
-    given: QuickExhaustInput | None, *, tube: Tube | None, control: FlowControl | None
+    document: QuickExhaustInput | None, *, tube: Tube | None, control: FlowControl | None
 ) -> QuickExhaust | None:
     """The quick exhaust valve; None without one.
 
@@ -177,7 +177,7 @@ def quick_exhaust_of(
         InputError: there is no tube whose pressure could open it, or the flow control throttles what does
             not pass it any more.
     """
-    if given is None:
+    if document is None:
         return None
     if tube is None:
         raise InputError(
@@ -192,33 +192,33 @@ def quick_exhaust_of(
             field="flow_control.meter",
             hint='"in", or leave one of the two out',
         )
-    values = {"critical_ratio": given.critical_pressure_ratio, "band": given.band}
+    values = {"critical_ratio": document.critical_pressure_ratio, "band": document.band}
     return QuickExhaust(
-        given.sonic_conductance, **{name: value for name, value in values.items() if value is not None}
+        document.sonic_conductance, **{name: value for name, value in values.items() if value is not None}
     )
 
 
-def pwm_of(given: PwmInput | None, *, regulated: bool) -> PulseWidth | None:
+def pwm_of(pwm: PwmInput | None, *, regulated: bool) -> PulseWidth | None:
     """The modulation; None without one.
 
     Raises:
         InputError: of a regulator, or no pulse is possible.
     """
-    if given is None:
+    if pwm is None:
         return None
     if regulated:
         raise InputError(
             "a pressure regulator is not switched", field="pwm", hint="choose a valve, or leave pwm out"
         )
-    on, off = given.min_on or 0.0, given.min_off or 0.0
-    if (on + off) * given.frequency >= 1.0:
+    on, off = pwm.min_on or 0.0, pwm.min_off or 0.0
+    if (on + off) * pwm.frequency >= 1.0:
         raise InputError(
-            f"in a period of {1e3 / given.frequency:.4g} ms there is no pulse of at least {on * 1e3:.4g} ms "
+            f"in a period of {1e3 / pwm.frequency:.4g} ms there is no pulse of at least {on * 1e3:.4g} ms "
             f"with a pause of at least {off * 1e3:.4g} ms",
             field="pwm.frequency",
             hint="lower the frequency",
         )
-    return PulseWidth(given.frequency, given.valves, on, off)
+    return PulseWidth(pwm.frequency, pwm.valves, on, off)
 
 
 def port_volume_of(fittings: Sequence[Part | None]) -> float:

@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
+from pathlib import Path
 from typing import Any, NamedTuple
 
-from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_parts import (
     TYPICAL_TUBE,
@@ -24,12 +24,15 @@ from mckibben.documents.drive_parts import (
     unverified_of,
     valve_of,
 )
-from mckibben.documents.start_model import StartModel
+from mckibben.documents.located import located
+from mckibben.documents.problems import validated
+from mckibben.documents.start_model import StartModel, stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.documents.value_names import value_names
-from mckibben.physics.errors import InputError
+from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import si
-from mckibben.presets import FittingPreset, TubePreset, ValvePreset
+from mckibben.presets import DrivePreset, FittingPreset, TubePreset, ValvePreset
+from mckibben.presets.reading import BadDocumentError, parse, read_file
 from mckibben.simulation.command.pid import PidController, controller_from
 from mckibben.simulation.command.shapes import Scaled, Signal
 from mckibben.simulation.command.signals import signal_from
@@ -52,9 +55,9 @@ def control_of(document: DriveDocument, regulated: bool) -> Control:
     Raises:
         InputError: no set point or two, a joint's without a joint, an impossible gain; names the field.
     """
-    given = document.controller
-    assert given is not None  # noqa: S101 - asked for drives with a controller only
-    load, values = document.load, given.model_dump(exclude_none=True)
+    stated = document.controller
+    assert stated is not None  # noqa: S101 - asked for drives with a controller only
+    load, values = document.load, stated.model_dump(exclude_none=True)
     joint, second = values.pop("angle", None), values.pop("stiffness", None)
     position = values.pop("reference", None)
     if load.arrangement != "antagonist" or load.pulley_radius is None:
@@ -77,8 +80,8 @@ def control_of(document: DriveDocument, regulated: bool) -> Control:
         reference = signal_from(position, unit="m", field="controller.reference")
     else:
         assert load.pulley_radius is not None  # noqa: S101 - of a pair
-        turned = _signal_or_constant(joint, "rad", "controller.angle")
-        reference = Scaled(of=turned, factor=load.pulley_radius)
+        angle = _signal_or_constant(joint, "rad", "controller.angle")
+        reference = Scaled(of=angle, factor=load.pulley_radius)
     rest = 0.0 if regulated else -1.0
     if second is None:
         return Control(controller_from(values, output_min=rest), reference, None)
@@ -107,10 +110,10 @@ def control_of(document: DriveDocument, regulated: bool) -> Control:
     return Control(controller, reference, StiffnessControl(wanted, **gains))
 
 
-def _signal_or_constant(given: Any, unit: str, field: str) -> Signal:
-    if not isinstance(given, Mapping):
-        given = {"shape": "step", "level": given, "initial": given}
-    return signal_from(given, unit=unit, field=field)
+def _signal_or_constant(value: Any, unit: str, field: str) -> Signal:
+    if not isinstance(value, Mapping):
+        value = {"shape": "step", "level": value, "initial": value}
+    return signal_from(value, unit=unit, field=field)
 
 
 _DEFAULT_MAX_CONTRACTION = 0.25
@@ -334,3 +337,59 @@ def _stops(document: DriveDocument, model: StaticModel) -> tuple[float, float]:
             hint="e.g. '25 %'",
         )
     return lowest, highest
+
+
+def preset_document(preset_id: str, studio: Studio) -> DriveDocument:
+    """The document of a drive preset.
+
+    Raises:
+        InputError: there is no such preset, or its document cannot be used.
+    """
+    try:
+        preset = studio.library.get("drives", preset_id)
+    except InputError as error:
+        raise error.at(None, code="unknown_preset") from error
+    assert isinstance(preset, DrivePreset)  # noqa: S101 - of its folder
+    return read_document(preset.document, f"the drive preset {preset.id}")
+
+
+def read_document(document: object, subject: str) -> DriveDocument:
+    """A drive document from JSON.
+
+    Args:
+        document: parsed JSON.
+        subject: name of the document in messages.
+
+    Raises:
+        InputError: the document is not valid; ``field`` is the path in it.
+    """
+    return validated(DriveDocument, document, subject)
+
+
+def named_document(name: str, studio: Studio) -> DriveDocument:
+    """The document of a file, of a preset file, or of a preset.
+
+    Raises:
+        InputError: names the file, the field, what is wrong and what would be right.
+    """
+    path = Path(name)
+    known = [preset.id for preset in studio.library.list("drives")]
+    if name in known or not (path.exists() or name.lower().endswith(".json")):
+        if name not in known:
+            raise InputError(
+                f"{name}: there is no such file and no such drive preset", hint=did_you_mean(name, known)
+            )
+        return preset_document(name, studio)
+    try:
+        content = read_file(path, follow_links=True)
+        if isinstance(content, dict) and "kind" in content:
+            preset = parse(DrivePreset, content, studio.effect_table)
+            assert isinstance(preset, DrivePreset)  # noqa: S101 - parsed as one
+            content = preset.document
+        return read_document(content, "the drive")
+    except BadDocumentError as bad:
+        finding = bad.findings[0]
+        raise InputError(f"{name}: {located(finding.field, finding.message)}", hint=finding.hint) from bad
+    except InputError as error:
+        message = located(error.field, error.message).removesuffix(".")
+        raise InputError(f"{name}: {message}", hint=error.hint) from error

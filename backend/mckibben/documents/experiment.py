@@ -212,25 +212,27 @@ class ExperimentInput(Strict):
     )
 
 
-def stated_experiment(given: ExperimentInput | None, field: str = "experiment") -> dict[str, ExperimentValue]:
+def stated_experiment(
+    values: ExperimentInput | None, field: str = "experiment"
+) -> dict[str, ExperimentValue]:
     """The values of an input, by the fields of an experiment.
 
     Args:
-        given: the input.
+        values: the input.
         field: its path in the request, for errors and as the place of the values.
 
     Raises:
         InputError: an accuracy that cannot be read.
     """
-    if given is None:
+    if values is None:
         return {}
     found: dict[str, ExperimentValue] = {}
     for name in FIELDS:
-        said: Said | None = getattr(given, name, None)
+        said: Said | None = getattr(values, name, None)
         if said is not None:
             found[name] = ExperimentValue(said.value, said.unit, said.origin, f"{field}.{name}")
-    if given.accuracy is not None:
-        found |= stated_accuracy(str(given.accuracy.value), f"{field}.accuracy", given.accuracy.origin)
+    if values.accuracy is not None:
+        found |= stated_accuracy(str(values.accuracy.value), f"{field}.accuracy", values.accuracy.origin)
     return found
 
 

@@ -133,10 +133,9 @@ def start_of_input(
     """
     from pydantic import ValidationError
 
-    from mckibben.documents.convert import stated_muscle
     from mckibben.documents.muscle import MuscleInput
     from mckibben.documents.problems import first_problem
-    from mckibben.documents.start_model import start_model
+    from mckibben.documents.start_model import start_model, stated_muscle
 
     try:
         muscle = stated_muscle(MuscleInput.model_validate(document))

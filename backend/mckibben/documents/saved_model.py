@@ -7,10 +7,10 @@ from typing import TYPE_CHECKING, Annotated, Literal
 
 from pydantic import Field, model_validator
 
-from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.problems import validated
+from mckibben.documents.start_model import stated_muscle
 from mckibben.documents.strict import Strict
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY

@@ -8,6 +8,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+from mckibben.documents.muscle import MuscleInput
 from mckibben.physics.braid import Braid, Rhombus, braid_from_rhombus, rest_diameter_and_angle
 from mckibben.physics.catalogue import EffectCatalogue
 from mckibben.physics.custom import CUSTOM, typed_effect
@@ -65,7 +66,7 @@ class PresetFacts:
         limits: limits stated by the maker.
         tolerance: geometry field -> largest change by a fit, in either direction.
         shortest, longest: range of rest lengths that the maker sells, None where not known [m].
-        unverified: paths in the preset of the unverified values that the model uses, "effects.dahl.force".
+        unverified: paths in the preset of the unverified values that the model uses, "effects.ID.force".
         suspended_mass: largest mass that may hang freely on the muscle, None where not known [kg].
         coldest, hottest: ambient temperatures it is made for, None where not known [K].
         fit: how its values were fitted to measurements, None where they were not.
@@ -335,3 +336,19 @@ def _effect_values(
         except InputError as error:
             raise error.at(field) from error
     return values
+
+
+def stated_muscle(muscle: MuscleInput) -> StatedMuscle:
+    """The muscle of a request as a plain object."""
+    lattice = muscle.rhombus
+    return StatedMuscle(
+        preset=muscle.preset,
+        nominal_length=muscle.nominal_length,
+        inside_diameter=muscle.inside_diameter,
+        braid_diameter=muscle.braid_diameter,
+        braid_angle=muscle.braid_angle,
+        wall_thickness=muscle.wall_thickness,
+        thread_length=muscle.thread_length,
+        turns=muscle.turns,
+        rhombus=None if lattice is None else Rhombus(lattice.side, lattice.along, lattice.around),
+    )

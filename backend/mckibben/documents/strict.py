@@ -24,5 +24,3 @@ Id = Annotated[
 ]
 
 Name = Annotated[str, StringConstraints(min_length=1, max_length=64, pattern=r"^[A-Za-z_][A-Za-z0-9_]*$")]
-
-Series = list[float | None]

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import hashlib
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import lru_cache
+from itertools import groupby
 from pathlib import Path
 
 from mckibben.documents.start_model import PresetFacts, StartModel, StatedMuscle, preset_facts, start_model
@@ -16,6 +17,8 @@ from mckibben.physics.sliding import acting_at_rest, sliding_effects
 from mckibben.presets import MusclePreset, PresetLibrary
 from mckibben.presets.order_code import order_code
 from mckibben.simulation.statics.model import StaticModel
+
+_SHOWN = 3  # problems of one preset file
 
 
 class Studio:
@@ -142,3 +145,25 @@ def _at_rest(effects: tuple[Effect, ...]) -> tuple[Effect, ...]:
     built_in = default_catalogue()
     acting = set(acting_at_rest(effects=effects))
     return tuple(effect for effect in effects if effect in acting or effect.id not in built_in)
+
+
+def unused_files(studio: Studio, user_presets: Path | None) -> Iterator[str]:
+    """Which files of effects and presets are not used, where and why, what would be right; one line each.
+
+    Args:
+        studio: what was loaded.
+        user_presets: the user's folder of presets.
+    """
+    for problem in studio.catalogue.problems:
+        yield f"effect file {problem.file} is not used: {problem.message}"
+    for file, problems in groupby(studio.library.problems(), key=lambda problem: problem.file):
+        name = file.removeprefix("user/")
+        path = file if name == file or user_presets is None else user_presets / name
+        listed = list(problems)
+        for problem in listed[:_SHOWN]:
+            known = not problem.field or problem.field in problem.message.replace("'", "")
+            said = problem.message if known else f"{problem.field}: {problem.message}"
+            hint = f" ({problem.hint.rstrip('.')})" if problem.hint else ""
+            yield " ".join(f"preset file {path} is not used: {said}{hint}".split())
+        if more := len(listed[_SHOWN:]):
+            yield f"preset file {path}: and {more} more"

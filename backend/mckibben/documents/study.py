@@ -2,21 +2,25 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import ConfigDict, Field, JsonValue, model_validator
 
 from mckibben.documents.drive import DriveDocument, DriveOrId, OrPreset
+from mckibben.documents.located import located
+from mckibben.documents.problems import validated
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.strict import Strict
 from mckibben.documents.task import SizingTask
 from mckibben.facts.study import STUDY
 from mckibben.physics.errors import InputError
+from mckibben.presets.reading import BadDocumentError, read_file
 
 TaskOrId = Annotated[SizingTask, OrPreset("task", "lift-20kg")]
 MOST_RUNS = 10_000_000  # a table of so many runs still fits into memory
 
-Path = Annotated[str, Field(min_length=1, max_length=200, pattern=r"^[A-Za-z0-9_.]+$")]
+FieldPath = Annotated[str, Field(min_length=1, max_length=200, pattern=r"^[A-Za-z0-9_.]+$")]
 StudyValue = Annotated[
     float | Annotated[str, Field(min_length=1, max_length=100)],
     Field(description="A number in SI units, or a text with a unit.", examples=["8 kg"]),
@@ -76,7 +80,7 @@ Distribution = Annotated[
 class VariedQuantity(Strict):
     """A quantity of the document that is varied: by values, over a range, or with a distribution."""
 
-    path: Path = Field(
+    path: FieldPath = Field(
         description="Path of the quantity in the document of the subject.",
         examples=["load.mass", "muscle.nominal_length", "effects.<id>.<parameter>"],
     )
@@ -118,14 +122,14 @@ class VariedQuantity(Strict):
 class Goal(Strict):
     """A figure that is to be small, or large."""
 
-    figure: Path = Field(description="Path of the figure.", examples=["timing.extend.positioning_time"])
+    figure: FieldPath = Field(description="Path of the figure.", examples=["timing.extend.positioning_time"])
     direction: Literal["minimise", "maximise"] = Field("minimise", description="What is better.")
 
 
 class Limit(Strict):
     """A limit of a figure; a run without this figure does not keep it."""
 
-    figure: Path = Field(description="Path of the figure.", examples=["timing.extend.impact_energy"])
+    figure: FieldPath = Field(description="Path of the figure.", examples=["timing.extend.impact_energy"])
     at_least: StudyValue | None = Field(None, description="Lower limit.")
     at_most: StudyValue | None = Field(None, description="Upper limit.")
 
@@ -285,7 +289,7 @@ class StudyDocument(Strict):
     quantities: Annotated[list[VariedQuantity], Field(min_length=1, max_length=100)] = Field(
         description="What is varied."
     )
-    figures: Annotated[list[Path], Field(max_length=100)] = Field(
+    figures: Annotated[list[FieldPath], Field(max_length=100)] = Field(
         default_factory=list,
         description="Figures to watch, besides those of goals and limits: timing.extend.rise_time and the "
         "other figures of the timing table, tracking.rms, largest.pressure, best.time.",
@@ -349,3 +353,54 @@ def drive_content(subject: Subject, preset: DriveDocument | None) -> dict[str, A
             muscle["nominal_length"] = own["nominal_length"]
         content |= {"muscle": muscle, "effects": saved["effects"]}
     return content
+
+
+def read_study(document: object) -> StudyDocument:
+    """A study from JSON.
+
+    Raises:
+        InputError: what is wrong, with ``field`` the path in the document.
+    """
+    return validated(StudyDocument, document, "the study")
+
+
+def read_study_file(path: Path) -> StudyDocument:
+    """The study of a file; its subject may name other JSON files, relative to it.
+
+    Raises:
+        InputError: names the file, the field, what is wrong and what would be right.
+    """
+    try:
+        content = _content(path, "")
+        if isinstance(content, dict) and isinstance(subject := content.get("subject"), dict):
+            content = {**content, "subject": {name: _named(part, path) for name, part in subject.items()}}
+        return read_study(content)
+    except InputError as error:
+        raise in_file(str(path), error) from error
+
+
+def in_file(file: str, error: InputError) -> InputError:
+    """The error with its file and its whole field in front: several quantities may have the same mistake."""
+    message = error.message.removesuffix(".")
+    if error.field and not message.startswith(error.field):
+        message = f"{error.field}: {message}"
+    return InputError(f"{file}: {message}", hint=error.hint, code=error.code)
+
+
+def _named(part: Any, study: Path) -> object:
+    """The content of the file that a part of the subject names; other parts unchanged."""
+    if not isinstance(part, str) or not part.lower().endswith(".json"):
+        return part
+    content = _content(study.parent / part, f"{part}: ")
+    presets = ("drives", "drive", "tasks", "task")
+    if isinstance(content, dict) and content.get("kind") in presets and "document" in content:
+        return content["document"]
+    return content
+
+
+def _content(path: Path, named: str) -> object:
+    try:
+        return read_file(path, follow_links=True)
+    except BadDocumentError as bad:
+        finding = bad.findings[0]
+        raise InputError(f"{named}{located(finding.field, finding.message)}", hint=finding.hint) from bad

@@ -27,7 +27,7 @@ def value_words(key: str) -> str:
 def value_names(paths: Iterable[str], catalogue: Mapping[str, Effect]) -> tuple[str, ...]:
     """The values at ``paths`` of a preset, one text for each effect and for each other value, in their order.
 
-    "effects.dahl.force" and "effects.dahl.break_strain" become "Dahl friction (force, break strain)",
+    "effects.ID.force" and "effects.ID.break_strain" become "Title of the effect (force, break strain)",
     "limits.max_pressure" becomes "max pressure".
     """
     groups: dict[str, list[str]] = {}

@@ -35,7 +35,7 @@ class Comparison(ResultOf[ComparisonResult], ComparisonResult, Generic[ModelT]):
 
     def plot(self) -> Figure:
         """Measured points and the model, and the residual below them."""
-        from mckibben.door.figures.statics import comparison_figure
+        from mckibben.door.figures import comparison_figure
 
         return comparison_figure(self._result, f"{self._name}: measured and predicted {self.predicted}")
 

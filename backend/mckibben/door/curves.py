@@ -51,7 +51,7 @@ class Curves(ResultOf[CurvesResult], CurvesResult):
 
     def plot(self) -> Figure:
         """Force over contraction, one curve for each pressure."""
-        from mckibben.door.figures.statics import curves_figure
+        from mckibben.door.figures import curves_figure
 
         return curves_figure(self, f"Force of {self._name}")
 

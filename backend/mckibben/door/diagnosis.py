@@ -87,7 +87,7 @@ class Diagnosis(ResultOf[DiagnosisResult], DiagnosisResult, Generic[ModelT]):
 
     def plot(self) -> Figure:
         """The error after each addition, beside the noise."""
-        from mckibben.door.figures.others import diagnosis_figure
+        from mckibben.door.figures import diagnosis_figure
 
         return diagnosis_figure(self._result, f"{self._name}: {self.verdict.title}")
 

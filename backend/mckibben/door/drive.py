@@ -4,38 +4,52 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Callable, Mapping, Sequence
 from os import PathLike, fspath
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeAlias, cast
 
-from mckibben.application.linear.linearise import LinearQuestion, linear_view
-from mckibben.application.linear.text import condition_of, goals_of
-from mckibben.application.run.simulate import POINTS, SimulationQuestion, prepare
+from mckibben.application.linear.linearise import LinearQuestion, condition_of, goals_of, linear_view
+from mckibben.application.run.simulate import (
+    POINTS,
+    SimulationQuestion,
+    SimulationResult,
+    prepare,
+    trace_columns,
+    trace_text,
+)
 from mckibben.application.text_file import write_text
 from mckibben.documents.drive import DriveDocument
-from mckibben.documents.drive_files import named_document, preset_document, read_document
-from mckibben.documents.drive_reading import AnnotatedDrive, drive_of
+from mckibben.documents.drive_reading import (
+    AnnotatedDrive,
+    drive_of,
+    named_document,
+    preset_document,
+    read_document,
+)
 from mckibben.documents.studio import Studio
 from mckibben.door.exported import Exportable
+from mckibben.door.frames import frame_of
 from mckibben.door.linear import LinearView
-from mckibben.door.model import Model
-from mckibben.door.model_files import model_of_document
+from mckibben.door.model import Model, model_of_document
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
-from mckibben.door.run import Run
+from mckibben.door.result import ResultOf
 from mckibben.door.values import Quantity, number_of
 from mckibben.door.workspace import studio
 from mckibben.export.source import of_drive
 from mckibben.export.subject import Stated
 from mckibben.physics.errors import InputError
 from mckibben.presets import FittingPreset, TubePreset, ValvePreset
-from mckibben.report.summary import Summary
-from mckibben.report.summary.drive import document_text, summary_of
+from mckibben.report.summary import Summary, Table
+from mckibben.report.summary.simulation import notices, summary_of
 from mckibben.simulation.outcome import Watch
 
 if TYPE_CHECKING:
+    import pandas as pd
     from plotly.graph_objects import Figure
+
 
 #: A part of a drive document, ``{"mass": "10 kg"}``.
 Part: TypeAlias = Mapping[str, Any]
@@ -238,14 +252,14 @@ class Drive(Exportable):
         Raises:
             Problem: the file cannot be written.
         """
-        write_text(Path(path), document_text(self._document))
+        write_text(Path(path), _document_text(self._document))
 
     def _to_export(self) -> tuple[Stated, Studio]:
         title = self._document.title or self._name
         return of_drive(self._document, self._studio, "", title=title), self._studio
 
     def _summary(self) -> Summary:
-        return summary_of(self._document, self._name)
+        return _summary_of(self._document, self._name)
 
     def __str__(self) -> str:
         return plain_text(self._summary())
@@ -297,3 +311,70 @@ def _teller(progress: Callable[[float], object]) -> Callable[[float], None]:
         progress(share)
 
     return tell
+
+
+class Run(ResultOf[SimulationResult], SimulationResult):
+    """A run, from `Drive.run`; N rows, SI. Positions, speeds and accelerations are positive towards shorter.
+
+    Arrays are read-only, shape (N,). A figure of `timing` that does not exist is None; its ``notes`` say why.
+    """
+
+    _document: DriveDocument
+
+    @property
+    def messages(self) -> Sequence[str]:
+        """Limits that are crossed, values that are assumed or not verified, why a run ended early."""
+        return tuple(notices(self))
+
+    def to_frame(self) -> pd.DataFrame:
+        """One row for each time, SI, with the names of a measurement file: time_s, command, pressure_Pa,
+        displacement_m, velocity_m/s, acceleration_m/s2, force_N, length_m, diameter_m, mass_flow_kg/s and,
+        with a controller, reference_m.
+        """
+        return frame_of(trace_columns(self))
+
+    def plot(self) -> Figure:
+        """Position, pressure and force over time."""
+        from mckibben.door.figures import run_figure
+
+        return run_figure(self, self._name)
+
+    def _files(self, path: Path) -> str:
+        """``.csv``: the trace with the conditions that a measurement file has."""
+        if path.suffix.lower() == ".csv":
+            return trace_text(self._document, self)
+        return super()._files(path)
+
+    def _summary(self) -> Summary:
+        return summary_of(self, self._name)
+
+    def _title(self) -> str:
+        return f"Run of {self._name}: {self.outcome}"
+
+
+def _document_text(document: DriveDocument) -> str:
+    """The content of the file of a drive."""
+    return json.dumps(document.to_document(), indent=1, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def _summary_of(document: DriveDocument, name: str) -> Summary:
+    """The stated parts, numbers in SI.
+
+    Args:
+        document: the drive.
+        name: for the title.
+    """
+    parts = {key: part for key, part in document.to_document().items() if key not in ("schema", "title")}
+    rows = [[key.replace("_", " "), _shown(part)] for key, part in parts.items()]
+    title = f"{name}: {document.title}" if document.title and document.title != name else name
+    return [Table(title, ["part", "stated (SI)"], rows)]
+
+
+def _shown(part: object) -> str:
+    if isinstance(part, Mapping):
+        inside = (f"{key} ({_shown(value)})" if isinstance(value, Mapping) else f"{key} {_shown(value)}"
+                  for key, value in part.items())  # fmt: skip
+        return ", ".join(inside) or "as usual"
+    if isinstance(part, list):
+        return ", ".join(_shown(value) for value in part[:8]) + (", …" if len(part) > 8 else "")
+    return f"{part:.6g}" if isinstance(part, float) else str(part)

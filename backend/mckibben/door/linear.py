@@ -161,7 +161,7 @@ class LinearView(ResultOf[LinearResult], LinearResult):
 
     def plot(self) -> Figure:
         """Bode diagram of all models, with the points of the nonlinear drive."""
-        from mckibben.door.figures.linear import bode_figure
+        from mckibben.door.figures import bode_figure
 
         return bode_figure(self, self._title())
 
@@ -172,7 +172,7 @@ class LinearView(ResultOf[LinearResult], LinearResult):
             Problem: no design was asked for.
         """
         self._controller()
-        from mckibben.door.figures.linear import design_figure
+        from mckibben.door.figures import design_figure
 
         return design_figure(self, f"Controllers of {self._name}")
 

@@ -16,8 +16,7 @@ from numpy.typing import ArrayLike, NDArray
 from mckibben.application.json_text import to_json
 from mckibben.application.measurement.convert import CHANNEL_HEADERS, converted
 from mckibben.application.measurement.experiment import QuestionMeasurement, stated_in
-from mckibben.application.measurement.files import ARGUMENT, measurements_of
-from mckibben.application.measurement.options import FileOptions, file_options
+from mckibben.application.measurement.files import ARGUMENT, FileOptions, file_options, measurements_of
 from mckibben.application.measurement.summary import MeasurementSummary, details_of
 from mckibben.application.measurement.summary import summary_of as facts_of
 from mckibben.door.frames import csv_of, frame_of
@@ -32,12 +31,13 @@ from mckibben.measurement.measurement import Measurement as Data
 from mckibben.measurement.points import Points
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.report.summary import Summary
-from mckibben.report.summary.measurement import summary_of
+from mckibben.report.figures import variable
+from mckibben.report.summary import Summary, Table, experiment_table, figure
 
 if TYPE_CHECKING:
     import pandas as pd
     from plotly.graph_objects import Figure
+
 
 #: What columns are: channel -> "name", "name [unit]" or "-name [unit]"; or texts "channel=name [unit]".
 Columns = Mapping[str, str] | Sequence[str]
@@ -132,8 +132,8 @@ class Measurement(Result):
                 raise InputError(f"there is no channel '{channel}'", hint=did_you_mean(channel, _ARRAY_UNITS))
         rows = {channel: _length_of(channel, values) for channel, values in channels.items()}
         if len(set(rows.values())) > 1:
-            told = ", ".join(f"{channel} {count}" for channel, count in rows.items())
-            raise InputError(f"the channels have different numbers of values: {told}")
+            counts = ", ".join(f"{channel} {count}" for channel, count in rows.items())
+            raise InputError(f"the channels have different numbers of values: {counts}")
         for channel, values in channels.items():
             plain = channel in ("direction", "group")
             headers[channel if plain else f"{channel} [{stated.get(channel, _ARRAY_UNITS[channel])}]"] = (
@@ -216,7 +216,7 @@ class Measurement(Result):
 
     def plot(self) -> Figure:
         """The channels over time, or the measured points."""
-        from mckibben.door.figures.statics import measurement_figure
+        from mckibben.door.figures import measurement_figure
 
         return measurement_figure(self._data, self.name)
 
@@ -232,7 +232,7 @@ class Measurement(Result):
         return details_of(self._data)
 
     def _summary(self) -> Summary:
-        return summary_of(self._data, self.experiment)
+        return _summary_of(self._data, self.experiment)
 
     def _title(self) -> str:
         return f"Measurement {self.name}: {self.kind}, {self.rows} rows"
@@ -326,3 +326,26 @@ def _length_of(channel: str, values: ArrayLike) -> int:
 def _read_text(text: str, name: str, options: FileOptions, kind: str | None) -> QuestionMeasurement:
     correction = options.correction if kind is None else replace(options.correction, kind=kind)
     return QuestionMeasurement(Points(read_measurement(text.encode(), name, correction)), dict(options.said))
+
+
+def _summary_of(measurement: Data, experiment: Experiment) -> Summary:
+    """The channels, the experiment, what was assumed, columns that are not read.
+
+    Args:
+        measurement: the data.
+        experiment: what is said about the test.
+    """
+    rows = []
+    for channel in measurement.channels:
+        scale = variable(channel.name)[1]
+        low, high = (figure(scale.of(value)) for value in (channel.minimum, channel.maximum))
+        rows.append(
+            [channel.name, channel.column, channel.source_unit, f"{low} to {high} {scale.unit}".strip()]
+        )
+    title = f"{measurement.name}: {measurement.kind}, {measurement.rows} rows in {measurement.groups} groups"
+    summary: Summary = [Table(title, ["channel", "column", "in", "range"], rows)]
+    if experiment:
+        summary.append(experiment_table(measurement.name, experiment))
+    summary += measurement.messages
+    summary += [f"column '{column}' is not read: {why}" for column, why in measurement.unread]
+    return summary

@@ -5,13 +5,18 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from os import PathLike, fspath
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Self
 
+import numpy as np
+
 from mckibben.application.compare.compare import compared_whole
-from mckibben.application.curves.curves import DEFAULT_PRESSURES, CurvesQuestion, curves
+from mckibben.application.curves.curves import DEFAULT_PRESSURES, CurvesQuestion, curves, pressures_of
 from mckibben.application.diagnose.diagnose import prepare
-from mckibben.application.model.saved import fitted_model, model_text, saved_model
-from mckibben.application.muscle_summary import GeometrySummary, geometry_of
+from mckibben.application.model.saved import fitted_model, keep, model_text, saved_model
+from mckibben.application.muscle_summary import GeometrySummary, geometry_of, start_notices
+from mckibben.application.text_file import write_text
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
@@ -22,23 +27,21 @@ from mckibben.door.exported import Exportable, model_to_export
 from mckibben.door.problem import reported
 from mckibben.door.questions import Data, DocumentedDrive, StatedModel, question_of, watch_of
 from mckibben.door.rendering import notebook_cell, plain_text
-from mckibben.door.savable import Savable
-from mckibben.door.statics import at_least_two, force_of, optional_number, pressures_in
-from mckibben.door.values import FloatArray, Quantities, Quantity
+from mckibben.door.values import FloatArray, Quantities, Quantity, array_of, number_of
 from mckibben.door.workspace import studio
 from mckibben.export.subject import Stated
 from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.report.summary import Summary
-from mckibben.report.summary.model import summary_of
+from mckibben.report.summary import Summary, Table, figure
 
 if TYPE_CHECKING:
     from plotly.graph_objects import Figure
 
 
 _SHORTEST = 0.05  # shortest length accepted, share of the nominal length; no muscle contracts so far
+_HIGHEST = 1e8  # Pa
 
 
-class Model(Savable, Exportable):
+class Model(Exportable):
     """A muscle with its effects; SI inside, arguments are SI numbers or texts with a unit.
 
     Tension of the ideal muscle: F = (π D0² p / 4) (a (1 - κ)² - b), a = 3 / tan² α, b = 1 / sin² α, with the
@@ -240,7 +243,7 @@ class Model(Savable, Exportable):
         >>> muscle.force(pressure="6 bar", contraction=["0 %", "10 %"]).round(1).tolist()
         [1545.3, 1051.1]
         """
-        return force_of(
+        return _force_of(
             self._stated.start(self._studio), self._studio, pressure=pressure, contraction=contraction,
             length=length, direction=direction, unclipped=unclipped,
         )  # fmt: skip
@@ -274,13 +277,13 @@ class Model(Savable, Exportable):
         """
         question = CurvesQuestion(
             self._stated.start(self._studio),
-            DEFAULT_PRESSURES if pressure is None else pressures_in(pressure),
-            at_least_two(points),
+            DEFAULT_PRESSURES if pressure is None else _pressures_in(pressure),
+            _at_least_two(points),
             unclipped,
-            optional_number(contraction_from, "1", "contraction_from"),
-            optional_number(contraction_to, "1", "contraction_to"),
-            optional_number(load, "N", "load"),
-            optional_number(fixed_length, "m", "fixed_length"),
+            _optional_number(contraction_from, "1", "contraction_from"),
+            _optional_number(contraction_to, "1", "contraction_to"),
+            _optional_number(load, "N", "load"),
+            _optional_number(fixed_length, "m", "fixed_length"),
             further_stiffness=further_stiffness,
         )
         return Curves.of(curves(question, self._studio), _name=self.name)
@@ -357,6 +360,35 @@ class Model(Savable, Exportable):
         model = Model.of(StatedModel.of_saved(saved, "the diagnosed model"), self._studio)
         return Diagnosis[Model].of(result, model=model, _question=question, _studio=self._studio, _name=names)
 
+    @reported
+    def save(self, path: str | PathLike[str]) -> None:
+        """Write the model as JSON, for `mckibben.load` and the option ``--model`` of the command line.
+
+        Raises:
+            Problem: the file cannot be written.
+        """
+        write_text(Path(path), model_text(self._saved()))
+
+    @reported
+    def keep(self, id: str, *, title: str = "") -> Self:
+        """Save the model as a muscle of your own, for `Model.preset`, sizing tasks, command line and page.
+
+        A model of `diagnose`, or of `compare` with a fit, keeps how sure its values are and where it was
+        measured: its curves and runs have intervals, and say where they leave that range.
+
+        Args:
+            id: of the preset, letters, digits and hyphens; one of your own with this id is replaced.
+            title: its name for display; "" = the id.
+
+        Returns:
+            The model of the new preset.
+
+        Raises:
+            Problem: an id that cannot be used or belongs to the program, a model with a typed term.
+        """
+        of = studio()
+        return self.of(StatedModel({"preset": keep(self._saved(), of, id=id, title=title).id}), of)
+
     def _to_export(self) -> tuple[Stated, Studio]:
         return model_to_export(self._stated, self._studio, self.name)
 
@@ -369,7 +401,7 @@ class Model(Savable, Exportable):
         return self._stated.named(self._studio)
 
     def _summary(self) -> Summary:
-        return summary_of(self._sample, self.name, with_length=self._stated.has_length(self._studio))
+        return _summary_of(self._sample, self.name, with_length=self._stated.has_length(self._studio))
 
     def __str__(self) -> str:
         return plain_text(self._summary())
@@ -390,3 +422,134 @@ class Model(Savable, Exportable):
 
 def _copied(effects: Mapping[str, Mapping[str, float | str]]) -> dict[str, dict[str, float | str]]:
     return {str(name): dict(values) for name, values in effects.items()}
+
+
+def _summary_of(start: StartModel, name: str, *, with_length: bool) -> Summary:
+    """Dimensions and effects.
+
+    Args:
+        start: the model.
+        name: for the title.
+        with_length: whether it has a length of its own.
+    """
+    muscle = start.muscle
+    rows = [
+        [
+            "rest length",
+            figure(muscle.nominal_length * 1e3, unit=" mm") if with_length else "that of the data",
+        ],
+        ["braid diameter", figure(muscle.braid_diameter * 1e3, unit=" mm")],
+        ["braid angle", figure(muscle.braid_angle * 57.29577951308232, unit=" deg")],
+        ["inside diameter", figure(muscle.inside_diameter * 1e3, unit=" mm")],
+        ["wall thickness", figure(muscle.wall_thickness * 1e3, unit=" mm") if muscle.wall_thickness else "–"],
+    ]
+    parameters = [
+        [f"{effect}.{p.name}", f"{values[p.name]:.5g}", p.unit]
+        for effect, values in start.effects.items()
+        for p in start.catalogue[effect].parameters
+    ]
+    summary: Summary = [Table(name, ["", ""], rows)]
+    if start.term is not None:
+        summary.append(f"term: {start.term}")
+    if parameters:
+        summary.append(Table("Effects", ["parameter", "value", "unit"], parameters))
+    elif start.effects:
+        summary.append(f"effects: {', '.join(start.effects)}")
+    else:
+        summary.append("ideal: no effects")
+    return [*summary, *(notice.message for notice in start_notices(start))]
+
+
+@reported
+def load(path: str | PathLike[str]) -> Model:
+    """The model in a JSON file.
+
+    It may be what `Model.save` or ``mckibben diagnose --save`` wrote, a muscle by its geometry, a muscle
+    preset, or a drive document, of which muscle and effects are taken.
+
+    Raises:
+        Problem: names the file, the field, what is wrong and what would be right.
+    """
+    of = studio()
+    return Model.of(StatedModel.of_file(Path(fspath(path)), of), of)
+
+
+def model_of_document(document: Mapping[str, object], of: Studio) -> Model:
+    """The model of muscle and effects of a drive document."""
+    return Model.of(StatedModel.of_parts(document, ""), of)
+
+
+def _force_of(
+    start: StartModel,
+    studio: Studio,
+    *,
+    pressure: Quantities,
+    contraction: Quantities | None,
+    length: Quantities | None,
+    direction: Quantities,
+    unclipped: bool,
+) -> FloatArray:
+    """Tension [N]; arguments as in `Model.force`.
+
+    Raises:
+        InputError: as there.
+    """
+    senses = np.sign(array_of(direction, "1", "direction"))
+    model = studio.slow_model(start, directed=bool(np.any(senses)))
+    rest = float(model.muscle.nominal_length)
+    if contraction is not None and length is None:
+        lengths = np.asarray(rest * (1.0 - array_of(contraction, "1", "contraction")))
+    elif length is not None and contraction is None:
+        lengths = array_of(length, "m", "length")
+    else:
+        raise InputError("give either the contraction or the length", hint='e.g. contraction="10 %"')
+    shortest, longest = _SHORTEST * rest, model.longest
+    outside = lengths[(lengths < shortest) | (lengths > longest)]
+    if outside.size:
+        raise InputError(
+            f"a length of {outside[0] * 1e3:.4g} mm is out of reach",
+            hint=f"between {shortest * 1e3:.4g} mm and the braid lock at {longest * 1e3:.4g} mm",
+        )
+    pressures = array_of(pressure, "Pa", "pressure", "gauge")
+    if np.any((pressures < 0.0) | (pressures > _HIGHEST)):
+        raise InputError("pressure: a value is not between 0 and 1000 bar", hint="gauge pressures")
+    try:
+        columns = np.broadcast_arrays(pressures, lengths, senses)
+    except ValueError as error:
+        shapes = ", ".join(str(values.shape) for values in (pressures, lengths, senses))
+        raise InputError(f"arrays of the shapes {shapes} do not fit together") from error
+    tension = model.force(
+        pressure=columns[0].ravel(),
+        length=columns[1].ravel(),
+        direction=columns[2].ravel(),
+        clipped=not unclipped,
+    )
+    return np.asarray(tension, dtype=np.float64).reshape(columns[0].shape)
+
+
+def _pressures_in(pressure: str | Sequence[Quantity] | FloatArray) -> tuple[float, ...]:
+    """Pressures from a text or a list [Pa].
+
+    Raises:
+        InputError: a value that is no pressure.
+    """
+    if isinstance(pressure, str):
+        return pressures_of(pressure.split(","), "pressure")
+    values = np.atleast_1d(np.asarray(pressure, dtype=object)).ravel().tolist()
+    return pressures_of(values, "pressure")
+
+
+def _optional_number(value: Quantity | None, unit: str, name: str) -> float | None:
+    """A value in SI, None for None."""
+    return None if value is None else number_of(value, unit, name)
+
+
+def _at_least_two(points: int) -> int:
+    """A number of points.
+
+    Raises:
+        InputError: it is not between 2 and 100 000.
+    """
+    if not 2 <= points <= 100_000:
+        raise InputError(f"points: {points} is not between 2 and 100 000", hint="e.g. 200")
+    return points

@@ -20,8 +20,7 @@ from mckibben.application.size.task import heading_of
 from mckibben.application.text_file import write_text
 from mckibben.documents.located import at_file
 from mckibben.documents.studio import Studio
-from mckibben.documents.task import SizingTask
-from mckibben.documents.task_files import named_task, read_task
+from mckibben.documents.task import SizingTask, named_task, read_task
 from mckibben.door.drive import Drive
 from mckibben.door.frames import frame_of_rows
 from mckibben.door.problem import reported
@@ -77,7 +76,7 @@ class Sizing(ResultOf[SizingResult], SizingResult):
 
     def plot(self) -> Figure:
         """Air per cycle over the time of the stroke, for all drives that fulfil the task."""
-        from mckibben.door.figures.others import sizing_figure
+        from mckibben.door.figures import sizing_figure
 
         return sizing_figure(self._result, self._heading)
 

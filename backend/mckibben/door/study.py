@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any, cast
 
 from mckibben.application.study.file import prepare_file, table_text
 from mckibben.application.study.study import StudyQuestion, StudyResult, prepare, study_question
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.study_files import in_file, read_study, read_study_file
+from mckibben.documents.drive_reading import read_document
+from mckibben.documents.study import in_file, read_study, read_study_file
 from mckibben.door.drive import Drive
 from mckibben.door.frames import frame_of
 from mckibben.door.problem import reported
@@ -67,7 +67,7 @@ class Study(ResultOf[StudyResult], StudyResult):
 
     def plot(self) -> Figure:
         """What the method asks for: the Pareto front, influences, or the distribution of the first figure."""
-        from mckibben.door.figures.study import study_figure
+        from mckibben.door.figures import study_figure
 
         return study_figure(self, self.title or self._name)
 

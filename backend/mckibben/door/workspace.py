@@ -12,8 +12,7 @@ from contextlib import redirect_stdout
 from os import PathLike
 from pathlib import Path
 
-from mckibben.documents.studio import Studio
-from mckibben.documents.unused_files import unused_files
+from mckibben.documents.studio import Studio, unused_files
 from mckibben.door.problem import reported
 from mckibben.physics.errors import InputError
 from mckibben.resources import presets_folder, user_folder

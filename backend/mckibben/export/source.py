@@ -7,13 +7,13 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import Any, cast
 
-from mckibben.documents.convert import stated_muscle
 from mckibben.documents.drive import DriveDocument
-from mckibben.documents.drive_files import named_document, read_document
+from mckibben.documents.drive_reading import named_document, read_document
 from mckibben.documents.located import at_file
 from mckibben.documents.model_files import drive_document, saved_model
 from mckibben.documents.muscle_files import Effects, is_file, start_of_file, start_of_input
 from mckibben.documents.saved_model import SavedModel
+from mckibben.documents.start_model import stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.export.subject import Stated
 from mckibben.physics.errors import InputError, did_you_mean

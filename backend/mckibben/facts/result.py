@@ -101,7 +101,6 @@ class _Gap:
 
 
 _NUMBER: Mapping[str, Any] = {"type": "float", "allow_inf_nan": False}
-_NUMBER_OR_TRUTH: Mapping[str, Any] = {"type": "union", "choices": [_NUMBER, {"type": "bool"}]}
 _GAP: Mapping[str, Any] = {"type": "nullable", "schema": _NUMBER}
 
 #: Numbers, shape (N,), all finite.

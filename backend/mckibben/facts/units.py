@@ -14,7 +14,6 @@ from types import MappingProxyType
 from typing import Literal, NamedTuple
 
 System = Literal["si", "bar", "us"]
-SYSTEMS: tuple[System, ...] = ("si", "bar", "us")
 
 _INCH, _POUND, _LBF = 0.0254, 0.45359237, 4.4482216152605
 _FOOT, _PSI, _DEGREE = 12 * _INCH, _LBF / _INCH**2, math.pi / 180.0

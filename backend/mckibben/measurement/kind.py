@@ -47,15 +47,6 @@ def common_kind(one: str, other: str) -> str | None:
     return "static" if {one, other} <= set(FORCE_KINDS) else None
 
 
-def detect_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> str:
-    """The kind of a measurement that does not state it; see :func:`explain_kind`.
-
-    Raises:
-        InputError: no kind fits the columns.
-    """
-    return explain_kind(columns, conditions)[0]
-
-
 def explain_kind(columns: Mapping[str, NDArray], conditions: Mapping[str, float | str]) -> tuple[str, str]:
     """(kind, reason) of a measurement that does not state it.
 

@@ -19,7 +19,6 @@ from mckibben.measurement.kind import (
     KINDS,
     STROKES,
     Array,
-    detect_kind,
     explain_kind,
     group_rows,
 )
@@ -31,7 +30,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 
 __all__ = [
     "CHANNEL_UNITS", "FORCE_KINDS", "KINDS", "STROKES", "MeasuredChannel", "Measurement", "StatedValue",
-    "build", "detect_kind", "group_rows", "lengths",
+    "build", "group_rows", "lengths",
 ]  # fmt: skip
 
 #: Canonical channel name -> SI unit. Pressure is gauge; displacement is a contraction stroke (positive =

@@ -61,25 +61,25 @@ def order_of_rows(columns: Mapping[str, NDArray]) -> RowOrder | None:
         tried.append((-pressure, longer, np.zeros(len(pressure))))  # one load throughout
     else:
         tried += [(-pressure, -pressure, longer), (-pressure, longer, force)]  # isometric, isotonic
-    for swept, moved, held in tried:
-        if (found := _there_and_back(swept, moved, held)) is not None:
+    for swept, moved, constant in tried:
+        if (found := _there_and_back(swept, moved, constant)) is not None:
             stated = columns.get("direction")
             if stated is None or _agree(stated, found.direction):
                 return found
     return None
 
 
-def _there_and_back(swept: Array, moved: Array, held: Array) -> RowOrder | None:
-    """Order and directions of blocks in which one quantity is swept and another is held."""
+def _there_and_back(swept: Array, moved: Array, constant: Array) -> RowOrder | None:
+    """Order and directions of blocks in which one quantity is swept and another is constant."""
     rows = len(swept)
     span = float(np.ptp(swept))
     if rows < _FEWEST or not span > 0.0:
         return None
-    new = np.abs(np.diff(held)) > _NEW_LEVEL * max(float(np.ptp(held)), 1e-12)
-    if np.ptp(held) <= _MOVED * float(np.max(np.abs(held))):
+    new = np.abs(np.diff(constant)) > _NEW_LEVEL * max(float(np.ptp(constant)), 1e-12)
+    if np.ptp(constant) <= _MOVED * float(np.max(np.abs(constant))):
         new[:] = False
     if np.count_nonzero(new) * _STEPS > rows:
-        return None  # it is not held
+        return None  # it is not constant
     new |= np.abs(np.diff(swept)) > _AT_ONCE * span
     starts = [0, *(np.flatnonzero(new) + 1).tolist()]
     direction, moves = np.zeros(rows), float(np.ptp(moved))

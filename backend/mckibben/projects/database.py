@@ -106,8 +106,8 @@ class Database:
         )
 
 
-def migrate(connection: Connection, to: str = "head") -> None:
-    """Bring the database of a connection, within its transaction, to a state of the tables.
+def migrate(connection: Connection) -> None:
+    """Bring the database of a connection, within its transaction, to the tables of this program.
 
     Raises:
         InputError: a later version of this program has changed it.
@@ -122,7 +122,7 @@ def migrate(connection: Connection, to: str = "head") -> None:
         configuration.set_main_option("path_separator", "os")
         configuration.attributes["connection"] = connection
         try:
-            command.upgrade(configuration, to)
+            command.upgrade(configuration, "head")
         except CommandError as error:
             raise InputError(
                 "the database of the projects was made by a later version of this program",

@@ -227,8 +227,8 @@ def _grid(x: Axis, y: Axis, across: _Scale, up: _Scale) -> Html:
     if not x.bare:
         parts.append(text(x.text, middle, up.begin + 36.0, anchor="middle", colour=INK))
     for words, at in _lines(y, up.begin - up.end):
-        turned = f"rotate(-90 {at:g} {centre:.1f})"
-        parts.append(text(words, at, centre, anchor="middle", colour=INK, transform=turned))
+        rotation = f"rotate(-90 {at:g} {centre:.1f})"
+        parts.append(text(words, at, centre, anchor="middle", colour=INK, transform=rotation))
     return html(parts)
 
 

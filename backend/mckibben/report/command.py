@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from base64 import b64encode
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
-from mckibben.report.attachment import attachment
 from mckibben.report.document import code, paragraph
-from mckibben.report.html import Child, Html, html
+from mckibben.report.html import Child, Html, html, tag
+
+_KILO = 1000
 
 
 @dataclass(frozen=True)
@@ -35,3 +37,16 @@ def command_section(command: Command) -> Html:
             parts.append(paragraph(f"{what} (a click in the HTML file saves them): ", *listed, "."))
     parts += [paragraph(note, note=True) for note in command.notes]
     return html(parts)
+
+
+def attachment(name: str, text: str) -> Html:
+    """A JSON file inside the report: its name, which a browser saves on a click, and its size.
+
+    Args:
+        name: under which it is saved.
+        text: its content; UTF-8 in the file.
+    """
+    content = text.encode()
+    size = f"{len(content)} bytes" if len(content) < _KILO else f"{len(content) / _KILO:.3g} kB"
+    target = f"data:application/json;base64,{b64encode(content).decode()}"
+    return html(tag("a", name, download=name, href=target), f" ({size})")

@@ -96,8 +96,8 @@ def heat(
     parts.append(tag("path", d=frame, stroke=EDGE, fill="none"))
     middle, centre = begin + 0.5 * wide * columns, 0.5 * (_TOP + bottom)
     parts.append(text(x.text, f"{middle:.1f}", bottom + 36.0, anchor="middle", colour=INK))
-    turned = f"rotate(-90 14 {centre:.1f})"
-    parts.append(text(y.text, 14.0, centre, anchor="middle", colour=INK, transform=turned))
+    rotation = f"rotate(-90 14 {centre:.1f})"
+    parts.append(text(y.text, 14.0, centre, anchor="middle", colour=INK, transform=rotation))
     return tag(
         "svg",
         tag("title", title),

@@ -7,43 +7,42 @@ import gc
 import threading
 from collections.abc import AsyncIterator
 from contextlib import asynccontextmanager
+from time import perf_counter
 
 from fastapi import FastAPI
 from fastapi.routing import APIRoute
+from starlette.datastructures import MutableHeaders
 from starlette.middleware.gzip import GZipMiddleware
+from starlette.requests import ClientDisconnect
+from starlette.types import ASGIApp, Message, Receive, Scope, Send
 
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
-from mckibben.report.versions import versions
+from mckibben.report.document import versions
 from mckibben.server import errors, static
+from mckibben.server.errors import unexpected_answer
 from mckibben.server.lanes import Lanes
-from mckibben.server.routes import (
-    comparisons,
-    curves,
-    description,
-    diagnoses,
-    effects,
-    experiments,
-    exports,
-    facts,
-    health,
-    help,
-    inverse,
-    kept,
-    linearisations,
-    measurements,
-    mysteries,
-    order_codes,
-    presets,
-    projects,
-    reports,
-    signatures,
-    simulations,
-    sizings,
-    studies,
+from mckibben.server.routes.curves import curves_router, inverse_router
+from mckibben.server.routes.drives import (
+    linearisations_router,
+    simulations_router,
+    sizings_router,
+    studies_router,
 )
+from mckibben.server.routes.effects import EffectsDocument, effects_router, signatures_router
+from mckibben.server.routes.exports import exports_router
+from mckibben.server.routes.kept import kept_router
+from mckibben.server.routes.measurements import measurements_router, mysteries_router
+from mckibben.server.routes.models import (
+    comparisons_router,
+    diagnoses_router,
+    experiments_router,
+    reports_router,
+)
+from mckibben.server.routes.presets import order_codes_router, presets_router
+from mckibben.server.routes.program import description_router, facts_router, health_router, help_router
+from mckibben.server.routes.projects import projects_router
 from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
-from mckibben.server.server_timing import TimingMiddleware
 from mckibben.server.settings import Settings
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.version import __version__
@@ -120,41 +119,41 @@ def create_app(settings: Settings | None = None) -> FastAPI:
     app.state.projects, app.state.opening_projects = None, threading.Lock()
     app.state.store = MeasurementStore(settings.data, quota=settings.quota)
     app.state.workers = Lanes(settings) if settings.workers else None
-    app.state.effects = effects.EffectsDocument(app.state.studio.catalogue)
+    app.state.effects = EffectsDocument(app.state.studio.catalogue)
     app.state.versions = versions()
     app.state.plotly = static.PlotlyBundle()
     # Routes are matched in this order: first the one requested at every movement of a slider.
-    nouns = (
-        curves,
-        simulations,
-        linearisations,
-        inverse,
-        sizings,
-        studies,
-        comparisons,
-        diagnoses,
-        health,
-        facts,
-        effects,
-        signatures,
-        presets,
-        order_codes,
-        projects,
-        measurements,
-        kept,
-        experiments,
-        reports,
-        exports,
-        mysteries,
-        description,
-        help,
-        static,
+    routers = (
+        curves_router,
+        simulations_router,
+        linearisations_router,
+        inverse_router,
+        sizings_router,
+        studies_router,
+        comparisons_router,
+        diagnoses_router,
+        health_router,
+        facts_router,
+        effects_router,
+        signatures_router,
+        presets_router,
+        order_codes_router,
+        projects_router,
+        measurements_router,
+        kept_router,
+        experiments_router,
+        reports_router,
+        exports_router,
+        mysteries_router,
+        description_router,
+        help_router,
+        static.router,
     )
-    for noun in nouns:
-        app.include_router(noun.router)
+    for router in routers:
+        app.include_router(router)
     app.router.redirect_slashes = False
     app.router.default = static.frontend(settings.frontend)
-    routes = [route for noun in nouns for route in noun.router.routes if isinstance(route, APIRoute)]
+    routes = [route for router in routers for route in router.routes if isinstance(route, APIRoute)]
     errors.install(app, list(dict.fromkeys(route.path_format for route in routes if route.include_in_schema)))
     # The middleware added last is the outermost.
     app.add_middleware(GZipMiddleware, minimum_size=_GZIP_FROM, compresslevel=1)
@@ -176,3 +175,45 @@ def _warm() -> None:
 def _operation_name(route: APIRoute) -> str:
     """Operation id: the name of the function (``list_presets``), unique within the application."""
     return route.name
+
+
+class TimingMiddleware:
+    """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route sets it, 500 as JSON."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Time one request from its arrival to the first byte of its answer, without waiting for its body."""
+        if scope["type"] != "http":
+            await self.app(scope, receive, send)
+            return
+        start, waited, started = perf_counter(), 0.0, False
+        is_api = scope["path"].startswith("/api/")
+
+        async def timed_receive() -> Message:
+            nonlocal waited
+            before = perf_counter()
+            message = await receive()
+            waited += perf_counter() - before
+            return message
+
+        async def timed_send(message: Message) -> None:
+            nonlocal started
+            if message["type"] == "http.response.start":
+                started = True
+                if is_api:
+                    headers = MutableHeaders(raw=message["headers"])
+                    headers.setdefault("cache-control", "no-store")
+                    headers["server-timing"] = f"app;dur={(perf_counter() - start - waited) * 1e3:.3f}"
+            await send(message)
+
+        try:
+            await self.app(scope, timed_receive, timed_send)
+        except ClientDisconnect:
+            return  # the client disconnected within the body: no answer is needed, and nothing is stored
+        except Exception as error:
+            # Inside Starlette's error layer, which would send plain text and log a second time.
+            if started:
+                raise
+            await unexpected_answer(error)(scope, receive, timed_send)

@@ -11,13 +11,11 @@ from collections.abc import Mapping
 from mckibben.application.diagnose import diagnose
 from mckibben.application.json_text import to_json
 from mckibben.application.linear import linearise
-from mckibben.application.linear.linearise import LinearQuestion
-from mckibben.application.linear.text import checked, stated_condition
+from mckibben.application.linear.linearise import LinearQuestion, checked, stated_condition
 from mckibben.application.size import size
 from mckibben.application.study import study
 from mckibben.application.study.store import StudyStore
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document
 from mckibben.documents.studio import Studio
 from mckibben.documents.study import StudyDocument
 from mckibben.documents.task import SizingTask
@@ -26,11 +24,9 @@ from mckibben.physics.errors import InputError, fields_inside
 from mckibben.report.diagnosis import gather as diagnosis_report
 from mckibben.report.sizing.gather import prepare_report
 from mckibben.server.job import LONGEST, Job, Prepared
-from mckibben.server.questions.models import model_question
-from mckibben.server.schemas.diagnoses import DiagnosisRequest
-from mckibben.server.schemas.linearisations import LinearisationRequest, LinearPointInput
-from mckibben.server.schemas.reports import ReportRequest
-from mckibben.server.schemas.sizing_reports import SizingReportRequest
+from mckibben.server.questions import model_question
+from mckibben.server.schemas.drives import LinearisationRequest, LinearPointInput, SizingReportRequest
+from mckibben.server.schemas.models import DiagnosisRequest, ReportRequest
 from mckibben.server.short_jobs import SHORT_JOBS
 from mckibben.simulation.linear.point import Condition
 from mckibben.simulation.linear.trials import Goals

@@ -26,16 +26,18 @@ from mckibben.measurement.read.limits import MOST_SECONDS
 from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.server.job import LONGEST, Job, Prepared
-from mckibben.server.questions.curves import curves_question
-from mckibben.server.questions.inverse import Body as InverseBody
-from mckibben.server.questions.inverse import inverse_question
-from mckibben.server.questions.models import measurements_of_question, model_question
-from mckibben.server.schemas.comparisons import ComparisonRequest
+from mckibben.server.questions import Body as InverseBody
+from mckibben.server.questions import (
+    curves_question,
+    inverse_question,
+    measurements_of_question,
+    model_question,
+)
 from mckibben.server.schemas.curves import CurvesRequest
-from mckibben.server.schemas.diagnoses import DiagnosisRequest
+from mckibben.server.schemas.drives import SimulationRequest
 from mckibben.server.schemas.exports import ExportRequest
+from mckibben.server.schemas.models import ComparisonRequest, DiagnosisRequest
 from mckibben.server.schemas.presets import FittedMuscleRequest
-from mckibben.server.schemas.simulations import SimulationRequest
 from mckibben.simulation.outcome import Watch
 
 if TYPE_CHECKING:
@@ -43,9 +45,8 @@ if TYPE_CHECKING:
 from dataclasses import replace
 
 from mckibben.application.run.simulate import SimulationQuestion
-from mckibben.documents.convert import stated_muscle
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document
+from mckibben.documents.start_model import stated_muscle
 from mckibben.export.source import of_drive, of_saved, stated_source
 from mckibben.export.subject import Stated
 from mckibben.export.use_case import ExportQuestion
@@ -69,12 +70,14 @@ def export_question(body: ExportRequest, studio: Studio) -> ExportQuestion:
     Raises:
         InputError: not exactly one of muscle, model and drive, or one that cannot be used.
     """
-    given = [name for name in ("muscle", "model", "drive") if getattr(body, name) is not None]
-    if len(given) != 1:
-        what = "nothing to take along" if not given else f"{' and '.join(given)} at once"
-        raise InputError(what, field=given[1] if given else "muscle", hint="give muscle, model or drive")
+    subjects = [name for name in ("muscle", "model", "drive") if getattr(body, name) is not None]
+    if len(subjects) != 1:
+        what = "nothing to take along" if not subjects else f"{' and '.join(subjects)} at once"
+        raise InputError(
+            what, field=subjects[1] if subjects else "muscle", hint="give muscle, model or drive"
+        )
     if body.effects is not None and body.muscle is None:
-        raise InputError(f"the {given[0]} has its own effects", field="effects", hint="leave it out")
+        raise InputError(f"the {subjects[0]} has its own effects", field="effects", hint="leave it out")
     stated = _stated(body, studio)
     if body.title:
         stated = replace(stated, title=body.title)

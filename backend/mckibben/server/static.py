@@ -107,11 +107,11 @@ class _Content:
 
     def answer(self, headers: Headers) -> Response:
         """To a request with these headers."""
-        given = {"cache-control": _FOREVER, "vary": "accept-encoding"}
+        sent = {"cache-control": _FOREVER, "vary": "accept-encoding"}
         if self.compressed is not None and "gzip" in headers.get("accept-encoding", ""):
-            given["content-encoding"] = "gzip"
-            return Response(self.compressed, media_type=self.kind, headers=given)
-        return Response(self.plain, media_type=self.kind, headers=given)
+            sent["content-encoding"] = "gzip"
+            return Response(self.compressed, media_type=self.kind, headers=sent)
+        return Response(self.plain, media_type=self.kind, headers=sent)
 
 
 class _Linked:

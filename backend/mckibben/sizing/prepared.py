@@ -9,7 +9,6 @@ from functools import cached_property
 import numpy as np
 
 from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, INPUTS, LOW_STOP
-from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.simulation.drive.events import Event, each_event
 from mckibben.simulation.drive.initial_state import Start, start_of
@@ -109,13 +108,6 @@ class Prepared:
         filling = inputs[:, INPUTS.index("opening")] > 0.0
         inputs[:, INPUTS.index("external_force")] += np.where(filling, forward, -back)
         return parameters, inputs
-
-    def run_specimen(self, shift: float, friction: float, pressure: float, returns: bool) -> Figures:
-        """Run one `specimen`; ``returns``: whether the return stroke counts."""
-        try:
-            return self.figures(*self.specimen(shift, friction, pressure), returns)
-        except InputError:  # nothing holds this specimen's load before the run
-            return NOTHING
 
     def figures(self, parameters: np.ndarray, inputs: np.ndarray, returns: bool) -> Figures:
         """Run with the given parameters and inputs.

@@ -11,11 +11,9 @@ import numpy as np
 from mckibben.simulation.outcome import Outcome, Watch
 from mckibben.sizing.batch import Bench, EndedError
 from mckibben.sizing.catalogue import Design, Group, PartsCatalogue
-from mckibben.sizing.chance import chance
 from mckibben.sizing.design_table import Sheet, sheet_of
-from mckibben.sizing.proposal import Proposal, propose
+from mckibben.sizing.proposal import Proposal, chance, propose
 from mckibben.sizing.ranking import ranked
-from mckibben.sizing.reasons import temperature_text
 from mckibben.sizing.refine import refined
 from mckibben.sizing.rejection import (
     Failed,
@@ -23,6 +21,7 @@ from mckibben.sizing.rejection import (
     WrongPressure,
     at_rest_rejections,
     slow_rejections,
+    temperature_text,
 )
 from mckibben.sizing.statics import least_time
 from mckibben.sizing.task import Task

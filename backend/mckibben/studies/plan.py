@@ -100,12 +100,10 @@ class RobustPlan(FixedPlan):
 
     Attributes:
         designs: points of the designs, shape (designs, design variables).
-        design_variables: number of variables of the design; they come first.
         specimens: number of specimens.
     """
 
     designs: Array
-    design_variables: int
     specimens: int
 
 
@@ -122,4 +120,4 @@ def robust(variables: Sequence[Variable], specimens: int, seed: int) -> RobustPl
     shares = np.random.default_rng(seed).random((specimens, len(spread)))
     each = points_of(spread, shares)
     points = np.hstack([np.repeat(designs, specimens, axis=0), np.tile(each, (len(designs), 1))])
-    return RobustPlan((*designed, *spread), points, designs, len(designed), specimens)
+    return RobustPlan((*designed, *spread), points, designs, specimens)

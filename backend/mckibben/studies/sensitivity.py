@@ -48,7 +48,7 @@ class Influence:
 
 @result_class
 class Sensitivity:
-    """Influences on a figure, and from how many of the planned blocks they follow; empty with too few."""
+    """Influences on a figure, and from how many blocks of runs they follow; empty with too few."""
 
     figure: str
     """Path of the figure."""
@@ -56,8 +56,6 @@ class Sensitivity:
     """Of each quantity; empty with too few runs."""
     blocks: int
     """Blocks of runs used; one with a failed run is left out."""
-    planned_blocks: int
-    """Blocks of runs in the plan."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -65,6 +63,11 @@ class SobolPlan(FixedPlan):
     """Runs for Sobol's indices; blocks of variables + 2 runs belong together."""
 
     seed: int
+
+    @property
+    def blocks(self) -> int:
+        """Number of blocks."""
+        return self.runs // (len(self.variables) + 2)
 
     def sensitivity(self, table: StudyTable, confidence: float) -> list[Sensitivity]:
         """First-order and total indices of each figure."""
@@ -78,7 +81,7 @@ class SobolPlan(FixedPlan):
             names = {"first": "S1", "first_error": "S1_conf", "total": "ST", "total_error": "ST_conf"}
             return _by_variable(found, names, len(self.variables))
 
-        return _each_figure(self, table, len(self.variables) + 2, analyse)
+        return _each_figure(self, table, analyse)
 
 
 def sobol_plan(variables: Sequence[Variable], samples: int, seed: int) -> SobolPlan:
@@ -97,6 +100,11 @@ class MorrisPlan(FixedPlan):
     levels: int
     seed: int
 
+    @property
+    def blocks(self) -> int:
+        """Number of trajectories."""
+        return self.runs // (len(self.variables) + 1)
+
     def sensitivity(self, table: StudyTable, confidence: float) -> list[Sensitivity]:
         """Elementary effects on each figure."""
         from SALib.analyze import morris
@@ -114,7 +122,7 @@ class MorrisPlan(FixedPlan):
             }
             return _by_variable(found, names, len(self.variables))
 
-        return _each_figure(self, table, len(self.variables) + 1, analyse)
+        return _each_figure(self, table, analyse)
 
 
 def morris_plan(variables: Sequence[Variable], trajectories: int, levels: int, seed: int) -> MorrisPlan:
@@ -144,18 +152,18 @@ def _by_variable(found: Any, names: dict[str, str], count: int) -> list[dict[str
     return [{name: float(found[key][index]) for name, key in names.items()} for index in range(count)]
 
 
-def _each_figure(plan: FixedPlan, table: StudyTable, block: int, analyse: Any) -> list[Sensitivity]:
-    planned, results = plan.runs // block, []
+def _each_figure(plan: SobolPlan | MorrisPlan, table: StudyTable, analyse: Any) -> list[Sensitivity]:
+    block, results = plan.runs // plan.blocks, []
     for figure in table.figures:
         whole = np.full(plan.runs, np.nan)
         whole[table.runs] = table.figure(figure.path)
-        kept = np.isfinite(whole.reshape(planned, block)).all(axis=1)
+        kept = np.isfinite(whole.reshape(plan.blocks, block)).all(axis=1)
         runs = np.flatnonzero(np.repeat(kept, block))
         blocks, influences = int(kept.sum()), ()
-        if blocks >= min(_LEAST_BLOCKS, planned) and np.ptp(whole[runs]) > 0.0:
+        if blocks >= min(_LEAST_BLOCKS, plan.blocks) and np.ptp(whole[runs]) > 0.0:
             influences = tuple(
                 Influence(figure.path, variable.name, **estimate)
                 for variable, estimate in zip(plan.variables, analyse(whole[runs], runs), strict=True)
             )
-        results.append(Sensitivity(figure.path, influences, blocks, planned))
+        results.append(Sensitivity(figure.path, influences, blocks))
     return results

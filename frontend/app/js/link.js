@@ -8,7 +8,7 @@ import { readDoc } from "./state.js";
 
 const PREFIX = "#v1.";
 /** Browsers, mail programs and chats cut longer links. */
-export const LONGEST = 60000;
+const LONGEST = 60000;
 /** What the address leaves out now. */
 export const left = signal(/** @type {Left} */ (""));
 

@@ -15,10 +15,9 @@ from mckibben.application.compare.question import ModelQuestion, question_of
 from mckibben.application.diagnose.diagnose import prepare
 from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
-from mckibben.documents.convert import stated_muscle
 from mckibben.documents.experiment import stated_accuracy
 from mckibben.documents.muscle import MuscleInput
-from mckibben.documents.start_model import StartModel
+from mckibben.documents.start_model import StartModel, stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.points import Points, find_preset

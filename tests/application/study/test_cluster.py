@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from mckibben.application import cluster as dask_cluster
-from mckibben.application.model.save_muscle import keep
+from mckibben.application.model.saved import keep
 from mckibben.application.study import cluster as study_cluster
 from mckibben.application.study.cluster import on_cluster
 from mckibben.application.study.study import prepare
@@ -20,7 +20,7 @@ from mckibben.physics.errors import InputError
 from mckibben.resources import presets_folder
 from mckibben.studies.journal import Journal
 from tests.application.local_cluster import LocalCluster
-from tests.application.model.test_save_muscle import MODEL
+from tests.application.model.test_saved import MODEL
 from tests.application.study.test_study import SHORT, patient, question
 from tests.shipped import shipped_studio
 

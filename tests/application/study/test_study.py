@@ -15,10 +15,9 @@ import pytest
 from mckibben.application.run.simulate import SimulationQuestion, simulate
 from mckibben.application.study.file import journal_of, prepare_file, table_text
 from mckibben.application.study.study import StudyQuestion, prepare, study_question
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.documents.studio import Studio
-from mckibben.documents.study_files import read_study
+from mckibben.documents.study import read_study
 from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Watch
 from mckibben.studies.journal import Journal
@@ -80,7 +79,7 @@ _NEW_PROCESS = """
 import json, sys
 from mckibben.application.study.study import prepare, study_question
 from mckibben.documents.studio import Studio
-from mckibben.documents.study_files import read_study
+from mckibben.documents.study import read_study
 from mckibben.resources import presets_folder
 from mckibben.simulation.outcome import Watch
 studio = Studio(presets=presets_folder())

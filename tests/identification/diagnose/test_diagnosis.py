@@ -15,8 +15,7 @@ from mckibben.identification.diagnose.steps import SingleAddition
 from mckibben.identification.diagnose.words import sentence_of
 from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import predictor_of
-from mckibben.identification.predict.fit_model import FitModel, free_geometry
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free, free_geometry
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.custom import custom_effect
@@ -172,7 +171,9 @@ def test_two_effects_are_found_in_the_order_of_their_size():
 def test_every_effect_that_can_show_is_a_candidate_with_its_reason():
     found = of_friction(1.0)
     several = {name for name, effect in CATALOGUE.items() if effect.among_lengths}
-    expected = {name for name, effect in CATALOGUE.items() if found.predictor.reveals(effect)} - several
+    expected = {
+        name for name, effect in CATALOGUE.items() if not found.predictor.why_hidden(effect)
+    } - several
     assert several <= {item.effect for item in found.not_tried if "several lengths" in item.why}
     assert {candidate.effect.id for candidate in found.candidates} == expected
     scores = [candidate.score for candidate in found.candidates]

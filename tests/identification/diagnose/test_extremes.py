@@ -9,8 +9,7 @@ import numpy as np
 
 from mckibben.identification.diagnose.extremes import ends_of, reaching_farthest
 from mckibben.identification.fit.fitted_model import FittedModel
-from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.muscle import Muscle
 

@@ -23,8 +23,7 @@ from mckibben.identification.diagnose.probability import (
 )
 from mckibben.identification.diagnose.score import score
 from mckibben.identification.fit.fitted_model import FittedModel
-from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.physics.effect import Prior
 from tests.identification.synthetic import CATALOGUE, MUSCLE
 

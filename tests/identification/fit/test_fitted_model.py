@@ -9,8 +9,7 @@ import pytest
 
 from mckibben.identification.fit.fitted_model import FittedModel, counts, refitted
 from mckibben.identification.predict import predictor_of
-from mckibben.identification.predict.fit_model import FitModel, free_geometry, free_numbers
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free, free_geometry, free_numbers
 from tests.identification.synthetic import CATALOGUE, MUSCLE, force_map, linear_node
 
 ROWS = 90

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mckibben.identification.fit.effort import diagnosis_effort
-from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.fit.fitter import Fitter, at_places, pace_of
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from tests.identification.synthetic import CATALOGUE, MUSCLE, force_map
@@ -28,3 +28,17 @@ def test_what_changes_nothing_promises_nothing(noise: float | None) -> None:
         inert = [gains[name] for name in ("coulomb_friction", "contact_friction", "temperature")]
         assert inert == [0.0, 0.0, 0.0]
         assert {"prestress", "linear_elasticity"} <= {effect for effect, gain in gains.items() if gain > 0.0}
+
+
+@pytest.mark.parametrize("effect", ["creep", "pressure_creep"])
+def test_a_creep_is_tried_at_times_from_seconds_to_hours(effect: str) -> None:
+    """Its arms are spread about the time of the middle one: holds last from seconds to hours."""
+    place = pace_of(CATALOGUE[effect])
+    assert place is not None
+    models = at_places(FitModel(MUSCLE), CATALOGUE[effect], place)
+    assert [model.values[effect]["time"] for model in models.values()] == pytest.approx([3.0, 30.0, 300.0])
+
+
+@pytest.mark.parametrize("effect", ["dahl", "sensor_lag", "effectiveness"])
+def test_what_does_not_creep_has_no_pace(effect: str) -> None:
+    assert pace_of(CATALOGUE[effect]) is None

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mckibben.identification.fit.least_squares import fit_report, least_squares_fit
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import Free
 
 # NIST StRD Misra1a: y = b1 (1 - exp(-b2 x)), certified values and standard deviations.
 MISRA_Y = [10.07, 14.73, 17.94, 23.93, 29.61, 35.18, 40.02, 44.82, 50.76, 55.05, 61.01, 66.40, 75.47, 81.78]

@@ -6,8 +6,7 @@ from math import radians
 
 import pytest
 
-from mckibben.identification.predict.fit_model import LOAD, FitModel, free_geometry, free_numbers
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import LOAD, FitModel, Free, free_geometry, free_numbers
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import NEUTRAL_ANGLE
 from tests.identification.synthetic import CATALOGUE, MUSCLE

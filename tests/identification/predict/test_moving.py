@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import pickle
+import threading
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from functools import partial
 
@@ -25,6 +27,7 @@ from mckibben.identification.predict import (
     predictor_of,
 )
 from mckibben.identification.predict.fit_model import SUPPLY, FitModel, free_numbers
+from mckibben.identification.predict.moving import KeptRuns, side_by_side
 from mckibben.measurement.measurement import Measurement, build
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import signal_from
@@ -41,6 +44,8 @@ from tests.identification.synthetic import CATALOGUE, MUSCLE, G, truth
 
 HIDDEN = {"bladder_elasticity": {"shear_modulus": 0.4e6}, "viscous_damping": {"coefficient": 200.0}}
 GRID = np.linspace(0.0, 3.0, 301)
+
+MODEL = FitModel(MUSCLE).adding(CATALOGUE["viscous_damping"])
 
 
 def pulse(on: float, off: float):
@@ -187,8 +192,8 @@ def test_without_a_command_the_measured_pressure_moves_the_load():
     found = predictor.predict(fit_model(HIDDEN))
     # Straight lines between rows 10 ms apart stand for the pressure.
     assert found == pytest.approx(predictor.measured, abs=2e-4)
-    assert predictor.reveals(CATALOGUE["bladder_elasticity"])
-    assert not predictor.reveals(CATALOGUE["leak"])  # the pressure is as measured, wherever the air went
+    assert not predictor.why_hidden(CATALOGUE["bladder_elasticity"])
+    assert predictor.why_hidden(CATALOGUE["leak"])  # the pressure is as measured, wherever the air went
 
 
 def test_a_slow_motion_passes_through_equilibria():
@@ -261,11 +266,11 @@ def test_a_controller_is_not_run_again():
 
 def test_what_acts_on_the_air_or_the_force_alone():
     predictor = predictor_of(measured(drive()), MUSCLE, drive({}))
-    assert predictor.reveals(CATALOGUE["leak"])
-    assert not predictor.reveals(CATALOGUE["force_offset"])  # no force was measured
+    assert not predictor.why_hidden(CATALOGUE["leak"])
+    assert predictor.why_hidden(CATALOGUE["force_offset"])  # no force was measured
     assert "states that there is none" in predictor.why_hidden(CATALOGUE["tube_resistance"])
     forced = predictor_of(measured(drive(), keep=("displacement", "force")), MUSCLE, drive({}))
-    assert forced.reveals(CATALOGUE["force_offset"])
+    assert not forced.why_hidden(CATALOGUE["force_offset"])
 
 
 def test_a_tube_that_the_drive_does_not_state_is_tried():
@@ -273,7 +278,7 @@ def test_a_tube_that_the_drive_does_not_state_is_tried():
     tube = Tube(inside_diameter=4e-3, length=1.0)
     measurement = measured(drive(tube=tube), noise={"pressure": 300.0, "displacement": 3e-5})
     predictor = predictor_of(measurement, MUSCLE, drive(assumed_tube=tube))
-    assert predictor.reveals(CATALOGUE["tube_resistance"])
+    assert not predictor.why_hidden(CATALOGUE["tube_resistance"])
     found = diagnose(
         predictor,
         fit_model(HIDDEN),
@@ -678,3 +683,95 @@ def test_each_run_lifts_the_weight_that_its_title_states() -> None:
     assert [each.load.mass for each in predictor.drives] == pytest.approx(masses)
     # Rows as close as those of the drive that was measured; a load of the other run is 20 mm away.
     assert predictor.predict(fit_model(HIDDEN)) == pytest.approx(made.columns["displacement"], abs=1e-3)
+
+
+def damped(*coefficients: float) -> list[FitModel]:
+    return [MODEL.with_numbers(["viscous_damping.coefficient"], [value]) for value in coefficients]
+
+
+class Runs:
+    def __init__(self) -> None:
+        self.kept, self.made = KeptRuns(), []
+
+    def ask(self, *coefficients: float) -> list[float]:
+        return [float(found[0]) for found in self.kept.of(damped(*coefficients), self.run)]
+
+    def run(self, models: Sequence[FitModel]) -> list[np.ndarray]:
+        self.made += [model.number("viscous_damping.coefficient") for model in models]
+        return [np.full(4, model.number("viscous_damping.coefficient")) for model in models]
+
+
+def test_a_model_is_run_once():
+    runs = Runs()
+    assert runs.ask(1.0, 2.0, 1.0) == [1.0, 2.0, 1.0]
+    assert runs.ask(2.0, 3.0) == [2.0, 3.0]
+    assert runs.made == [1.0, 2.0, 3.0]
+    assert damped(3.0)[0] in runs.kept
+    assert damped(4.0)[0] not in runs.kept
+
+
+def test_what_was_asked_for_last_stays(monkeypatch):
+    monkeypatch.setattr(moving, "_KEPT_NUMBERS", 8)  # two predictions of four numbers
+    runs = Runs()
+    assert runs.ask(1.0, 2.0) == [1.0, 2.0]
+    runs.ask(1.0)
+    runs.ask(3.0)
+    runs.ask(1.0)
+    assert runs.made == [1.0, 2.0, 3.0]
+    runs.ask(2.0)
+    assert runs.made == [1.0, 2.0, 3.0, 2.0]
+    assert runs.ask(1.0, 2.0, 3.0, 4.0) == [1.0, 2.0, 3.0, 4.0], "more at once than are kept"
+
+
+def test_geometry_supply_and_order_of_effects_count():
+    runs, dead = KeptRuns(), CATALOGUE["dead_volume"]
+    other = FitModel(MUSCLE).adding(dead).adding(CATALOGUE["viscous_damping"])
+    wider = MODEL.with_numbers(["nominal_length"], [0.25])
+    driven = MODEL.with_numbers(["supply_factor"], [0.9])
+    made: list[FitModel] = []
+
+    def run(models: Sequence[FitModel]) -> list[np.ndarray]:
+        made.extend(models)
+        return [np.zeros(1) for _ in models]
+
+    runs.of([MODEL, wider, driven, other], run)
+    runs.of([MODEL.adding(dead)], run)
+    assert made == [MODEL, wider, driven, other], "the order of the effects changes nothing"
+
+
+def test_copies_in_other_processes_begin_empty():
+    runs = Runs()
+    runs.ask(1.0)
+    assert damped(1.0)[0] not in pickle.loads(pickle.dumps(runs.kept))
+
+
+def test_two_items_are_worked_on_at_once_and_come_back_in_order() -> None:
+    met = threading.Barrier(2, timeout=20.0)
+
+    def work(item: int) -> int:
+        met.wait()  # would break in one thread
+        return item * item
+
+    assert side_by_side(work, [3, 2]) == [9, 4]
+
+
+def test_a_single_item_stays_in_its_thread() -> None:
+    assert side_by_side(lambda _: threading.get_ident(), ["one"]) == [threading.get_ident()]
+    assert side_by_side(lambda _: 1, []) == []
+
+
+def test_items_of_items_do_not_wait_for_each_other() -> None:
+    def rows(item: int) -> list[int]:
+        return side_by_side(lambda part: 10 * item + part, [1, 2, 3])
+
+    assert side_by_side(rows, [1, 2, 3, 4]) == [
+        [10 * item + part for part in (1, 2, 3)] for item in (1, 2, 3, 4)
+    ]
+
+
+def test_an_error_of_an_item_is_raised() -> None:
+    def work(item: int) -> float:
+        return 1.0 / item
+
+    with pytest.raises(ZeroDivisionError):
+        side_by_side(work, [1, 0, 2])

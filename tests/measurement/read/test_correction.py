@@ -123,8 +123,8 @@ def test_preview_of_what_can_be_guessed() -> None:
     by_header = {column.header: column for column in found.columns}
     assert list(by_header) == ["time_s", "p1", "stroke_mm", "F_N", "note"]
     assert [column.channel for column in found.columns] == ["time", None, "displacement", "force", None]
-    assert (by_header["stroke_mm"].unit, by_header["stroke_mm"].unit_given) == ("mm", True)
-    assert (by_header["F_N"].unit, by_header["F_N"].unit_given) == ("N", True)
+    assert by_header["stroke_mm"].unit == "mm"
+    assert by_header["F_N"].unit == "N"
     assert (by_header["stroke_mm"].minimum, by_header["stroke_mm"].maximum) == (0.0, 0.1)
     assert found.sample[0] == ("0", "1", "0", "100", "x")
     assert len(found.sample) == 8

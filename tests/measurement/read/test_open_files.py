@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from mckibben.application.compare.assumptions import assumptions_of, refuse_assumptions
+from mckibben.application.measurement.experiment import assumptions_of, refuse_assumptions
 from mckibben.measurement.read import Correction, preview, read_measurement, spoken_correction
 from mckibben.measurement.read.correction import read_correction
 from mckibben.physics.errors import InputError

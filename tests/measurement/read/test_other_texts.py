@@ -7,7 +7,7 @@ import json
 import numpy as np
 import pytest
 
-from mckibben.measurement.read.reshape.transposed import turned
+from mckibben.measurement.read.reshape.transposed import transposed
 from mckibben.physics.errors import InputError
 from tests.measurement.read.bench import FORCE, PRESSURE, STROKE, TIME, assert_is_the_test, read
 
@@ -63,9 +63,9 @@ def test_a_plain_table_is_not_turned() -> None:
     from mckibben.measurement.read.grid import TextGrid
 
     lines = ["force;1;2;3", "length;1;2;3"]
-    assert turned(TextGrid([f"sample;{line}" for line in lines], "a", ";")) is None
-    assert turned(TextGrid(["speed;1;2;3", "voltage;1;2;3"], "a", ";")) is None
-    assert turned(TextGrid(lines, "a", ";")) is not None
+    assert transposed(TextGrid([f"sample;{line}" for line in lines], "a", ";")) is None
+    assert transposed(TextGrid(["speed;1;2;3", "voltage;1;2;3"], "a", ";")) is None
+    assert transposed(TextGrid(lines, "a", ";")) is not None
 
 
 def test_a_page_of_mean_values_with_deviations() -> None:

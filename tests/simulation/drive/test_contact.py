@@ -8,8 +8,7 @@ from math import pi, radians
 import numpy as np
 import pytest
 
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.simulation.drive.initial_state import Rest
 from mckibben.simulation.drive.transient import Run, simulate
 from mckibben.simulation.timing.evaluation import timing_of, trace_of

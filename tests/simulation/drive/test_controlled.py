@@ -8,8 +8,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.command.pwm import PulseWidth

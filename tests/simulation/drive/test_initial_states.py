@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mckibben.documents.drive_files import preset_document, read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document, read_document
 from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.initial_state import Rest, start_of
 from mckibben.simulation.drive.initial_states import starts_of_many

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from mckibben.application.run.simulate import SimulationQuestion, SimulationResult, simulate
-from mckibben.documents.drive_files import preset_document, read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document, read_document
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.joint import common_command

@@ -7,8 +7,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document
 from mckibben.simulation.drive.many_runs import READINGS, readings_of_many
 from mckibben.simulation.drive.transient import segments_of, simulate
 from tests.shipped import shipped_studio

@@ -7,8 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.physics import gas
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.pwm import Pulse, PulseWidth

@@ -9,8 +9,7 @@ import numpy as np
 import pytest
 
 from mckibben.application.run.simulate import SimulationQuestion, SimulationResult, simulate
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.physics import gas
 from mckibben.physics.errors import InputError
 from mckibben.physics.flow_path import regulator_shares

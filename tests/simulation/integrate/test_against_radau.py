@@ -7,8 +7,7 @@ import os
 import numpy as np
 import pytest
 
-from mckibben.documents.drive_files import preset_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document
 from mckibben.physics.drive_terms import INPUTS, OUTPUTS
 from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.initial_state import Start

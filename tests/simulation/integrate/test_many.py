@@ -11,8 +11,7 @@ from math import radians
 import numpy as np
 import pytest
 
-from mckibben.documents.drive_files import preset_document, read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document, read_document
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.command.signals import signal_from
 from mckibben.simulation.drive.initial_state import start_of

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from mckibben.documents.drive_files import preset_document, read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document, read_document
 from mckibben.simulation.drive.parts import Drive
 from tests.shipped import shipped_studio
 

@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.physics.errors import InputError
 from mckibben.simulation.linear.design import design
 from mckibben.simulation.linear.linearise import linearise

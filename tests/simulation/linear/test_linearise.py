@@ -8,8 +8,7 @@ from math import cos, pi, sqrt, tan
 import numpy as np
 import pytest
 
-from mckibben.documents.drive_files import preset_document, read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document, read_document
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.shapes import Step
 from mckibben.simulation.drive.parts import Drive

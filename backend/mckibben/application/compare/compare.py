@@ -26,7 +26,6 @@ from mckibben.application.compare.series import (
 from mckibben.application.compare.specimens import Specimens
 from mckibben.application.diagnose.doubts import with_accepted
 from mckibben.application.envelope import Envelope, MeasuredRange, beyond, envelope_of
-from mckibben.application.measurement.preconditioned import preconditioned_model
 from mckibben.application.measurement.specimen_result import (
     SpecimenResult,
     absorbed_message,
@@ -45,6 +44,8 @@ from mckibben.identification.fit.comparison import (
     compared,
     correlations_of,
 )
+from mckibben.identification.predict import Predictor
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import StoppedRun
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.predict.specimens import own_muscle
@@ -67,6 +68,8 @@ from mckibben.measurement.experiment import Experiment
 _TELLING = 0.05  # share of the squared error from which a variable is mentioned
 
 Array = NDArray[np.float64]
+
+_CLOSER = 0.98  # largest error over that of a new muscle with which the muscle counts as used
 
 
 @result_class
@@ -344,3 +347,45 @@ def _validation(
     names = [f"validation, {run.of}" if run.of else "validation" for run in validation.stopped]
     stopped = [replace(run, of=name) for run, name in zip(validation.stopped, names, strict=True)]
     return result, thinned, f"validation: {remark}" if remark else "", stopped
+
+
+def preconditioned_model(predictor: Predictor, model: FitModel, envelope: Envelope) -> tuple[FitModel, str]:
+    """The model of a muscle used before, as far as in earlier measurements, where data are closer to it.
+
+    Files do not say whether a muscle is the one that was measured before or a new one of the same kind.
+
+    Args:
+        predictor: the later data.
+        model: fitted to earlier data; it takes the muscle as new where it does not say how far it was used.
+        envelope: ranges of the earlier data.
+
+    Returns:
+        The model, and a sentence; the model as it was and "" where nothing lasts or the muscle is closer to
+        a new one.
+    """
+    changes = {
+        f"{effect.id}.{state.lasting}": (effect, envelope[state.largest].most)
+        for effect in model.effects
+        for state in effect.states
+        if state.lasting and model.values[effect.id][state.lasting] == 0.0 and state.largest in envelope
+    }
+    numbers = {
+        name: min(most, effect.parameter(name.partition(".")[2]).upper)
+        for name, (effect, most) in changes.items()
+        if most > 0.0
+    }
+    if not numbers:
+        return model, ""
+    used = model.with_numbers(list(numbers), list(numbers.values()))
+    new, after = (predictor.rmse(predictor.residual(each)) for each in (model, used))
+    if not after < _CLOSER * new:
+        return model, ""
+    titles = " and ".join(dict.fromkeys(effect.title for effect, _ in changes.values()))
+    stated = ", ".join(f"{name} = {number:.3g}" for name, number in numbers.items())
+    factor, unit = {"m": (1e3, " mm"), "1": (1.0, " times the noise")}.get(
+        predictor.unit, (1.0, f" {predictor.unit}")
+    )
+    return used, (
+        f"{titles}: the muscle is taken as used before, as far as in the measurements of the model "
+        f"({stated}): error {brief(factor * after)}{unit}, as a new muscle {brief(factor * new)}{unit}"
+    )

@@ -21,8 +21,7 @@ from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.entries import StatedEntry
 from mckibben.identification.predict import Predictor
-from mckibben.identification.predict.fit_model import LOAD, FitModel, free_geometry
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import LOAD, FitModel, Free, free_geometry
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.points import Points
 from mckibben.physics.custom import CUSTOM, TERM

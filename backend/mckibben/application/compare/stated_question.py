@@ -5,18 +5,19 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from mckibben.application.compare.noise import with_noise
+from mckibben.application.compare.compare import preconditioned_model
 from mckibben.application.compare.question import ModelQuestion, question_of
 from mckibben.application.diagnose.doubts import with_decisions
 from mckibben.application.envelope import Envelope, MeasuredRange
 from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
 from mckibben.application.measurement.files import OPTION
-from mckibben.application.measurement.preconditioned import preconditioned_model
 from mckibben.documents.located import at_file
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.studio import Studio
+from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY
+from mckibben.physics.units import si
 
 
 @dataclass(frozen=True, slots=True)
@@ -151,3 +152,58 @@ def _going_on(question: ModelQuestion, ranges: Envelope) -> ModelQuestion:
     # What is stated of the muscle's past is part of the start model, so that fits and answers hold it.
     start = replace(start, effects=model.values)
     return replace(question, start=start, remarks=(*question.remarks, remark)).with_data_of(question)
+
+
+def with_noise(question: ModelQuestion, noise: float | str | None, *, name: str = "noise") -> ModelQuestion:
+    """The question with the standard deviation of the predicted channel; None leaves it to be estimated.
+
+    Args:
+        question: a comparison or diagnosis.
+        noise: a number or its text in SI, or a text with a unit, "2 N".
+        name: how the caller calls it, for messages.
+
+    Raises:
+        InputError: it is no number above 0, has no unit of the channel, or several channels are predicted.
+    """
+    if noise is None:
+        return question
+    level = _number(noise)
+    if level is None:
+        of_one_channel(question.predictor)
+        unit = question.predictor.unit
+        try:
+            level = si(noise, unit)
+        except InputError as error:
+            raise InputError(
+                f"{name} {noise}: is neither a number in {unit} nor one with a unit: {error.message}",
+                field="noise",
+                hint=error.hint,
+            ) from error
+    if not 0.0 < level < float("inf"):
+        raise InputError(
+            f"{name} {noise}: the noise is a standard deviation above 0",
+            field="noise",
+            hint="leave it out to have it estimated",
+        )
+    return replace(question, noise=level)
+
+
+def of_one_channel(predictor: Predictor) -> None:
+    """Refuse a stated noise where several channels are predicted.
+
+    Raises:
+        InputError: they are.
+    """
+    if len(predictor.channels) > 1:
+        raise InputError(
+            "one noise cannot be stated for several predicted channels", field="noise", hint="omit it"
+        )
+
+
+def _number(noise: float | str) -> float | None:
+    if isinstance(noise, bool):
+        return None
+    try:
+        return float(noise)
+    except (TypeError, ValueError):
+        return None

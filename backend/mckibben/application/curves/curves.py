@@ -301,21 +301,21 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
 
 def _holding(points: Sequence[OperatingPoint]) -> OperatingPoint | None:
     """The point with the highest pressure among those within the limits, or else among all that hold."""
-    held = [point for point in points if math.isfinite(point.contraction)]
-    return max(held, key=lambda point: (not point.flags, point.pressure), default=None)
+    at_rest = [point for point in points if math.isfinite(point.contraction)]
+    return max(at_rest, key=lambda point: (not point.flags, point.pressure), default=None)
 
 
 def _limits_used(
     model: StaticModel, question: CurvesQuestion, points: Sequence[OperatingPoint]
 ) -> list[LimitUse]:
-    held = [point.contraction for point in points if math.isfinite(point.contraction)]
+    reached = [point.contraction for point in points if math.isfinite(point.contraction)]
     limits = model.limits
     return [
         LimitUse(name, used, limit, used / limit)
         for name, used, limit in (
             ("max_pressure", max(question.pressures), limits.max_pressure),
             ("max_force", question.load, limits.max_force),
-            ("max_contraction", max(0.0, *held) if held else None, limits.max_contraction),
+            ("max_contraction", max(0.0, *reached) if reached else None, limits.max_contraction),
         )
         if used is not None and limit
     ]

@@ -10,8 +10,8 @@ from typing import Literal
 import numpy as np
 
 from mckibben.application.compare.compare import ModelDocument
-from mckibben.application.compare.noise import of_one_channel
 from mckibben.application.compare.question import ModelQuestion
+from mckibben.application.compare.stated_question import of_one_channel
 from mckibben.application.diagnose.doubts import (
     doubtful_entries,
     notes_of,

@@ -47,8 +47,6 @@ class ExperimentProposal:
     minutes: float | None
     matters: bool
     """Whether the two models predict different results for this rig."""
-    differs_in: str
-    """Simulated experiment where the models as they are differ most."""
     difference: float
 
 
@@ -101,7 +99,6 @@ def proposal(pair: SeparatingExperiment) -> ExperimentProposal:
         pair.separation,
         pair.minutes,
         pair.matters,
-        pair.differs_in,
         pair.difference,
     )
 
@@ -142,8 +139,8 @@ def next_measurement(diagnosis: Diagnosis, titles: Mapping[str, str]) -> str | N
                 parts.append(f"{names[first]} from {_joined(others)}")
             minutes = max(design.minutes, 1.0)
             sentences.append(f"to tell {'; '.join(parts)}: {design.words} (about {minutes:.0f} min)")
-    told = {frozenset(pair) for d in diagnosis.designs for pair in d.decided()}
-    rest = [p for p in diagnosis.proposals if frozenset((p.first, p.second)) not in told]
+    decided_pairs = {frozenset(pair) for d in diagnosis.designs for pair in d.decided()}
+    rest = [p for p in diagnosis.proposals if frozenset((p.first, p.second)) not in decided_pairs]
     rest.sort(key=lambda pair: not pair.declared)
     sentences += [pair.sentence(titles) for pair in rest[: max(3 - len(sentences), 1)]]
     return "; ".join(sentences) or None

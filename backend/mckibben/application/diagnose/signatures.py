@@ -46,8 +46,6 @@ class Signatures:
     """One for each kind of test that shows it."""
     hidden: list[str]
     """Kinds it names, but whose prediction does not contain it."""
-    acts_on: list[str]
-    """Effects that had to be in both models, because it only changes what they do."""
     temperature: float
     """Temperature of the tests [K]."""
     pressure: float
@@ -70,8 +68,7 @@ def signatures(question: AtlasQuestion, studio: Studio) -> Signatures:
             hint=did_you_mean(question.effect, catalogue),
         )
     base = FitModel(start.muscle)
-    needed = list(stand_ins(effect, catalogue, start.effects))
-    for name in needed:
+    for name in stand_ins(effect, catalogue, start.effects):  # it only changes what they do
         base = base.adding(catalogue[name], start.effects.get(name))
     # It checks names and bounds of the values, and the muscle.
     StaticModel(base.adding(effect).muscle, {effect.id: question.values}, catalogue=catalogue)
@@ -83,7 +80,6 @@ def signatures(question: AtlasQuestion, studio: Studio) -> Signatures:
         values={**effect.defaults, **question.values},
         pictures=found,
         hidden=sorted(effect.kinds - {picture.kind for picture in found}),
-        acts_on=needed,
         temperature=TEMPERATURE,
         pressure=pressure,
     )

@@ -341,14 +341,14 @@ def model_result(
 def near(points: list[DescribingPoint], model: ModelResult, frequency: Array) -> list[DescribingPoint]:
     """The points with their phases within half a turn of those of a model."""
 
-    def turned(point: DescribingPoint) -> DescribingPoint:
+    def within_half_a_turn(point: DescribingPoint) -> DescribingPoint:
         if not math.isfinite(point.phase):
             return point
         expected = float(np.interp(math.log(point.frequency), np.log(frequency), model.phase))
         phase = point.phase + 2.0 * math.pi * round((expected - point.phase) / (2.0 * math.pi))
         return replace(point, phase=phase)
 
-    return [turned(point) for point in points]
+    return [within_half_a_turn(point) for point in points]
 
 
 def controller_result(controller: PidController) -> ControllerResult:

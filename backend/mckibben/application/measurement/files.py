@@ -23,13 +23,16 @@ LARGEST_FILE = 200_000_000  # of a file; more are not even taken into memory
 _READING = ("sheet", "head", "column", "ignore")  # of an entry: how its file is read
 _LIST_EXAMPLE = '[{"file": "a.csv", "rest_length": "250 mm", "load": "3 kg"}]'
 
+# What may answer a question of the file while it is read.
+_CONDITIONS = ("force_zero", "pressure_zero", "inclination", "valve", "tube", "stops", "fixed_end")
+
 
 def measurements_of(
     files: Sequence[str],
     studio: Studio,
     correction: Correction | None = None,
     said: Mapping[str, ExperimentValue] | None = None,
-    given: Mapping[str, bytes] | None = None,
+    contents: Mapping[str, bytes] | None = None,
     *,
     muscle_length: float | None = None,
 ) -> list[QuestionMeasurement]:
@@ -40,7 +43,7 @@ def measurements_of(
         studio: for presets.
         correction: how the files are to be read; it is for files, not for presets.
         said: about the experiment of all of them.
-        given: name -> content, of names that are no files: standard input.
+        contents: name -> content, of names that are no files: standard input.
         muscle_length: rest length of the muscle that is stated beside the files [m], if it is.
 
     Raises:
@@ -56,7 +59,7 @@ def measurements_of(
         if entry.words:
             reading = _read_as(entry.words, name, reading)
             own |= _said_in(entry.words, name)
-        found.append(QuestionMeasurement(_read(entry, studio, reading, given or {}), own))
+        found.append(QuestionMeasurement(_read(entry, studio, reading, contents or {}), own))
     return found
 
 
@@ -165,15 +168,15 @@ def _read_as(entry: Mapping[str, Any], source: str, correction: Correction) -> C
 
 
 def _said_in(entry: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
-    given = {key: value for key, value in entry.items() if key not in ("file", *_READING)}
-    return said_values(given, source)
+    values = {key: value for key, value in entry.items() if key not in ("file", *_READING)}
+    return said_values(values, source)
 
 
-def said_values(given: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
+def said_values(values: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
     """The values of an experiment from JSON or options.
 
     Args:
-        given: field -> value.
+        values: field -> value.
         source: a file, `OPTION` or `ARGUMENT`, for messages and as the place of the values.
 
     Raises:
@@ -184,9 +187,9 @@ def said_values(given: Mapping[str, Any], source: str) -> dict[str, ExperimentVa
     from mckibben.documents.problems import first_problem
 
     try:
-        read = ExperimentInput.model_validate(dict(given))
+        read = ExperimentInput.model_validate(dict(values))
     except ValidationError as error:
-        problem = first_problem(error.errors(), ExperimentInput, dict(given), "the experiment")
+        problem = first_problem(error.errors(), ExperimentInput, dict(values), "the experiment")
         name = str(problem.field or "").partition(".")[0]
         raise InputError(f"{_place(name, source)}: {problem.message}", hint=problem.hint) from error
     except InputError as error:
@@ -222,11 +225,11 @@ def option_of(name: str) -> str:
     return f"--experiment {name}" if option == "--experiment" else option
 
 
-def _read(entry: _Entry, studio: Studio, correction: Correction, given: Mapping[str, bytes]) -> Points:
+def _read(entry: _Entry, studio: Studio, correction: Correction, contents: Mapping[str, bytes]) -> Points:
     """A file, the file of a preset with points, or a preset of the catalogue when there is no such file."""
     name = entry.name
-    if name in given:
-        return Points(read_file(name, correction, given[name]))
+    if name in contents:
+        return Points(read_file(name, correction, contents[name]))
     if entry.preset is not None:
         preset = _points_in(entry.preset, name, studio)
     else:
@@ -306,3 +309,89 @@ def _near_file(path: Path) -> str | None:
         return f"there is no folder {folder}"
     names = [entry.name for entry in folder.iterdir() if entry.suffix == path.suffix]
     return did_you_mean(path.name, names)
+
+
+@dataclass(frozen=True)
+class FileOptions:
+    """What the options say about the files.
+
+    Attributes:
+        correction: how they are to be read.
+        said: values of the experiment of all measurements.
+    """
+
+    correction: Correction
+    said: Mapping[str, ExperimentValue]
+
+
+def file_options(
+    *,
+    sheet: str | None,
+    head: int | None,
+    columns: Sequence[str] | None,
+    ignored: Sequence[str] | None,
+    rest_length: str | float | None,
+    load: str | float | None,
+    supply: str | float | None,
+    accuracy: str | None,
+    experiment: Sequence[str] | Mapping[str, object] | None,
+    strict: bool,
+    prefix: str = OPTION,
+) -> FileOptions:
+    """What these options say about the files and their experiment.
+
+    Args:
+        sheet, head, columns, ignored, rest_length, load, supply, strict: see `spoken_correction`.
+        accuracy: standard deviation by channel in words.
+        experiment: further fields, as "field=value" or field -> value.
+        prefix: of the names in messages, `OPTION` or `ARGUMENT`.
+
+    Raises:
+        InputError: names the option, what is wrong and what would be right.
+    """
+    correction = spoken_correction(
+        sheet=sheet,
+        head=head,
+        columns=columns or (),
+        ignore=ignored or (),
+        rest_length=rest_length,
+        load=load,
+        supply=supply,
+        strict=strict,
+        prefix=prefix,
+    )
+    options = {"rest_length": rest_length, "load": load, "supply": supply, "accuracy": accuracy}
+    values = _experiment(experiment or (), prefix)
+    values |= {name: value for name, value in options.items() if value is not None}
+    said = said_values(values, prefix)
+    conditions = dict(correction.conditions)
+    conditions |= {name: said[name].value for name in _CONDITIONS if name in said}
+    if accuracy is not None:
+        conditions["accuracy"] = accuracy
+    return FileOptions(replace(correction, conditions=conditions), said)
+
+
+def _experiment(stated: Sequence[str] | Mapping[str, object], prefix: str) -> dict[str, object]:
+    """Field -> value of the further fields."""
+    if isinstance(stated, Mapping):
+        for name in stated:
+            _check_field(str(name), f"{prefix}experiment {name!r}")
+        return dict(stated)
+    values: dict[str, object] = {}
+    for text in stated:
+        where = f"{prefix}experiment {text!r}"
+        name, separator, value = (part.strip() for part in text.partition("="))
+        if not separator or not value:
+            raise InputError(
+                f"{where}: is not 'field=value'", hint=f'e.g. {prefix}experiment "force_zero=2.5 N"'
+            )
+        _check_field(name, where)
+        values[name] = value
+    return values
+
+
+def _check_field(name: str, where: str) -> None:
+    if name not in ExperimentInput.model_fields:
+        raise InputError(
+            f"{where}: there is no field '{name}'", hint=did_you_mean(name, ExperimentInput.model_fields)
+        )

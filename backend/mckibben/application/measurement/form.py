@@ -9,9 +9,8 @@ import numpy as np
 
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.measurement.experiment import QuestionMeasurement, stated_in
-from mckibben.application.measurement.form_field import FormField
 from mckibben.application.measurement.rig_drive import assumed_stops
-from mckibben.application.measurement.summary import UnreadableFile
+from mckibben.application.measurement.summary import FormField, UnreadableFile
 from mckibben.documents.studio import Studio
 from mckibben.facts.result import result_class
 from mckibben.measurement.accuracy import default_accuracy

@@ -9,13 +9,11 @@ from math import pi
 from typing import Any
 
 from mckibben.documents.drive import DriveDocument
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.documents.start_model import StartModel
 from mckibben.documents.studio import Studio
 from mckibben.identification.predict import driven_by_pressure, highest_stop, lowest_stop
-from mckibben.measurement.corrected import FROM_DRIVE
-from mckibben.measurement.experiment import FIELDS, LOAD_FORCE, ExperimentValue
+from mckibben.measurement.experiment import FIELDS, FROM_DRIVE, LOAD_FORCE, ExperimentValue
 from mckibben.measurement.measurement import Measurement
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import GEOMETRY

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from dataclasses import field, fields
 
-from mckibben.application.measurement.form_field import FormField
 from mckibben.facts.result import Column, Number, Series, result_class
+from mckibben.measurement.experiment import Origin
 from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement, StatedValue
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
@@ -19,6 +19,51 @@ _USUAL_UNITS = {
     "displacement": ("mm", "m", "cm", "in"), "diameter": ("mm", "m", "in"), "velocity": ("m/s", "mm/s"),
     "command": ("1", "%"), "temperature": ("degC", "K", "degF"),
 }  # fmt: skip
+
+
+@result_class
+class FormField:
+    """A field of a form; see `mckibben.measurement.experiment.ExperimentField` and ``ExperimentValue``."""
+
+    field: str
+    """Name: the key of 'experiment' in a request. 'accuracy_length' and the like are parts of its 'accuracy'.
+    """
+    title: str
+    """In words."""
+    value: float | str | None
+    """In SI, or a text; None = nobody states it."""
+    unit: str
+    """SI unit; "" of a text."""
+    units: tuple[str, ...]
+    """Units for a form."""
+    origin: Origin | None
+    """Who says it; None with value."""
+    where: str
+    """Place in the file, or the preset."""
+    required: bool
+    """This kind of test needs it."""
+    unanswered: bool
+    """Required, and neither the file nor the user says it: ask before the first diagnosis. With origin
+    'assumed' a diagnosis goes on with the value; with value None it does not.
+    """
+    question: str
+    """The question of the field."""
+    why: str
+    """What it is needed for."""
+    proposed: float | str | None
+    """A value that the data suggest, SI; never used unasked."""
+    least: float | None
+    """Smallest allowed value, SI."""
+    most: float | None
+    """Largest allowed value, SI."""
+    choices: tuple[str, ...]
+    """Allowed texts, or proposals of texts; empty = any."""
+    closed: bool
+    """Only the choices are allowed."""
+    example: str
+    """A valid value, as a text."""
+    option: str
+    """What says it on the command line."""
 
 
 @result_class
@@ -276,8 +321,6 @@ class PreviewResult:
     """All columns that nothing is read from, and why."""
     stated: list[StatedCondition]
     """The conditions with their origin."""
-    table_choices: list[str]
-    """Sheets, groups or structs that could be meant; 'sheet' of a mapping picks one."""
     tables: list[TableOption]
     """All sheets, groups or structs that 'sheet' of a mapping picks; empty where none are."""
     raw: RawTable | None
@@ -409,7 +452,6 @@ def preview_of(preview: Preview, experiment: list[FormField]) -> PreviewResult:
         questions=_questions(preview.questions),
         unread=_unread(preview.unread),
         stated=_stated(preview.stated),
-        table_choices=list(preview.choices),
         tables=[TableOption(name, is_read) for name, is_read in preview.tables],
         raw=_raw(preview),
         points=dict(preview.points),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import csv
+import io
 from collections.abc import Callable, Iterable
 from dataclasses import asdict, dataclass
 from typing import ClassVar
@@ -27,10 +29,11 @@ from mckibben.application.operating_limits import (
 )
 from mckibben.application.prediction_interval import PositionInterval
 from mckibben.application.run.drive_run import measured_interval, run_drive, use_of_run
-from mckibben.application.run.joint import JointMotion, joint_of
+from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.facts.result import Booleans, FiniteSeries, Series, result_class
-from mckibben.facts.run import RUN
+from mckibben.facts.run import JOINT, RUN
+from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.physics.model import Model
@@ -57,6 +60,81 @@ _SLACK = 1e-6  # m; a muscle longer than its fittings are apart by more than thi
 # Field of the document for each limit.
 _FIELDS = {FlagCode.OVER_PRESSURE: "supply.pressure", FlagCode.OVER_FORCE_LIMIT: "load"}
 _ABOVE = 1.001  # value over limit up to which the excess may be an integration error
+
+
+@result_class
+class JointMotion:
+    """The pulley of an antagonist pair, and its second muscle."""
+
+    FIGURES: ClassVar = JOINT.name
+
+    angle: Series
+    torque: Series
+    stiffness: Series
+    counter_force: Series
+    counter_pressure: Series
+    counter_command: Series
+    counter_mass_flow: Series
+    counter_supply_flow: Series
+    counter_exhaust_flow: Series
+    counter_diameter: Series
+    angle_reference: Series | None
+    stiffness_reference: Series | None
+    stiffness_error: float | None
+
+
+def joint_of(run: Run, rows: Array) -> JointMotion | None:
+    """Angle, torque and stiffness of a pair's pulley; the stiffness at constant pressures."""
+    drive = run.drive
+    if drive.pulley_radius is None:
+        return None
+    radius = drive.pulley_radius
+    counter = run.outputs[f"force{COUNTER}"][rows]
+    wanted = None if drive.stiffness is None else np.asarray(drive.stiffness.reference.value(run.time))
+    error = None
+    if wanted is not None and len(run.time) > 1:
+        square = (_stiffness(run, slice(None)) - wanted) ** 2
+        error = float(np.sqrt(np.trapezoid(square, run.time) / np.ptp(run.time)))
+    flows = (run.outputs[f"{name}_flow{COUNTER}"][rows] for name in ("mass", "supply", "exhaust"))
+    if run.counter_command is not None:
+        command = run.counter_command.value(run.time)[rows]
+    else:
+        own = drive.command if drive.reference is None else run.command
+        command = 2.0 * drive.common_command - np.asarray(own.value(run.time))[rows]
+    inflow, supplied, vented = flows
+    return JointMotion(
+        angle=run.states["stroke"][rows] / radius,
+        torque=radius * (run.outputs["force"][rows] - counter),
+        stiffness=_stiffness(run, rows),
+        counter_force=counter,
+        counter_pressure=run.states[f"pressure{COUNTER}"][rows] - drive.ambient_pressure,
+        counter_command=command,
+        counter_mass_flow=inflow,
+        counter_supply_flow=supplied,
+        counter_exhaust_flow=vented,
+        counter_diameter=run.outputs[f"diameter{COUNTER}"][rows],
+        angle_reference=None
+        if drive.reference is None
+        else np.asarray(drive.reference.value(run.time))[rows] / radius,
+        stiffness_reference=None if wanted is None else wanted[rows],
+        stiffness_error=error,
+    )
+
+
+def _stiffness(run: Run, rows: Array | slice) -> Array:
+    """Stiffness of the joint at constant pressures [N m/rad]."""
+    drive = run.drive
+    stroke = run.states["stroke"][rows]
+    middle = drive.muscle.nominal_length * (1.0 - drive.precontraction)
+    total = np.zeros(len(stroke))
+    for sense, name in ((1.0, "pressure"), (-1.0, f"pressure{COUNTER}")):
+        seen = drive.model.outputs(
+            length=middle - sense * stroke,
+            pressure=run.states[name][rows] - drive.ambient_pressure,
+            temperature=drive.temperature,
+        )
+        total += np.where(seen["tension"] > 0.0, seen["tension_by_length"], 0.0)
+    return (drive.pulley_radius or 0.0) ** 2 * total
 
 
 @dataclass(frozen=True, slots=True)
@@ -351,3 +429,39 @@ def _crossed(run: Run) -> Iterable[LimitFlag]:
 def _at_most(value: float, limit: float | None) -> float:
     """The value, or the limit if the value exceeds it only by an integration error."""
     return value if limit is None or value > limit * _ABOVE else min(value, limit)
+
+
+def trace_columns(result: SimulationResult) -> dict[str, np.ndarray]:
+    """Header -> column; names as in measurement files, so that a trace can be read back."""
+    columns = {
+        "time_s": result.time,
+        "command": result.command,
+        "pressure_Pa": result.pressure,
+        "displacement_m": result.position,
+        "velocity_m/s": result.velocity,
+        "acceleration_m/s2": result.acceleration,
+        "force_N": result.force,
+        "length_m": result.length,
+        "diameter_m": result.diameter,
+        "mass_flow_kg/s": result.mass_flow,
+        "reference_m": result.reference,
+    }
+    return {header: column for header, column in columns.items() if column is not None}
+
+
+def trace_text(document: DriveDocument, result: SimulationResult) -> str:
+    """The columns as CSV, with the conditions that measurement files require."""
+    columns = trace_columns(result)
+    text = io.StringIO()
+    text.write("# kind: transient\n# pressure: gauge\n")
+    if document.muscle.preset is not None:
+        text.write(f"# muscle: {document.muscle.preset}:{result.geometry.nominal_length * 1e3:g}mm\n")
+    text.write(
+        f"# supply_pressure: {document.supply.pressure:g} Pa\n# load_mass: {document.load.mass:g} kg\n"
+    )
+    if isinstance(document.load.force, float) and document.load.force:
+        text.write(f"# load_force: {document.load.force:g} N\n")
+    writer = csv.writer(text, lineterminator="\n")
+    writer.writerow(columns)
+    writer.writerows([f"{value:.9g}" for value in row] for row in zip(*columns.values(), strict=True))
+    return text.getvalue()

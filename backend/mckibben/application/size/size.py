@@ -10,16 +10,17 @@ from typing import ClassVar
 from mckibben.application.envelope import MeasuredRange, range_of, use_notices
 from mckibben.application.muscle_summary import Notice, unverified_notice
 from mckibben.application.operating_limits import pressure_notices
-from mckibben.application.size.drive import drive_document
 from mckibben.application.size.task import about_task, catalogue_of, task_of
-from mckibben.documents.drive import DriveDocument
+from mckibben.documents.drive import DriveDocument, LoadInput
 from mckibben.documents.studio import Studio
 from mckibben.documents.task import SizingTask
 from mckibben.facts.result import Number, result_class
 from mckibben.facts.sizing import SEARCH, SIZING
+from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
-from mckibben.sizing import PartsCatalogue, Proposal, Rejection, Sizing, Task
+from mckibben.sizing import Design, PartsCatalogue, Proposal, Rejection, Sizing, Task
 from mckibben.sizing import size as search_designs
+from mckibben.sizing.catalogue import Group, switch_on
 from mckibben.sizing.ranking import joint_front, why_first
 from mckibben.sizing.statics import LimitName
 from mckibben.sizing.trial import Trial
@@ -410,3 +411,45 @@ def _notices(proposals: list[ProposedDrive], document: SizingTask) -> list[Notic
         text = "the life is an estimate between 100 000 and 10 million cycles; no maker's curve is known"
         notices.append(Notice("unverified", text, "limits.life"))
     return notices
+
+
+def drive_document(design: Design, task: Task) -> DriveDocument:
+    """The drive of one of the parallel muscles as a document; its simulation gives the proposal's figures."""
+    group, drive = design.group, design.group.drive(task, design.length, design.pressure)
+    on = switch_on(task, group.duty)
+    valve: dict[str, object] = {"preset": group.valve.id}
+    if group.parallel > 1:
+        valve["sonic_conductance"] = drive.valve.fill_conductance
+        valve["exhaust_conductance"] = drive.valve.exhaust_conductance
+    document: dict[str, object] = {
+        "schema": 1,
+        "title": f"One of {group.muscles} muscles" if group.muscles > 1 else "",
+        "muscle": {"preset": group.muscle.id, "nominal_length": design.length},
+        "supply": {"pressure": design.pressure},
+        "valve": valve,
+        "load": _load(group, drive),
+        "command": {"shape": "pulse", "on": on, "off": on + task.fill_time},
+        "gas": {"temperature": task.temperature},
+        "stops": {"min_contraction": 0.0, "max_contraction": drive.max_contraction},
+        "duration": drive.duration,
+    }
+    if drive.tube is not None:
+        document["tube"] = {"preset": group.tube.id, "length": drive.tube.length}
+    return DriveDocument.model_validate(document)
+
+
+def _load(group: Group, drive: Drive) -> LoadInput:
+    load, duty = drive.load, group.duty
+    values: dict[str, object] = {"mass": load.mass, "force": load.force, "spring": load.spring}
+    if duty.pair:
+        values |= {
+            "arrangement": "antagonist",
+            "pulley_radius": duty.pulley_radius,
+            "precontraction": drive.precontraction,
+        }
+    else:
+        values["inclination"] = load.inclination
+        if duty.lever_ratio != 1.0:
+            values |= {"arrangement": "lever", "lever_ratio": load.lever_ratio}
+    # Without validation: the mass equivalent to an inertia may exceed what a document may state.
+    return LoadInput.model_construct(None, **values)

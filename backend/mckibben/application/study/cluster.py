@@ -11,7 +11,7 @@ import orjson
 from mckibben.application.cluster import Cluster, check_version
 from mckibben.application.study.study import StudyQuestion, evaluator_of
 from mckibben.documents.studio import Studio
-from mckibben.documents.study_files import read_study
+from mckibben.documents.study import read_study
 from mckibben.physics.errors import InputError
 from mckibben.studies.run import Chunk, Workers
 from mckibben.studies.table import Evaluate, Row

@@ -6,8 +6,7 @@ from typing import Any, Literal
 
 from mckibben.application.study.file import has_parquet
 from mckibben.application.study.subject import subject_of
-from mckibben.documents.drive_files import read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.documents.studio import Studio
 from mckibben.documents.study import Subject
 from mckibben.documents.study_fields import stated_paths

@@ -21,7 +21,7 @@ from mckibben.facts.result import result_class
 from mckibben.facts.study import STUDY
 from mckibben.physics.errors import fields_inside
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
-from mckibben.studies.drive_figures import figures_named
+from mckibben.studies.drive_runs import figures_named
 from mckibben.studies.optimise import FigureGoal, FigureLimit, front
 from mckibben.studies.plan import Plan, RobustPlan
 from mckibben.studies.run import Workers, in_threads, run_plan
@@ -286,8 +286,9 @@ def _result(
     independent = method.type == "monte_carlo"
     random = independent or method.type == "latin_hypercube"
     sensitivity: list[Sensitivity] = []
+    blocks = 0
     if complete and isinstance(plan, SobolPlan | MorrisPlan):
-        sensitivity = plan.sensitivity(table, level)
+        sensitivity, blocks = plan.sensitivity(table, level), plan.blocks
     designs = _designs(question, plan, table) if complete and isinstance(plan, RobustPlan) else []
     best = front(table, question.goals, question.limits) if question.goals else np.zeros(0, np.int64)
     if len(question.goals) == 1:
@@ -315,7 +316,7 @@ def _result(
         seed=getattr(method, "seed", None),
         outcome=outcome.label,
         message=_ENDED.get(outcome),
-        remarks=_remarks(table, sensitivity),
+        remarks=_remarks(table, sensitivity, blocks),
         wall_ms=wall_ms,
     )
 
@@ -339,7 +340,7 @@ def _designs(question: StudyQuestion, plan: RobustPlan, table: StudyTable) -> li
     return sorted(found, key=lambda item: -item.probabilities[-1].kept)
 
 
-def _remarks(table: StudyTable, sensitivity: Sequence[Sensitivity]) -> list[str]:
+def _remarks(table: StudyTable, sensitivity: Sequence[Sensitivity], planned: int) -> list[str]:
     """Runs without figures, and what they do to the results."""
     remarks = []
     failures = Counter(
@@ -350,9 +351,9 @@ def _remarks(table: StudyTable, sensitivity: Sequence[Sensitivity]) -> list[str]
     if len(failures) > _SHOWN_FAILURES:
         remarks.append(f"{len(failures) - _SHOWN_FAILURES} further messages are in the table")
     for item in sensitivity:
-        if item.blocks < item.planned_blocks:
+        if item.blocks < planned:
             remarks.append(
-                f"{item.figure}: {item.planned_blocks - item.blocks} of {item.planned_blocks} blocks of runs "
+                f"{item.figure}: {planned - item.blocks} of {planned} blocks of runs "
                 "are left out of the indices because a run has no such figure; they may be biased"
             )
         if not item.influences:

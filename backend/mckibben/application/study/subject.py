@@ -11,20 +11,17 @@ from pydantic import BaseModel
 
 from mckibben.application.size.size import ProposedDrive, prepare, sizing_question
 from mckibben.documents.drive import DriveDocument
-from mckibben.documents.drive_files import preset_document, read_document
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, preset_document, read_document
 from mckibben.documents.located import one_line
 from mckibben.documents.studio import Studio
 from mckibben.documents.study import Subject, drive_content
 from mckibben.documents.study_fields import StudyField, field_at, with_values
-from mckibben.documents.task import SizingTask
-from mckibben.documents.task_files import named_task, read_task
+from mckibben.documents.task import SizingTask, named_task, read_task
 from mckibben.facts.study import WATCHED
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.outcome import Outcome, Watch
-from mckibben.studies.drive_figures import DRIVE_FIGURES
-from mckibben.studies.drive_runs import REFUSED, DriveRuns
+from mckibben.studies.drive_runs import DRIVE_FIGURES, REFUSED, DriveRuns
 from mckibben.studies.run import CHUNK
 from mckibben.studies.table import COMPLETED, Evaluate, Row
 from mckibben.studies.variable import Variable

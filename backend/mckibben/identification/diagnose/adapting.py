@@ -22,8 +22,7 @@ import numpy as np
 
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.levenberg import minimise
-from mckibben.identification.predict.fit_model import FitModel, free_numbers, held_beside
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free, fixed_beside, free_numbers
 from mckibben.identification.predict.predictor import Predictor
 
 _EVALUATIONS = 10  # of a refit: from the fit to the present data it is a few Gauss-Newton steps away
@@ -34,7 +33,7 @@ _LOST = 1e3  # sigma, difference of a reading without a finite prediction
 
 def further_constants(rival: FittedModel) -> list[Free]:
     """The constants that a rival may free in addition: all others of its effects, as in a diagnosis."""
-    known = {parameter.name for parameter in rival.free} | held_beside(rival.free)
+    known = {parameter.name for parameter in rival.free} | fixed_beside(rival.free)
     names = {
         f"{effect.id}.{p.name}"
         for effect in rival.fit_model.effects

@@ -20,7 +20,7 @@ from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.wrong_entry import WrongEntry, done_without
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
-from mckibben.identification.predict.fit_model import FitModel, held_beside
+from mckibben.identification.predict.fit_model import FitModel, fixed_beside
 from mckibben.identification.residual.noise import allowing_for_errors, noise_of
 from mckibben.physics.errors import InputError
 
@@ -266,9 +266,9 @@ def _with_effects(
 
 def _with_usual_constants(best: FittedModel, fitter: Fitter) -> FittedModel:
     """The model with the default values of the constants that act as the entry does."""
-    held = sorted(held_beside(fitter.geometry))
+    fixed = sorted(fixed_beside(fitter.geometry))
     values = {effect.id: effect.defaults for effect in best.fit_model.effects}
-    names = [name for name in held if name.partition(".")[0] in values]
+    names = [name for name in fixed if name.partition(".")[0] in values]
     usual = [values[name.partition(".")[0]][name.partition(".")[2]] for name in names]
     return replace(best, fit_model=best.fit_model.with_numbers(names, usual)) if names else best
 

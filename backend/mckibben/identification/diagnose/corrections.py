@@ -90,7 +90,7 @@ def refined(
         corrections: as found, the least likely first.
     """
     steps: list[tuple[str, FittedModel]] = []
-    told: list[Correction] = []
+    examined: list[Correction] = []
     here = lean
     types = {effect.type for effect in lean.fit_model.effects}
     for correction in reversed(corrections):
@@ -102,8 +102,8 @@ def refined(
         rows = effective_rows(trial.residual, fitter.predictor.sweeps, fitter.predictor.folds)
         foreign = effect.type in _IN_TIME and not fitter.predictor.simulated and not types & _IN_TIME
         kept = not foreign and better(trial, here, rows=rows, noise=fitter.noise)
-        told.append(replace(correction, before=here.rmse, after=trial.rmse, kept=kept))
+        examined.append(replace(correction, before=here.rmse, after=trial.rmse, kept=kept))
         if kept:
             steps.append((effect.id, trial))
             here = trial
-    return steps, tuple(told)
+    return steps, tuple(examined)

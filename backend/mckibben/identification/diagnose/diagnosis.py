@@ -9,7 +9,6 @@ from functools import cached_property, partial
 import numpy as np
 
 from mckibben.facts.result import result_class
-from mckibben.identification.diagnose.as_compared import as_compared
 from mckibben.identification.diagnose.contest import contest
 from mckibben.identification.diagnose.corrections import Correction, refined, without_corrections
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
@@ -28,7 +27,9 @@ from mckibben.identification.diagnose.probability import (
 from mckibben.identification.diagnose.progress import Progress
 from mckibben.identification.diagnose.reason import traits_of
 from mckibben.identification.diagnose.repetition import Repetition
+from mckibben.identification.diagnose.reweighted import reweighted
 from mckibben.identification.diagnose.search import search
+from mckibben.identification.diagnose.sign_changes import sign_changes
 from mckibben.identification.diagnose.steps import (
     PathStep,
     SingleAddition,
@@ -37,7 +38,6 @@ from mckibben.identification.diagnose.steps import (
     single_addition,
 )
 from mckibben.identification.diagnose.supported import supported
-from mckibben.identification.diagnose.turned import turned_constants
 from mckibben.identification.diagnose.twins import Alternative, likeliest, same, same_predictions
 from mckibben.identification.diagnose.verdict import (
     Interval,
@@ -54,8 +54,7 @@ from mckibben.identification.fit.effort import SearchEffort, diagnosis_effort
 from mckibben.identification.fit.fitted_model import FittedModel, unfitted
 from mckibben.identification.fit.fitter import CancelledError, Fitter
 from mckibben.identification.fit.least_squares import FitResult, fit_report
-from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.predict.specimens import SpecimensPredictor
@@ -452,7 +451,7 @@ def _search(
             best.residual, variables, folds=predictor.folds, basis=best.jacobian[:, best.inner],
             weigh=predictor.weighted,
         )  # fmt: skip
-    shown = partial(as_compared, predictor)
+    shown = partial(reweighted, predictor)
     designer = Designer.of(predictor, lean, level) if exchangeable else Designer((), level)
     pairs, designs = next_measurements(designer, lean, exchangeable, catalogue)
     progress.share = 0.95
@@ -482,7 +481,7 @@ def _search(
             *([] if gauge_zero is None else [gauge_zero.message]),
             *messages(fitter, best, fit, added),
             *predictor.assumed_history(best.fit_model),
-            *turned_constants(fitter, fit_model, best),
+            *sign_changes(fitter, fit_model, best),
         ),
         not_tried=tuple(begun.not_tried),
         context=context,
@@ -507,7 +506,7 @@ def _so_far(begun: _Begun, limit: float) -> Diagnosis:
         path.append(PathStep(None, root, refitted=True))
     path += steps
     added = tuple(step.added for step in path if step.added)
-    shown = partial(as_compared, predictor)
+    shown = partial(reweighted, predictor)
     left = [effect for effect in begun.candidates if effect.id not in begun.singles]
     return Diagnosis(
         predictor=predictor,

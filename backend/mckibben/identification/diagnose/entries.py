@@ -12,8 +12,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.identification.predict.fit_model import LOAD, SUPPLY, FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import LOAD, SUPPLY, FitModel, Free
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.measurement.measurement import STROKES, Measurement
 from mckibben.measurement.rescaled import rescaled
@@ -225,13 +224,13 @@ def _of_wall(fit_model: FitModel, elastic: Iterable[Effect]) -> Iterator[StatedE
     effects = [effect for effect in elastic if "wall_thickness" in effect.needs]
     if not wall or "wall_thickness" in fit_model.assumed or not effects:
         return
-    held = {f"{effect.id}.{p.name}" for effect in effects for p in effect.parameters if p.unit == "Pa"}
+    moduli = {f"{effect.id}.{p.name}" for effect in effects for p in effect.parameters if p.unit == "Pa"}
     high = min(_WALLS[1] * wall, 0.25 * fit_model.muscle.braid_diameter)
     entry = _quantity(
         "wall_thickness", "wall_thickness", "the wall thickness", wall, _WALLS[0] * wall, high, "m", _RARE
     )
     assert entry.free is not None  # noqa: S101 - it is a quantity
-    yield replace(entry, free=replace(entry.free, holds=frozenset(held)))
+    yield replace(entry, free=replace(entry.free, fixes=frozenset(moduli)))
 
 
 def _quantity(

@@ -29,7 +29,7 @@ def sentence_of(found: WrongEntry, titles: Mapping[str, str]) -> str:
     else:
         assert entry.reading is not None  # noqa: S101 - an entry is one of the two
         what = f"{entry.title[4:].capitalize()} {entry.reading.words}"
-    if entry.free is not None and entry.free.holds:
+    if entry.free is not None and entry.free.fixes:
         what += ", of usual rubber,"
     *first, last = [titles.get(name, name) for name in found.effects] or [""]
     also = f"{', '.join(first)} and {last}" if first else last

@@ -27,8 +27,8 @@ class SeparatingExperiment:
         protocol: the simulated experiment that separates them best; empty when none can be simulated.
         separation: rms difference in standard deviations of a reading, after both models have adapted.
         minutes: how long it takes; None without a protocol.
-        differs_in: the simulated experiment where the two models as they are differ most.
-        difference: by how many standard deviations of a reading.
+        difference: largest one of the models as they are in a simulated experiment, in standard deviations of
+            a reading.
         by_muscle_test: False where the catalogue declares that no test of the muscle separates the two.
     """
 
@@ -38,7 +38,6 @@ class SeparatingExperiment:
     protocol: str
     separation: float
     minutes: float | None = None
-    differs_in: str = ""
     difference: float = 0.0
     by_muscle_test: bool = True
 
@@ -88,8 +87,7 @@ def next_measurements(
     pairs = []
     for other in others:
         sigma, protocol = designer.farthest(best, other.fitted_model)
-        differs = [(designer.difference(best, other.fitted_model, p), p) for p in designer.protocols]
-        difference, place = max(differs, key=lambda pair: pair[0], default=(0.0, None))
+        differs = (designer.difference(best, other.fitted_model, each) for each in designer.protocols)
         twin = declared(catalogue[other.of], catalogue[other.effect])
         pairs.append(
             SeparatingExperiment(
@@ -99,8 +97,7 @@ def next_measurements(
                 "" if protocol is None else protocol.words,
                 sigma,
                 None if protocol is None else protocol.minutes,
-                "" if place is None else place.words,
-                difference,
+                max(differs, default=0.0),
                 twin is None or twin.by_muscle_test,
             )
         )

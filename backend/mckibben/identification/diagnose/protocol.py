@@ -234,15 +234,16 @@ def experiment_of(words: str, runs: Sequence[RigRun], fit_model: FitModel) -> Pr
     labels = np.repeat(np.arange(len(runs)), [len(time) for time in parts])
     rest = float(fit_model.muscle.nominal_length)
     pressure = np.concatenate([np.interp(t, r.time, r.pressure) for r, t in zip(runs, parts, strict=True)])
-    held = [
+    prescribed = [
         None if r.contraction is None else rest * (1.0 - np.interp(t, r.time, r.contraction))
         for r, t in zip(runs, parts, strict=True)
     ]
-    lengths = [part for part in held if part is not None]
+    lengths = [part for part in prescribed if part is not None]
     state = {
         "pressure": pressure,
         **_motion(
-            [np.zeros(len(t)) if part is None else part for t, part in zip(parts, held, strict=True)], parts
+            [np.zeros(len(t)) if part is None else part for t, part in zip(parts, prescribed, strict=True)],
+            parts,
         ),
         "temperature": np.full(len(labels), ROOM_TEMPERATURE),
     }

@@ -52,7 +52,6 @@ class Repetition:
         share: of the mean square of the residual.
         amplitude: of the scaled residual, at the mean pressure where it grows with the pressure.
         grows: whether its amplitude is in proportion to the pressure.
-        false_alarm: chance that noise does as well somewhere among all periods tried.
         left_out: share that it explains of sweeps that it was not fitted to.
         parts, shown: number of records, and of those that a fit to the others explains.
         of_sweeps: whether the parts are sweeps: in time, and where there is one record.
@@ -64,7 +63,6 @@ class Repetition:
     share: float
     amplitude: float
     grows: bool
-    false_alarm: float
     left_out: float
     parts: int
     shown: int
@@ -199,7 +197,7 @@ def _judged(rows: SweptRows, scan: _Scan, tried: float) -> Repetition | None:
     if shown < _SHOWN * parts or not _is_everywhere(rows, scan, fit, _EVERYWHERE * of_left):
         return None
     return Repetition(
-        scan.over, scan.span / cycles, share, fit.amplitude, scan.grows, max(chance, 1e-300),
+        scan.over, scan.span / cycles, share, fit.amplitude, scan.grows,
         left_out * square / rows.whole, parts, shown, not by_record,
     )  # fmt: skip
 

@@ -144,7 +144,7 @@ def lean(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> Fitted
         rows = _rows(fitter, fitted_model)
         freed = sorted(fitted_model.freed - root.freed)
         reduced = [
-            fitter.holding(fitted_model, name, _fixed_value(name, fitted_model, root)) for name in freed
+            fitter.fixing(fitted_model, name, _fixed_value(name, fitted_model, root)) for name in freed
         ]
         reduced += [
             fitter.at_constant(replace(fitted_model, freed=fitted_model.freed - {name}), name, value)
@@ -167,7 +167,7 @@ def _plausible(fitter: Fitter, fitted_model: FittedModel, root: FittedModel) -> 
     while fitted_model.implausible:
         rows = _rows(fitter, fitted_model)
         reduced = [
-            fitter.holding(fitted_model, name, _fixed_value(name, fitted_model, root))
+            fitter.fixing(fitted_model, name, _fixed_value(name, fitted_model, root))
             for name in sorted(fitted_model.freed - root.freed)
         ]
         reduced = [other for other in reduced if other.free]
@@ -313,8 +313,8 @@ def _chosen_anew(fitter: Fitter, model: FittedModel, root: FittedModel) -> list[
     found = []
     for name in sorted(model.freed - root.freed):
         effect = next(e for e in model.fit_model.effects if e.id == name.partition(".")[0])
-        held = fitter.holding(model, name, _fixed_value(name, model, root))
-        found += [other for other in fitter.freeing(held, effect) if other.key != model.key]
+        fixed = fitter.fixing(model, name, _fixed_value(name, model, root))
+        found += [other for other in fitter.freeing(fixed, effect) if other.key != model.key]
     return found
 
 

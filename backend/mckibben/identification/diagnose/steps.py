@@ -5,9 +5,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from mckibben.identification.diagnose.as_compared import as_compared
 from mckibben.identification.diagnose.gauge_zero import GaugeZero
 from mckibben.identification.diagnose.reason import ResidualTraits, why
+from mckibben.identification.diagnose.reweighted import reweighted
 from mckibben.identification.diagnose.score import better, effective_rows, score
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
@@ -172,4 +172,4 @@ def _with_vent(
 
 def _shown_error(fitter: Fitter, fitted: FittedModel) -> float:
     """The error that a comparison with the model shows."""
-    return as_compared(fitter.predictor, fitted).rmse
+    return reweighted(fitter.predictor, fitted).rmse

@@ -20,9 +20,8 @@ from itertools import combinations
 
 import numpy as np
 
-from mckibben.identification.fit.first_order import between, gain, unexplained_by
 from mckibben.identification.fit.fitted_model import FittedModel
-from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.fit.fitter import Fitter, between, gain, unexplained_by
 from mckibben.identification.predict.fit_model import free_numbers
 from mckibben.physics.effect import Effect
 

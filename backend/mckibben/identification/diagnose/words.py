@@ -146,8 +146,8 @@ def _own_law(result: Diagnosis, titles: Mapping[str, str]) -> str:
     for name in freed:
         effect, _, constant = name.partition(".")
         of_effects.setdefault(effect, []).append(constant.replace("_", " "))
-    told = [f"{_joined(names)} of {titles.get(effect, effect)}" for effect, names in of_effects.items()]
-    return f" (with {_joined(told)} free)" if told else ""
+    parts = [f"{_joined(names)} of {titles.get(effect, effect)}" for effect, names in of_effects.items()]
+    return f" (with {_joined(parts)} free)" if parts else ""
 
 
 def by_mechanism(effects: Sequence[str], catalogue: Mapping[str, Effect]) -> str:

@@ -15,8 +15,7 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.least_squares import FitResult
 from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import Predictor
-from mckibben.identification.predict.fit_model import FitModel, free_numbers
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free, free_numbers
 from mckibben.identification.predict.predictor import PredictedChannel, StoppedRun
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of

@@ -10,8 +10,7 @@ import numpy as np
 
 from mckibben.identification.fit.effort import FitEffort, search_effort
 from mckibben.identification.fit.misfit import Misfit, penalised
-from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.predictor import Predictor
 
 _NEAR_BOUND = 1e-6  # share of the range; nearer to a bound a parameter cannot move

@@ -10,13 +10,11 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from mckibben.identification.fit.effort import SearchEffort
-from mckibben.identification.fit.first_order import between, gain, unexplained_by
 from mckibben.identification.fit.fitted_model import FittedModel, refitted
-from mckibben.identification.fit.trials import at_places, off_of, pace_of, place_of, with_each
-from mckibben.identification.predict.fit_model import FitModel, free_numbers, held_beside
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free, fixed_beside, free_numbers
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.effect import Effect
+from mckibben.physics.parameter import Parameter
 from mckibben.simulation.outcome import Outcome
 
 _MOVED = 1e-3  # relative change of a parameter below which the fit has not left its start
@@ -29,6 +27,11 @@ _ELSEWHERE = (0.1, 0.4)  # shares of the way to the farther bound at which a hid
 _NEAR_FLOOR = 1.2  # error over noise below which only effects with a clear gain of their own are tried
 
 _ByModel = WeakKeyDictionary
+
+_SLOWER = (1.0, 10.0, 100.0)
+_PLACES = 12  # places tried of an effect that acts beyond some state only
+
+_USUAL = 0.01  # share of the range: size of a parameter that is off by default
 
 
 class CancelledError(Exception):
@@ -108,7 +111,7 @@ class Fitter:
         off = self.acting(fitted_model, effect)
         freed = fitted_model.freed | {f"{effect.id}.{n}" for n in off if not effect.parameter(n).fitted}
         start = self._placed(fitted_model, effect) | between(effect, off)
-        for name in held_beside(self.geometry):
+        for name in fixed_beside(self.geometry):
             owner, _, parameter = name.partition(".")
             if owner == effect.id and parameter in start:
                 start[parameter] = effect.parameter(parameter).default
@@ -173,7 +176,7 @@ class Fitter:
     def further(self, fitted_model: FittedModel, effect: Effect) -> set[str]:
         """Names of the further constants of an effect that may still be freed."""
         names = {f"{effect.id}.{p.name}" for p in effect.parameters if not p.fitted and not p.reference}
-        return names - fitted_model.freed - held_beside(self.geometry)
+        return names - fitted_model.freed - fixed_beside(self.geometry)
 
     def _would_matter(self, fitted_model: FittedModel, moved: FitModel, names: set[str]) -> bool:
         """Whether freeing constants may lower the error, by the linear model of their changes.
@@ -217,7 +220,7 @@ class Fitter:
         there = between(effect, {p.name: p.off})[p.name]
         return hidden - self._blind(fitted_model.fit_model.with_numbers([name], [there]), hidden)
 
-    def holding(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
+    def fixing(self, fitted_model: FittedModel, name: str, value: float) -> FittedModel:
         """The model with a freed constant fixed at a value again, refitted."""
         return self.fit(fitted_model.fit_model.with_numbers([name], [value]), fitted_model.freed - {name})
 
@@ -403,3 +406,76 @@ class Fitter:
     @staticmethod
     def _sizes(columns: np.ndarray) -> np.ndarray:
         return np.sqrt(np.mean(columns**2, axis=0))
+
+
+def off_of(effect: Effect, *, fitted: bool = True) -> dict[str, float]:
+    """Parameters declared as fitted, or the others, that have a value at which they have no effect: these."""
+    return {p.name: p.off for p in effect.parameters if p.off is not None and p.fitted is fitted}
+
+
+def place_of(effect: Effect) -> Parameter | None:
+    """Where an effect begins that acts beyond some state only: a fitted parameter without an off value."""
+    places = [p for p in effect.parameters if p.off is None and p.fitted]
+    return places[0] if len(places) == 1 else None
+
+
+def pace_of(effect: Effect) -> Parameter | None:
+    """The time by which an effect creeps, where a fit leaves it at its usual value at first."""
+    times = [p for p in effect.parameters if p.off is None and not p.fitted and p.unit == "s"]
+    return times[0] if len(times) == 1 and any(state.applied for state in effect.states) else None
+
+
+def at_places(fit_model: FitModel, effect: Effect, place: Parameter) -> dict[float, FitModel]:
+    """Places over its range, the usual one first -> the model with the effect acting from there.
+
+    Of a time by which an effect creeps: ten and a hundred times as long as usual.
+    """
+    acting = effect.off | between(effect, off_of(effect))
+    if place.fitted:
+        places = [place.default, *np.linspace(place.lower, place.upper, _PLACES + 2)[1:-1].tolist()]
+    else:  # a time: holds last from seconds to hours
+        places = [place.default * times for times in _SLOWER if place.default * times <= place.upper]
+    return {value: fit_model.adding(effect, acting | {place.name: value}) for value in places}
+
+
+def with_each(
+    fit_model: FitModel, effect: Effect, off: dict[str, float], placed: Mapping[str, float]
+) -> list[FitModel]:
+    """The model with each parameter of one more effect a little way from off, the others off.
+
+    Args:
+        fit_model: the model.
+        effect: to add.
+        off: its parameters and their off values.
+        placed: where it begins.
+    """
+    there = between(effect, off)
+    return [fit_model.adding(effect, {**effect.off, **placed, name: there[name]}) for name in off]
+
+
+def between(effect: Effect, off: dict[str, float]) -> dict[str, float]:
+    """A third of the way from off to the default; to 1 % of the range where the default is off."""
+    distances = {}
+    for name, value in off.items():
+        p = effect.parameter(name)
+        distances[name] = p.default - value if p.default != value else _USUAL * (p.upper - value)
+    return {name: value + distances[name] / 3.0 for name, value in off.items()}
+
+
+def gain(columns: np.ndarray, basis: np.ndarray, unexplained: np.ndarray) -> float:
+    """First-order reduction of the sum of squares by columns beside an orthonormal basis."""
+    rest = columns - basis @ (basis.T @ columns)
+    size, whole = np.linalg.norm(rest, axis=0), np.linalg.norm(columns, axis=0)
+    distinct = size > 1e-3 * whole
+    if not np.any(distinct):
+        return 0.0
+    directions = rest[:, distinct] / size[distinct]
+    solution = np.linalg.lstsq(directions, unexplained, rcond=1e-6)[0]
+    return float(np.sum((directions @ solution) ** 2))
+
+
+def unexplained_by(fitted_model: FittedModel) -> tuple[np.ndarray, np.ndarray]:
+    """Orthonormal basis of what the free parameters change, and the residual outside of it."""
+    inner = fitted_model.jacobian[:, fitted_model.inner]
+    basis = np.linalg.qr(inner)[0] if inner.shape[1] else np.empty((len(fitted_model.residual), 0))
+    return basis, fitted_model.residual - basis @ (basis.T @ fitted_model.residual)

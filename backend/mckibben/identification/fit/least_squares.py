@@ -9,7 +9,7 @@ import numpy as np
 
 from mckibben.facts.result import result_class
 from mckibben.identification.fit.levenberg import minimise
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import Free
 
 _AT_BOUND = 1e-3  # share of the range; nearer to a bound a parameter counts as being at it
 _CORRELATED = 0.95  # correlations above are reported

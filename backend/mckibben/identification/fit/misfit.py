@@ -9,8 +9,7 @@ import numpy as np
 
 from mckibben.identification.fit.effort import FitEffort
 from mckibben.identification.fit.least_squares import FitResult, fit_report, least_squares_fit
-from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.predictor import Predictor
 
 _LOST = 1e3  # residual of a row whose prediction is not finite, over the largest value

@@ -107,8 +107,8 @@ class Evaluation:
         names = ["rest"]
         if task.channel == "force" and any(map(remembers_before, effects)):
             names += [name for name, before in HISTORIES.items() if before.slid]
-        held = task.kind in _HELD and task.channel != "diameter" and self._memory.begins_held
-        if held and any(map(creeps, effects)):
+        begins_held = task.kind in _HELD and task.channel != "diameter" and self._memory.begins_held
+        if begins_held and any(map(creeps, effects)):
             names += ["applied", *(["applied anew"] if self._memory.has_levels else [])]
         return tuple(names)
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.identification.predict.free import Free
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY, NEUTRAL_ANGLE, Muscle
@@ -130,12 +129,12 @@ def free_numbers(
         load: the unknown load with its bounds.
     """
     geometry = tuple(geometry)
-    held = held_beside(geometry)
+    fixed = fixed_beside(geometry)
     of_effects = [
         _free(effect.id, p, fit_model.values[effect.id][p.name], p.bounds(fit_model.blocked_force))
         for effect in fit_model.effects
         for p in effect.parameters
-        if (p.fitted or f"{effect.id}.{p.name}" in freed) and f"{effect.id}.{p.name}" not in held
+        if (p.fitted or f"{effect.id}.{p.name}" in freed) and f"{effect.id}.{p.name}" not in fixed
     ]
     others = [Free(f.name, fit_model.number(f.name), f.lower, f.upper, f.unit) for f in geometry]
     if load is not None:
@@ -143,9 +142,9 @@ def free_numbers(
     return (*of_effects, *others)
 
 
-def held_beside(free: Iterable[Free]) -> frozenset[str]:
+def fixed_beside(free: Iterable[Free]) -> frozenset[str]:
     """The constants that keep their values beside these parameters."""
-    return frozenset().union(*(each.holds for each in free))
+    return frozenset().union(*(each.fixes for each in free))
 
 
 def _free(effect: str, p: Parameter, value: float, bounds: tuple[float, float]) -> Free:
@@ -193,3 +192,27 @@ def free_geometry(muscle: Muscle, names: Iterable[str], tolerance: Mapping[str, 
         upper = min(value + width, 0.9999 * NEUTRAL_ANGLE) if name == "braid_angle" else value + width
         choice.append(Free(name, value, max(value - width, 1e-6), upper, _UNITS[name]))
     return tuple(choice)
+
+
+@dataclass(frozen=True, slots=True)
+class Free:
+    """A free parameter: name, start, bounds, SI unit, the value at which it has no effect, a usual change.
+
+    ``natural``: its bounds are those of its definition, such as 0 and 1 of a share. ``fixes``: constants of
+    effects that act exactly as it does, and so keep their values beside it.
+    """
+
+    name: str
+    start: float
+    lower: float
+    upper: float
+    unit: str
+    off: float | None = None
+    usual: float | None = None
+    natural: bool = False
+    fixes: frozenset[str] = frozenset()
+
+    @property
+    def typical(self) -> float:
+        """A change that matters: the usual one, or a hundredth of the range between the bounds."""
+        return self.usual or 0.01 * (self.upper - self.lower)

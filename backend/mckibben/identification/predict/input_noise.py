@@ -79,8 +79,10 @@ def with_smooth_pressure(task: ComparableRows) -> tuple[ComparableRows, float]:
     taken = float(np.sqrt(np.mean((pressure - task.state["pressure"]) ** 2)))
     messages = task.messages
     if taken > _TOLD * float(np.ptp(pressure)):
-        told = f"noise of the pressure readings, {taken / 100.0:.2g} mbar, was averaged to predict lengths"
-        messages = (*messages, told)
+        averaged = (
+            f"noise of the pressure readings, {taken / 100.0:.2g} mbar, was averaged to predict lengths"
+        )
+        messages = (*messages, averaged)
     smooth_rows = replace(task, state={**task.state, "pressure": pressure}, messages=messages)
     return smooth_rows, max(left, default=0.0)
 

@@ -121,11 +121,11 @@ class Memory:
 
     def _new_levels(self, rows: np.ndarray) -> np.ndarray:
         """Places within a record at which a hold begins: its pressure, length or load is another one."""
-        held = {"isometric": ("length", "pressure"), "isotonic": ("load", "pressure")}.get(
+        constant = {"isometric": ("length", "pressure"), "isotonic": ("load", "pressure")}.get(
             self._task.kind, ()
         )
         begins = np.zeros(len(rows) - 1, bool)
-        for name in held:
+        for name in constant:
             values = self._task.state[name]
             begins |= np.abs(np.diff(values[rows])) > _NEW_LEVEL * max(float(np.ptp(values)), 1e-12)
         places = 1 + np.flatnonzero(begins)

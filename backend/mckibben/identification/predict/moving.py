@@ -7,17 +7,19 @@ are scaled by their noise.
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+import threading
+from collections.abc import Callable, Hashable, Iterable, Sequence
+from concurrent.futures import ThreadPoolExecutor
 from copy import copy
 from dataclasses import replace
+from functools import cache
+from typing import Self, TypeVar
 
 import numpy as np
 
 from mckibben.identification.predict.comparable_rows import records_of
-from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.folds import FEWEST
-from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.kept_runs import KeptRuns
 from mckibben.identification.predict.moving_records import (
     MOST_DRIVING,
     MOST_ROWS,
@@ -27,7 +29,6 @@ from mckibben.identification.predict.moving_records import (
     stroke_of,
 )
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor, StoppedRun
-from mckibben.identification.predict.side_by_side import side_by_side
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.noise import noise_floor
 from mckibben.measurement.settled import settled
@@ -56,6 +57,14 @@ _AIR = (
     "extra_volume", "heat", "leakage", "command_delay", "opening", "fill_conductance", "exhaust_conductance",
     "tube_conductance", "supply", "exhaust_sink",
 )  # fmt: skip
+
+_KEPT_NUMBERS = 1_000_000  # kept, 8 MB
+
+Item = TypeVar("Item")
+Result = TypeVar("Result")
+
+_THREADS = 2  # cores of a small computer
+_THREAD_NAMES = "records"
 
 
 class TransientPredictor(Predictor):
@@ -468,3 +477,69 @@ def _blocks(records: Sequence[Record], channels: int) -> np.ndarray:
         for number, record in enumerate(records)
     ]
     return np.tile(np.concatenate(labels), channels)
+
+
+class KeptRuns:
+    """The predictions of the models that were asked for last.
+
+    A search asks for many of them twice: of a fit where it ended, of its derivatives where it goes on.
+    """
+
+    def __init__(self) -> None:
+        self._known: dict[Hashable, np.ndarray] = {}
+
+    def __reduce__(self) -> tuple[type[Self], tuple[()]]:
+        """Copies in other processes begin empty."""
+        return type(self), ()
+
+    def of(
+        self, fit_models: Sequence[FitModel], run: Callable[[list[FitModel]], Sequence[np.ndarray]]
+    ) -> list[np.ndarray]:
+        """The prediction of each model; ``run`` is called once with those that are not known."""
+        keys = [_key(fit_model) for fit_model in fit_models]
+        missing = {key: model for key, model in zip(keys, fit_models, strict=True) if key not in self._known}
+        for key in keys:  # what is asked for again stays longest
+            if key not in missing:
+                self._known[key] = self._known.pop(key)
+        new = dict(zip(missing, run(list(missing.values())), strict=True)) if missing else {}
+        found = [new[key] if key in new else self._known[key] for key in keys]
+        for key, prediction in new.items():
+            self._keep(key, prediction, least=len(new))
+        return found
+
+    def __contains__(self, fit_model: FitModel) -> bool:
+        return _key(fit_model) in self._known
+
+    def keep(self, fit_model: FitModel, prediction: np.ndarray) -> None:
+        """Keep a prediction that was found otherwise."""
+        self._keep(_key(fit_model), prediction)
+
+    def _keep(self, key: Hashable, prediction: np.ndarray, *, least: int = 1) -> None:
+        self._known[key] = prediction
+        while len(self._known) > max(_KEPT_NUMBERS // max(len(prediction), 1), least):
+            del self._known[next(iter(self._known))]
+
+
+def _key(fit_model: FitModel) -> Hashable:
+    """All that a run depends on."""
+    values = frozenset((effect, *fit_model.values[effect.id].items()) for effect in fit_model.effects)
+    return fit_model.muscle, fit_model.supply_factor, values
+
+
+@cache
+def _pool() -> ThreadPoolExecutor:
+    return ThreadPoolExecutor(_THREADS, _THREAD_NAMES)
+
+
+def side_by_side(function: Callable[[Item], Result], items: Sequence[Item]) -> list[Result]:
+    """Results of a function of items in two threads, in their order.
+
+    A single item is done in this thread, and so are items of items, which would wait for each other.
+
+    Args:
+        function: must release the interpreter lock for most of its time, else two threads gain nothing. Its
+            result must not depend on which item is done first.
+    """
+    if len(items) < 2 or threading.current_thread().name.startswith(_THREAD_NAMES):
+        return [function(item) for item in items]
+    return list(_pool().map(function, items))

@@ -7,8 +7,8 @@ from functools import cached_property
 
 import numpy as np
 
-from mckibben.measurement.corrected import GRAVITY
 from mckibben.measurement.derivative import noise_of
+from mckibben.measurement.experiment import GRAVITY
 from mckibben.measurement.kind import weights_of_runs
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
 from mckibben.physics.errors import InputError

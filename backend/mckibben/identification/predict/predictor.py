@@ -12,8 +12,7 @@ from typing import Self
 import numpy as np
 
 from mckibben.facts.result import Number, result_class
-from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.free import Free
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.reading_errors import ReadingError, ReadingWeights, reading_weights
 from mckibben.physics.effect import Effect
 
@@ -203,10 +202,6 @@ class Predictor(ABC):
     @abstractmethod
     def why_hidden(self, effect: Effect) -> str:
         """Why these data cannot reveal an effect; empty if they can."""
-
-    def reveals(self, effect: Effect) -> bool:
-        """Whether these data can reveal an effect."""
-        return not self.why_hidden(effect)
 
     @abstractmethod
     def prepared(self, fit_model: FitModel, candidates: Sequence[Effect]) -> Predictor:

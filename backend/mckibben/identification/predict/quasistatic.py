@@ -1,4 +1,14 @@
-"""Quasistatic measurements of force, length or diameter: static evaluation, memory along the records."""
+r"""Quasistatic measurements of force, length or diameter: static evaluation, memory along the records.
+
+A muscle that carries a load while the pressure changes slowly has the length where :math:`F(L) = W`, so
+:math:`dL/d\theta = (W_\theta - F_\theta)/F_L`. With dry friction the muscle sticks. Its equilibrium is
+:math:`L_s` while shortening and :math:`L_l \le L_s` while lengthening, and along a record
+
+.. math:: L_t = \min(\max(L_{t-1}, L_l), L_s)
+
+so friction needs no measured direction, and the prediction of a sticking muscle is constant. With memory the
+muscle is followed row by row, see `mckibben.identification.predict.free_runs`.
+"""
 
 from __future__ import annotations
 
@@ -9,18 +19,17 @@ from dataclasses import replace
 import numpy as np
 
 from mckibben.identification.predict.comparable_rows import ComparableRows
-from mckibben.identification.predict.corners import with_corners
-from mckibben.identification.predict.evaluate import Evaluation, sorted_effects
-from mckibben.identification.predict.fit_model import LOAD, FitModel
+from mckibben.identification.predict.evaluate import Evaluation, State, sorted_effects
+from mckibben.identification.predict.fit_model import LOAD, FitModel, Free
 from mckibben.identification.predict.folds import folds_of, ranges_of, sweeps_of
-from mckibben.identification.predict.free import Free
-from mckibben.identification.predict.free_runs import acting_of, remembered
+from mckibben.identification.predict.free_runs import acting_of, followed_lengths, remembered
 from mckibben.identification.predict.input_noise import with_smooth_pressure
-from mckibben.identification.predict.lengths import predicted_lengths
 from mckibben.identification.predict.memory import HISTORIES, remembers
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.predict.sensor_dynamics import as_read, late
 from mckibben.physics.effect import Effect
+from mckibben.physics.model import Model
+from mckibben.simulation.drive.isotonic import sliding
 from mckibben.simulation.statics.model import clip_slack
 
 _LEAST = 0.01  # quantile that serves as the smallest force: a single row may be an outlier
@@ -34,6 +43,23 @@ _TREND = (
     0.3  # of the variance; readings that follow pressure or length less are those of no muscle that pulls
 )
 _SLACK_BAND = 0.02  # scatter of the readings of a slack muscle, share of the range of the force
+
+_NEWTON_STEPS = 40
+_TOLERANCE = 1e-8  # m; last step of Newton's method, whose error is its square
+_LARGEST_STEP = 0.02  # per Newton step, share of the nominal length
+_SHORTEST = 0.35  # shortest length of the search, share of the nominal length
+_CREEP = 1e-9  # m/s; speed that carries the direction where the measured speed is 0
+_STEP = 1e-3  # difference step of a guide's parameter, share of its range
+_LOAD_STEP = 1.0  # N; on a guide the friction may grow with the load, which it does in proportion
+
+LengthAndGradient = tuple[np.ndarray, np.ndarray]
+
+_SUDDEN = 4.0  # change of the speed at a corner over those before and behind it: both sides are straight
+_CLEAR = 6.0  # distance of a corner from the line between its rows, over the noise of the way
+_APPARENT = 0.05  # the same over the longer step beside it: less changes no reading
+_EVEN = 1.5  # longest time step over the shortest one around a corner
+_NOISE = 0.6745 * np.sqrt(20.0)  # median third difference of white noise of standard deviation 1
+_SOON = 1e-6  # time from a corner to the way behind it, share of the time step
 
 
 class QuasistaticPredictor(Predictor):
@@ -324,3 +350,215 @@ def _is_slack_throughout(force: np.ndarray, inputs: Sequence[np.ndarray], blocke
 def _at_once(fit_model: FitModel) -> FitModel:
     """The model without delaying effects."""
     return replace(fit_model, effects=tuple(effect for effect in fit_model.effects if not late(effect)))
+
+
+def predicted_lengths(
+    evaluation: Evaluation, fit_model: FitModel, names: Sequence[str] = ()
+) -> LengthAndGradient:
+    """Length of each row [m], and its derivatives by the named parameters, shape (rows, names)."""
+    acting = acting_of(fit_model, names)
+    if remembered(acting):
+        return followed_lengths(evaluation, acting, names)
+    state = evaluation.state(fit_model)
+    if not any(map(_rubs, acting.effects)):
+        return _balance(evaluation, fit_model, names, state)
+    branches = []
+    for sign in (-1.0, 1.0):
+        speed = np.abs(state["velocity"]) * sign
+        moving = {**state, "velocity": speed, "direction": np.full(len(speed), sign)}
+        branches.append(_balance(evaluation, fit_model, names, moving, branch=sign))
+    return _stuck(evaluation, *branches)
+
+
+def _rubs(effect: Effect) -> bool:
+    """Whether an effect opposes the motion at any speed: a guide, or friction without memory."""
+    rubbing = "friction" in effect.slots and "direction" in effect.wanted("friction") and not effect.states
+    return "guide" in effect.slots or rubbing
+
+
+def _stuck(
+    evaluation: Evaluation, shortening: LengthAndGradient, lengthening: LengthAndGradient
+) -> LengthAndGradient:
+    """The length along each record, which sticks between the two branches."""
+    task = evaluation.task
+    short, long = shortening[0], lengthening[0]
+    upper, lower = np.maximum(short, long).tolist(), np.minimum(short, long).tolist()
+    measured, begins = task.measured.tolist(), [True, *(np.diff(task.records) != 0).tolist()]
+    length, held_at, held_by = [], [], []  # the row at which a branch was met last, and which (0: none)
+    previous, at, by = 0.0, 0, 0
+    for row, (high, low, begin) in enumerate(zip(upper, lower, begins, strict=True)):
+        if begin:
+            previous, by = measured[row], 0
+        if previous > high:
+            previous, at, by = high, row, 1
+        elif previous < low:
+            previous, at, by = low, row, 2
+        length.append(previous)
+        held_at.append(at)
+        held_by.append(by)
+    branch = np.array(held_by)[:, None]
+    slopes = np.where(branch == 1, shortening[1][held_at], lengthening[1][held_at])
+    return np.array(length), np.where(branch > 0, slopes, 0.0)
+
+
+def _balance(
+    evaluation: Evaluation, fit_model: FitModel, names: Sequence[str], state: State, branch: float = 0.0
+) -> LengthAndGradient:
+    """Newton's method in bounded steps, up to the lock of the braid.
+
+    It begins where the model before was in balance, which a fit has changed little, else at the measured
+    lengths.
+    """
+    task = evaluation.task
+    rest = fit_model.muscle.nominal_length
+    low, high = _SHORTEST * rest, 0.9999 * float(fit_model.muscle.braid.thread_length)
+    first = task.measured if task.channel == "length" else np.full(len(task.measured), rest)
+    load = _load(task.state["load"], fit_model, state, np.clip(first, low, high))
+    length = np.clip(evaluation.balanced.get(branch, first), low, high)
+    force_at, limit = evaluation.by_length(fit_model, state), _LARGEST_STEP * rest
+    load = np.broadcast_to(load, length.shape)
+    left = np.arange(len(length))  # rows that still move
+    inside = np.zeros(len(length), bool)
+    for _ in range(_NEWTON_STEPS):
+        here = length[left]
+        force, slope = force_at(here, left)
+        excess = force - load[left]
+        with np.errstate(divide="ignore", invalid="ignore"):
+            step = np.where(slope > 0.0, excess / slope, np.sign(excess))
+        inside[left] = slope > 0.0
+        length[left] = np.clip(here - np.clip(step, -limit, limit), low, high)
+        left = left[~(np.abs(length[left] - here) < _TOLERANCE)]
+        if not len(left):
+            break
+    inside &= (length > low) & (length < high)
+    evaluation.balanced[branch] = np.where(inside, length, first)
+    if not names:
+        return length, np.empty((len(length), 0))
+    out, gradient = evaluation.at(fit_model, names, {**state, "length": length})
+    gradient = -gradient
+    for column, name in enumerate(names):
+        gradient[:, column] += _load_slope(name, fit_model, task.state["load"], state, length)
+    slope = out["force_by_length"]
+    inside &= slope > 0.0
+    return length, np.where(inside[:, None], gradient / np.where(inside, slope, 1.0)[:, None], 0.0)
+
+
+def _load(stated: np.ndarray, fit_model: FitModel, state: State, length: np.ndarray) -> np.ndarray:
+    """Force that the muscle has to balance: load, unknown load and friction of the guide [N]."""
+    creeping = np.where(state["velocity"] == 0.0, _CREEP * state["direction"], state["velocity"])
+    context = {
+        "stroke": fit_model.muscle.nominal_length - length,
+        "speed": -creeping,
+        "direction": -state["direction"],
+        "load": np.abs(stated + fit_model.load),
+    }
+    guides = [effect for effect in acting_of(fit_model).effects if "guide" in effect.slots]
+    values = {e.id: {**fit_model.values[e.id], **sliding(e, fit_model.values[e.id], context)} for e in guides}
+    return stated + fit_model.load + Model(tuple(guides)).sum("guide", values, context)
+
+
+def _load_slope(
+    name: str, fit_model: FitModel, stated: np.ndarray, state: State, length: np.ndarray
+) -> np.ndarray | float:
+    if name == LOAD:
+        step = _LOAD_STEP
+    else:
+        effect = next((e for e in fit_model.effects if e.id == name.partition(".")[0]), None)
+        if effect is None or "guide" not in effect.slots:
+            return 0.0
+        declared = effect.parameter(name.partition(".")[2])
+        step = _STEP * (declared.upper - declared.lower)
+    here = fit_model.number(name)
+    ends = [
+        _load(stated, fit_model.with_numbers([name], [value]), state, length) for value in (here, here + step)
+    ]
+    return (ends[1] - ends[0]) / step
+
+
+def with_corners(task: ComparableRows) -> ComparableRows:
+    r"""The rows with two more at each corner of the way between two of them, which are not to be scored.
+
+    Both sides of a corner are straight. Their lines meet between the rows k and k + 1 at
+
+    .. math:: t_c = t_k + \frac{y_{k+1} - y_k - v_r\,(t_{k+1} - t_k)}{v_l - v_r}
+
+    with the speeds :math:`v_l` before row k and :math:`v_r` behind row k + 1: subcell resolution (A. Harten,
+    J. Comput. Phys. 83 (1989) 148, doi 10.1016/0021-9991(89)90226-X). A late reading at row k + 1 is one of
+    an instant between the rows; a straight line from row to row would cut the corner off.
+
+    The way is the pressure where the length is held, else the length. The first of the two rows moves as the
+    row before the corner, the second one as that behind it. The same rows where the force is not predicted.
+    """
+    name = "pressure" if task.kind == "isometric" else "length"
+    if task.time is None or task.channel != "force" or name not in task.state:
+        return task
+    row, after = _corners(task.time, task.state[name], task.records)
+    if not len(row):
+        return task
+    step = task.time[row + 1] - task.time[row]
+    share = after / step
+    tip = _onward(task.time, task.state[name], row, after)
+
+    def inserted(values: np.ndarray, first: np.ndarray, second: np.ndarray) -> np.ndarray:
+        return np.insert(values, np.repeat(row + 1, 2), np.stack([first, second], axis=1).ravel())
+
+    def between(values: np.ndarray) -> np.ndarray:
+        there = values[row] + share * (values[row + 1] - values[row])
+        return inserted(values, there, there)
+
+    def repeated(values: np.ndarray) -> np.ndarray:
+        return inserted(values, values[row], values[row])
+
+    state: Mapping[str, np.ndarray] = {
+        **{one: between(values) for one, values in task.state.items()},
+        **{
+            one: inserted(task.state[one], task.state[one][row], task.state[one][row + 1])
+            for one in ("velocity", "direction")
+        },
+        name: inserted(task.state[name], tip, tip),
+    }
+    at = task.time[row] + after
+    unscored = np.ones(len(row), bool)
+    by_rest_length = task.by_rest_length
+    return replace(
+        task,
+        measured=between(task.measured),
+        state=state,
+        time=inserted(task.time, at, at + _SOON * step),
+        records=repeated(task.records),
+        groups=repeated(task.groups),
+        turning=inserted(task.turning, unscored, unscored),
+        rows=repeated(task.rows),
+        by_rest_length=repeated(by_rest_length) if isinstance(by_rest_length, np.ndarray) else by_rest_length,
+        corners=inserted(np.zeros(len(task.rows), bool), unscored, unscored),
+    )
+
+
+def _onward(time: np.ndarray, way: np.ndarray, row: np.ndarray, after: np.ndarray) -> np.ndarray:
+    """The way a time after a row, if it went on as it did before the row."""
+    return way[row] + (way[row] - way[row - 1]) / (time[row] - time[row - 1]) * after
+
+
+def _corners(time: np.ndarray, way: np.ndarray, records: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """The row before each corner, and the time from it to the corner [s]."""
+    if len(way) < 6:
+        return np.empty(0, int), np.empty(0)
+    row = np.arange(2, len(way) - 3)
+    row = row[records[row - 2] == records[row + 3]]
+    # Between records time may step back or stand still, and the speed need not change.
+    with np.errstate(divide="ignore", invalid="ignore"):
+        step = np.diff(time)
+        speed = np.diff(way) / step
+        left, right = speed[row - 1], speed[row + 1]
+        after = (way[row + 1] - way[row] - right * step[row]) / (left - right)
+    steps = np.stack([step[row + place] for place in range(-2, 3)])
+    bent = np.maximum(np.abs(left - speed[row - 2]), np.abs(right - speed[row + 2]))
+    found = np.max(steps, axis=0, initial=0.0) < _EVEN * np.min(steps, axis=0, initial=np.inf)
+    found &= (np.abs(right - left) > _SUDDEN * bent) & (after > 0.0) & (after < (1.0 - _SOON) * step[row])
+    row, after, left, right = row[found], after[found], left[found], right[found]
+    off = np.abs(left - speed[row]) * after
+    longer = step[row] * np.maximum(np.abs(left), np.abs(right))
+    # Corners are few, and do not count in a median.
+    noise = float(np.median(np.abs(np.diff(way, 3)))) / _NOISE
+    clear = off > np.maximum(_CLEAR * noise, _APPARENT * longer)
+    return row[clear], after[clear]

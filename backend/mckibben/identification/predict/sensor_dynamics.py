@@ -12,7 +12,7 @@ with the slope s of the line. Stages in series are a sum of such lags, by partia
 What a prediction has from the noise of its inputs passes neither
 (`mckibben.identification.predict.input_noise`). A skew shifts the signal in time. Lag and skew are linear, so
 derivatives by a model's parameters pass through the same filter. A corner between two rows of the file is one
-of the rows here (`mckibben.identification.predict.corners`).
+of the rows here (`mckibben.identification.predict.quasistatic`).
 """
 
 from __future__ import annotations

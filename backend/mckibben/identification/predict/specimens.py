@@ -13,9 +13,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.folds import folds_of
-from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor, StoppedRun
 from mckibben.identification.predict.reading_errors import ReadingError
 from mckibben.measurement.kind import common_kind

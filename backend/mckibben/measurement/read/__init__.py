@@ -5,13 +5,12 @@ from __future__ import annotations
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.read.assemble import assemble
 from mckibben.measurement.read.correction import Correction, read_correction, spoken_correction
-from mckibben.measurement.read.csv import read_csv
 from mckibben.measurement.read.formats import open_source
 from mckibben.measurement.read.preview import Preview, preview_here
 from mckibben.measurement.read.process import bounded
 
 __all__ = [
-    "Correction", "Preview", "load_readers", "preview", "read_correction", "read_csv", "read_measurement",
+    "Correction", "Preview", "load_readers", "preview", "read_correction", "read_measurement",
     "spoken_correction",
 ]  # fmt: skip
 

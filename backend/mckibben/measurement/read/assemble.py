@@ -38,11 +38,11 @@ from mckibben.measurement.read.plain_head import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
 from mckibben.measurement.read.recognise import recognise
+from mckibben.measurement.read.reversed_strokes import reverse_strokes
 from mckibben.measurement.read.signs import FORCE_SIGN, STROKE_SIGN
 from mckibben.measurement.read.source import RawTable
 from mckibben.measurement.read.stated import KIND_SAID, REFERENCE_OF
 from mckibben.measurement.read.tares import notes_of_tares, subtract_tare, zero_questions
-from mckibben.measurement.read.turned import turn_strokes
 from mckibben.measurement.read.valve_pressure import with_valve_pressure
 from mckibben.physics.errors import InputError
 
@@ -186,7 +186,7 @@ def assemble(
     slack = _oldest_first(columns, by_use, slack, source, messages)
     hold_pressure(columns, by_use, name, source, conditions, messages)
     hold_stroke(columns, by_use, source, name, conditions, messages, correction)
-    turned = turn_strokes(columns, by_use, reading)
+    reversed_strokes = reverse_strokes(columns, by_use, reading)
     tare = subtract_tare(columns, by_use, [*source.rest, *notes_of_tares(source.notes)], conditions, messages)
     tare += add_hanger(
         columns, by_use, source.rest, conditions, messages,
@@ -205,7 +205,7 @@ def assemble(
         tare += zero_questions(columns, by_use, source.unzeroed, conditions)
     tare += air_questions(conditions, by_use, source.notes)
     weighed = {*correction.conditions, *(column.key for column in meaning.constants)}
-    questions += turned + tare
+    questions += reversed_strokes + tare
     questions += condition_questions(source.rest, source.notes, conditions, columns, weighed)
     questions.sort(key=lambda question: not question.stops)
     if asked is not None:

@@ -16,7 +16,7 @@ from mckibben.measurement.read.correction import SAMPLE
 from mckibben.measurement.read.counted_rows import counted_rows
 from mckibben.measurement.read.evidence import Evidence, bare_name
 from mckibben.measurement.read.head_text import taken_apart
-from mckibben.measurement.read.joints import beside_chosen, of_a_joint
+from mckibben.measurement.read.joints import beside_chosen, joint_message
 from mckibben.measurement.read.left_out import FINAL, Reason
 from mckibben.measurement.read.physical_checks import context_questions, physical_questions
 from mckibben.measurement.read.plain_head import HeaderColumn
@@ -250,11 +250,11 @@ def _proposed(evidence: Evidence) -> list[Question]:
         if column.origin == PROPOSED:
             other = "length" if channel == "displacement" else "displacement"
             name = bare_name(column)
-            turned = ", with its sign reversed," if column.sign < 0 else ""
+            reversal = ", with its sign reversed," if column.sign < 0 else ""
             asked.append(
                 Question(
                     f"column '{name}'",
-                    f"{evidence.noun} '{column.header}' is read as {channel}{turned} because of its unit "
+                    f"{evidence.noun} '{column.header}' is read as {channel}{reversal} because of its unit "
                     f"'{column.unit}' and its numbers; its name does not say so",
                     f"{column_option(other, name)} or {ignore_option(name)}",
                     column.header,
@@ -291,7 +291,7 @@ def _rivals(evidence: Evidence) -> list[Question]:
         opposed = winner.use == "pressure" and _are_opposed(evidence, winner, other)
         which = f"'{winner.header}' and '{other.header}' are both {winner.use} and differ"
         if opposed:
-            which = of_a_joint(evidence, winner, other)
+            which = joint_message(evidence, winner, other)
         marked = _between_marks(winner, other, values, second)
         asked.append(
             Question(

@@ -9,8 +9,6 @@ from __future__ import annotations
 import re
 from collections.abc import Iterator, Sequence
 
-from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read.assemble import assemble
 from mckibben.measurement.read.cells import CellTable
 from mckibben.measurement.read.conditions import Note, note_of_line
 from mckibben.measurement.read.correction import Correction
@@ -42,22 +40,6 @@ _FORTRAN = re.compile(r"(?<![\w.])([+-]?\d*\.\d+)D([+-]\d{2,3})(?!\w)")
 _THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:\.\d{3})+,\d|(?<![\d.,])\d{1,3}(?:,\d{3})+\.\d")
 _QUOTED_THOUSANDS = re.compile(r'"\s*[+-]?\d{1,3}(?:,\d{3})+\.\d*\s*"')
 _BLANK_THOUSANDS = re.compile(r"(?<![\d.,])\d{1,3}(?:['’\u00a0\u202f]\d{3})+(?![\d])")
-
-
-def read_csv(data: bytes, name: str, correction: Correction | None = None) -> Measurement:
-    """The measurement in a delimited text.
-
-    Args:
-        data: the file's bytes.
-        name: file name, for messages.
-        correction: what the user says beyond the file.
-
-    Raises:
-        InputError: whatever is wrong with the file, naming file, row (1-based line), column, remedy.
-    """
-    correction = correction or Correction()
-    source = open_csv(data, name, correction)
-    return assemble(source, name=name, id=correction.identity(data), correction=correction).measurement
 
 
 def open_csv(data: bytes, name: str, correction: Correction | None = None) -> RawTable:

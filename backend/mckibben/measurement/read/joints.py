@@ -26,7 +26,7 @@ def column_of(evidence: Evidence, dimension: str) -> str | None:
     return None
 
 
-def of_a_joint(evidence: Evidence, first: HeaderColumn, second: HeaderColumn) -> str:
+def joint_message(evidence: Evidence, first: HeaderColumn, second: HeaderColumn) -> str:
     """What two pressures that run against each other are, and what to do instead of comparing them."""
     torque = column_of(evidence, TORQUE)
     angle = column_of(evidence, "an angle")

@@ -55,7 +55,7 @@ def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Arra
     stated = evidence.conditions.get(STROKE_SIGN) == SHORTENING_POSITIVE
     if against is False or not (falls or against or (column.extends and not stated)):
         return []
-    turned = column_option(channel, bare_name(column), sign=-1)
+    reversed_sign = column_option(channel, bare_name(column), sign=-1)
     rest, most = evidence.conditions.get("nominal_length"), float(np.max(stroke))
     if channel == "displacement" and isinstance(rest, float) and not falls and most > _STRETCHED * rest:
         return [_zero_of_stroke(evidence, column, rest, most)]
@@ -66,7 +66,7 @@ def _sign_of_stroke(evidence: Evidence, channel: str, stroke: Array, force: Arra
             f"sign of {channel}",
             f"{evidence.noun} '{column.header}' {'falls' if falls else 'grows'} as the muscle "
             f"{'shortens' if falls else 'lengthens'}, but shortening is positive here; reverse its sign",
-            f"{turned}{as_length}",
+            f"{reversed_sign}{as_length}",
             column.header,
             REVERSE,
             (REVERSE, KEEP),

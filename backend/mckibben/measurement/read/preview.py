@@ -49,8 +49,6 @@ class PreviewColumn:
     """The proposed or chosen channel; None = not used."""
     unit: str | None
     """The proposed, stated or chosen unit; None = not used."""
-    unit_given: bool
-    """The unit is stated in the header or was chosen, not proposed."""
     absolute: bool | None
     """An absolute pressure; None = not stated, gauge is assumed."""
     minimum: float | None
@@ -106,7 +104,6 @@ class Preview:
         questions: what the file leaves open; ``problem`` is their refusal where they stop the reading.
         unread: all columns that nothing is read from, and why.
         stated: the conditions with their origin.
-        choices: tables that could be meant, by the name that picks them.
         tables: all tables of the file that a name picks, and whether each is read.
         raw: the first rows as they stand in the file; None where the format has none.
         head_row: row of the names; None where the format has none.
@@ -129,7 +126,6 @@ class Preview:
     questions: tuple[Question, ...] = ()
     unread: tuple[tuple[str, str], ...] = ()
     stated: tuple[StatedValue, ...] = ()
-    choices: tuple[str, ...] = ()
     tables: tuple[tuple[str, bool], ...] = ()
     raw: RawRows | None = None
     head_row: int | None = None
@@ -202,7 +198,6 @@ def preview_here(data: bytes, name: str, correction: Correction | None = None) -
         stated=stated_values(source, meaning, conditions, correction)
         if read is None
         else read.measurement.stated,
-        choices=tuple(title for title, _ in source.choices),
         tables=source.tables,
         raw=source.raw,
         head_row=source.header_row,
@@ -267,7 +262,6 @@ def _columns(source: RawTable, meaning: Meaning, read: Read | None) -> tuple[Pre
                 header=header.strip() or f"column {index + 1}",
                 channel=column.use if column else None,
                 unit=column.unit if column else None,
-                unit_given=index in guessed and guessed[index].unit is not None,
                 absolute=column.absolute if column else None,
                 minimum=span.minimum if span else None,
                 maximum=span.maximum if span else None,

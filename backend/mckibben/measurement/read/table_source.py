@@ -17,7 +17,7 @@ from mckibben.measurement.read.recognise import recognise
 from mckibben.measurement.read.source import SAMPLE_ROWS, RawTable
 from mckibben.measurement.read.stated import KIND_SAID
 from mckibben.measurement.read.table import FAST_FROM, read_table
-from mckibben.measurement.read.tables import told_channels
+from mckibben.measurement.read.tables import titled_channels
 from mckibben.measurement.read.values import Clock, NumberStyle, is_elapsed, is_falling, number_of, style_of
 from mckibben.measurement.read.vocabulary import word_set, words_of
 from mckibben.measurement.read.words.ways import LOADING
@@ -42,14 +42,14 @@ def source_of(
         rewritten: the cells of the table are not those of the rows that are shown.
     """
     names, units = list(table.names), list(table.units)
-    told = told_channels(table)
+    titled = titled_channels(table)
     several = len(table.parts) > 1
     numbered = several and not _has(table, "group")
-    if several and "force" in told and not any(note.key == KIND_SAID for note in notes):
+    if several and "force" in titled and not any(note.key == KIND_SAID for note in notes):
         where = table.parts[0].held["force"].where  # a load in the title of each part
         notes = [*notes, Note(where, KIND_SAID, "isotonic")]
     said = list(messages) + table.messages
-    for channel in told:
+    for channel in titled:
         names.append(channel)
         units.append(_unit_of_held(table, channel))
     if numbered:
@@ -70,7 +70,7 @@ def source_of(
     def rows(clocks: bool) -> Iterator[tuple[int, list[Cell]]]:
         for number, part in enumerate(table.parts):
             more: list[Cell] = [
-                part.held[channel].quantity.value * _scale(part, table, channel) for channel in told
+                part.held[channel].quantity.value * _scale(part, table, channel) for channel in titled
             ]
             if numbered:
                 more.append(number)
@@ -98,7 +98,7 @@ def source_of(
     sample = [
         ["" if cell is None else str(cell) for cell in row] for _, row in islice(rows(False), SAMPLE_ROWS)
     ]
-    for channel in told:
+    for channel in titled:
         places = ", ".join(dict.fromkeys(f"'{part.held[channel].quantity.text}'" for part in table.parts))
         said.append(f"{channel} is taken from the titles: {places} ({table.parts[0].held[channel].where})")
     if several:

@@ -215,7 +215,7 @@ def is_told(table: Table, channel: str, known: set[str]) -> bool:
     return len(table.parts) > 1 or table.parts[0].held[channel].quantity.named
 
 
-def told_channels(table: Table) -> list[str]:
+def titled_channels(table: Table) -> list[str]:
     """The channels that only the titles tell, in every part; of a single part its named pressure."""
     meaning = map_headers([*table.names, "?"], place=table.place, collect=True, units=[*table.units, None])
     known = {column.use for column in meaning.columns}
@@ -247,8 +247,8 @@ def choose(tables: Sequence[Table], *, sheet: str | None, noun: str = "sheet") -
     best = _best(tables)
     wanted = channels_of(best)
     alike = [table for table in tables if table.signature == best.signature]
-    told = told_channels(_together(alike)) if len(alike) > 1 else []
-    if len(alike) > 1 and told:
+    titled = titled_channels(_together(alike)) if len(alike) > 1 else []
+    if len(alike) > 1 and titled:
         best = _together(alike)
         others = [table for table in tables if table not in alike]
         return Chosen(best, _left_out(others, noun), (), _unread(others))

@@ -20,22 +20,16 @@ from mckibben.documents.start_model import PresetFacts, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.documents.value_names import value_names, value_words
 from mckibben.identification.predict.fit_model import LOAD
-from mckibben.measurement.corrected import FROM_DRIVE
-from mckibben.measurement.experiment import ACCURACY, FIELDS, LOAD_FORCE, Experiment, shown_value
+from mckibben.measurement.experiment import ACCURACY, FIELDS, FROM_DRIVE, LOAD_FORCE, Experiment, shown_value
 from mckibben.measurement.points import Points
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import GEOMETRY
 from mckibben.presets.quantity import Quantity, quantities
-from mckibben.report.diagnosis import (
-    Command,
-    DataSource,
-    DiagnosisMaterial,
-    Figure,
-    MuscleFacts,
-    PastModel,
-    diagnosis_report,
-)
-from mckibben.report.versions import versions
+from mckibben.report.command import Command
+from mckibben.report.diagnosis.material import DataSource, DiagnosisMaterial, MuscleFacts, PastModel
+from mckibben.report.diagnosis.writing import diagnosis_report
+from mckibben.report.document import versions
+from mckibben.report.sources import Figure
 from mckibben.simulation.outcome import Watch
 
 _MODEL_FILE = "model.json"

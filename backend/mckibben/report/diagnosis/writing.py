@@ -6,14 +6,17 @@ from collections.abc import Iterator
 
 from mckibben.facts.comparison import COMPARISON, error_scale
 from mckibben.report.command import command_section
-from mckibben.report.diagnosis.answer import answer_section
 from mckibben.report.diagnosis.errors import error_table, where_it_fails
-from mckibben.report.diagnosis.experiment import experiment_section
-from mckibben.report.diagnosis.inputs import assumptions_section, data_section, muscle_section
+from mckibben.report.diagnosis.inputs import (
+    assumptions_section,
+    data_section,
+    experiment_section,
+    muscle_section,
+)
 from mckibben.report.diagnosis.material import DiagnosisMaterial
 from mckibben.report.diagnosis.model import correlations, model_cards
 from mckibben.report.diagnosis.pictures import pictures
-from mckibben.report.diagnosis.verdict import candidates_section
+from mckibben.report.diagnosis.verdict import answer_section, candidates_section
 from mckibben.report.document import Head, Section, bullets, document, table
 from mckibben.report.figures import figure
 from mckibben.report.html import Child, Html, html

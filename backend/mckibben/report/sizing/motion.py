@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -10,13 +12,13 @@ from numpy.typing import NDArray
 
 from mckibben.application.run.simulate import SimulationResult
 from mckibben.facts.timing import AIR_FIGURES, PHASES, TIMING
+from mckibben.report.chart import chart
 from mckibben.report.document import Head, figure_of, mark, paragraph, table
 from mckibben.report.figures import Scale, figure, percent
 from mckibben.report.html import Child, Html, html
 from mckibben.report.marks import ACCENT, EDGE, INK, SECOND, Axis, Line, Mark, Rule
 from mckibben.report.sizing.material import Chosen, SizingMaterial
 from mckibben.report.sizing.words import BAR, MILLIMETRES
-from mckibben.report.stack import Panel, stack
 from mckibben.report.summary.simulation import timing_remarks
 from mckibben.simulation.timing.table import PhaseFigures, TimingTable
 
@@ -25,10 +27,12 @@ _AFTER, _LEAST_AFTER = 1.2, 0.02  # shown time: this multiple of the motion, and
 _LEAVES = 1e-5  # travel from which the load has started to move [m]
 _MILLISECONDS = Scale("ms", 1e-3)
 _PANEL = 70.0  # height of a drawing: both strokes stand below the table of the operating points
-_SPEED, _ACCELERATION, _FLOW = Scale("mm/s", 1e-3), Scale("m/s²"), Scale("g/s", 1e-3)
+_SPEED, _FLOW = Scale("mm/s", 1e-3), Scale("g/s", 1e-3)
 
 #: Figures that are those of one muscle times the number of muscles.
 _TOGETHER = {"impact_energy", *AIR_FIGURES} - {"choked_share"}
+
+_FOOT = 36.0  # height of the numbers and title of the x axis
 
 
 class _DrawnPhase(NamedTuple):
@@ -179,3 +183,42 @@ def _figure(value: float | None, times: int, scale: Scale) -> Html:
     if scale.unit == "%":
         return percent(value, 3)
     return figure(None if value is None else value * times, scale)
+
+
+@dataclass(frozen=True)
+class Panel:
+    """One of the drawings."""
+
+    axis: Axis
+    marks: Sequence[Mark]
+    title: str
+
+
+def stack(
+    x: Axis, panels: Sequence[Panel], *, height: float = 84.0, left: float = 84.0, room: float = 150.0
+) -> Html:
+    """The drawings, with numbers on the x axis of the lowest one.
+
+    Args:
+        x: the common axis; its ``ends`` must be given.
+        panels: from the top.
+        height: of each.
+        left: where the axes begin.
+        room: width of the legends.
+    """
+    parts: list[Html] = []
+    for number, panel in enumerate(panels):
+        last = number == len(panels) - 1
+        parts.append(
+            chart(
+                replace(x, bare=not last),
+                panel.axis,
+                panel.marks,
+                title=panel.title,
+                height=height + (_FOOT if last else 0.0),
+                left=left,
+                legend=True,
+                room=room,
+            )
+        )
+    return html(parts)

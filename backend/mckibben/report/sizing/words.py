@@ -30,9 +30,9 @@ def shown(value: float | None, each: Figure, digits: int = 4, *, exact: bool = F
     return figure(value, Scale(pretty(scale.unit), *scale[1:]), digits, exact=exact)
 
 
-def of_proposal(proposal: ProposedDrive, name: str, digits: int = 3) -> Html:
+def of_proposal(proposal: ProposedDrive, name: str) -> Html:
     """A figure of a proposal in its unit."""
-    return shown(getattr(proposal, name), SIZING[name], digits)
+    return shown(getattr(proposal, name), SIZING[name], 3)
 
 
 def entry_value(entry: Entry) -> Html:

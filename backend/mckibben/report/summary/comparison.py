@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from mckibben.application.compare.compare import ComparisonResult
 from mckibben.facts.comparison import CHECK, COMPARISON, error_scale
-from mckibben.report.summary.parts import (
+from mckibben.report.summary import (
     Summary,
     Table,
-    experiment_tables,
+    experiment_table,
     in_unit,
     parameter_tables,
     rows_of,
@@ -24,7 +24,7 @@ def summary_of(result: ComparisonResult) -> Summary:
     """Assumptions, experiments, the error, where the model fails, parameters, notices."""
     return [
         *result.assumptions,
-        *experiment_tables(result.specimens),
+        *(experiment_table(each.file, each.experiment) for each in result.specimens),
         error_table(result),
         *result.sentences,
         *parameter_tables(result.parameters),

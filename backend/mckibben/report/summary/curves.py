@@ -7,7 +7,7 @@ from numpy.typing import NDArray
 
 from mckibben.application.curves.curves import CurvesResult
 from mckibben.facts.muscle import CHARACTERISTICS, CURVES
-from mckibben.report.summary.parts import Summary, Table, figure, shown
+from mckibben.report.summary import Summary, Table, figure, shown
 
 _TABLE_ROWS = 11
 _STIFFNESS = ("stiffness", "stiffness_closed", "stiffness_from_force", "stiffness_secant")

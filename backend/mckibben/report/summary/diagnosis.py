@@ -6,10 +6,10 @@ from mckibben.application.diagnose.result import DiagnosisResult, PathPoint
 from mckibben.facts.comparison import NOISE, SPECIMEN, error_scale
 from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.units import probability_text
-from mckibben.report.summary.parts import (
+from mckibben.report.summary import (
     Summary,
     Table,
-    experiment_tables,
+    experiment_table,
     in_unit,
     parameter_tables,
     rows_of,
@@ -23,7 +23,7 @@ def summary_of(result: DiagnosisResult) -> Summary:
     """Assumptions, experiments, the path, the candidates, parameters, the verdict, notices."""
     summary: Summary = [
         *result.assumptions,
-        *experiment_tables(result.specimens),
+        *(experiment_table(each.file, each.experiment) for each in result.specimens),
         path_table(result),
         *specimen_tables(result),
         candidate_table(result),

@@ -19,7 +19,7 @@ from mckibben.facts.linear import (
     STEP_DESIGN,
 )
 from mckibben.facts.units import QUANTITIES
-from mckibben.report.summary.parts import Summary, Table, figure, shown
+from mckibben.report.summary import Summary, Table, figure, shown
 from mckibben.simulation.linear.loop import Margins
 
 _GAINS = ("kp", "ki", "kd", "feed_forward")

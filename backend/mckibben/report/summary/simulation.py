@@ -7,7 +7,7 @@ from math import pi
 from mckibben.application.run.simulate import SimulationResult
 from mckibben.facts.run import JOINT, STEP, TRACKING
 from mckibben.facts.timing import PHASES, TIMING
-from mckibben.report.summary.parts import Summary, Table, figure, shown
+from mckibben.report.summary import Summary, Table, figure, shown
 from mckibben.simulation.timing.table import TimingTable
 
 _MOST_NAMED = 6  # of the figures with one remark

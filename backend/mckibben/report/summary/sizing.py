@@ -6,7 +6,7 @@ from mckibben.application.size.size import SizingResult, nothing_words
 from mckibben.application.size.task import heading_of
 from mckibben.facts.figure import Figure
 from mckibben.facts.sizing import LIMITS, SIZING
-from mckibben.report.summary.parts import Summary, Table, figure
+from mckibben.report.summary import Summary, Table, figure
 
 _REJECTED_SHOWN = 12
 _FIGURES = (

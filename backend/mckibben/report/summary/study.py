@@ -8,7 +8,7 @@ from mckibben.application.study.study import StudyColumn, StudyResult
 from mckibben.facts.study import INFLUENCE, STUDY, SUMMARY, WATCHED
 from mckibben.facts.units import Scale
 from mckibben.report.figures import pretty
-from mckibben.report.summary.parts import Summary, Table, figure
+from mckibben.report.summary import Summary, Table, figure
 from mckibben.studies.statistics import Estimate, FigureSummary, Probability
 
 _ROWS = 20  # most rows of a table for people; files and JSON have all

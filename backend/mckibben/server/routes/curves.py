@@ -1,4 +1,4 @@
-"""The static characteristics of one muscle."""
+"""The static characteristics of one muscle, and inverse questions."""
 
 from __future__ import annotations
 
@@ -6,18 +6,21 @@ from fastapi import APIRouter, Request
 from fastapi.concurrency import run_in_threadpool
 
 from mckibben.application.curves.curves import CurvesResult, curves
+from mckibben.application.curves.inverse import InverseFinding
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import StoreDep, StudioDep
 from mckibben.server.long_work import contained, whole
-from mckibben.server.questions.curves import curves_question
+from mckibben.server.questions import curves_question
 from mckibben.server.schemas.common import errors
-from mckibben.server.schemas.curves import CurvesRequest
+from mckibben.server.schemas.curves import CurvesRequest, InverseRequest
 
-router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRoute)
+curves_router = APIRouter(prefix="/api/curves", tags=["curves"], route_class=StrictRoute)
+
+inverse_router = APIRouter(prefix="/api/inverse", tags=["inverse"], route_class=StrictRoute)
 
 
-@router.post(
+@curves_router.post(
     "",
     response_model=CurvesResult,
     responses=errors(400, 413, 415, 422, 429),
@@ -37,3 +40,17 @@ async def compute_curves(
     if contained(request, body):
         return JsonAnswer(await whole(request, "computation of curves", body, studio, store))
     return await run_in_threadpool(answer)
+
+
+@inverse_router.post(
+    "",
+    response_model=InverseFinding,
+    responses=errors(400, 413, 415, 422, 429),
+    openapi_extra=request_examples.worked_each("questions"),
+)
+async def answer_question(
+    body: InverseRequest, request: Request, studio: StudioDep, store: StoreDep
+) -> JsonAnswer:
+    """A pressure, contraction, working range or stroke pressure, with the limits it crosses."""
+    quick = not contained(request, body)
+    return JsonAnswer(await whole(request, "inverse question", body, studio, store, quick=quick))

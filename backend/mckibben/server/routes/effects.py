@@ -8,12 +8,18 @@ import threading
 from fastapi import APIRouter, Request, Response
 from pydantic import Field
 
+from mckibben.application.diagnose.signatures import AtlasQuestion, Signatures, signatures
 from mckibben.application.json_text import to_json
+from mckibben.documents.muscle import MuscleInput
+from mckibben.documents.quantity import PositivePressure
+from mckibben.documents.start_model import stated_muscle
 from mckibben.documents.strict import Strict
 from mckibben.physics.catalogue import EffectCatalogue, EffectProblem
 from mckibben.physics.effect import Effect, Signature
 from mckibben.physics.parameter import Parameter, Source
+from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.context import StudioDep
 from mckibben.server.schemas.common import errors
 
 
@@ -121,7 +127,7 @@ def _effect(effect: Effect) -> EffectAnswer:
     )
 
 
-router = APIRouter(prefix="/api/effects", tags=["effects"], route_class=StrictRoute)
+effects_router = APIRouter(prefix="/api/effects", tags=["effects"], route_class=StrictRoute)
 
 
 class EffectsDocument:
@@ -141,7 +147,7 @@ class EffectsDocument:
             return self._content
 
 
-@router.get("", response_model=EffectsAnswer, responses=errors())
+@effects_router.get("", response_model=EffectsAnswer, responses=errors())
 def list_effects(request: Request) -> Response:
     """Every effect with its equation, parameters, sources and what it is confused with."""
     body, etag = request.app.state.effects.content()
@@ -149,3 +155,32 @@ def list_effects(request: Request) -> Response:
     if request.headers.get("if-none-match") == etag:
         return Response(status_code=304, headers=headers)
     return JsonAnswer(body, headers=headers)
+
+
+class SignatureRequest(Strict):
+    """An effect on a muscle."""
+
+    muscle: MuscleInput = Field(description="The muscle.")
+    effect: str = Field(description="Id of the effect.")
+    values: dict[str, float] = Field(
+        default_factory=dict, description="Its parameters in SI; missing ones take their usual size."
+    )
+    pressure: PositivePressure | None = Field(
+        None, description="Largest gauge pressure of the tests; null: the muscle's limit, else 6 bar."
+    )
+
+
+signatures_router = APIRouter(prefix="/api/signatures", tags=["effects"], route_class=StrictRoute)
+
+
+@signatures_router.post(
+    "",
+    response_model=Signatures,
+    responses=errors(400, 413, 415, 422),
+    openapi_extra=request_examples.worked("signatures"),
+)
+def draw_signatures(body: SignatureRequest, studio: StudioDep) -> JsonAnswer:
+    """What an effect leaves in the residual of each kind of test that shows it, on this muscle."""
+    start = studio.start_model(stated_muscle(body.muscle), {})
+    question = AtlasQuestion(start, body.effect, body.values, body.pressure)
+    return JsonAnswer(signatures(question, studio))

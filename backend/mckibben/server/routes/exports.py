@@ -13,10 +13,10 @@ from mckibben.server.long_work import contained, whole
 from mckibben.server.schemas.common import errors
 from mckibben.server.schemas.exports import ExportAnswer, ExportRequest, FormatsAnswer
 
-router = APIRouter(prefix="/api/exports", tags=["exports"], route_class=StrictRoute)
+exports_router = APIRouter(prefix="/api/exports", tags=["exports"], route_class=StrictRoute)
 
 
-@router.get("", response_model=FormatsAnswer)
+@exports_router.get("", response_model=FormatsAnswer)
 def list_formats() -> JsonAnswer:
     """The formats in which a model or drive can be taken along."""
     return JsonAnswer(
@@ -35,7 +35,7 @@ def list_formats() -> JsonAnswer:
     )
 
 
-@router.post(
+@exports_router.post(
     "",
     response_class=Response,  # errors are still JSON
     responses={**ExportAnswer, **errors(400, 404, 413, 415, 422, 429)},

@@ -28,7 +28,7 @@ class RenameRequest(Strict):
     )
 
 
-router = APIRouter(prefix="/api/kept", tags=["kept"], route_class=StrictRoute)
+kept_router = APIRouter(prefix="/api/kept", tags=["kept"], route_class=StrictRoute)
 
 Kind = Annotated[KeptKind, Path(description="'files' for measurement files, else the kind of preset.")]
 Identity = Annotated[
@@ -42,13 +42,13 @@ Identity = Annotated[
 
 
 # In worker threads, all of them: they read and write files.
-@router.get("", response_model=KeptData, responses=errors())
+@kept_router.get("", response_model=KeptData, responses=errors())
 def list_kept(studio: StudioDep, store: StoreDep) -> JsonAnswer:
     """Measurements and presets of the user, those that can be restored, and what they take."""
     return JsonAnswer(kept.kept(studio, store))
 
 
-@router.patch(
+@kept_router.patch(
     "/{kind}/{identity}",
     response_model=KeptData,
     responses=errors(400, 404, 409, 413, 415, 422),
@@ -62,14 +62,14 @@ def rename_kept(
     return JsonAnswer(kept.kept(studio, store))
 
 
-@router.delete("/{kind}/{identity}", response_model=KeptData, responses=errors(404, 409, 422))
+@kept_router.delete("/{kind}/{identity}", response_model=KeptData, responses=errors(404, 409, 422))
 def delete_kept(kind: Kind, identity: Identity, studio: StudioDep, store: StoreDep) -> JsonAnswer:
     """Delete a measurement or preset; for 30 days it can be restored, unless its room is needed."""
     kept.delete(studio, store, kind=kind, identity=identity)
     return JsonAnswer(kept.kept(studio, store))
 
 
-@router.post("/{kind}/{identity}/restore", response_model=KeptData, responses=errors(404, 409, 422))
+@kept_router.post("/{kind}/{identity}/restore", response_model=KeptData, responses=errors(404, 409, 422))
 def restore_kept(kind: Kind, identity: Identity, studio: StudioDep, store: StoreDep) -> JsonAnswer:
     """Bring a deleted measurement or preset back. The answer is what is kept now."""
     kept.restore(studio, store, kind=kind, identity=identity)

@@ -1,13 +1,16 @@
-"""Measurement files: preview, upload, read back."""
+"""Measurement files: preview, upload, read back; measurements with hidden effects, to practise on."""
 
 from __future__ import annotations
 
 from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request
+from pydantic import Field
 from starlette.exceptions import HTTPException
 
+from mckibben.application.diagnose.mysteries import MysterySummary, Reveal, mysteries, reveal
 from mckibben.application.measurement.summary import MeasurementDetails, MeasurementSummary, PreviewResult
+from mckibben.documents.strict import Name, Strict
 from mckibben.measurement.read import Correction, read_correction
 from mckibben.measurement.read.correction import MAX_LENGTH
 from mckibben.measurement.store import MAX_NAME
@@ -18,7 +21,7 @@ from mckibben.server.long_work import whole
 from mckibben.server.schemas.common import errors
 from mckibben.server.short_jobs import FileRequest
 
-router = APIRouter(prefix="/api/measurements", tags=["measurements"], route_class=StrictRoute)
+measurements_router = APIRouter(prefix="/api/measurements", tags=["measurements"], route_class=StrictRoute)
 
 # Content types that browsers send; Windows with Excel installed sends vnd.ms-excel for CSV.
 _CONTENT_TYPES = (
@@ -77,7 +80,7 @@ _Muscle = Annotated[
 ]
 
 
-@router.put(
+@measurements_router.put(
     "",
     dependencies=[BeforeWork],
     response_model=MeasurementSummary,
@@ -96,7 +99,7 @@ async def upload_measurement(
     return JsonAnswer(await whole(request, "file upload", file, studio, store))
 
 
-@router.post(
+@measurements_router.post(
     "/preview",
     dependencies=[BeforeWork],
     response_model=PreviewResult,
@@ -127,9 +130,44 @@ async def _file(request: Request, mapping: str | None) -> tuple[bytes, Correctio
     return await request.body(), correction
 
 
-@router.get("/{measurement_id}", response_model=MeasurementDetails, responses=errors(404, 422, 429))
+@measurements_router.get(
+    "/{measurement_id}", response_model=MeasurementDetails, responses=errors(404, 422, 429)
+)
 async def read_measurement(
     measurement_id: Identity, request: Request, studio: StudioDep, store: StoreDep
 ) -> JsonAnswer:
     """A measurement with its columns in SI."""
     return JsonAnswer(await whole(request, "measurement", measurement_id, studio, store))
+
+
+class RevealRequest(Strict):
+    """The user's diagnosis."""
+
+    effects: list[Name] = Field(
+        default=[], max_length=64, description="Ids of the effects of the user's model.", examples=[[]]
+    )
+
+
+mysteries_router = APIRouter(prefix="/api/mysteries", tags=["mysteries"], route_class=StrictRoute)
+
+
+# In worker threads: the library reads the user's folder.
+@mysteries_router.get("", response_model=list[MysterySummary], responses=errors(), dependencies=[BeforeWork])
+def list_mysteries(studio: StudioDep) -> JsonAnswer:
+    """Every mystery with its story and start model; comparisons accept its measurement by id."""
+    return JsonAnswer(mysteries(studio.library))
+
+
+@mysteries_router.post(
+    "/{mystery_id}/reveal",
+    response_model=Reveal,
+    responses=errors(400, 404, 413, 415, 422),
+    openapi_extra=request_examples.worked("reveal"),
+)
+def reveal_mystery(
+    mystery_id: Annotated[str, Path(max_length=64, description="Its id.", examples=["the-dip"])],
+    body: RevealRequest,
+    studio: StudioDep,
+) -> JsonAnswer:
+    """The hidden effects of a mystery, compared with the user's diagnosis."""
+    return JsonAnswer(reveal(studio.library, mystery_id, body.effects))

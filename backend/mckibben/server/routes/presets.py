@@ -1,4 +1,4 @@
-"""Presets: muscles, valves, tubes, fittings, measurements, curves, designs, drives, tasks."""
+"""Presets: muscles, valves, tubes, fittings, measurements, curves, designs, drives, tasks; order codes."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ import orjson
 from fastapi import APIRouter, Path, Request
 from fastapi.concurrency import run_in_threadpool
 
-from mckibben.application.model.save_muscle import keep
+from mckibben.application.model.order_code import OrderedMuscle, ordered_muscle
+from mckibben.application.model.saved import keep
 from mckibben.documents.saved_model import read_saved_model
 from mckibben.presets import MusclePreset
 from mckibben.server import request_examples
@@ -24,13 +25,15 @@ from mckibben.server.schemas.presets import (
     PresetsAnswer,
 )
 
-router = APIRouter(prefix="/api/presets", tags=["presets"], route_class=StrictRoute)
+presets_router = APIRouter(prefix="/api/presets", tags=["presets"], route_class=StrictRoute)
 
 Kind = Annotated[PresetKind, Path(description="Which presets.")]
 
+order_codes_router = APIRouter(prefix="/api/order-codes", tags=["presets"], route_class=StrictRoute)
+
 
 # In worker threads: the library reads the user's folder.
-@router.get("/{kind}", response_model=PresetsAnswer, responses=errors(404, 422))
+@presets_router.get("/{kind}", response_model=PresetsAnswer, responses=errors(404, 422))
 def list_presets(kind: Kind, studio: StudioDep) -> JsonAnswer:
     """All presets of a kind with unit, source and grade of each figure, and the files that were refused."""
     return JsonAnswer(
@@ -42,7 +45,7 @@ def list_presets(kind: Kind, studio: StudioDep) -> JsonAnswer:
     )
 
 
-@router.get("/{kind}/{preset_id:path}", response_model=PresetAnswer, responses=errors(404, 422))
+@presets_router.get("/{kind}/{preset_id:path}", response_model=PresetAnswer, responses=errors(404, 422))
 def read_preset(
     kind: Kind,
     preset_id: Annotated[str, Path(max_length=64, description="Its id.", examples=["DMSP-20"])],
@@ -52,7 +55,7 @@ def read_preset(
     return JsonAnswer(studio.library.get(kind, preset_id).public())
 
 
-@router.post(
+@presets_router.post(
     "/muscles",
     status_code=201,
     response_model=MuscleAnswer,
@@ -65,7 +68,7 @@ def save_muscle(body: MusclePreset, studio: StudioDep) -> JsonAnswer:
     return JsonAnswer(saved.public(), status_code=201)
 
 
-@router.post(
+@presets_router.post(
     "/muscles/fitted",
     status_code=201,
     response_model=MuscleAnswer,
@@ -83,3 +86,17 @@ async def keep_fitted_muscle(
         return JsonAnswer(keep(saved, studio, id=body.id, title=body.title).public(), status_code=201)
 
     return await run_in_threadpool(kept)
+
+
+# In a worker thread: the library reads the user's folder.
+@order_codes_router.get("/{code:path}", response_model=OrderedMuscle, responses=errors(404, 422))
+def read_order_code(
+    code: Annotated[str, Path(max_length=100, description="As ordered.", examples=["DMSP-20-300N-RM-CM"])],
+    studio: StudioDep,
+) -> JsonAnswer:
+    """Preset and length that an order code names, and what its parts mean.
+
+    The field of an error names the part that is not understood by its place between the hyphens:
+    ``code.2`` of ``DMSP-20-300X-RM`` is ``300X``.
+    """
+    return JsonAnswer(ordered_muscle(code, studio))

@@ -14,8 +14,7 @@ from fastapi import APIRouter, Path, Query, Request, Response
 from fastapi.concurrency import run_in_threadpool
 from pydantic import ConfigDict, Field
 
-from mckibben.application.project.projects import files_of, missing_files, packed
-from mckibben.application.project.studies import give_back, table_of
+from mckibben.application.project.projects import files_of, give_back, missing_files, packed, table_of
 from mckibben.application.study.store import StudyStore
 from mckibben.documents.strict import Strict
 from mckibben.projects.project import Project, ProjectSummary, Revision
@@ -27,7 +26,6 @@ from mckibben.server.schemas.common import errors
 from mckibben.server.short_jobs import FilesOfProject, PackedProject
 
 _TITLE = Field(description="Title, in one line, at most 200 characters.", examples=["Lift, second muscle"])
-_NOTES = Field(description="Notes of the user, plain text.")
 _DOCUMENT = Field(
     description="The document: any JSON object. Measurements whose ids stand anywhere in it are kept with it."
 )
@@ -102,7 +100,7 @@ class HistoryAnswer(Strict):
     history: list[Revision] = Field(description="The versions that are kept.")
 
 
-router = APIRouter(prefix="/api/projects", tags=["projects"], route_class=StrictRoute)
+projects_router = APIRouter(prefix="/api/projects", tags=["projects"], route_class=StrictRoute)
 
 Id = Annotated[str, Path(pattern="^[0-9a-f]{32}$", description="Id of the project.")]
 _ZIP = {"application/zip": {"schema": {"type": "string", "format": "binary"}}}
@@ -115,7 +113,7 @@ _FILE = {
 }
 
 
-@router.get("", response_model=ProjectsAnswer, responses=errors(409, 422))
+@projects_router.get("", response_model=ProjectsAnswer, responses=errors(409, 422))
 def list_projects(
     projects: ProjectsDep,
     deleted: Annotated[bool, Query(description="Those in the bin instead of the others.")] = False,
@@ -125,7 +123,7 @@ def list_projects(
     return JsonAnswer({"projects": found, "place": projects.place})
 
 
-@router.post(
+@projects_router.post(
     "",
     status_code=201,
     response_model=ProjectAnswer,
@@ -140,7 +138,7 @@ def create_project(body: NewProject, projects: ProjectsDep, store: StoreDep, stu
     return JsonAnswer(_answer(made, remarks), status_code=201)
 
 
-@router.post(
+@projects_router.post(
     "/import",
     status_code=201,
     dependencies=[BeforeWork],
@@ -158,7 +156,7 @@ async def import_project(
     return await run_in_threadpool(lambda: JsonAnswer(_answer(projects.open(made)), status_code=201))
 
 
-@router.get(
+@projects_router.get(
     "/{project_id}",
     dependencies=[BeforeWork],
     response_model=ProjectAnswer,
@@ -186,7 +184,7 @@ async def open_project(
     return await run_in_threadpool(answer)
 
 
-@router.put(
+@projects_router.put(
     "/{project_id}",
     response_model=ProjectAnswer,
     responses=errors(400, 404, 409, 413, 415, 422),
@@ -209,7 +207,7 @@ def save_project(
     return JsonAnswer(_answer(saved, remarks))
 
 
-@router.patch(
+@projects_router.patch(
     "/{project_id}",
     response_model=ProjectSummary,
     responses=errors(400, 404, 409, 413, 415, 422),
@@ -223,7 +221,7 @@ def describe_project(project_id: Id, body: ProjectChange, projects: ProjectsDep)
     return JsonAnswer(_info(changed))
 
 
-@router.post(
+@projects_router.post(
     "/{project_id}/copies",
     status_code=201,
     response_model=ProjectAnswer,
@@ -235,7 +233,7 @@ def copy_project(project_id: Id, body: ProjectCopy, projects: ProjectsDep) -> Js
     return JsonAnswer(_answer(projects.duplicate(project_id, title=body.title)), status_code=201)
 
 
-@router.delete("/{project_id}", response_model=ProjectSummary, responses=errors(404, 409, 422))
+@projects_router.delete("/{project_id}", response_model=ProjectSummary, responses=errors(404, 409, 422))
 def delete_project(
     project_id: Id,
     projects: ProjectsDep,
@@ -245,19 +243,19 @@ def delete_project(
     return JsonAnswer(_info(projects.erase(project_id) if erase else projects.delete(project_id)))
 
 
-@router.post("/{project_id}/restore", response_model=ProjectSummary, responses=errors(404, 409, 422))
+@projects_router.post("/{project_id}/restore", response_model=ProjectSummary, responses=errors(404, 409, 422))
 def restore_project(project_id: Id, projects: ProjectsDep) -> JsonAnswer:
     """Take a project out of the bin."""
     return JsonAnswer(_info(projects.restore(project_id)))
 
 
-@router.get("/{project_id}/history", response_model=HistoryAnswer, responses=errors(404, 409, 422))
+@projects_router.get("/{project_id}/history", response_model=HistoryAnswer, responses=errors(404, 409, 422))
 def read_history(project_id: Id, projects: ProjectsDep) -> JsonAnswer:
     """The versions of a project, the last one first; open one with ``?version=``."""
     return JsonAnswer({"history": [asdict(each) for each in projects.history(project_id)]})
 
 
-@router.get(
+@projects_router.get(
     "/{project_id}/file",
     response_class=Response,
     responses={200: {"content": _ZIP, "description": "The packed project."}, **errors(404, 409, 422)},

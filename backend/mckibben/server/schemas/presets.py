@@ -20,7 +20,7 @@ from mckibben.presets import (
     ValvePreset,
 )
 from mckibben.presets.library import LibraryProblem
-from mckibben.server.schemas.comparisons import ModelRequest
+from mckibben.server.schemas.models import ModelRequest
 
 
 class FittedMuscleRequest(ModelRequest):

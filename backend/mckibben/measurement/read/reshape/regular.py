@@ -8,7 +8,7 @@ from mckibben.measurement.read.grid import Grid
 from mckibben.measurement.read.reshape.deviations import without_deviations
 from mckibben.measurement.read.reshape.labelled import without_labels
 from mckibben.measurement.read.reshape.tall import pivoted
-from mckibben.measurement.read.reshape.transposed import turned
+from mckibben.measurement.read.reshape.transposed import transposed
 from mckibben.measurement.read.reshape.united import without_units
 
 
@@ -26,7 +26,7 @@ def regular(grid: Grid) -> Regular:
     messages: list[str] = []
     unread: list[tuple[str, str]] = []
     rewritten = False
-    for rewrite in (turned, without_labels, pivoted, without_deviations, without_units):
+    for rewrite in (transposed, without_labels, pivoted, without_deviations, without_units):
         found = rewrite(grid)
         if found is not None:
             grid, said, left = found

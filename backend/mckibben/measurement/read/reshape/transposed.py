@@ -28,7 +28,7 @@ class _Line(NamedTuple):
     values: list[Cell]
 
 
-def turned(grid: Grid) -> Rewritten | None:
+def transposed(grid: Grid) -> Rewritten | None:
     """The grid with a column per quantity; None = it does not lie on its side."""
     if len(grid) > _MOST_ROWS or (isinstance(grid, TextGrid) and grid.separator == BLANKS):
         return None

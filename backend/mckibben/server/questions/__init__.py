@@ -1,1 +1,0 @@
-"""Conversion of request bodies to the questions of the use cases."""
