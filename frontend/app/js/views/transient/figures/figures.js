@@ -12,17 +12,22 @@ import { lapse, reasons, timingTable } from "./timing.js";
 /** @typedef {import("../../../format.js").Quantity} Quantity */
 /** @typedef {import("../../../types.js").Run} Run */
 
-/** A key figure by its declaration. @param {string} key @param {number | null | undefined} value @param {string} [note] */
-function big(key, value, note) {
-  const { label, definition, quantity, otherwise } = figure(key);
-  const shown = quantity === "lapse"
+/** The value of a figure in its unit. @param {string} key @param {number | null | undefined} value */
+function shownAs(key, value) {
+  const { quantity } = figure(key);
+  return quantity === "lapse"
     ? lapse(value ?? null)
     : withUnit(value, /** @type {Quantity} */ (quantity), units.value);
+}
+
+/** A key figure by its declaration. @param {string} key @param {number | null | undefined} value @param {string} [note] */
+function big(key, value, note) {
+  const { label, definition, otherwise } = figure(key);
   return h(
     "div",
     { class: "big", title: `${definition} ${note ?? (value == null ? otherwise : "")}`.trim() },
     h("span", null, label),
-    h("b", { class: "num" }, shown),
+    h("b", { class: "num" }, shownAs(key, value)),
   );
 }
 
@@ -57,6 +62,11 @@ const OUTCOMES = {
   cancelled: "The run was cancelled.",
 };
 const NOTE = "unverified";
+/** How a controlled run ends that does what its reference asks. */
+const FOLLOWED = new Set(["tracks", "settles"]);
+
+/** @param {string} text */
+const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
 function verdict() {
   const r = run.value;
@@ -69,7 +79,9 @@ function verdict() {
   const still = r.timing.extend.max_speed == null && !r.tracking
     ? r.timing.notes["extend.max_speed"] ?? null
     : null;
-  const grade = !done ? "bad" : hard.length || still ? "warn" : "good";
+  const followed = done ? r.tracking : null;
+  const away = followed !== null && !FOLLOWED.has(followed.state);
+  const grade = !done ? "bad" : hard.length || still || away ? "warn" : "good";
   const end = r.time.at(-1) ?? 0;
   return [
     h(
@@ -80,6 +92,8 @@ function verdict() {
         "span",
         null,
         OUTCOMES[r.outcome] ?? r.outcome,
+        followed ? ` ${capital(followed.verdict)}.` : "",
+        away && followed?.advice ? h("span", { class: "advice" }, ` ${capital(followed.advice)}.`) : "",
         done
           ? hard.length
             ? `${still ? ` Nothing moves: ${still}.` : ""} It leaves the permitted range:`
@@ -124,6 +138,40 @@ function named(key) {
   return h("dt", { title: definition }, label);
 }
 
+const MOST_STEPS = 12;
+const OF_STEP = /** @type {const} */ (
+  ["time", "size", "overshoot", "settling_time", "steady_error", "swing_frequency", "swing_amplitude"]
+);
+
+/** How each step of the reference is answered. @param {NonNullable<Run["tracking"]>["steps"]} steps */
+const stepsTable = (steps) =>
+  h(
+    "div",
+    { class: "scroll", tabindex: 0, role: "region", "aria-label": "Steps of the reference" },
+    h(
+      "table",
+      null,
+      h("thead", null, h("tr", null, ...OF_STEP.map((name) => headOf(`step.${name}`)))),
+      h(
+        "tbody",
+        null,
+        ...steps.map((step) =>
+          h(
+            "tr",
+            null,
+            ...OF_STEP.map((name) => h("td", { class: "num" }, shownAs(`step.${name}`, step[name]))),
+          )
+        ),
+      ),
+    ),
+  );
+
+/** @param {string} key */
+function headOf(key) {
+  const { label, definition } = figure(key);
+  return h("th", { scope: "col", title: definition }, label);
+}
+
 function tracking() {
   const t = run.value?.tracking;
   if (!t) return null;
@@ -142,24 +190,12 @@ function tracking() {
       named("tracking.lag"),
       h("dd", { title: t.notes.lag ?? null }, t.lag === null ? `– ${t.notes.lag ?? ""}` : lapse(t.lag)),
     ),
-    t.overshoot.length
+    t.steps.length
       ? h(
         "details",
-        { open: t.overshoot.length <= 4 },
-        h("summary", null, `Overshoot of ${t.overshoot.length} step${t.overshoot.length > 1 ? "s" : ""}`),
-        h(
-          "ul",
-          { class: "plain" },
-          ...t.overshoot.slice(0, 12).map((o) =>
-            h(
-              "li",
-              null,
-              `${withUnit(o.overshoot, "ratio", system)} at ${lapse(o.time)} (step of ${
-                withUnit(o.size, "length", system)
-              })`,
-            )
-          ),
-        ),
+        { open: t.steps.length <= 4 },
+        h("summary", null, `${t.steps.length} step${t.steps.length > 1 ? "s" : ""} of the reference`),
+        stepsTable(t.steps.slice(0, MOST_STEPS)),
       )
       : null,
   );
