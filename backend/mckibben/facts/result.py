@@ -66,10 +66,10 @@ def result_class(cls: type[ClassT]) -> type[ClassT]:
 
 def _freeze_arrays(result: Any) -> None:
     """Replace the arrays of a new result by views that refuse to be written to; who made them keeps them."""
-    for field in fields(result):
-        value = getattr(result, field.name)
+    for name in type(result).__dataclass_fields__:
+        value = getattr(result, name)
         if isinstance(value, np.ndarray):
-            object.__setattr__(result, field.name, read_only(value))
+            object.__setattr__(result, name, read_only(value))
 
 
 def read_only(values: NDArray[Any]) -> NDArray[Any]:

@@ -13,26 +13,39 @@ from types import MappingProxyType
 
 from mckibben.facts.figure import Condition, Figure, Group
 
+#: Why figures of a step do not exist.
+NO_STEP = "the command changes all through the phase: it is no step"
 _MOVES = Condition("the command has the phase and the load moves in it", "the muscle does not move")
+_STEPS = Condition("the command is a step and the load moves", "the muscle does not move")
 _ARRIVES = Condition(
-    "the load ends within 5 % of S of the stop that it hits, or hits none and settles",
+    "the command is a step, and the load ends within 5 % of S of the stop that it hits, or hits none and "
+    "settles",
     "the load does not arrive in this phase",
 )
 _SETTLES = Condition(
-    "the load is within the band before the last tenth of the phase", "still moving at the end of the phase"
+    "the command is a step and the load is within the band before the last tenth of the phase",
+    "still moving at the end of the phase",
 )
-_PRESSURE = Condition("the pressure changes by 100 Pa or more in the phase", "the pressure does not change")
+_PRESSURE = Condition(
+    "the command is a step and the pressure changes by 100 Pa or more in the phase",
+    "the pressure does not change",
+)
 _STEADY = Condition(
-    "the pressure is within the band before the last tenth of the phase",
+    "the command is a step and the pressure is within the band before the last tenth of the phase",
     "the pressure still changes at the end of the phase",
 )
 _FLOWS = Condition(
     "air flows in the direction of the phase",
     "no air flows in the direction of the phase",
 )
-_FREE = Condition("the load moves and hits no stop", "the load hits the stop")
+_FREE = Condition("the command is a step, and the load moves and hits no stop", "the load hits the stop")
 _HITS = Condition(
     "the load hits the stop ahead, or arrives without one", "the load does not arrive in this phase"
+)
+_SWINGS = Condition(
+    "the command is a step, and the load does not settle and has two even periods in the second half of the "
+    "phase",
+    "it does not swing",
 )
 _COMMANDED = Condition("the command has the phase", "the command has no such phase")
 _MASS = Condition("the moving mass is known", "the moving mass is not known")
@@ -67,12 +80,12 @@ _MOTION = _section(
     Figure(
         "rise_time", "t_r", "s", "Rise time (10–90 %)",
         "Time from first s = 0.1 S to first s = 0.9 S; no dead time is in it.",
-        _MOVES, quantity="lapse",
+        _STEPS, quantity="lapse",
     ),
     Figure(
         "delay_time", "t_50", "s", "Time to 50 % of the stroke",
         "First time at s = 0.5 S, the dead time in it (ProPneu calls it delay time).",
-        _MOVES, quantity="lapse",
+        _STEPS, quantity="lapse",
     ),
     Figure(
         "settling_time", "t_s", "s", "Settling time (5 % of the stroke)",
@@ -130,6 +143,14 @@ _MOTION = _section(
         "overshoot", "o", "1", "Overshoot of the final position",
         "Largest travel beyond S over S: max(0, max s/S − 1); S is where the phase ends, not a reference.",
         _FREE, quantity="ratio",
+    ),
+    Figure(
+        "swing_frequency", "f", "Hz", "Frequency of the swing",
+        "One over the mean period of the travel about its middle, in the second half of the phase.", _SWINGS,
+    ),
+    Figure(
+        "swing_amplitude", "â", "m", "Amplitude of the swing",
+        "Half of the range of the travel within the last period.", _SWINGS,
     ),
 )  # fmt: skip
 
@@ -193,3 +214,8 @@ TIMING = Group("timing", "Timing of a phase", *_MOTION, *_PRESSURE_STEP, *_AIR)
 MOTION_FIGURES, PRESSURE_FIGURES, AIR_FIGURES = (
     tuple(figure.name for figure in part) for part in (_MOTION, _PRESSURE_STEP, _AIR)
 )
+#: Figures that exist for a step alone.
+STEP_FIGURES = (
+    "positioning_time", "rise_time", "delay_time", "settling_time", "average_speed", "end_speed", "overshoot",
+    "swing_frequency", "swing_amplitude", *PRESSURE_FIGURES,
+)  # fmt: skip

@@ -13,7 +13,7 @@ from mckibben.physics.gas import ANR_DENSITY
 from mckibben.simulation.drive.transient import dead_times, simulate
 from mckibben.simulation.outcome import Outcome
 from mckibben.simulation.timing.evaluation import moving_mass, stops_of, time_step, trace_of
-from mckibben.simulation.timing.table import timing
+from mckibben.simulation.timing.table import Phase, timing
 from mckibben.sizing.batch import Bench
 from mckibben.sizing.catalogue import Design, switch_on
 from mckibben.sizing.prepared import HOLD_SHARE, ON_STOP, Figures, arrival
@@ -149,8 +149,8 @@ def _measured(design: Design, bench: Bench) -> Proposal | None:
     low, _ = stops_of(drive)
     table = timing(
         trace,
-        fill=(on, off),
-        exhaust=(off, drive.duration),
+        fill=Phase((on, off)),
+        vent=Phase((off, drive.duration)),
         mass=moving_mass(drive),
         delays=dead_times(drive),
     )

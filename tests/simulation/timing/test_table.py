@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 
 from mckibben.facts.timing import TIMING as FIGURES
 from mckibben.simulation.command.segments import Segments, phases
-from mckibben.simulation.timing.table import PhaseFigures, TimingTable, timing
+from mckibben.simulation.timing.table import Phase, PhaseFigures, TimingTable, timing
 from mckibben.simulation.timing.trace import Impact, Trace
 
 GRAVITY = 9.80665
@@ -77,8 +77,8 @@ def with_impact(run: Trace, impact: Impact, a: float, bounce: float) -> Trace:
     return Trace(**columns, impacts=(*run.impacts, impact))
 
 
-def extend(run: Trace, **options) -> tuple[PhaseFigures, dict[str, str]]:
-    table = timing(run, fill=(0.0, float(run.time[-1])), exhaust=None, **options)
+def extend(run: Trace, target: float | None = None, **options) -> tuple[PhaseFigures, dict[str, str]]:
+    table = timing(run, fill=Phase((0.0, float(run.time[-1])), target), vent=None, **options)
     return table.extend, table.notes
 
 
@@ -86,8 +86,9 @@ def check_complete(table: TimingTable) -> None:
     """Every figure is there, and every None has its reason."""
     for name in ("extend", "retract"):
         figures = asdict(getattr(table, name))
-        assert set(figures) == set(FIGURES)
-        for figure, value in figures.items():
+        assert set(figures) == {*FIGURES, "state", "motion"}
+        for figure in FIGURES:
+            value = figures[figure]
             if value is None:
                 assert table.notes[f"{name}.{figure}"]
             else:
@@ -141,7 +142,7 @@ def test_free_fall_of_the_retract_phase_counts_from_its_own_instant():
         contact=np.r_[zero == 0.0, fall.contact],
         impacts=tuple(Impact(2.0 + i.time, 0.2 - i.position, -i.velocity) for i in fall.impacts),
     )
-    table = timing(run, fill=(0.0, 2.0), exhaust=(2.0, 4.0), mass=5.0)
+    table = timing(run, fill=Phase((0.0, 2.0)), vent=Phase((2.0, 4.0)), mass=5.0)
     check_complete(table)
     down = table.retract
     assert down.positioning_time == pytest.approx(np.sqrt(0.4 / GRAVITY), abs=1e-5)
@@ -193,7 +194,7 @@ def test_a_pause_at_half_the_pressure_is_said(plateau):
     pressure = np.interp(t, [0.0, begins, begins + 0.02, 0.52], [0.0, plateau * step, plateau * step, step])
     zero = np.zeros(len(t))
     rising = trace(t, zero, zero, zero, pressure=pressure)
-    table = timing(rising, fill=(0.0, 0.52), exhaust=None)
+    table = timing(rising, fill=Phase((0.0, 0.52)), vent=None)
     expected = 0.25 if plateau > 0.5 else 0.27
     assert table.extend.pressure_delay_time == pytest.approx(expected, abs=2e-4)
     assert table.notes["extend.pressure_delay_time"].startswith(
@@ -201,7 +202,7 @@ def test_a_pause_at_half_the_pressure_is_said(plateau):
     )
     assert "extend.pressure_rise_time" not in table.notes
     smooth = trace(t, zero, zero, zero, pressure=step * t / 0.52)
-    assert "extend.pressure_delay_time" not in timing(smooth, fill=(0.0, 0.52), exhaust=None).notes
+    assert "extend.pressure_delay_time" not in timing(smooth, fill=Phase((0.0, 0.52)), vent=None).notes
 
 
 def test_the_average_speed_without_a_stop_is_that_of_the_way_to_the_arrival():
@@ -263,9 +264,9 @@ def test_a_swing_within_the_band_is_settled():
     x = np.where(late < 0.0, stroke * t / 0.2, stroke * (1.0 - 0.015 * (1.0 - np.cos(w * late))))
     v = np.where(late < 0.0, stroke / 0.2, -stroke * 0.015 * w * np.sin(w * late))
     run = trace(t, x, v, np.gradient(v, t))
-    usual, _ = extend(run, stroke=stroke)
+    usual, _ = extend(run, target=stroke)
     assert usual.settling_time == pytest.approx(0.95 * 0.2, abs=1e-3)
-    narrow, _ = extend(run, stroke=stroke, band=0.02)
+    narrow, _ = extend(run, target=stroke, band=0.02)
     # The last swing leaves 2 % at most one period before the end.
     assert narrow.settling_time is None or narrow.settling_time > 2.0 - 2.0 * np.pi / w
 
@@ -274,7 +275,7 @@ def test_a_stroke_that_is_not_reached_has_no_arrival():
     t = grid(1.0, 1001)
     e = np.exp(-t / 0.05)
     run = trace(t, 0.12 * (1 - e), 2.4 * e, -48.0 * e)
-    table = timing(run, fill=(0.0, 1.0), exhaust=None, stroke=0.2)
+    table = timing(run, fill=Phase((0.0, 1.0), 0.2), vent=None)
     check_complete(table)
     figures, notes = table.extend, table.notes
     assert figures.delay_time == pytest.approx(0.05 * np.log(6.0), rel=1e-4)
@@ -285,7 +286,7 @@ def test_a_stroke_that_is_not_reached_has_no_arrival():
 
 def test_still_moving_at_the_end():
     t = grid(1.0, 501)
-    table = timing(trace(t, 0.1 * t, 0.1 + 0 * t, 0 * t), fill=(0.0, 1.0), exhaust=(1.0, 2.0))
+    table = timing(trace(t, 0.1 * t, 0.1 + 0 * t, 0 * t), fill=Phase((0.0, 1.0)), vent=Phase((1.0, 2.0)))
     check_complete(table)
     assert table.extend.rise_time == pytest.approx(0.8)
     assert table.extend.settling_time is None
@@ -300,7 +301,7 @@ def test_still_moving_at_the_end():
 def test_no_motion_in_the_direction_of_the_phase(position, contact, words):
     t = grid(1.0, 101)
     run = trace(t, position * t, position + 0 * t, 0 * t, contact=np.full(101, contact))
-    table = timing(run, fill=(0.0, 1.0), exhaust=None)
+    table = timing(run, fill=Phase((0.0, 1.0)), vent=None)
     check_complete(table)
     assert words in table.notes["extend.rise_time"]
     assert "does not change" in table.notes["extend.pressure_rise_time"]
@@ -319,7 +320,7 @@ def test_air_and_choked_share():
     inflow, outflow = np.where(t < 0.5, 2e-3, 0.0), np.where((t > 2.0) & (t < 3.0), 1e-3, 0.0)
     x = np.where(t < 2.0, 0.1 * np.minimum(t, 1.0), 0.1 * np.maximum(3.0 - t, 0.0))
     run = trace(t, x, np.gradient(x, t), 0 * t, mass_flow=inflow - outflow, choked=(t > 2.25) & (t < 2.75))
-    table = timing(run, fill=(0.0, 2.0), exhaust=(2.0, 4.0))
+    table = timing(run, fill=Phase((0.0, 2.0)), vent=Phase((2.0, 4.0)))
     check_complete(table)
     assert table.extend.supplied_mass == pytest.approx(1e-3, rel=2e-3)
     assert table.extend.supplied_volume_anr == pytest.approx(1e-3 / 1.185, rel=2e-3)
@@ -343,7 +344,7 @@ def test_no_trace_breaks_the_table(count, seed, touching, stroke):
         t, x, v, a, pressure=pressure, force=force, mass_flow=flow, contact=generator.random(count) < touching
     )
     middle = float(generator.choice(t))
-    table = timing(run, fill=(0.0, middle), exhaust=(middle, float(t[-1])), stroke=stroke, mass=2.0)
+    table = timing(run, fill=Phase((0.0, middle), stroke), vent=Phase((middle, float(t[-1]))), mass=2.0)
     check_complete(table)
 
 

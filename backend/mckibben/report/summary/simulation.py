@@ -34,6 +34,7 @@ def summary_of(result: SimulationResult, name: str) -> Summary:
     start = result.start
     return [
         timing_table(result, name),
+        *_motions(result.timing),
         *(f"– {remark}" for remark in timing_remarks(result.timing)),
         f"start at {round(start.position, 9) * 1e3 + 0.0:.4g} mm "
         f"({start.contraction * 100:.3g} %), {start.reason}",
@@ -42,6 +43,12 @@ def summary_of(result: SimulationResult, name: str) -> Summary:
         *_joint(result),
         *notices(result),
     ]
+
+
+def _motions(timing: TimingTable) -> list[str]:
+    """How the motion of each phase ends."""
+    ends = {words: getattr(timing, phase).motion for phase, words in PHASES.items()}
+    return [f"{words}: the load {motion}" for words, motion in ends.items() if motion]
 
 
 def notices(result: SimulationResult) -> list[str]:

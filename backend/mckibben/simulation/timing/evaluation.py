@@ -18,7 +18,7 @@ from mckibben.simulation.drive.events import Event
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import Run, constants_of, dead_times
 from mckibben.simulation.integrate.engine import SLOWEST_REBOUND
-from mckibben.simulation.timing.table import TimingTable, timing
+from mckibben.simulation.timing.table import Phase, TimingTable, timing
 from mckibben.simulation.timing.trace import Impact, Trace
 from mckibben.simulation.timing.tracking import Followed, Tracking, tracking
 
@@ -179,10 +179,13 @@ def _with_events(columns: dict[str, Array], events: list[Event], run: Run) -> di
         "contact": (np.zeros(len(events), bool), columns["contact"][after]),
         "choked": (columns["choked"][before],) * 2,
     }
-    rows, result = np.repeat(after, 2), {}
+    rows = np.insert(np.arange(len(time)), np.repeat(after, 2), np.repeat(after, 2))
+    first = after + 2 * np.arange(len(after))  # the new rows among all
+    result = {}
     for name, column in columns.items():
         between = column[before] * (1.0 - share) + column[after] * share
-        result[name] = np.insert(column, rows, np.column_stack(known.get(name, (between, between))).ravel())
+        result[name] = column[rows]
+        result[name][first], result[name][first + 1] = known.get(name, (between, between))
     return result
 
 
@@ -200,15 +203,31 @@ def moving_mass(drive: Drive) -> float:
     return factor * drive.load.mass + drive.own_mass + added
 
 
-def phases_of(drive: Drive) -> tuple[Interval | None, Interval | None]:
-    """The first fill and the exhaust after it; of a controlled run the reference's first rise and fall."""
+def phases_of(drive: Drive) -> tuple[Phase | None, Phase | None]:
+    """The first fill and the vent after it; of a controlled run the reference's first rise and fall."""
     if drive.reference is None:
-        return phases(drive.command.segments(drive.duration))
+        command = drive.command.segments(drive.duration)
+        return _phase_of(phases(command)[0], command), _phase_of(phases(command)[1], command)
     reference = drive.reference.segments(drive.duration)
     before = np.r_[drive.reference.before, reference.end_values[:-1]]
     jump = reference.start_values - before
     trend = np.sign(np.where(jump != 0.0, jump, reference.slopes))
-    return phases(Segments(reference.times, _last_trend(trend), np.zeros(len(trend))))
+    found = phases(Segments(reference.times, _last_trend(trend), np.zeros(len(trend))))
+    fill, vent = (_phase_of(interval, reference, reference) for interval in found)
+    return fill, vent
+
+
+def _phase_of(
+    interval: Interval | None, command: Segments, reference: Segments | None = None
+) -> Phase | None:
+    """A phase, and whether the command is a step there: constant from its begin to its end."""
+    if interval is None:
+        return None
+    begin, end = interval
+    inside = (command.times[:-1] < end) & (command.times[1:] > begin)
+    levels = command.start_values[inside]
+    stepped = not command.slopes[inside].any() and bool(np.all(levels == levels[0]))
+    return Phase(interval, None if reference is None else float(levels[-1]), stepped)
 
 
 def _last_trend(trend: Array) -> Array:
@@ -222,8 +241,8 @@ def timing_of(drive: Drive, trace: Trace | None) -> TimingTable:
     """The timing table of a run, with phases by its command."""
     if trace is None:
         return TimingTable.missing("the run ended before this phase")
-    fill, exhaust = phases_of(drive)
-    return timing(trace, fill=fill, exhaust=exhaust, mass=moving_mass(drive), delays=dead_times(drive))
+    fill, vent = phases_of(drive)
+    return timing(trace, fill=fill, vent=vent, mass=moving_mass(drive), delays=dead_times(drive))
 
 
 def tracking_of(run: Run, trace: Trace | None) -> Tracking | None:

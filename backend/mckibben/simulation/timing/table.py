@@ -8,25 +8,47 @@ as between two pulses of a modulated valve, its last digits decide whether it pa
 pause: a note says from when to when it is within 0.1 % of the step. With a stated polytropic exponent, which
 does not conserve mass, the air is counted from pressure and volume at ambient temperature.
 
-A figure that does not exist is None; ``notes`` says why under ``extend.<figure>``.
+A figure that does not exist is None; ``notes`` says why under ``extend.<figure>``. Figures of a step exist
+where the command, or the reference of a controlled drive, is constant throughout the phase.
+
+The motion of a phase of a step has a state, found in this order: it *never leaves*; it *swings* (does not
+settle, with two even periods in its second half); it *returns* (ends within a tenth of its largest travel
+from where it began); it *arrives and holds* (settles within the band of the stop that it hits, or hits none
+and settles); it *arrives and bounces* (hits the stop ahead, and settles away from it); a demanded stroke
+that is not kept, or a motion the other way, *never arrives*; else it *drifts*: it still moves.
 """
 
 from __future__ import annotations
 
-from dataclasses import field
-from typing import ClassVar
+from dataclasses import dataclass, field
+from functools import cached_property
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.facts.result import result_class
-from mckibben.facts.timing import MOTION_FIGURES, PRESSURE_FIGURES, TIMING
+from mckibben.facts.timing import (
+    MOTION_FIGURES,
+    NO_STEP,
+    PRESSURE_FIGURES,
+    SETTLED_BEFORE,
+    STEP_FIGURES,
+    TIMING,
+)
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.simulation.command.segments import Interval
+from mckibben.simulation.timing.swing import Swing, swing_of
 from mckibben.simulation.timing.trace import Impact, Trace
+
+#: How the motion of a phase ends.
+MotionState = Literal[
+    "never_left", "swings", "returned", "arrived_held", "arrived_bounced", "never_arrived", "drifts"
+]
 
 # Figures that need an arrival.
 _TIMED = ("positioning_time", "rise_time", "delay_time", "settling_time", "average_speed")
+_SWING = ("swing_frequency", "swing_amplitude")
 # Why there is no settling time; with an impact the load has arrived all the same.
 _SETTLES = TIMING["settling_time"].exists_when.otherwise
 _SWINGS = "arrives, but swings until the end of the phase"
@@ -37,8 +59,7 @@ PRESSURE_BAND = 0.01
 # A level is passed, within this share of the step, in less than this share of the figure, or a note says so.
 _SHARP, _SHARP_TIME = 0.001, 0.01
 _MICROGRAM = 9  # decimals of a mass in kg; less is the error of the integration
-#: A signal that settles only in this last share of a phase counts as not settled.
-_STILL_MOVING = 0.1
+_RETURNED = 0.1  # of the largest travel
 
 Array = NDArray[np.float64]
 
@@ -67,6 +88,8 @@ class PhaseFigures:
     end_speed: float | None = None
     impact_energy: float | None = None
     overshoot: float | None = None
+    swing_frequency: float | None = None
+    swing_amplitude: float | None = None
     pressure_rise_time: float | None = None
     pressure_delay_time: float | None = None
     pressure_settling_time: float | None = None
@@ -76,6 +99,25 @@ class PhaseFigures:
     vented_volume_anr: float | None = None
     tube_air_mass: float | None = None
     choked_share: float | None = None
+    state: MotionState | None = None
+    """How the motion ends; None where the command is no step, or there is no such phase."""
+    motion: str | None = None
+    """The same as a sentence with its evidence."""
+
+
+@dataclass(frozen=True, slots=True)
+class Phase:
+    """A phase by the command.
+
+    Attributes:
+        interval: begin and end [s].
+        target: position that the reference demands of the end [m]; None without a reference.
+        stepped: whether command or reference are constant in it.
+    """
+
+    interval: Interval
+    target: float | None = None
+    stepped: bool = True
 
 
 @result_class
@@ -98,10 +140,9 @@ class TimingTable:
 def timing(
     trace: Trace,
     *,
-    fill: Interval | None,
-    exhaust: Interval | None,
+    fill: Phase | None,
+    vent: Phase | None,
     mass: float | None = None,
-    stroke: float | None = None,
     band: float = 0.05,
     delays: tuple[float, float] = (0.0, 0.0),
 ) -> TimingTable:
@@ -109,30 +150,33 @@ def timing(
 
     Args:
         trace: the run.
-        fill, exhaust: start and end of the phases by the command [s], see `phases`; None when there is none.
+        fill, vent: by the command, see `mckibben.simulation.timing.evaluation.phases_of`; None when there is
+            none. Figures for a demanded stroke that is not reached are None.
         mass: moving mass, for the impact energy [kg].
-        stroke: demanded stroke of the fill [m]; figures for a stroke that is not reached are None.
         band: settling band as a share of the stroke.
         delays: dead times of the valve for opening and closing [s]; so long the flow of the phase before goes
             on, and counts there.
     """
     notes: dict[str, str] = {}
     table: dict[str, PhaseFigures] = {}
-    for name, interval, sign in (("extend", fill, 1.0), ("retract", exhaust, -1.0)):
-        window = trace.window(*interval) if interval is not None else None
-        if window is None:
-            why = "the command has no such phase" if interval is None else "the run ended before this phase"
-            figures: dict[str, float | None] = dict.fromkeys(TIMING)
-            reasons = dict.fromkeys(TIMING, why)
+    for name, phase, sign in (("extend", fill, 1.0), ("retract", vent, -1.0)):
+        window = None if phase is None else trace.window(*phase.interval)
+        if phase is None or window is None:
+            why = "the command has no such phase" if phase is None else "the run ended before this phase"
+            table[name], reasons = PhaseFigures(), dict.fromkeys(TIMING, why)
         else:
-            phase = _Phase(window, sign, stroke if sign > 0.0 else None, band)
-            figures, reasons = phase.motion(mass)
+            motion = _Motion(window, sign, phase.target, band)
+            figures, reasons = motion.figures(mass)
             late, later = delays if sign > 0.0 else delays[::-1]
             flows = window.time[0] + late, window.time[-1] + later
-            for part, why in (phase.step(), air(trace, flows, sign)):
+            for part, why in (motion.pressure(), air(trace, flows, sign)):
                 figures |= part
                 reasons |= why
-        table[name] = PhaseFigures(**figures)
+            state, said = motion.state() if phase.stepped else (None, None)
+            if not phase.stepped:
+                figures |= dict.fromkeys(STEP_FIGURES)
+                reasons |= dict.fromkeys(STEP_FIGURES, NO_STEP)
+            table[name] = PhaseFigures(**figures, state=state, motion=said)
         notes |= {f"{name}.{figure}": reason for figure, reason in reasons.items()}
     return TimingTable(table["extend"], table["retract"], notes)
 
@@ -140,29 +184,88 @@ def timing(
 Figures = tuple[dict[str, float | None], dict[str, str]]
 
 
-class _Phase:
+class _Motion:
     """One phase: time from its switching instant, travel in its direction."""
 
-    def __init__(self, window: Trace, sign: float, demanded: float | None, band: float) -> None:
+    def __init__(self, window: Trace, sign: float, target: float | None, band: float) -> None:
         self.window, self.sign, self.band = window, sign, band
         self.time = window.time - window.time[0]
         self.contact, position = window.contact, window.position
         self.travel = sign * (position - float(position[0]))
         self.speed, self.acceleration = sign * window.velocity, sign * window.acceleration
         self.reached = float(self.travel[-1])
-        self.demanded = demanded is not None
-        self.stroke = self.reached if demanded is None else demanded
+        self.demanded = target is not None
+        self.stroke = self.reached if target is None else sign * (target - float(position[0]))
         self.last = float(self.time[-1])
 
-    def motion(self, mass: float | None) -> Figures:
+    @cached_property
+    def impact(self) -> Impact | None:
+        """The first impact on the stop ahead."""
+        return next((each for each in self.window.impacts if self.sign * each.velocity > 0.0), None)
+
+    @cached_property
+    def stays(self) -> str:
+        """Why nothing moves; "" where something does."""
+        if self.contact.all():
+            return "the muscle stays on its stop"
+        return "the muscle does not move" if np.ptp(self.travel) < SMALLEST_STROKE else ""
+
+    @cached_property
+    def swing(self) -> Swing | None:
+        """The swing in the second half of a phase that does not settle; of half of the band at least."""
+        if self.settled is not None:
+            return None
+        half = int(np.searchsorted(self.time, 0.5 * self.last))
+        found = None if self.contact[half:].all() else swing_of(self.time[half:], self.travel[half:])
+        least = 0.5 * self.band * abs(self.stroke)
+        return found if found is not None and found.amplitude > least else None
+
+    @cached_property
+    def settled(self) -> float | None:
+        """Since when the travel stays within the band."""
+        return None if self.stays else self._settled(self.travel, self.stroke, self.band * abs(self.stroke))
+
+    def state(self) -> tuple[MotionState, str]:
+        """How the motion ends, and a sentence."""
+        if self.stays:
+            return "never_left", "stays where it is"
+        if (swing := self.swing) is not None:
+            dies = "" if swing.growth > 0.98 else f", {100.0 * (1.0 - swing.growth):.2g} % less each period"
+            size = f"{swing.frequency:.3g} Hz by ±{1e3 * swing.amplitude:.3g} mm"
+            return "swings", f"swings until the end of the phase at {size}{dies}"
+        most, reached = float(np.abs(self.travel).max()), f"{1e3 * self.reached:.4g} mm"
+        if abs(self.reached) <= _RETURNED * most:
+            return (
+                "returned",
+                f"goes {1e3 * most:.4g} mm and returns: the phase ends {reached} from its start",
+            )
+        if self.demanded and (self.settled is None or not self.stroke >= SMALLEST_STROKE):
+            return (
+                "never_arrived",
+                f"{reached} of the demanded {1e3 * self.stroke:.4g} mm at the end of the phase",
+            )
+        if self.reached < 0.0:
+            return "never_arrived", f"goes the other way: it ends {reached} from its start"
+        if self.settled is not None and self.impact is not None:
+            behind = self._travel_to(self.impact) - self.reached
+            if behind <= self.band * self._travel_to(self.impact):
+                return "arrived_held", "arrives on the stop and holds"
+            return "arrived_bounced", f"hits the stop, and rests {1e3 * behind:.3g} mm before it"
+        if self.settled is not None:
+            return "arrived_held", f"arrives after {reached} and holds"
+        return "drifts", f"still moves at {1e3 * float(self.speed[-1]):.3g} mm/s at the end of the phase"
+
+    def figures(self, mass: float | None) -> Figures:
         """Figures of position, speed and acceleration."""
         figures: dict[str, float | None] = dict.fromkeys(MOTION_FIGURES)
-        if self.contact.all():
-            return figures, dict.fromkeys(MOTION_FIGURES, "the muscle stays on its stop")
-        if np.ptp(self.travel) < SMALLEST_STROKE:
-            return figures, dict.fromkeys(MOTION_FIGURES, "the muscle does not move")
+        if self.stays:
+            return figures, dict.fromkeys(MOTION_FIGURES, self.stays)
         notes: dict[str, str] = {}
-        impact = self._impact()
+        impact, swing = self.impact, self.swing
+        if swing is None:
+            notes |= dict.fromkeys(_SWING, TIMING[_SWING[0]].exists_when.otherwise)
+        else:
+            figures |= dict(zip(_SWING, (swing.frequency, swing.amplitude), strict=True))
         self._extremes(figures, notes, impact)
         stroke = self.stroke
         figures["stroke"] = stroke
@@ -183,7 +286,7 @@ class _Phase:
                 figures[name] = self._first(share * stroke)
             if (late := figures["rise_time"]) is not None:
                 figures["rise_time"] = late - (self._first(0.1 * stroke) or 0.0)
-            settled = self._settled(self.travel, stroke, self.band * stroke)
+            settled = self.settled
             arrival, travelled = self._first((1.0 - self.band) * stroke), (1.0 - self.band) * stroke
             why = unsettled = _SETTLES
             if self.demanded:
@@ -219,7 +322,7 @@ class _Phase:
                 figures["impact_energy"] = 0.5 * mass * impact.velocity**2
         return figures, notes
 
-    def step(self) -> Figures:
+    def pressure(self) -> Figures:
         """Figures of the pressure."""
         pressure = self.window.pressure - self.window.pressure[0]
         figures: dict[str, float | None] = dict.fromkeys(PRESSURE_FIGURES)
@@ -228,24 +331,25 @@ class _Phase:
             return figures, dict.fromkeys(PRESSURE_FIGURES, "the pressure does not change")
         pressure = pressure * np.sign(change)
         change = abs(change)
-        low, half, high = (self._linear_first(pressure, share * change) for share in (0.1, 0.5, 0.9))
+        passed = np.maximum.accumulate(pressure)
+        low, half, high = (self._linear_first(passed, share * change) for share in (0.1, 0.5, 0.9))
         settled = self._settled(pressure, change, PRESSURE_BAND * change, linear=True)
         figures = dict(zip(PRESSURE_FIGURES, (high - low, half, settled), strict=True))
         notes = {
             name: why
             for name, shares in (("pressure_rise_time", (0.1, 0.9)), ("pressure_delay_time", (0.5,)))
-            if (why := self._blurred(pressure, change, shares, figures[name]))
+            if (why := self._blurred(passed, change, shares, figures[name]))
         }
         if settled is None:
             notes["pressure_settling_time"] = "the pressure still changes at the end of the phase"
         return figures, notes
 
     def _blurred(
-        self, pressure: Array, change: float, shares: tuple[float, ...], figure: float | None
+        self, passed: Array, change: float, shares: tuple[float, ...], figure: float | None
     ) -> str | None:
         """From when to when the pressure is nearly at a level of a figure; None when it passes at once."""
         for share in shares:
-            first, last = (self._linear_first(pressure, (share + d) * change) for d in (-_SHARP, _SHARP))
+            first, last = (self._linear_first(passed, (share + d) * change) for d in (-_SHARP, _SHARP))
             if figure is not None and last - first > _SHARP_TIME * figure:
                 return (
                     f"from {first * 1e3:.4g} to {last * 1e3:.4g} ms the pressure is within {100 * _SHARP:g} "
@@ -287,10 +391,6 @@ class _Phase:
             best = max(best, (t0 + share * width, speed), key=lambda pair: pair[1])
         return best
 
-    def _impact(self) -> Impact | None:
-        """The first impact on the stop ahead."""
-        return next((impact for impact in self.window.impacts if self.sign * impact.velocity > 0.0), None)
-
     def _since(self, impact: Impact) -> float:
         """When an impact is, in the time of the phase."""
         return impact.time - float(self.window.time[0])
@@ -312,9 +412,8 @@ class _Phase:
         (t0, t1), (s0, s1), (v0, v1) = (column[index : index + 2].tolist() for column in pairs)
         width = t1 - t0
         rising = s1 >= s0
-        low, high = 0.0, 1.0
-        for _ in range(50):
-            u = 0.5 * (low + high)
+        low, high, u = 0.0, 1.0, (level - s0) / (s1 - s0) if s1 != s0 else 0.5
+        for _ in range(50):  # Newton's method within a bracket
             w = 1.0 - u
             here = w * w * (s0 * (1.0 + 2.0 * u) + u * width * v0)
             here += u * u * (s1 * (1.0 + 2.0 * w) - w * width * v1)
@@ -322,12 +421,25 @@ class _Phase:
                 low = u
             else:
                 high = u
-        return t0 + high * width
+            slope = 6.0 * u * w * (s1 - s0) + width * (w * (1.0 - 3.0 * u) * v0 + u * (1.0 - 3.0 * w) * v1)
+            following = u + (level - here) / slope if slope != 0.0 else low
+            if not low < following < high:
+                following = 0.5 * (low + high)
+            if abs(following - u) < 1e-15:
+                break
+            u = following
+        return t0 + u * width
 
-    def _linear_first(self, values: Array, level: float) -> float:
-        """First instant at which values that start at 0 and end above the level reach it."""
-        index = int(np.argmax(values >= level))
-        return float(np.interp(level, values[index - 1 : index + 1], self.time[index - 1 : index + 1]))
+    def _linear_first(self, passed: Array, level: float) -> float:
+        """First instant at which a signal reaches a level.
+
+        Args:
+            passed: running maximum of a signal that starts at 0 and ends above the level.
+            level: above 0.
+        """
+        index = int(np.searchsorted(passed, level))
+        (low, high), (t0, t1) = (column[index - 1 : index + 1].tolist() for column in (passed, self.time))
+        return t0 + (t1 - t0) * (level - low) / (high - low)
 
     def _settled(self, values: Array, end: float, width: float, *, linear: bool = False) -> float | None:
         """Instant after which the values stay within the width around the end; None when not settled."""
@@ -338,7 +450,7 @@ class _Phase:
         level = end + width if values[index] > end else end - width
         pair = np.array([index, index + 1] if values[index + 1] >= values[index] else [index + 1, index])
         at = float(np.interp(level, values[pair], self.time[pair])) if linear else self._between(index, level)
-        under_way = at > (1.0 - _STILL_MOVING) * self.last
+        under_way = at > SETTLED_BEFORE * self.last
         return None if under_way and not self.contact[-1] else at
 
 
@@ -350,17 +462,15 @@ def air(trace: Trace, flows: Interval, sign: float) -> Figures:
         first, last = np.interp([begin, end], trace.time, column)
         return round(float(last - first), _MICROGRAM) + 0.0
 
-    supplied, vented = change(trace.supplied), change(trace.vented)
+    exchanged = {"supplied": change(trace.supplied), "vented": change(trace.vented)}
     passed = (trace.time >= begin) & (trace.time <= end)
     flow = trace.supply_mass_flow if sign > 0.0 else trace.exhaust_mass_flow
     flowing, time = np.where(passed, flow, 0.0), trace.time
     whole = float(np.trapezoid(flowing, time))
     choked = float(np.trapezoid(flowing * (trace.choked != 0), time))
     figures = {
-        "supplied_mass": supplied,
-        "supplied_volume_anr": supplied / ANR_DENSITY,
-        "vented_mass": vented,
-        "vented_volume_anr": vented / ANR_DENSITY,
+        **{f"{way}_mass": mass for way, mass in exchanged.items()},
+        **{f"{way}_volume_anr": mass / ANR_DENSITY for way, mass in exchanged.items()},
         "tube_air_mass": sign * change(trace.tube_charge),
         "choked_share": choked / whole if whole > 0.0 else None,
     }
@@ -371,6 +481,9 @@ def air(trace: Trace, flows: Interval, sign: float) -> Figures:
             "exponent the flows do not conserve mass, and the flow over time integrates to another amount"
         )
         notes = {name: said for name in figures if name.startswith(("supplied", "vented"))}
+        for way, mass in exchanged.items():
+            if mass < 0.0:  # no flow goes that way: the exponent makes air of nothing
+                figures |= {f"{way}_mass": None, f"{way}_volume_anr": None}
     if figures["choked_share"] is None:
         done = "taken from the supply" if sign > 0.0 else "let out"
         notes["choked_share"] = f"no air is {done} in this phase"

@@ -78,7 +78,7 @@ class Trace:
                 steps = 0.5 * np.diff(self.time) * (rate[1:] + rate[:-1])
                 stated = np.concatenate([[0.0], np.cumsum(steps)])
             column = np.asarray(absent[item.name] if stated is None else stated)
-            column = column.astype(kinds.get(item.name, np.float64))
+            column = column.astype(kinds.get(item.name, np.float64), copy=False)
             if column.shape != (len(self.time),) or not np.isfinite(column).all():
                 raise ValueError(f"{item.name}: {len(self.time)} finite values are needed")
             object.__setattr__(self, item.name, column)
@@ -88,16 +88,17 @@ class Trace:
     def window(self, start: float, end: float) -> Trace | None:
         """The rows between two instants, with interpolated first and last rows; None when there are none."""
         start, end = max(start, float(self.time[0])), min(end, float(self.time[-1]))
-        inner = (self.time > start) & (self.time < end)
-        if not end > start or not inner.any():
+        first, last = np.searchsorted(self.time, start, side="right"), np.searchsorted(self.time, end)
+        if not end > start or last <= first:
             return None
-        times = np.concatenate([[start], self.time[inner], [end]])
-        row = np.clip(np.searchsorted(self.time, times, side="right") - 1, 0, len(self.time) - 1)
+        ends = np.array([start, end])
+        before = np.searchsorted(self.time, ends, side="right") - 1
         columns = {}
         for item in _columns(self):
             column = getattr(self, item.name)
             whole = column.dtype != np.float64
-            columns[item.name] = column[row] if whole else np.interp(times, self.time, column)
+            outer = column[before] if whole else np.interp(ends, self.time, column)
+            columns[item.name] = np.concatenate([outer[:1], column[first:last], outer[1:]])
         impacts = tuple(impact for impact in self.impacts if start < impact.time < end)
         return replace(self, **columns, impacts=impacts)
 

@@ -7,7 +7,7 @@ import { brief, readable, withUnit } from "../../../format.js";
 import { jointCard } from "../plots/joint.js";
 import { fault, roundTrip, run } from "../model.js";
 import { paperCard } from "./paper.js";
-import { lapse, reasons, timingTable } from "./timing.js";
+import { lapse, motions, reasons, timingTable } from "./timing.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
 /** @typedef {import("../../../types.js").Run} Run */
@@ -229,6 +229,7 @@ export function figureCards() {
       "section",
       { class: "card timing-card", "aria-label": "Timing" },
       h("div", { class: "card-head" }, h("h2", null, "Timing")),
+      motions,
       h("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Timing table" }, timingTable),
       reasons,
     ),

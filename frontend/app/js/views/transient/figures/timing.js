@@ -38,6 +38,22 @@ function cell(r, phase, figure) {
   return h("td", why ? { title: why } : null, brief(toShown(value, scaleOfFigure(figure))));
 }
 
+/** How the motion of each phase ends. */
+export function motions() {
+  const r = run.value;
+  if (!r) return null;
+  const said = PHASES.filter(([phase]) => r.timing[phase].motion);
+  return said.length
+    ? h(
+      "ul",
+      { class: "plain motions" },
+      ...said.map(([phase, name]) =>
+        h("li", null, `${capitalized(name)}: the load ${r.timing[phase].motion}.`)
+      ),
+    )
+    : null;
+}
+
 export function timingTable() {
   const r = run.value;
   if (!r) return null;
