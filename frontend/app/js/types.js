@@ -24,7 +24,8 @@
 /** @typedef {S["ComparisonResult"]} Comparison */
 /** @typedef {S["SimulationResult"]} Run */
 /** @typedef {S["MeasurementDetails"]} Measured */
-/** A figure of a phase in the timing table. @typedef {keyof S["PhaseFigures"]} PhaseFigure */
+/** A figure of a phase in the timing table.
+ * @typedef {Exclude<keyof S["PhaseFigures"], "state" | "motion">} PhaseFigure */
 
 /** @typedef {"braid" | "thread" | "rhombus"} Form */
 /** @typedef {{preset: string | null, form: Form, values: Record<string, number>}} Muscle */
