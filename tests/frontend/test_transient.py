@@ -286,7 +286,9 @@ def test_one_model_of_the_air_at_a_time(page: Page) -> None:
     expect(card.locator("summary")).to_contain_text("Air: exponent 1.2")
     expect(told).to_contain_text("polytropic exponent 1.2")
     expect(field(page, "Heat transfer to the wall")).to_have_count(0)
-    expect(page.locator(".figure-notes", has_text="Remarks")).to_contain_text("the flows do not conserve mass")
+    expect(page.locator(".figure-notes", has_text="Remarks")).to_contain_text(
+        "the flows do not conserve mass"
+    )
     drive = asked_drive(page, lambda: model.select_option("energy"))
     assert "gas" not in drive
     expect(field(page, "Polytropic exponent")).to_have_count(0)

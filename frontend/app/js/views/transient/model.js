@@ -9,13 +9,7 @@ import { presets, status } from "../../store.js";
 import { openDrive } from "../../drive/open.js";
 import { preset, presetEffects as muscleEffects } from "../../muscle/preset.js";
 import { defaultTransient } from "./document.js";
-import {
-  arrangementOf,
-  countedAt,
-  driveDocument,
-  inSi,
-  partsOfDrive,
-} from "../../drive/document.js";
+import { arrangementOf, countedAt, driveDocument, inSi, partsOfDrive } from "../../drive/document.js";
 import { at, isObject, put } from "../../paths.js";
 import { siNumber } from "../../quantities.js";
 
