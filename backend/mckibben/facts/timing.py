@@ -15,7 +15,7 @@ from mckibben.facts.figure import Condition, Figure, Group
 
 _MOVES = Condition("the command has the phase and the load moves in it", "the muscle does not move")
 _ARRIVES = Condition(
-    "the load ends within 5 % of S of the stop that it hits, or hits none and settles",
+    "the load ends within 5 % of its way to the stop that it hits, or hits none and settles",
     "the load does not arrive in this phase",
 )
 _SETTLES = Condition(
