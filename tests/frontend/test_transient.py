@@ -212,7 +212,7 @@ def test_units_of_drive_documents_are_read_and_every_scenario_runs(page: Page) -
         expect(page.locator(".transient .notice")).to_be_hidden()
         expect(page.locator(".transient .verdict")).to_contain_text("The run is complete")
     load_scenario(page, "paper-pid-random")
-    expect(page.get_by_role("region", name="Tracking", exact=True)).to_contain_text("Error, RMS")
+    expect(page.get_by_role("region", name="Tracking", exact=True)).to_contain_text("RMS error of the position")
     expect(page.locator(".run-position .legend")).to_contain_text("reference")
 
 
@@ -469,7 +469,7 @@ def test_exports(page: Page, tmp_path: Path) -> None:
     assert {"time [s]", "displacement [mm]", "pressure [bar]", "force [N]", "diameter [mm]"} <= set(table[0])
     assert float(table[-1]["time [s]"]) == pytest.approx(2.0)
     assert max(float(row["displacement [mm]"]) for row in table) == pytest.approx(36, abs=0.5)
-    assert "Speed (m/s)" in download(page, "Plots as SVG").read_text()
+    assert "Velocity (m/s)" in download(page, "Plots as SVG").read_text()
     page.get_by_role("button", name="Export").click()
     page.get_by_role("menuitem").filter(has_text="Take it along").click()
     dialog = page.get_by_role("dialog", name="Take it along")

@@ -177,11 +177,14 @@ def test_a_mass_is_conserved_over_repeated_cycles() -> None:
 def test_air_of_a_stated_exponent_comes_from_the_states_at_rest() -> None:
     # (p V)/(R T0) at the end minus that at the start, by hand; what goes in comes out; said in a note.
     rig = RIGS["stated exponent"]
-    table = timing(run_of(rig.document))
+    run = run_of(rig.document)
+    table, trace = timing(run), trace_of(run)
     full = (rig.supply + AMBIENT) * rig.volume(rig.rest * (1 - rig.highest))
     empty = AMBIENT * rig.volume(rig.rest)
     assert table.extend.supplied_mass == pytest.approx((full - empty) / (R * T0), rel=2e-3)
     assert table.retract.vented_mass == pytest.approx(table.extend.supplied_mass, rel=2e-3)
+    assert trace is not None
+    assert trace.supplied[-1] == pytest.approx(table.extend.supplied_mass, rel=2e-3), "the run says the same"
     assert "ambient temperature" in table.notes["extend.supplied_mass"]
 
 

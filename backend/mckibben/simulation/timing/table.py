@@ -298,7 +298,7 @@ class _Motion:
                 arrival = None
             if impact is not None and arrival is not None and abs(self.reached - stroke) < 1e-3 * stroke:
                 arrival, travelled = self._since(impact), self._travel_to(impact)
-                settled, unsettled = settled and max(settled, arrival), _SWINGS
+                settled, unsettled = None if settled is None else max(settled, arrival), _SWINGS
             figures |= {"settling_time": settled, "positioning_time": arrival}
             if arrival:
                 figures["average_speed"] = travelled / arrival
