@@ -216,7 +216,7 @@ def test_what_a_missing_effect_of_the_catalogue_leaves_does_not_repeat(effect: E
             assert left_repetition(predictor, residual + size * noise(len(residual), 14)) is None, kind
 
 
-LENGTH = Repetition("length", 3.2e-3, 0.62, 10.7, True, 1e-30, 0.5, 3, 3)
+LENGTH = Repetition("length", 3.2e-3, 0.62, 10.7, True, 0.5, 3, 3)
 
 
 @pytest.mark.parametrize(
@@ -234,17 +234,17 @@ LENGTH = Repetition("length", 3.2e-3, 0.62, 10.7, True, 1e-30, 0.5, 3, 3)
             "2.00 times a second: repeat the run at another speed",
         ),
         (
-            Repetition("time", 0.08, 0.5, 2.0, False, 1e-30, 0.5, 12, 12, of_sweeps=True),
+            Repetition("time", 0.08, 0.5, 2.0, False, 0.5, 12, 12, of_sweeps=True),
             "it repeats 12.5 times a second (seen in all 12 sweeps): hum of the mains, also as the sampling "
             "folds it, a pump or a vibration; this is 50 % of it, with an amplitude of 2.00 N",
         ),
         (
-            Repetition("time", 4.0, 0.5, 2.0, False, 1e-30, 0.5, 1, 1, of_sweeps=True),
+            Repetition("time", 4.0, 0.5, 2.0, False, 0.5, 1, 1, of_sweeps=True),
             "it repeats every 4.00 s (in both halves of the sweep): a pump, a compressor or a regulator that "
             "hunts; this is 50 % of it, with an amplitude of 2.00 N",
         ),
         (
-            Repetition("pressure", 2e4, 0.5, 2.0, False, 1e-30, 0.5, 8, 8, of_sweeps=True),
+            Repetition("pressure", 2e4, 0.5, 2.0, False, 0.5, 8, 8, of_sweeps=True),
             "it repeats every 0.200 bar of pressure (the same in all 8 sweeps): steps of that size in the "
             "regulator, the sensor or its converter; this is 50 % of it, with an amplitude of 2.00 N",
         ),

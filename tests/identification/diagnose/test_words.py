@@ -74,7 +74,7 @@ def result(
     )
 
 
-WEAVE = Repetition("length", 3.2e-3, 0.62, 10.7, True, 1e-30, 0.5, 3, 3)
+WEAVE = Repetition("length", 3.2e-3, 0.62, 10.7, True, 0.5, 3, 3)
 REPEATS = (
     "it repeats every 3.20 mm of length (the same in all 3 records): a thread, rack or weave with that "
     "pitch; this is 62 % of it, with an amplitude of 10.7 N that grows with the pressure"
