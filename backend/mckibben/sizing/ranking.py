@@ -22,9 +22,9 @@ _SIGMAS = 2.0  # probabilities closer than this many standard errors of their di
 def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
     """Best first, with the front, reservations and reasons filled in.
 
-    The order:
+    Muscles with a known curve come before those whose force is extrapolated. A task that ranks by air, length,
+    time or reserve has its drives in that order, whatever their margins. Otherwise:
 
-    1. muscles with a known curve before those whose force is extrapolated;
     2. drives that probably fulfil the task (80 % or more) before the others;
     3. drives without a reservation before those with one: a margin below 5 %, or an impact of stroke or
        return above ``limits.max_impact_energy``;
@@ -37,11 +37,10 @@ def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
     def order(index: int) -> tuple[bool, bool, bool, int, float]:
         proposal = marked[index]
         worth = proposal.trial.air if task.rank_by == "probability" else proposal.trial.worth()
+        chances = (not _likely(proposal), bool(proposal.reservations), ties[index])
         return (
             proposal.design.group.muscle.extrapolated is not None,
-            not _likely(proposal),
-            bool(proposal.reservations),
-            ties[index],
+            *(chances if task.robust else (False, False, 0)),
             worth,
         )
 
@@ -79,6 +78,8 @@ def why_first(ordered: list[Proposal], task: Task) -> str | None:
     before = f"{names[0]} comes before {names[1]}"
     if (unknown := second.design.group.muscle.extrapolated) and not first.design.group.muscle.extrapolated:
         return f"{before}, because the force of the second is not known: {unknown}."
+    if not task.robust:
+        return f"{before}, because {_by_aim(first, second, task)}."
     if _likely(first) and not _likely(second):
         return f"{before}, because {_more_succeed(first, second)}."
     if second.reservations and not first.reservations:
@@ -182,11 +183,11 @@ def _parts(trial: Trial) -> tuple[str, int, str, str]:
 
 
 _NAMES = {
-    "air": "the least air",
-    "time": "the fastest",
-    "length": "the shortest",
-    "reserve": "the most force in reserve",
-    "stiffness": "the stiffest",
+    "air": "the least air of these",
+    "time": "the fastest of these",
+    "length": "the shortest of these",
+    "reserve": "the most force in reserve of these",
+    "stiffness": "the stiffest of these",
 }
 
 
@@ -207,7 +208,7 @@ def _reason(proposal: Proposal, best: dict[str, float]) -> str:
     firsts = [text for name, text in _NAMES.items() if aims[name] <= best[name] * 1.005]
     texts = [", ".join(firsts)] if firsts else []
     if aims["air"] > best["air"] * 1.05:
-        texts.append(f"{aims['air'] / best['air']:.2g} times the least air")
+        texts.append(f"{aims['air'] / best['air']:.2g} times the least air of these")
     texts += proposal.reservations
     margin = proposal.trial.margins[proposal.trial.binding]
     limit = LIMITS[proposal.trial.binding].words

@@ -12,9 +12,12 @@ from mckibben.sizing.statics import contraction_limit
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial, hard_trials_of
 
-_RUNS = 32
+_RUNS = 169  # designs tried from each beginning: 21 rounds
 _FIRST_STEP = (0.12, 0.2)  # of the logarithms of length and pressure
-_CLOSE = 1e-3  # of the logarithms, and of the cost
+#: Of the logarithms: a length and a pressure are searched to this share.
+CLOSE = 1e-3
+_SHRINKS = 0.4
+_AROUND = np.array([(x, y) for x in (-1.0, 0.0, 1.0) for y in (-1.0, 0.0, 1.0) if x or y])
 
 Rounds = Generator[list[np.ndarray], list[float], None]
 
@@ -22,7 +25,7 @@ Rounds = Generator[list[np.ndarray], list[float], None]
 def refined(trials: Sequence[Trial], bench: Bench, share: tuple[float, float]) -> Iterator[list[Trial]]:
     """The best designs so far near each trial, after each round; all searches go on side by side.
 
-    The simplex method finds them; the last ones are the best near each trial.
+    A pattern of neighbours finds them; the last ones are the best near each trial.
 
     Args:
         trials: where to begin.
@@ -38,7 +41,7 @@ def refined(trials: Sequence[Trial], bench: Bench, share: tuple[float, float]) -
         search.tried.append(trial)
     active = list(searches)
     while active:
-        done = max(len(search.tried) for search in active) / (_RUNS + 1)
+        done = max(len(search.tried) for search in active) / _RUNS
         bench.check_end(share[0] + (share[1] - share[0]) * min(done, 1.0))
         wanted = [(search, design) for search in active for design in search.wanted]
         found = iter(hard_trials_of([design for _, design in wanted], bench))
@@ -70,9 +73,7 @@ class _Search:
         self._low = np.log([lengths[0], lowest])
         self._high = np.log([max(lengths), highest])
         begin = np.log([trial.design.length, trial.design.pressure])
-        steps = np.where(begin + _FIRST_STEP > self._high, -1.0, 1.0) * _FIRST_STEP
-        simplex = begin + np.array([[0.0, 0.0], [steps[0], 0.0], [0.0, steps[1]]])
-        self._rounds = simplex_search(simplex, most=_RUNS, near=_CLOSE, alike=_CLOSE)
+        self._rounds = pattern_search(begin, np.array(_FIRST_STEP), most=_RUNS, near=CLOSE)
         self.wanted = self._designs(next(self._rounds))
 
     def _designs(self, points: list[np.ndarray]) -> list[Design]:
@@ -94,55 +95,28 @@ class _Search:
         return min(good, key=lambda trial: trial.cost()) if good else self._first
 
 
-def simplex_search(simplex: np.ndarray, *, most: int, near: float, alike: float) -> Rounds:
+def pattern_search(begin: np.ndarray, steps: np.ndarray, *, most: int, near: float) -> Rounds:
     """Rounds of points whose costs are wanted; send them back in the same order.
 
+    A round is the neighbours of the best point so far, along the axes and both diagonals. The best of them is the
+    next one; where none is better the steps shrink. Costs may jump where a limit is violated: unlike a simplex
+    the pattern keeps its directions there, and follows an edge that lies across the axes.
+
     Args:
-        simplex: the first points, shape (variables + 1, variables).
+        begin: the first point, shape (2,).
+        steps: first step along each axis.
         most: number of points after which the search ends.
-        near, alike: it also ends when all points are this near to the best one, and their costs this alike.
+        near: it also ends when the steps are this small.
     """
-    points = np.array(simplex, dtype=float)
-    first = list(points[:most])
-    costs = np.full(len(points), np.inf)
-    costs[: len(first)] = yield first
-    left = most - len(first)
-    while left > 0:
-        order = np.argsort(costs, kind="stable")
-        points, costs = points[order], costs[order]
-        if np.max(np.abs(points[1:] - points[0])) <= near and np.max(np.abs(costs[1:] - costs[0])) <= alike:
-            return
-        middle = points[:-1].mean(axis=0)
-        away = middle - points[-1]
-        reflected = middle + away
-        (cost,) = yield [reflected]
-        left -= 1
-        if cost < costs[0]:
-            best, least = reflected, cost
-            if left > 0:
-                expanded = middle + 2.0 * away
-                (cost,) = yield [expanded]
-                left -= 1
-                if cost < least:
-                    best, least = expanded, cost
-            points[-1], costs[-1] = best, least
-            continue
-        if cost < costs[-2]:
-            points[-1], costs[-1] = reflected, cost
-            continue
-        if left == 0:
-            return
-        outside = cost < costs[-1]
-        limit = cost if outside else costs[-1]
-        contracted = middle + (0.5 if outside else -0.5) * away
-        (cost,) = yield [contracted]
-        left -= 1
-        if cost <= limit if outside else cost < limit:
-            points[-1], costs[-1] = contracted, cost
-            continue
-        points[1:] = points[0] + 0.5 * (points[1:] - points[0])
-        chosen = list(points[1 : 1 + left])
-        if not chosen:
-            return
-        costs[1 : 1 + len(chosen)] = yield chosen
-        left -= len(chosen)
+    best, step = np.array(begin, dtype=float), np.array(steps, dtype=float)
+    (least,) = yield [best]
+    left = most - 1
+    while left >= len(_AROUND) and np.max(step) > near:
+        around = [best + step * way for way in _AROUND]
+        costs = yield around
+        left -= len(around)
+        lowest = int(np.argmin(costs))
+        if costs[lowest] < least:
+            best, least = around[lowest], costs[lowest]
+        else:
+            step = _SHRINKS * step

@@ -105,6 +105,11 @@ class Task:
     max_proposals: int = int(usual("max_proposals"))
 
     @property
+    def robust(self) -> bool:
+        """Whether a margin to each limit, for the tolerances of specimens, is part of what it ranks by."""
+        return self.rank_by in ("balanced", "probability")
+
+    @property
     def available_pressure(self) -> float:
         """Supply pressure less the reserve [Pa]."""
         return self.supply_pressure * (1.0 - self.limits.pressure_reserve)
