@@ -212,7 +212,9 @@ def test_units_of_drive_documents_are_read_and_every_scenario_runs(page: Page) -
         expect(page.locator(".transient .notice")).to_be_hidden()
         expect(page.locator(".transient .verdict")).to_contain_text("The run is complete")
     load_scenario(page, "paper-pid-random")
-    expect(page.get_by_role("region", name="Tracking", exact=True)).to_contain_text("RMS error of the position")
+    expect(page.get_by_role("region", name="Tracking", exact=True)).to_contain_text(
+        "RMS error of the position"
+    )
     expect(page.locator(".run-position .legend")).to_contain_text("reference")
 
 
