@@ -1,4 +1,4 @@
-"""The simplex search in rounds against scipy's, point by point."""
+"""The pattern search in rounds: finds minima of known place, along edges too, and keeps its number of points."""
 
 from __future__ import annotations
 
@@ -6,41 +6,46 @@ from collections.abc import Callable
 
 import numpy as np
 import pytest
-from scipy.optimize import minimize, rosen
 
-from mckibben.sizing.refine import simplex_search
-
-
-def bent(x: np.ndarray) -> float:
-    """A valley with a kink, as a limit makes it."""
-    return abs(x[0] - 0.3) + 2.0 * max(0.0, x[1] - 0.1) + (x[1] + x[0]) ** 2
+from mckibben.sizing.refine import pattern_search
 
 
-def wavy(x: np.ndarray) -> float:
-    """Many small minima: contractions and shrinking."""
-    return float(np.sum(x**2) + 0.3 * np.sum(np.sin(25.0 * x)))
+def bowl(x: np.ndarray) -> float:
+    return (x[0] - 0.31) ** 2 + 3.0 * (x[1] + 0.42) ** 2
 
 
-@pytest.mark.parametrize("function", [rosen, bent, wavy])
-@pytest.mark.parametrize("most", [2, 4, 7, 32, 33, 34, 35, 400])
-def test_the_points_are_those_of_scipy(function: Callable[[np.ndarray], float], most: int) -> None:
-    simplex = np.array([[-1.2, 1.0], [-0.9, 1.1], [-1.25, 0.6]])
-    theirs: list[np.ndarray] = []
+def walled(x: np.ndarray) -> float:
+    """Less x + y is better; beyond the edge x y = 1/4 the cost jumps. The least is 1, at (0.5, 0.5)."""
+    return float(x[0] + x[1] if x[0] * x[1] >= 0.25 else 30.0)
 
-    def cost(x: np.ndarray) -> float:
-        theirs.append(x.copy())
-        return function(x)
 
-    options = {"maxfev": most, "initial_simplex": simplex, "xatol": 1e-3, "fatol": 1e-3}
-    minimize(cost, simplex[0], method="Nelder-Mead", options=options)
-    ours: list[np.ndarray] = []
-    rounds = simplex_search(simplex, most=most, near=1e-3, alike=1e-3)
+def searched(
+    function: Callable[[np.ndarray], float], begin: list[float], most: int = 400
+) -> tuple[list[np.ndarray], float]:
+    """All points, and the least cost."""
+    points: list[np.ndarray] = []
+    rounds = pattern_search(np.array(begin), np.array([0.12, 0.2]), most=most, near=1e-3)
     try:
         wanted = next(rounds)
         while True:
-            ours += wanted
+            points += wanted
             wanted = rounds.send([function(x) for x in wanted])
     except StopIteration:
-        pass
-    assert len(ours) == len(theirs) <= most
-    assert np.allclose(ours, theirs, rtol=0.0, atol=1e-12)
+        return points, min(function(x) for x in points)
+
+
+@pytest.mark.parametrize("begin", [[0.0, 0.0], [1.0, 1.0], [-0.7, 0.4]])
+def test_a_minimum_is_found(begin: list[float]) -> None:
+    points, least = searched(bowl, begin)
+    assert least < 1e-5
+    assert np.min(np.hypot(*(np.array(points) - [0.31, -0.42]).T)) < 2e-3
+
+
+@pytest.mark.parametrize("begin", [[0.9, 0.6], [0.4, 1.1], [1.5, 1.5]])
+def test_the_least_is_found_along_an_edge_of_what_is_allowed(begin: list[float]) -> None:
+    assert searched(walled, begin)[1] == pytest.approx(1.0, abs=3e-3)
+
+
+def test_it_ends_after_so_many_points() -> None:
+    for most in (1, 8, 9, 33):
+        assert len(searched(bowl, [5.0, 5.0], most)[0]) <= most
