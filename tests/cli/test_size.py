@@ -54,14 +54,14 @@ def test_tables_name_the_drives_and_the_reasons(run: Run) -> None:
     code, out, err = run("size", write("task.json", TASK))
     assert code == 0
     assert "DMSP-20" in out
-    assert "combinations" in out
+    assert "combinations of" in err
     assert "it would work with" in err
 
 
 def test_nothing_found_is_an_answer(run: Run) -> None:
     task = write("task.json", IMPOSSIBLE)
     code, out, err = run("size", task)
-    assert code == 0
+    assert code == 3
     assert "task.json: Lift 5000 kg by 60 mm in 0.5 s, with 6 bar: no drive in the catalogue" in out
     assert "times the load" in err
     assert json.loads(run("size", task, "--json")[1])["proposals"] == []
@@ -109,7 +109,7 @@ def test_a_report_is_written_beside_the_tables(run: Run) -> None:
 
 def test_nothing_found_is_written_down_too(run: Run) -> None:
     code, out, _ = run("size", write("task.json", IMPOSSIBLE), "--report", "r.html", "--json")
-    assert code == 0
+    assert code == 3
     assert json.loads(out)["proposals"] == []
     assert "No drive in the catalogue fulfils this task" in Path("r.html").read_text("utf-8")
 

@@ -26,8 +26,9 @@ REJECTED = RejectedParts(
     would_work_if="half the load", combinations=3,
 )  # fmt: skip
 NOTHING = SizingResult(
-    about="Lift 1 kg", proposals=[], ranking=None, rejected=[REJECTED], explored=[], combinations=3, pruned=3,
-    simulated=0, specimens=0, outcome="completed", message=None, flags=[], wall_ms=1.0,
+    about="Lift 1 kg", proposals=[], searched="Searched: 3 combinations.", ranking=None, rejected=[REJECTED],
+    explored=[], combinations=3, pruned=3, simulated=0, specimens=0, outcome="completed", message=None,
+    flags=[], wall_ms=1.0,
 )  # fmt: skip
 
 

@@ -204,7 +204,7 @@ def test_parts_and_their_figures_have_source_and_grade(lifted: tuple[str, dict])
         assert words(cells[3]).startswith("no: ")
     order = words(listed[f"Muscle {best['muscle']}"][1][1])
     length = best["nominal_length"] * 1e3
-    assert order == f"Festo DMSP-20, nominal length {length:.4g} mm; order code DMSP-20-{length:.0f}N-…"
+    assert order == f"Festo DMSP-20, rest length {length:.4g} mm; order code DMSP-20-{length:.0f}N-…"
     preset = json.loads((presets_folder() / "muscles" / "DMSP-20.json").read_text("utf-8"))
     angle = preset["geometry"]["braid_angle"]
     value, source, grade, verified = rows["braid angle"][0]

@@ -12,7 +12,7 @@ from mckibben.sizing.proposal import Chance, Proposal
 from mckibben.sizing.ranking import ranked, reservations, why_first
 from mckibben.sizing.task import DesignLimits, Task
 
-AIR = Task(rank_by="air")
+AIR, SURE = Task(rank_by="air"), Task(rank_by="probability")
 
 
 def proposal(
@@ -43,7 +43,7 @@ def proposal(
     return Proposal(trial, impacts, 0.1, 0.2, 1e5, 2e5, chance=Chance(probability, error, 100))
 
 
-def order(*proposals: Proposal, task: Task = AIR) -> list[str]:
+def order(*proposals: Proposal, task: Task = SURE) -> list[str]:
     return [item.design.group.muscle.id for item in ranked(list(proposals), task)]
 
 
@@ -52,10 +52,10 @@ def test_a_difference_within_the_uncertainty_is_a_tie_and_goes_by_what_the_task_
     dear = proposal("dear", air=2.19e-3, probability=0.95, error=0.02)
     cheap = proposal("cheap", air=1.15e-3, probability=0.93, error=0.02)
     assert order(dear, cheap) == order(cheap, dear) == ["cheap", "dear"]
-    sentence = why_first(ranked([dear, cheap], AIR), AIR)
+    sentence = why_first(ranked([dear, cheap], SURE), SURE)
     assert sentence is not None
     assert sentence.startswith(
-        "cheap comes before dear: the shares of specimens that succeed, 93 ± 2 % and 95 ± 2 %, do not differ"
+        "cheap comes before dear: the shares of specimens that succeed, 93 ± 2 % and 95 ± 2 % (± standard "
     )
     assert "1.15 l of air a cycle, not 2.19 l" in sentence
 
@@ -65,7 +65,7 @@ def test_a_difference_beyond_the_uncertainty_counts() -> None:
     unsure = proposal("unsure", air=1e-3, probability=0.9, error=0.01)
     assert order(unsure, sure) == ["sure", "unsure"]
     assert "99 ± 0.5 % of its specimens succeed, not 90 ± 1 %" in str(
-        why_first(ranked([sure, unsure], AIR), AIR)
+        why_first(ranked([sure, unsure], SURE), SURE)
     )
 
 
@@ -84,7 +84,7 @@ def test_a_drive_that_probably_fails_comes_last_even_without_reservations() -> N
     ],
 )
 def test_a_thin_margin_and_a_hard_impact_cost_rank(changes: dict[str, Any], words: str) -> None:
-    task = replace(AIR, limits=DesignLimits(max_impact_energy=5.0))
+    task = replace(SURE, limits=DesignLimits(max_impact_energy=5.0))
     worse = proposal("worse", air=1e-3, probability=0.999, error=1e-3, **changes)
     better = proposal("better", air=2e-3, probability=0.95, error=0.01)
     assert order(worse, better, task=task) == ["better", "worse"]
@@ -94,15 +94,28 @@ def test_a_thin_margin_and_a_hard_impact_cost_rank(changes: dict[str, Any], word
 
 
 def test_an_impact_costs_nothing_where_the_task_states_no_limit() -> None:
-    assert reservations(proposal("hard", air=1e-3, impacts=(100.0, 100.0)), AIR) == ()
+    assert reservations(proposal("hard", air=1e-3, impacts=(100.0, 100.0)), SURE) == ()
 
 
 def test_a_muscle_whose_force_nobody_knows_is_never_first() -> None:
     unknown = proposal("unknown", air=1e-4, extrapolated="its force is scaled from another size")
     known = proposal("known", air=2e-3, probability=0.85, margin=0.01)
     assert order(unknown, known) == ["known", "unknown"]
-    assert "the force of the second is not known" in str(why_first(ranked([unknown, known], AIR), AIR))
+    assert "the force of the second is not known" in str(why_first(ranked([unknown, known], SURE), SURE))
 
 
 def test_one_proposal_needs_no_sentence() -> None:
-    assert why_first([proposal("alone", air=1e-3)], AIR) is None
+    assert why_first([proposal("alone", air=1e-3)], SURE) is None
+
+
+def test_a_task_that_ranks_by_air_has_its_drives_in_that_order() -> None:
+    """A thin margin and a low probability are said; they do not change what was asked for."""
+    thin = proposal("thin", air=1e-3, margin=0.01, probability=0.6)
+    safe = proposal("safe", air=2e-3)
+    assert order(safe, thin, task=AIR) == ["thin", "safe"]
+    assert "only 1 % margin" in ranked([safe, thin], AIR)[0].reason
+    assert "1 l of air a cycle, not 2 l" in str(why_first(ranked([safe, thin], AIR), AIR))
+    stated = replace(AIR, limits=DesignLimits(max_impact_energy=5.0))
+    hard = proposal("hard", air=1e-3, impacts=(7.0, 1.0))
+    assert order(hard, safe, task=stated) == ["safe", "hard"], "a stated limit is one"
+    assert "impact of 7 J" in str(why_first(ranked([hard, safe], stated), stated))

@@ -1,4 +1,4 @@
-"""The pattern search in rounds: finds minima of known place, along edges too, and keeps its number of points."""
+"""The pattern search in rounds: minima of known place, along edges too, and its number of points."""
 
 from __future__ import annotations
 

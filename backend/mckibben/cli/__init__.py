@@ -1,7 +1,8 @@
 """The command line: ``mckibben`` alone starts the studio; the other commands work without a browser.
 
-Exit 0: done. Exit 2: the input cannot be used; one line on stderr says where, what is wrong and what would be
-right. A command imports what it works with when it runs, so that others and --help need not wait for that.
+Exit 0: done. Exit 2: the input cannot be used; one line on stderr says where, what is wrong and what would
+be right. Exit 3: no drive fulfils the task of a sizing; the answer says why. A command imports what it
+works with when it runs, so that others and --help need not wait for that.
 """
 
 from __future__ import annotations

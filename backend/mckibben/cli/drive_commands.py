@@ -51,6 +51,8 @@ DesignGoals = Annotated[
 ]
 
 # Fields of a question about the linear view that are options.
+#: Exit code of a sizing that finds no drive.
+NO_DRIVE = 3
 _LINEAR_OPTIONS = ("at", "input", "output", "amplitudes", "design")
 
 
@@ -187,12 +189,14 @@ def size(
         raise InputError(f"{task}: {message}", hint=error.hint) from error
     if report is not None:
         write_file(report, "--report", "report", _sizing_report(search, studio, proposal or 1, title))
-    if not as_json:
+    if as_json:
+        write_json(search.result)
+        for sentence in notices(search.result):
+            remark(sentence)
+    else:
         write_summary(summary_of(search.result, task))
-        return
-    write_json(search.result)
-    for sentence in notices(search.result):
-        remark(sentence)
+    if not search.result.proposals:
+        raise typer.Exit(NO_DRIVE)
 
 
 def _sizing_report(search: Searched, studio: Studio, proposal: int, title: str) -> str:

@@ -14,10 +14,12 @@ from mckibben.sizing.task import Duty, Task
 Array = np.ndarray
 
 
-_LENGTHS, _PRESSURES = 12, 8
+#: Lengths and pressures of each muscle, within the limits of the task.
+LENGTHS, PRESSURES = 12, 8
 _LOWEST_SHARE = 0.3  # of the pressure available
 # The grid beyond the task's limits, to find out what would help.
 _LONGER, _FURTHER_LENGTHS, _FURTHER_PRESSURES, _MORE_PARALLEL = 4.0, 24, 8, 2
+_ZOOMS, _DIVISIONS = 4, 8  # of the grid, around the least change that would help
 _HAIR = 1e-9  # a margin is kept down to this far below zero: rounding
 
 
@@ -70,7 +72,7 @@ def _lengths(part: MusclePart, duty: Duty, task: Task) -> Array:
     """Nominal lengths that fit, and shorter and longer ones that break a limit of the task."""
     least = max(part.shortest, duty.pull / contraction_limit(part, task))
     most = min(part.longest, task.limits.max_length - task.limits.end_fittings)
-    inside = np.geomspace(least, most, _LENGTHS) if least <= most else np.zeros(0)
+    inside = np.geomspace(least, most, LENGTHS) if least <= most else np.zeros(0)
     makers_limit = part.limits.max_contraction
     shortest = least if makers_limit is None else max(part.shortest, duty.pull / makers_limit)
     shorter = np.geomspace(shortest, least, 4) if shortest < least else np.zeros(0)
@@ -85,10 +87,23 @@ def _pressures(part: MusclePart, task: Task) -> Array:
     """Pressures up to the available one, and beyond up to the limit of the muscle."""
     makers_limit = part.limits.max_pressure
     most = task.available_pressure if makers_limit is None else min(task.available_pressure, makers_limit)
-    usual = most * np.linspace(_LOWEST_SHARE, 1.0, _PRESSURES)
+    usual = most * np.linspace(_LOWEST_SHARE, 1.0, PRESSURES)
     if makers_limit is None or makers_limit <= most:
         return usual
     return np.concatenate([usual, np.linspace(most, makers_limit, _FURTHER_PRESSURES + 1)[1:]])
+
+
+@dataclass(frozen=True, eq=False)
+class Remedy:
+    """The design that violates one limit alone, and that by the least.
+
+    Attributes:
+        rest: its figures, one entry each.
+        share: of itself by which the limit must move.
+    """
+
+    rest: Rest
+    share: float
 
 
 @dataclass(frozen=True, slots=True)
@@ -98,12 +113,12 @@ class Shortfall:
     Attributes:
         binding: name of the limit.
         best: position of the nearest allowed design; None when none is allowed.
-        remedies: limit -> position of the best design that violates only it, and the share it is missed by.
+        remedies: limit -> what it takes to move it alone.
     """
 
     binding: LimitName
     best: int | None
-    remedies: dict[LimitName, tuple[int, float]]
+    remedies: dict[LimitName, Remedy]
 
 
 def shortfall(sheet: Sheet, parallel: int) -> Shortfall:
@@ -113,13 +128,12 @@ def shortfall(sheet: Sheet, parallel: int) -> Shortfall:
     task come first; if none of them helps alone, it is a limit of the muscle itself.
     """
     designs = sheet.of(parallel)
-    remedies: dict[LimitName, tuple[int, float]] = {}
+    remedies: dict[LimitName, Remedy] = {}
     for name, margin in sheet.margins.items():
         alone = designs[(sheet.lacking[designs] == 1) & (margin[designs] < -_HAIR)]
         if len(alone):
-            index = int(alone[np.argmax(margin[alone])])
-            remedies[name] = index, _share(float(margin[index]))
-    stated = {name: share for name, (index, share) in remedies.items() if _movable(sheet, name, index)}
+            remedies[name] = _least_change(sheet, name, int(alone[np.argmax(margin[alone])]))
+    stated = {name: each.share for name, each in remedies.items() if _movable(sheet, name, each.rest)}
     inside = designs[sheet.allowed[designs]]
     worst = np.min(list(sheet.margins.values()), axis=0)
     best = int(inside[np.argmax(worst[inside])]) if len(inside) else None
@@ -133,13 +147,50 @@ def shortfall(sheet: Sheet, parallel: int) -> Shortfall:
     return Shortfall(binding, best, remedies)
 
 
-def _movable(sheet: Sheet, name: str, index: int) -> bool:
+def _least_change(sheet: Sheet, name: LimitName, index: int) -> Remedy:
+    """The least violation of one limit alone, from a design of the sheet on.
+
+    The lengths and pressures between the design's neighbours are divided in 16 each, around the best of them
+    again, and so on: four times, to a ten-thousandth of the first divisions.
+    """
+    rest, part = sheet.rest, sheet.part
+    lengths, pressures = (
+        np.unique(axis[rest.parallel == rest.parallel[index]]) for axis in (rest.length, rest.pressure)
+    )
+    best = rest.only(index)
+    margin = float(sheet.margins[name][index])
+    reach = [_gap(axis, float(at[0])) for axis, at in ((lengths, best.length), (pressures, best.pressure))]
+    for _ in range(_ZOOMS):
+        axes = [
+            np.clip(at[0] + gap * np.linspace(-1.0, 1.0, 2 * _DIVISIONS + 1), axis[0], axis[-1])
+            for at, gap, axis in ((best.length, reach[0], lengths), (best.pressure, reach[1], pressures))
+        ]
+        length, pressure = (each.ravel() for each in np.meshgrid(*axes, indexing="ij"))
+        found = at_rest(
+            part, sheet.duty, sheet.task, length, pressure, np.full(length.shape, best.parallel[0])
+        )
+        limits = margins(found, part, sheet.task)
+        others = np.all([each >= -_HAIR for key, each in limits.items() if key != name], axis=0)
+        left = np.where(others, limits[name], -np.inf)
+        nearest = int(np.argmax(left))
+        if left[nearest] > margin:
+            best, margin = found.only(nearest), float(left[nearest])
+        reach = [gap / _DIVISIONS for gap in reach]
+    return Remedy(best, max(_share(margin), 0.0))
+
+
+def _gap(axis: Array, at: float) -> float:
+    """Larger distance of a value of an axis to its neighbours."""
+    return float(np.max(np.diff(axis)[max(int(np.searchsorted(axis, at)) - 1, 0) :][:2], initial=0.0))
+
+
+def _movable(sheet: Sheet, name: str, rest: Rest) -> bool:
     """Whether the task can move a limit: not the strength of the muscle, nor a limit of its maker."""
     if name == "force":
-        return bool(sheet.rest.capacity[index] >= 1.0)  # only the reserve is missing
+        return bool(rest.capacity[0] >= 1.0)  # only the reserve is missing
     if name == "contraction":
         makers_limit = sheet.part.limits.max_contraction
-        return makers_limit is None or bool(sheet.rest.contraction[index] <= makers_limit * (1.0 + _HAIR))
+        return makers_limit is None or bool(rest.contraction[0] <= makers_limit * (1.0 + _HAIR))
     return name not in ("force_limit", "suspended_mass")
 
 

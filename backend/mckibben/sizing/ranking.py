@@ -22,14 +22,15 @@ _SIGMAS = 2.0  # probabilities closer than this many standard errors of their di
 def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
     """Best first, with the front, reservations and reasons filled in.
 
-    Muscles with a known curve come before those whose force is extrapolated. A task that ranks by air, length,
-    time or reserve has its drives in that order, whatever their margins. Otherwise:
+    Muscles with a known curve come before those whose force is extrapolated. A task that ranks by air,
+    length, time or reserve has its drives in that order, whatever their margins and probabilities; those
+    whose impact is above ``limits.max_impact_energy`` come after the others. Otherwise:
 
-    2. drives that probably fulfil the task (80 % or more) before the others;
-    3. drives without a reservation before those with one: a margin below 5 %, or an impact of stroke or
+    1. drives that probably fulfil the task (80 % or more) before the others;
+    2. drives without a reservation before those with one: a margin below 5 %, or an impact of stroke or
        return above ``limits.max_impact_energy``;
-    4. the probability: drives within two standard errors of the best one left are a tie with it;
-    5. within a tie what the task ranks by; the air if that is the probability.
+    3. the probability: drives within two standard errors of the best one left are a tie with it;
+    4. within a tie what the task ranks by; the air if that is the probability.
     """
     marked = [replace(proposal, reservations=reservations(proposal, task)) for proposal in proposals]
     ties = _ties(marked)
@@ -40,7 +41,7 @@ def ranked(proposals: list[Proposal], task: Task) -> list[Proposal]:
         chances = (not _likely(proposal), bool(proposal.reservations), ties[index])
         return (
             proposal.design.group.muscle.extrapolated is not None,
-            *(chances if task.robust else (False, False, 0)),
+            *(chances if task.robust else (False, _hits_hard(proposal, task), 0)),
             worth,
         )
 
@@ -61,10 +62,15 @@ def reservations(proposal: Proposal, task: Task) -> tuple[str, ...]:
         for name, margin in trial.margins.items()
         if margin < THIN
     ]
-    if most is not None and proposal.impact_energy > most:
+    if most is not None and _hits_hard(proposal, task):
         place = "the stroke" if proposal.impacts[0] == proposal.impact_energy else "the return"
         found.append(f"an impact of {proposal.impact_energy:.3g} J on {place}, more than {most:.3g} J")
     return tuple(found)
+
+
+def _hits_hard(proposal: Proposal, task: Task) -> bool:
+    most = task.limits.max_impact_energy
+    return most is not None and proposal.impact_energy > most
 
 
 def why_first(ordered: list[Proposal], task: Task) -> str | None:
@@ -78,7 +84,7 @@ def why_first(ordered: list[Proposal], task: Task) -> str | None:
     before = f"{names[0]} comes before {names[1]}"
     if (unknown := second.design.group.muscle.extrapolated) and not first.design.group.muscle.extrapolated:
         return f"{before}, because the force of the second is not known: {unknown}."
-    if not task.robust:
+    if not task.robust and _hits_hard(first, task) == _hits_hard(second, task):
         return f"{before}, because {_by_aim(first, second, task)}."
     if _likely(first) and not _likely(second):
         return f"{before}, because {_more_succeed(first, second)}."

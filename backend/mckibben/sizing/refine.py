@@ -12,11 +12,11 @@ from mckibben.sizing.statics import contraction_limit
 from mckibben.sizing.task import Task
 from mckibben.sizing.trial import Trial, hard_trials_of
 
-_RUNS = 257  # designs tried from each beginning: 32 rounds
+_RUNS = 385  # designs tried from each beginning: 32 rounds
 _FIRST_STEP = (0.12, 0.2)  # of the logarithms of length and pressure
 #: Of the logarithms: a length and a pressure are searched to this share.
 CLOSE = 1e-3
-_SHRINKS, _AROUND, _GOLDEN = 0.7, 8, np.pi * (3.0 - np.sqrt(5.0))
+_SHRINKS, _AROUND, _GOLDEN = 0.7, 12, np.pi * (3.0 - np.sqrt(5.0))
 
 Rounds = Generator[list[np.ndarray], list[float], None]
 
@@ -97,9 +97,9 @@ class _Search:
 def pattern_search(begin: np.ndarray, steps: np.ndarray, *, most: int, near: float) -> Rounds:
     """Rounds of points whose costs are wanted; send them back in the same order.
 
-    A round is eight neighbours of the best point so far. The best of them is the next one; where none is better
-    the pattern shrinks and turns by the golden angle. Costs may jump where a limit is violated: a simplex
-    collapses there, while some turn of the pattern always leads along the edge.
+    A round is twelve neighbours of the best point so far. The best of them is the next one; where none is
+    better the pattern shrinks and turns by the golden angle. Costs may jump where a limit is violated: a
+    simplex collapses there, while some turn of the pattern always leads along the edge.
 
     Args:
         begin: the first point, shape (2,).

@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from math import isfinite
+from math import ceil, floor, isfinite, log10
 
 import numpy as np
 
@@ -17,6 +17,7 @@ from mckibben.sizing.trial import Trial
 _NEVER = float("inf")
 
 _BAR = 1e5
+_ROUNDING = 1e-6  # of the last digit that is shown
 
 
 @dataclass(frozen=True, slots=True)
@@ -67,7 +68,7 @@ def at_rest_rejections(
                     why_at_rest(sheet, count, lacking),
                     lacking.binding,
                     remedies_text(sheet, count, lacking, others),
-                    nearness=min((share for _, share in lacking.remedies.values()), default=_NEVER),
+                    nearness=min((each.share for each in lacking.remedies.values()), default=_NEVER),
                     combinations=int(np.sum(sheet.allowed & (sheet.rest.parallel == count))) * pairs,
                 )
             )
@@ -166,12 +167,18 @@ def why_at_rest(sheet: Sheet, parallel: int, lacking: Shortfall) -> str:
                 f"{length_text(sheet.duty.pull)} at {most * 100:.3g} % contraction needs a muscle of "
                 f"{length_text(least)}; {length_text(room)} is available"
             )
-    index = lacking.best if lacking.best is not None else next(iter(lacking.remedies.values()))[0]
+    if lacking.best is None:
+        nearest, (worst, only) = 0, next(iter(lacking.remedies.items()))
+        rest = only.rest
+    else:
+        nearest = lacking.best
+        worst = min(sheet.margins, key=lambda name: float(sheet.margins[name][nearest]))
+    rest = rest.only(nearest)
+    index = 0
     at = (
         f"{who} of {length_text(rest.length[index])} at {rest.pressure[index] / _BAR:.3g} bar and "
         f"{rest.contraction[index] * 100:.3g} % contraction"
     )
-    worst = min(sheet.margins, key=lambda name: float(sheet.margins[name][index]))
     match worst:
         case "force":
             share = rest.capacity[index]
@@ -207,44 +214,67 @@ def _carrying(task: Task, part: MusclePart, parallel: int) -> str:
 
 
 def remedies_text(sheet: Sheet, parallel: int, lacking: Shortfall, others: tuple[str, ...]) -> str:
-    """Changes that would make this number of muscles suffice, least change first, another muscle last."""
-    task, rest, part = sheet.task, sheet.rest, sheet.part
+    """Changes that would make this number of muscles suffice, least change first, another muscle last.
+
+    Each is the least of its kind to a millimetre, 0.01 bar or three digits, rounded to where it suffices.
+    """
+    task, part = sheet.task, sheet.part
     texts: list[str] = []
-    for name, (index, share) in sorted(lacking.remedies.items(), key=lambda item: item[1][1]):
+    for name, remedy in sorted(lacking.remedies.items(), key=lambda item: item[1].share):
+        rest, share = remedy.rest, remedy.share
         match name:
             case "length":
-                more = rest.length[index] + task.limits.end_fittings - task.limits.max_length
-                texts.append(f"{length_text(rest.length[index])} long (+{length_text(more)} of room)")
+                long = ceil(1e3 * float(rest.length[0]) - _ROUNDING)
+                more = long - 1e3 * (task.limits.max_length - task.limits.end_fittings)
+                texts.append(f"{long} mm long (+{more:.3g} mm of room)")
             case "pressure":
-                more = rest.pressure[index] - task.available_pressure
-                texts.append(f"{rest.pressure[index] / _BAR:.3g} bar ({more / _BAR:.2g} bar more)")
+                bar = ceil(1e2 * float(rest.pressure[0]) / _BAR - _ROUNDING) / 1e2
+                texts.append(f"{bar:.4g} bar ({bar - task.available_pressure / _BAR:.2g} bar more)")
             case "contraction" if part.limits.max_contraction is not None:
-                if rest.contraction[index] <= part.limits.max_contraction * (1.0 + 1e-9):
-                    texts.append(f"{rest.contraction[index] * 100:.3g} % contraction")
-            case "force" if rest.capacity[index] > 0.0:
-                if rest.capacity[index] >= 1.0:
-                    texts.append(f"a force reserve of {(rest.capacity[index] - 1.0) * 100:.2g} %")
+                if rest.contraction[0] <= part.limits.max_contraction * (1.0 + 1e-9):
+                    texts.append(f"{rounded_up(float(rest.contraction[0]) * 100, 3)} % contraction")
+            case "force" if rest.capacity[0] > 0.0:
+                if rest.capacity[0] >= 1.0:
+                    reserve = rounded_down((float(rest.capacity[0]) - 1.0) * 100, 2)
+                    texts.append(f"a force reserve of {reserve} %")
                 else:
-                    texts.append(f"{share / (1.0 + share) * 100:.2g} % less load")
+                    texts.append(f"{rounded_up(share / (1.0 + share) * 100, 2)} % less load")
             case "diameter":
-                more = rest.outer_diameter[index] - (task.limits.max_diameter or 0.0)
-                texts.append(f"{rest.outer_diameter[index] * 1e3:.3g} mm of diameter (+{more * 1e3:.2g} mm)")
+                wide = float(rest.outer_diameter[0])
+                more = wide - (task.limits.max_diameter or 0.0)
+                texts.append(f"{rounded_up(wide * 1e3, 3)} mm of diameter (+{rounded_up(more * 1e3, 2)} mm)")
             case "suspended_mass":
-                texts.append(f"{share / (1.0 + share) * 100:.2g} % less mass")
+                texts.append(f"{rounded_up(share / (1.0 + share) * 100, 2)} % less mass")
             case "stiffness":
-                texts.append(f"{rest.stiffness[index]:.3g} N/m accepted")
+                texts.append(f"{rounded_down(float(rest.stiffness[0]), 3)} N/m accepted")
             case "life":
-                texts.append(f"{rest.life[index]:.2g} cycles accepted")
+                texts.append(f"{rounded_down(float(rest.life[0]), 2)} cycles accepted")
             case _:
                 pass
     more_muscles = [
-        count for count in range(parallel + 1, int(rest.parallel.max()) + 1) if len(sheet.sound(count))
+        count for count in range(parallel + 1, int(sheet.rest.parallel.max()) + 1) if len(sheet.sound(count))
     ]
     if more_muscles:
         texts.append(f"{more_muscles[0]} in parallel")
     if others:
         texts.append(f"{others[0]} instead")
     return "; or ".join(texts) if texts else "nothing that is in the catalogue"
+
+
+def rounded_up(value: float, digits: int) -> str:
+    """A positive number with so many digits, not below the value."""
+    return _towards(value, digits, ceil)
+
+
+def rounded_down(value: float, digits: int) -> str:
+    """A positive number with so many digits, not above the value."""
+    return _towards(value, digits, floor)
+
+
+def _towards(value: float, digits: int, to: Callable[[float], int]) -> str:
+    unit = 10.0 ** (floor(log10(value)) - digits + 1) if value > 0.0 else 1.0
+    hair = -_ROUNDING if to is ceil else _ROUNDING
+    return f"{to(value / unit + hair) * unit:.{digits}g}"
 
 
 def group_text(group: Group) -> str:
@@ -296,7 +326,8 @@ def slow_remedy(trial: Trial | None, task: Task, binding: str, works: bool) -> s
     if trial is not None and demanded is not None:
         needed = demanded * trial.excess()
         if isfinite(needed):
-            texts.append(f"{needed:.3g} s allowed (+{needed - demanded:.2g} s)")
+            late = rounded_up(needed - demanded, 2)
+            texts.append(f"{rounded_up(needed, 3)} s allowed (+{late} s, the least that was tried)")
     if binding == "force_limit":
         texts.append("a lower pressure, or a valve or tube with less flow")
     else:

@@ -129,23 +129,18 @@ def trial_of(design: Design, bench: Bench, known: AtRest | None = None) -> Trial
 def hard_trials_of(designs: Sequence[Design], bench: Bench) -> list[Trial]:
     """Run designs, and a weak specimen of each where specimens count."""
     task = bench.task
-    if not task.robust:
-        bench.run_ahead(designs)
-        known = rests_of(designs, task)
-        return [trial_of(design, bench, rest) for design, rest in zip(designs, known, strict=True)]
     prepared = [bench.prepared(design) for design in designs]
-    usual = [Case(item, item.parameters, item.inputs) for item in prepared]
-    poor = [
-        Case(item, *item.specimen(*deviations))
-        for item, deviations in zip(prepared, weak(designs, task), strict=True)
+    cases = [Case(item, item.parameters, item.inputs) for item in prepared]
+    if task.robust:
+        deviating = zip(prepared, weak(designs, task), strict=True)
+        cases += [Case(item, *item.specimen(*deviations)) for item, deviations in deviating]
+    figures = bench.run_cases(cases)
+    trials = [
+        judged(design, mine, task, known)
+        for design, mine, known in zip(designs, figures, rests_of(designs, task), strict=False)
     ]
-    figures = bench.run_cases([*usual, *poor])
-    return [
-        replace(judged(design, mine, task, known), weak=weakest)
-        for design, mine, weakest, known in zip(
-            designs, figures[: len(designs)], figures[len(designs) :], rests_of(designs, task), strict=True
-        )
-    ]
+    poor = figures[len(designs) :] or [None] * len(designs)
+    return [replace(trial, weak=weakest) for trial, weakest in zip(trials, poor, strict=True)]
 
 
 def rests_of(designs: Sequence[Design], task: Task) -> list[AtRest]:

@@ -21,7 +21,9 @@ from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.sizing import Design, PartsCatalogue, Proposal, Rejection, Sizing, Task
 from mckibben.sizing import size as search_designs
 from mckibben.sizing.catalogue import Group, switch_on
+from mckibben.sizing.design_table import LENGTHS, PRESSURES
 from mckibben.sizing.ranking import joint_front, why_first
+from mckibben.sizing.refine import CLOSE
 from mckibben.sizing.statics import LimitName
 from mckibben.sizing.trial import Trial
 
@@ -160,6 +162,8 @@ class SizingResult:
     """The task in one sentence, from its figures."""
     proposals: list[ProposedDrive]
     """Best first; empty if no candidate fulfils the task."""
+    searched: str
+    """What was searched, as a sentence: "the least" and "the fastest" are meant among these."""
     ranking: str | None
     """Why the first proposal comes before the second; None for less than two."""
     rejected: list[RejectedParts]
@@ -232,6 +236,7 @@ def _result(sizing: Sizing, question: SizingQuestion, limit: float, wall_ms: flo
     return SizingResult(
         about=about_task(question.document),
         proposals=proposals,
+        searched=_searched(sizing, question, sum(proposal.specimens for proposal in proposals)),
         ranking=why_first(sizing.proposals, question.task),
         rejected=[_rejected(item) for item in sizing.rejected],
         explored=[
@@ -245,6 +250,24 @@ def _result(sizing: Sizing, question: SizingQuestion, limit: float, wall_ms: flo
         message=_message(sizing, question.document.uncertainty.specimens, limit),
         flags=_notices(proposals, question.document),
         wall_ms=wall_ms,
+    )
+
+
+def _searched(sizing: Sizing, question: SizingQuestion, specimens: int) -> str:
+    """The domain of the search, and how fine it was."""
+    parts = question.catalogue
+    kinds = ((len(parts.muscles), "muscle"), (len(parts.valves), "valve"), (len(parts.tubes), "tube"))
+    chosen = ", ".join(f"{count} {name}{'' if count == 1 else 's'}" for count, name in kinds)
+    refined = (
+        f"; near the best of them length and pressure were searched to {100.0 * CLOSE:g} %"
+        if sizing.refined
+        else ""
+    )
+    return (
+        f"Searched: {sizing.combinations} combinations of {chosen}, up to "
+        f"{question.task.limits.max_parallel} in parallel, with {LENGTHS} lengths and {PRESSURES} pressures "
+        f"each; {sizing.pruned} fail by the static calculation, {sizing.simulated} runs and {specimens} of "
+        f"specimens were simulated{refined}."
     )
 
 
@@ -339,6 +362,12 @@ def _proposal(proposal: Proposal, question: SizingQuestion) -> ProposedDrive:
 def _notes(proposal: Proposal, task: Task, document: SizingTask) -> list[str]:
     group = proposal.design.group
     notes: list[str] = []
+    needed, arrived = float(proposal.trial.rest.needed[0]), proposal.pressure_end
+    if arrived < needed:
+        notes.append(
+            f"It arrives by momentum: the muscles have {arrived / 1e5:.3g} bar then, and {needed / 1e5:.3g} "
+            "bar carry the load over the stroke; until that is reached it may sag."
+        )
     if group.parallel > 1:
         notes.append(
             f"The drive document is that of one of {group.parallel} parallel muscles: it has its share of "

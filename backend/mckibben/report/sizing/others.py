@@ -32,14 +32,8 @@ def alternatives_section(material: SizingMaterial, chosen: Chosen) -> Html:
         "proposals of the table, refined and simulated accurately."
         + (f" {not_drawn} that use more air are not drawn." if not_drawn else "")
     )
-    counts = (
-        f"{material.result.combinations} combinations of muscle, length, number, pressure, valve and tube "
-        f"keep the limits of length, pressure and contraction. {material.result.pruned} were rejected by the "
-        f"static calculation, {material.result.simulated} transients and {material.result.specimens} "
-        "specimens were simulated."
-    )
     parts: list[Child] = [
-        paragraph(counts),
+        paragraph(material.result.searched),
         figure_of(_picture(material, chosen), caption),
         _proposals(material, chosen),
     ]

@@ -26,6 +26,7 @@ def summary_of(result: SizingResult, name: str) -> Summary:
     others = len(result.rejected) - len(shown)
     return [
         proposal_table(result, name),
+        result.searched,
         *([result.ranking] if result.proposals and result.ranking is not None else []),
         *(
             f"– {item.why} [{LIMITS[item.binding].words}]; it would work with {item.would_work_if}"
@@ -63,9 +64,8 @@ def proposal_table(result: SizingResult, name: str) -> Table:
         "muscle", "valve", "tube",
         *(SIZING[name].words for name in (*_FIGURES, "margins", "binding")),
     ]  # fmt: skip
-    counted = f"{result.combinations} combinations, {result.simulated} simulated"
     heading = heading_of(result.about, name)
     if not rows:
-        return Table(f"{heading}: {nothing_words(result)} ({counted})", ["no drive"], [])
+        return Table(f"{heading}: {nothing_words(result)}", ["no drive"], [])
     found = "drives" if result.outcome == "completed" else "drives found so far"
-    return Table(f"{heading}: {found}, best first ({counted})", header, rows)
+    return Table(f"{heading}: {found}, best first", header, rows)
