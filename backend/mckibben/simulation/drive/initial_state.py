@@ -10,7 +10,7 @@ import numpy as np
 
 from mckibben.physics import gas
 from mckibben.physics.braid import volume as braid_volume
-from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LOW_STOP, SLACK
+from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LEAST_GUARD, LOW_STOP, SLACK
 from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.integrate.engine import CompiledDrive
@@ -71,7 +71,31 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
             switches[index] = float(stroke >= high and net >= 0.0)
     start = search.settled(switches)
     settle(compiled, start, parameters, inputs)
+    packed = np.concatenate([start, parameters, inputs])
+    without_friction(compiled, switches, lambda given: compiled.guards(packed, given))
     return Start(start, switches, stroke, why)
+
+
+def without_friction(
+    compiled: CompiledDrive, switches: np.ndarray, guards: Callable[[np.ndarray], np.ndarray]
+) -> None:
+    """Let a load that no stop and no dry friction holds slide: without friction nothing sticks; in place.
+
+    Args:
+        compiled: the equations; nothing is done where they contain no dry friction.
+        switches: at the start, shape (switches,) or (switches, sets); a load with friction sticks there.
+        guards: guards for switches, of their shape.
+    """
+    each = compiled.model.switches
+    directions = [index for index, switch in enumerate(each) if switch.slides]
+    if not directions:
+        return
+    free = switches.copy()
+    stops = [index for index, switch in enumerate(each) if switch.stop]
+    free[stops] = 0.0
+    # The guards of a load that sticks are what is left of the range of the friction, upwards and downwards.
+    wide = np.sum(guards(free)[directions], axis=0)
+    switches[directions[0]] = (np.sum(switches[stops], axis=0) == 0.0) & (np.abs(wide) <= LEAST_GUARD)
 
 
 def stated_stroke(drive: Drive) -> float:

@@ -12,7 +12,13 @@ from mckibben.physics.braid import volume as braid_volume
 from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LOW_STOP, SLACK
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import GEOMETRY, Muscle
-from mckibben.simulation.drive.initial_state import BALANCED, Rest, beyond_lock, stated_stroke
+from mckibben.simulation.drive.initial_state import (
+    BALANCED,
+    Rest,
+    beyond_lock,
+    stated_stroke,
+    without_friction,
+)
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.integrate.engine import CompiledDrive
 from mckibben.simulation.integrate.lane_calls import LaneCalls
@@ -133,6 +139,7 @@ class _Search:
         for place, volume in zip(self._places("gas_mass"), volumes, strict=True):
             self.calls.put(place, self.specific * volume)
         self._settle()
+        without_friction(self.compiled, switches.T, self._guards)
         states = np.column_stack([self.calls.get(index) for index in range(self.compiled.size)])
         states[[error is not None for error in errors]] = np.nan
         return Starts(states, switches, strokes, tuple(why), tuple(errors))
@@ -192,6 +199,16 @@ class _Search:
         """Tensions at rest of the muscles that a switch belongs to [N]; the switches are 0 here."""
         guards = self.calls.call(self.compiled.lanes.step["jacobian"])[-len(self.compiled.model.switches) :]
         return guards[number]
+
+    def _guards(self, switches: np.ndarray) -> np.ndarray:
+        """Guards of the sets, shape (switches, sets)."""
+        first, kinds = self.compiled.codes.rates.size - len(switches), len(switches)
+        for index, values in enumerate(switches):
+            self.calls.put(first + index, values)
+        guards = self.calls.call(self.compiled.lanes.step["jacobian"])[-kinds:]
+        for index in range(kinds):
+            self.calls.put(first + index, 0.0)
+        return guards
 
     def _settle(self) -> None:
         """Set the states that start settled to where their rates, linear in them, are zero."""

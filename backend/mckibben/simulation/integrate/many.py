@@ -227,7 +227,7 @@ def _run(
     with chosen.room(kernels) as arrays:
         kernels.run(
             *chosen.model,
-            (drive.least, bounce_of(options[0]), drive.follows, drive.watched),
+            (drive.least, bounce_of(options[0]), drive.follows, drive.watched, drive.slides),
             stops,
             constants,
             given.starts,

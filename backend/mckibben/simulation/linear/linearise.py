@@ -23,7 +23,7 @@ from mckibben.simulation.drive.transient import dead_times
 from mckibben.simulation.linear.bound import BoundDrive
 from mckibben.simulation.linear.corner import Corner, corners_of, slopes_in_words
 from mckibben.simulation.linear.equations import COMMAND, COUNTER_COMMAND, LOAD_FORCE, POSITION, PRESSURE
-from mckibben.simulation.linear.model import INPUT_SCALES, LinearModel, matrices, mean_of, model_of, moving
+from mckibben.simulation.linear.model import INPUT_SCALES, LinearModel, matrices, mean_of, model_of
 from mckibben.simulation.linear.point import Condition, OperatingPoint, operating_point
 
 
@@ -330,21 +330,23 @@ def _text(rest: OperatingPoint, way: str, sticks: bool, corner: bool) -> str:
     words = [f"the valve is {way}"] if way else []
     if rest.on_stop:
         words.append("the load rests on its end stop, so that only the air moves")
-    elif sticks and rest.bound.reached:
-        words.append("friction holds the muscle: while it builds up it is a spring, until the muscle slides")
-    elif sticks:
+    elif rest.motion is None:
+        up, down = rest.friction
         words.append(
-            "friction holds the muscle: it creeps below 1 mm/s, as it does in a run, and hardly moves"
+            f"dry friction holds the load: it does not move until the net force on it has grown by {up:.3g} N "
+            f"upwards or {down:.3g} N downwards; only the air moves"
         )
+    elif sticks:
+        words.append("friction holds the muscle: while it builds up it is a spring, until the muscle slides")
     if corner and not way:
         words.append("the regulator rests on a corner, between filling and venting: the mean of both slopes")
     return " and ".join(words) or "the equations are smooth here"
 
 
-def _scaled(point: OperatingPoint, side: _Side, *, slides: bool = False) -> Array:
+def _scaled(point: OperatingPoint, side: _Side) -> Array:
     """A and B over the magnitudes of states; one row of numbers."""
     scales = point.bound.scales
-    a, b, _, _ = matrices(point, side=side.sign, slides=slides, offset=side.offset)
+    a, b, _, _ = matrices(point, side=side.sign, motion=point.motion, offset=side.offset)
     b = b * np.array([INPUT_SCALES[port.name] for port in point.bound.equations.inputs])
     return np.concatenate([(a * scales / scales[:, None]).ravel(), (b / scales[:, None]).ravel()])
 
@@ -367,7 +369,7 @@ def _respond_differently(point: OperatingPoint, first: _Side, second: _Side) -> 
     position = equations.outputs.index(POSITION)
     responses: list[Array] = []
     for side in (first, second):
-        a, b, c, _ = matrices(point, side=side.sign, slides=False, offset=side.offset)
+        a, b, c, _ = matrices(point, side=side.sign, motion=point.direction, offset=side.offset)
         scaled, columns = a * scales / scales[:, None], b[:, inputs] / scales[:, None]
         turns = [1j * w * np.eye(len(scales)) - scaled for w in _SEEN]
         responses.append(
@@ -378,17 +380,13 @@ def _respond_differently(point: OperatingPoint, first: _Side, second: _Side) -> 
 
 
 def _sticks(rest: OperatingPoint) -> bool:
-    """Whether friction acts: the derivatives of a sliding muscle are not those at rest."""
-    if rest.bound.reached:
-        return True
-    neutral = _Side(0, 0.0)
-    held, slides = _scaled(rest, neutral), _scaled(moving(rest, 1), neutral, slides=True)
-    return bool(np.any(np.abs(held - slides) > _DIFFERENT * (1.0 + np.abs(slides))))
+    """Whether friction holds the load at rest, dry friction or friction with memory."""
+    return bool(rest.bound.reached) or rest.motion is None
 
 
 def _acts(point: OperatingPoint, sign: int, offset: float) -> bool:
     """Whether the pressure, of a pair both, reacts to a small change of the command on this side."""
-    a, b, _, _ = matrices(point, side=sign, slides=False, offset=offset)
+    a, b, _, _ = matrices(point, side=sign, motion=point.motion, offset=offset)
     bound, scales = point.bound, point.bound.scales
     ports = bound.equations.inputs
     commands = [COMMAND, COUNTER_COMMAND] if bound.drive.pair else [COMMAND]
