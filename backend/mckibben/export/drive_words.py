@@ -57,6 +57,10 @@ _OUTPUTS: Mapping[str, Words] = {
     "net_force": Words("N", "Along the stroke, without that of the stops."),
     "friction": Words("N", "Of the dry friction on the load, positive upwards; sticking what balances it."),
     "friction_share": Words("1", "Share of its range that the dry friction takes; 1 sliding."),
+    "friction_left_up": Words(
+        "N", "Force upwards that the friction of a sticking load still takes; 0 sliding."
+    ),
+    "friction_left_down": Words("N", "The same downwards."),
     "external_force": Words("N", "Force on the load against the pull."),
     "pressure_reading": Words("Pa", "Gauge pressure as its sensor reads it."),
     "force_reading": Words("N", "Force as its sensor reads it."),

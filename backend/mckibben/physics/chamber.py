@@ -12,6 +12,7 @@ from mckibben.physics.model import Model, State
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 
+
 class Motion(NamedTuple):
     """Stroke of a muscle from the drive's coordinate x: s = start + sense * x, sense +1 or -1.
 

@@ -17,12 +17,13 @@ integrator finds impact and release as events.
 it carries no tension: :math:`\dot l = \dot d - F_0/c` with the tension F_0 at rest and a small damping c.
 While it is taut, l = d. Slack is a switch as well.
 
-**Dry friction** is set-valued (Filippov): all its laws enter the net force N through one direction d, which is the
-sign of the speed of a load that slides, and any number between -1 and 1 for one that sticks. Two switches say so:
-*slides up* and *slides down*, d = up - down. A load that slides sticks where its speed is zero; one that sticks
-breaks away upwards where :math:`N(d = 1) > 0` and downwards where :math:`N(d = -1) < 0`. As N is that of the whole
-model, ranges of several laws add up, grow with pressure and act on both muscles of a pair; static friction above
-the kinetic is what a law gives at zero speed. A stop that holds the load carries all that N(0) presses on it.
+**Dry friction** is set-valued (Filippov): all its laws enter the net force N through one direction d, which
+is the sign of the speed of a load that slides, and any number between -1 and 1 for one that sticks. Two
+switches say so: *slides up* and *slides down*, d = up - down. A load that slides sticks where its speed is
+zero; one that sticks breaks away upwards where :math:`N(d = 1) > 0` and downwards where :math:`N(d = -1) <
+0`. As N is that of the whole model, ranges of several laws add up, grow with pressure and act on both
+muscles of a pair; static friction above the kinetic is what a law gives at zero speed, and what grows with
+the time at rest is a state of its effect. A stop that holds the load carries all that N(0) presses on it.
 
 In an antagonist pair the first muscle contracts by s0 + s and the second by s0 - s. The second has its own
 gas, and its tension acts against the first.
@@ -165,6 +166,8 @@ class DriveModel:
             "net_force": dry.net_force,
             "friction": dry.friction / c["lever_ratio"],
             "friction_share": dry.share,
+            "friction_left_up": dry.left[0] / c["lever_ratio"],
+            "friction_left_down": dry.left[1] / c["lever_ratio"],
             "external_force": external,
             **main.readings,
         }
@@ -235,6 +238,7 @@ class DryFriction:
         friction: force of the friction along the stroke [N]: N(d) - N(0); sticking it carries -N(0), as far
             as its range allows. 0 on a stop.
         share: its share of the range that it has, 0 to 1; 1 sliding, 0 without dry friction.
+        left: force upwards and downwards that it still takes before the load breaks away [N]; 0 sliding.
     """
 
     def __init__(
@@ -245,6 +249,7 @@ class DryFriction:
         if slides is None:
             self.net_force, self.moves = net, 1.0 - contact
             self.friction = self.share = self._reached = se.Integer(0)
+            self.left = self.friction, self.friction
             return
         up, down = slides
         self.moves = (1.0 - contact) * (up + down)
@@ -259,9 +264,10 @@ class DryFriction:
         self.friction = net.subs({direction: self._reached}) - middle
         resists = ops.greater(ops.absolute(downwards - upwards), LEAST_GUARD)
         self.share = ops.where(resists, (1.0 - contact) * (up + down) + sticks * share, 0.0)
+        self.left = sticks * ops.positive_part(-upwards), sticks * ops.positive_part(downwards)
 
     def resolved(self, expressions: Mapping[str, Value]) -> dict[str, Value]:
-        """Expressions of the direction as those of the switches; sticking, its value is what balances the load."""
+        """Expressions of the direction as those of the switches; sticking, it is what balances the load."""
         return {
             name: each.subs({self._direction: self._reached})
             if self._direction in (each := se.sympify(expression)).free_symbols

@@ -71,13 +71,15 @@ OUTPUTS = (
     "net_force",
     "friction",
     "friction_share",
+    "friction_left_up",
+    "friction_left_down",
     "external_force",
     "pressure_reading",
     "force_reading",
     "stroke_reading",
 )
-# Switches: 0 or 1 during a step. A stop that holds the load, a muscle that hangs slack, and the two directions
-# in which a load with dry friction slides; in neither of them it sticks.
+# Switches: 0 or 1 during a step. A stop that holds the load, a muscle that hangs slack, and the two
+# directions in which a load with dry friction slides; in neither of them it sticks.
 LOW_STOP, HIGH_STOP, SLACK = "low_stop", "high_stop", "slack"
 SLIDES_UP, SLIDES_DOWN = "slides_up", "slides_down"
 # Additional outputs for the second muscle of a pair; its states have the suffix as well.
@@ -148,7 +150,7 @@ class Switch:
         least: guard values above minus this are rounding errors.
         stop: for an end stop the name of its constant: where the load lands when the switch becomes 1.
         follows: for a slack muscle the name of its length: set to the distance of the fittings at a change.
-        slides: for a direction of sliding its sign, 1 up or -1 down: the speed is 0 where the switch becomes 0.
+        slides: for a direction of sliding its sign, 1 up or -1 down: where it becomes 0 the speed is 0.
     """
 
     name: str

@@ -3,8 +3,8 @@
 Effects and composition are those of `mckibben.physics.drive`, without valve, tube and gas balance. Measured
 channels are linear between samples. Effects of sensors and lags on the readings are included.
 
-The direction of the dry friction is that of `mckibben.physics.drive` where the load moves. Where the length is
-measured it is an input, because a record knows only with its noise which way it goes.
+The direction of the dry friction is that of `mckibben.physics.drive` where the load moves. Where the length
+is measured it is an input, because a record knows only with its noise which way it goes.
 """
 
 from __future__ import annotations

@@ -1,19 +1,20 @@
 """Dry friction written on its own: stick, slide up and slide down as states, found and left by root finding.
 
 Shares no code with the package, and no rule with its kernel: scipy's Radau at 1e-10 on the rates of
-`independent.Rig`, the friction a number in each of the states, the state changed where the speed is zero or the
-force on the stuck load leaves the range.
+`independent.Rig`, the friction a number in each of the states, the state changed where the speed is zero or
+the force on the stuck load leaves the range.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from itertools import pairwise
 from math import exp, radians, sin
 
 import numpy as np
 from scipy.integrate import solve_ivp
 
-from tests.simulation.drive.independent import AMBIENT, CP, G, R, T0, Rig
+from tests.simulation.drive.independent import AMBIENT, CP, T0, G, R, Rig
 
 Course = tuple[tuple[float, ...], tuple[float, ...]]
 #: Error of the integration of stroke, speed, pressure and gas mass, and what counts as no force [N].
@@ -110,7 +111,7 @@ class DryRig(Rig):
         marks = [*self.course[0], *(at for at, _ in self.commands), time[0], time[-1]]
         marks = sorted({mark for mark in marks if time[0] <= mark <= time[-1]})
         rows, state = [], "low"
-        for begin, end in zip(marks[:-1], marks[1:], strict=True):
+        for begin, end in pairwise(marks):
             now, opening = begin, [value for at, value in self.commands if at <= begin][-1]
             while now < end:
                 events = self.leaves(state, low, high)

@@ -1,4 +1,4 @@
-"""Dry friction sticks: beside an integration written on its own (`sticking.DryRig`), closed forms and energy."""
+"""Dry friction sticks: beside an integration written on its own (`sticking.DryRig`), closed forms, energy."""
 
 from __future__ import annotations
 
@@ -56,8 +56,8 @@ RIGS = {
         course=((0.0, 10.0, 12.0, 14.0), (0.0, 0.0, 200.0, 0.0)),
     ),
     "breaking away above the kinetic friction, which grows with pressure": DryRig(
-        mass=20.0, spring=3000.0, drag=60.0, supply=4e5, fill=4e-9, kinetic=30.0, excess=0.5, per_pressure=4e-5,
-        course=((0.0, 4.0, 6.0, 8.0, 10.0), (0.0, 0.0, 150.0, -100.0, 0.0)), end=10.0,
+        mass=20.0, spring=3000.0, drag=60.0, supply=4e5, fill=4e-9, kinetic=30.0, excess=0.5,
+        per_pressure=4e-5, course=((0.0, 4.0, 6.0, 8.0, 10.0), (0.0, 0.0, 150.0, -100.0, 0.0)), end=10.0,
     ),
     "rebounding": DryRig(
         mass=20.0, spring=3000.0, drag=20.0, supply=4e5, kinetic=50.0, restitution=0.5, highest=0.15, end=4.0,
@@ -98,8 +98,8 @@ def test_more_sticking_is_that_of_an_integration_written_on_its_own(name: str) -
 def test_a_held_load_stays(engine: str) -> None:
     run = simulate(drive(held()), points=11001, engine=engine)
     model, stroke = run.drive.model, run.states["stroke"]
-    # Up to 12 s the load is pulled to where 4 bar carry 20 kg and 100 N less the friction, and at 14 s let go to
-    # where they carry 20 kg and the friction: to the same place.
+    # Up to 12 s the load is pulled to where 4 bar carry 20 kg and 100 N less the friction, and at 14 s let go
+    # to where they carry 20 kg and the friction: to the same place.
     carried = 20.0 * 9.80665 + 50.0
 
     def missing(stroke: float) -> float:
@@ -120,12 +120,19 @@ def test_a_held_load_stays(engine: str) -> None:
 def test_laws_add_up_to_one_range() -> None:
     """The pull at which a load breaks away downwards lies the sum of both ranges above the one upwards."""
     effects = {"pressure_friction": {"area": "4 N/bar"}}
-    force = {"shape": "table", "times": [0, 10, 40, 70], "values": [0, 0, 300, -100], "interpolation": "linear"}
+    force = {
+        "shape": "table",
+        "times": [0, 10, 40, 70],
+        "values": [0, 0, 300, -100],
+        "interpolation": "linear",
+    }
     document = held(effects=effects, duration="70 s")
     document["load"]["force"] = force
     run = simulate(drive(document), points=7001)
     pull = [float(np.interp(event.time, *(force["times"], force["values"]))) for event in run.events]
-    reversal = [each for each, event in zip(pull, run.events, strict=True) if event.begins and event.time > 40.0]
+    reversal = [
+        each for each, event in zip(pull, run.events, strict=True) if event.begins and event.time > 40.0
+    ]
     # 50 N and 4 N/bar at 4 bar, on both sides; the ramp stops where it was at 300 N.
     assert 300.0 - reversal[0] == pytest.approx(2.0 * (50.0 + 16.0), abs=0.5)
 
@@ -183,14 +190,16 @@ def dry_guide(**values: float) -> tuple[Effect, dict[str, float]]:
 
 
 def belt(*, speed: float, stiffness: float, static: float, kinetic: float, duration: float) -> Drive:
-    """A mass of 1 kg on a spring and a belt, in the coordinate of the belt: the anchor of the spring moves."""
+    """A mass of 1 kg on a spring and a belt, in the coordinate of the belt: the spring's end moves."""
     document = held(duration=f"{duration} s")
     base = drive(document)
     effect, values = dry_guide(force=kinetic, static_share=static / kinetic - 1.0)
     model = StaticModel.of(base.muscle._replace(nominal_length=1.0), (effect,), {"dry_guide": values})
     ramp = Ramp(begin=0.0, end=-stiffness * speed * duration, start=0.0, duration=duration)
     load = replace(base.load, mass=1.0, inclination=0.0, spring=stiffness, force=ramp)
-    return replace(base, model=model, load=load, command=Step(level=0.0, initial=0.0), own_mass=0.0, duration=duration)
+    return replace(
+        base, model=model, load=load, command=Step(level=0.0, initial=0.0), own_mass=0.0, duration=duration
+    )
 
 
 @pytest.mark.parametrize("speed", [0.01, 0.02])

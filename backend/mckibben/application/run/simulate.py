@@ -27,6 +27,7 @@ from mckibben.application.operating_limits import (
 )
 from mckibben.application.prediction_interval import PositionInterval
 from mckibben.application.run.drive_run import measured_interval, run_drive, use_of_run
+from mckibben.application.run.events import STILL, RunEvent, events_of_run, rest_of_run
 from mckibben.application.run.joint import JointMotion, joint_of
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.facts.result import Booleans, FiniteSeries, Series, result_class
@@ -141,6 +142,14 @@ class SimulationResult:
     """Whether the load rests on an end stop."""
     slack: Booleans
     """Whether the muscle hangs slack: it is then longer than its fittings are apart."""
+    stuck: Booleans
+    """Whether dry friction holds the load."""
+    friction: Series
+    friction_share: Series
+    events: list[RunEvent]
+    """What happens in the whole run, whatever rows are requested: impacts, slack, sticking, breaking away."""
+    rest: str | None
+    """What holds the load at the end if dry friction does, and the force left until it breaks away."""
     start: StartPosition
     """Where the load is at t = 0, and why there."""
     gas: str
@@ -261,6 +270,11 @@ def result_of(
         temperature=out["gas_temperature"][rows],
         contact=out["contact"][rows] != 0.0,
         slack=states["length"][rows] > rest * (1.0 - contraction[rows]) + _SLACK,
+        stuck=_stuck(run)[rows],
+        friction=out["friction"][rows],
+        friction_share=out["friction_share"][rows],
+        events=events_of_run(run),
+        rest=rest_of_run(run) if run.outcome is Outcome.COMPLETED else None,
         start=StartPosition(
             run.start.stroke / lever, run.start.stroke / rest + drive.precontraction, run.start.why.value
         ),
@@ -304,6 +318,14 @@ def _stated_pressures(annotated: AnnotatedDrive) -> dict[str, float]:
 def _bounds(annotated: AnnotatedDrive) -> DriveBounds:
     low, high = stops_of(annotated.drive)
     return DriveBounds(**asdict(annotated.drive.model.limits), position_min=low, position_max=high)
+
+
+def _stuck(run: Run) -> Array:
+    """Rows in which dry friction holds the load."""
+    out = run.outputs
+    left = out["friction_left_up"] + out["friction_left_down"]
+    held = (left > 0.0) | (out["friction_share"] > 0.0)
+    return held & (np.abs(run.states["speed"]) <= STILL) & (out["contact"] == 0.0)
 
 
 def _readings(run: Run, rows: Array) -> SensorReadings | None:

@@ -143,7 +143,7 @@ def _drive(runnable: RunnableDrive) -> Iterator[str]:
     yield from indented(lines, 2)
     least = equations.switches[0].least
     slides = [own for switch, own in zip(equations.switches, switches.values(), strict=True) if switch.slides]
-    yield from indented(_sliding(runnable, states["speed"], switches, guards), 2)
+    yield from indented([*_sliding(runnable, states["speed"], switches, guards)], 2)
     for switch, own, guard in zip(equations.switches, switches.values(), guards.values(), strict=True):
         if switch.slides:
             continue
@@ -170,7 +170,7 @@ def _drive(runnable: RunnableDrive) -> Iterator[str]:
 def _sliding(
     runnable: RunnableDrive, speed: str, switches: Mapping[str, str], guards: Mapping[str, str]
 ) -> Iterator[str]:
-    """When the load slides: on a stop it rests; a direction that ends may end because it moves the other way."""
+    """When the load slides: on a stop it rests; a direction also ends where it moves the other way."""
     named = {f"switch {switch.name}": switch for switch in runnable.equations.switches}
     least = runnable.equations.switches[0].least
     slides = [name for name, switch in named.items() if switch.slides]

@@ -5,9 +5,11 @@ from __future__ import annotations
 from math import pi
 
 from mckibben.application.run.simulate import SimulationResult
-from mckibben.facts.run import JOINT, TRACKING
+from mckibben.facts.run import EVENT, JOINT, TRACKING
 from mckibben.facts.timing import PHASES, PRESSURE_FIGURES, TIMING
 from mckibben.report.summary.parts import Summary, Table, figure, shown
+
+_MOST_EVENTS = 20
 
 
 def summary_of(result: SimulationResult, name: str) -> Summary:
@@ -23,6 +25,8 @@ def summary_of(result: SimulationResult, name: str) -> Summary:
         *(f"– {reason}" for reason in sorted(_reasons(result))),
         f"start at {start.position * 1e3:.4g} mm ({start.contraction * 100:.3g} %), {start.reason}",
         f"air: {result.gas}",
+        *([] if result.rest is None else [f"at the end the load {result.rest}"]),
+        *_events(result),
         *([] if note is None else [f"air mass {note}"]),
         *_tracking(result),
         *_joint(result),
@@ -58,6 +62,19 @@ def _reasons(result: SimulationResult) -> set[str]:
         if (getattr(getattr(timing, phase), name) is None or name in PRESSURE_FIGURES)
         and (why := timing.notes.get(f"{phase}.{name}"))
     }
+
+
+def _events(result: SimulationResult) -> list[Table | str]:
+    """The events of the run in their order; of many the first."""
+    if not result.events:
+        return []
+    rows = [
+        [shown(EVENT["time"], each.time), each.text, shown(EVENT["speed"], each.speed)]
+        for each in result.events[:_MOST_EVENTS]
+    ]
+    table = Table(EVENT.title, [EVENT["time"].label, "", EVENT["speed"].label], rows)
+    further = len(result.events) - len(rows)
+    return [table, *([f"and {further} further events, which the answer lists"] if further else [])]
 
 
 def _tracking(result: SimulationResult) -> list[Table]:

@@ -127,7 +127,7 @@ def _turning(i: int, start: np.ndarray, end: np.ndarray, dense: np.ndarray) -> f
 
 @njit(inline="always", error_model="numpy")
 def _backmost(i: int, sense: float, start: np.ndarray, end: np.ndarray, dense: np.ndarray) -> float:
-    """Share of a step at which a speed, times its sense, is smallest and negative inside of it; 0 if nowhere."""
+    """Share of a step at which a speed, times its sense, is smallest and negative inside; 0 if nowhere."""
     a, b, c = -3.0 * dense[1, i], 2.0 * (dense[1, i] - dense[0, i]), end[i] - start[i] + dense[0, i]
     inside = b * b - 4.0 * a * c
     if inside < 0.0:
@@ -169,13 +169,17 @@ def first_event(
             # A load that has all but come to rest within the step may have stuck there.
             upper = _backmost(moved[1], slides[k], start, end, dense)
             if upper > 0.0:
-                at_upper = _guard_at(guards, upper, t, h, k, clock, watched, packed, guarded, start, end, dense)
+                at_upper = _guard_at(
+                    guards, upper, t, h, k, clock, watched, packed, guarded, start, end, dense
+                )
                 upper = upper if at_upper < -least[k] else 0.0
         elif slides[k] != 0.0:
             # One that sticks may have been pulled beyond its range only within the step.
             for part in range(1, SAMPLES):
                 inside = part / SAMPLES
-                at_upper = _guard_at(guards, inside, t, h, k, clock, watched, packed, guarded, start, end, dense)
+                at_upper = _guard_at(
+                    guards, inside, t, h, k, clock, watched, packed, guarded, start, end, dense
+                )
                 if at_upper < -least[k]:
                     upper = inside
                     break

@@ -87,9 +87,7 @@ class BoundDrive:
         values["external_force"] = self.load_force
         return np.array([values[name] for name in INPUTS])
 
-    def values(
-        self, state: Array, command: float, switches: Array, *, direction: int | None = 0
-    ) -> Values:
+    def values(self, state: Array, command: float, switches: Array, *, direction: int | None = 0) -> Values:
         """Rates, outputs and derivatives.
 
         Args:
@@ -112,7 +110,7 @@ class BoundDrive:
         return [index for index, switch in enumerate(self.equations.model.switches) if switch.slides]
 
     def range_left(self, state: Array, command: float) -> tuple[float, float]:
-        """Force [N] on the load that its dry friction still takes, upwards and downwards; 0 without friction."""
+        """Force [N] on the load that its dry friction still takes, upwards and downwards; 0 without any."""
         if not self.directions:
             return 0.0, 0.0
         guards = self.compiled.guards(np.concatenate([state, self.parameters, self.inputs(command)]))

@@ -1,7 +1,7 @@
 """The equations of a drive with exact derivatives by states and inputs, as machine code.
 
-They are those of the engine, `mckibben.physics.drive.DriveModel`. Its switches say whether dry friction holds the
-load or in which direction it slides; both directions by half are a load without dry friction.
+They are those of the engine, `mckibben.physics.drive.DriveModel`. Its switches say whether dry friction holds
+the load or in which direction it slides; both directions by half are a load without dry friction.
 """
 
 from __future__ import annotations

@@ -333,8 +333,8 @@ def _text(rest: OperatingPoint, way: str, sticks: bool, corner: bool) -> str:
     elif rest.motion is None:
         up, down = rest.friction
         words.append(
-            f"dry friction holds the load: it does not move until the net force on it has grown by {up:.3g} N "
-            f"upwards or {down:.3g} N downwards; only the air moves"
+            f"dry friction holds the load: it does not move until the net force on it has grown by {up:.3g} "
+            f"N upwards or {down:.3g} N downwards; only the air moves"
         )
     elif sticks:
         words.append("friction holds the muscle: while it builds up it is a spring, until the muscle slides")

@@ -86,7 +86,7 @@ class OperatingPoint:
 
     @property
     def friction(self) -> tuple[float, float]:
-        """Force [N] on the load that its dry friction still takes at rest, upwards and downwards; 0 without."""
+        """Force [N] on the load that its dry friction still takes at rest, upwards and downwards."""
         state = self.state.copy()
         state[self.bound.names.index("speed")] = 0.0
         return self.bound.range_left(state, self.command)
