@@ -14,11 +14,12 @@ from mckibben.documents.drive_reading import drive_of
 from mckibben.physics import ops
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
 from mckibben.simulation.command.shapes import Ramp, Step
 from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive
-from mckibben.simulation.drive.transient import Run, segments_of, simulate
+from mckibben.simulation.drive.transient import Run, held_interval, segments_of, simulate
 from mckibben.simulation.statics.model import StaticModel
 from tests.shipped import shipped_studio
 from tests.simulation.drive.sticking import DryRig
@@ -266,3 +267,30 @@ def test_friction_without_force_changes_nothing_and_has_no_events() -> None:
     one, other = (simulate(drive(each), points=161, tolerance=1e-8) for each in (off, without))
     assert one.states["stroke"] == pytest.approx(other.states["stroke"], abs=1e-8)
     assert [event for event in one.events if event.switch.startswith("slides")][1:] == []
+
+
+@pytest.mark.parametrize("pressure", [2e5, 4e5])
+def test_the_start_is_an_interval_whose_ends_can_be_stated(pressure: float) -> None:
+    """Its ends carry 20 kg and the friction, or 20 kg less the friction: static curves know both branches."""
+    document = held(duration="1 s", start_pressure=pressure)
+    document["command"] = {"shape": "step", "level": 0.0, "initial": 0.0}
+    base = drive(document)
+
+    def balance(direction: float) -> float:
+        def missing(stroke: float) -> float:
+            force = base.model.force(length=0.3 - stroke, pressure=pressure, direction=direction)
+            return float(force[0]) - 20.0 * 9.80665
+
+        return float(brentq(missing, 0.0, 0.075, xtol=1e-14))
+
+    # A muscle that shortens pulls less: the load comes to rest lower.
+    low, high = balance(-1.0), balance(1.0)
+    assert held_interval(base) == pytest.approx((low, high), abs=1e-9)
+    for reached, expected in (("from below", low), ("from above", high), (None, balance(0.0))):
+        run = simulate(drive({**document, "start": {"reached": reached} if reached else {}}), points=11)
+        assert run.states["stroke"] == pytest.approx(expected, abs=1e-9)
+        assert len(run.events) == 0
+        if reached:
+            assert reached in run.start.why.value
+    with pytest.raises(InputError, match="has not come to rest there"):
+        drive({**document, "start": {"reached": "from below", "position": "10 mm"}})

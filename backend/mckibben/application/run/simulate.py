@@ -35,7 +35,7 @@ from mckibben.facts.run import RUN
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.physics.model import Model
-from mckibben.simulation.drive.transient import Run
+from mckibben.simulation.drive.transient import Run, held_interval
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.timing.evaluation import (
@@ -100,6 +100,10 @@ class StartPosition:
     """Contraction of the muscle at t = 0 [-]."""
     reason: str
     """Why the run starts there, as a sentence."""
+    lowest: float | None
+    """Lowest position at which dry friction holds the load at the start pressure [m]; None without it."""
+    highest: float | None
+    """Highest such position [m]."""
 
 
 @result_class
@@ -244,7 +248,10 @@ def result_of(
     def gauge(name: str) -> Array | None:
         return states[name][rows] - drive.ambient_pressure if name in states else None
 
+    between = held_interval(drive)
     notes = dict(annotated.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
+    if drive.start_reached and between is None:
+        notes["start.reached"] = "no dry friction holds the load at the start: it rests at one position"
     if follows is not None:
         notes |= {f"tracking.{name}": why for name, why in follows.notes.items()}
     return SimulationResult(
@@ -276,7 +283,10 @@ def result_of(
         events=events_of_run(run),
         rest=rest_of_run(run) if run.outcome is Outcome.COMPLETED else None,
         start=StartPosition(
-            run.start.stroke / lever, run.start.stroke / rest + drive.precontraction, run.start.why.value
+            run.start.stroke / lever,
+            run.start.stroke / rest + drive.precontraction,
+            run.start.why.value,
+            *(end if end is None else end / lever for end in between or (None, None)),
         ),
         gas=drive.gas_closure,
         readings=_readings(run, rows),

@@ -24,6 +24,14 @@ def summary_of(result: SimulationResult, name: str) -> Summary:
         timing_table(result, name),
         *(f"– {reason}" for reason in sorted(_reasons(result))),
         f"start at {start.position * 1e3:.4g} mm ({start.contraction * 100:.3g} %), {start.reason}",
+        *(
+            []
+            if start.lowest is None or start.highest is None
+            else [
+                f"dry friction holds the load there from {start.lowest * 1e3:.4g} mm to "
+                f"{start.highest * 1e3:.4g} mm"
+            ]
+        ),
         f"air: {result.gas}",
         *([] if result.rest is None else [f"at the end the load {result.rest}"]),
         *_events(result),

@@ -16,6 +16,7 @@ from mckibben.simulation.drive.initial_state import (
     BALANCED,
     Rest,
     beyond_lock,
+    reached_rest,
     stated_stroke,
     without_friction,
 )
@@ -120,7 +121,11 @@ class _Search:
     def found(self) -> Starts:
         drives, model = self.drives, self.compiled.model
         low, high = self.low, self.high
+        self._slide([drive.start_reached for drive in drives])
         strokes, why, errors = self._rest(low, high)
+        self._slide([0] * len(drives))
+        if any(switch.slides for switch in model.switches):
+            why = [reached_rest(each, drive.start_reached) for each, drive in zip(why, drives, strict=True)]
         for index, drive in enumerate(drives):
             if drive.start_position is not None:
                 try:
@@ -143,6 +148,13 @@ class _Search:
         states = np.column_stack([self.calls.get(index) for index in range(self.compiled.size)])
         states[[error is not None for error in errors]] = np.nan
         return Starts(states, switches, strokes, tuple(why), tuple(errors))
+
+    def _slide(self, directions: list[int]) -> None:
+        """Let the net force be that of loads that slide up (1) or down (-1), or have no friction (0)."""
+        first = self.compiled.codes.rates.size - len(self.compiled.model.switches)
+        for index, switch in enumerate(self.compiled.model.switches):
+            if switch.slides:
+                self.calls.put(first + index, np.equal(directions, switch.slides).astype(float))
 
     def _rest(
         self, low: np.ndarray, high: np.ndarray
