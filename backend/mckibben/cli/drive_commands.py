@@ -8,7 +8,7 @@ from typing import Annotated
 import typer
 
 from mckibben.cli.app import app
-from mckibben.cli.linear_options import Amplitudes, At, DesignGoals, Output, Source
+from mckibben.cli.linear_options import Amplitudes, At, DesignGoals, Output, SlidingSpeed, Source
 from mckibben.cli.options import (
     AsJson,
     DataFolder,
@@ -46,6 +46,7 @@ def linearise(
     output: Output = "position",
     amplitudes: Amplitudes = None,
     design: DesignGoals = None,
+    sliding_speed: SlidingSpeed = None,
     as_json: AsJson = False,
     presets: PresetsFolder = None,
     effects: EffectsFolders = None,
@@ -55,7 +56,7 @@ def linearise(
     from mckibben.cli.linearise import Wanted, run
     from mckibben.cli.options import open_studio
 
-    wanted = Wanted(at, source, output, amplitudes, design)
+    wanted = Wanted(at, source, output, amplitudes, design, sliding_speed)
     run(open_studio(presets, effects, data), drive=drive, wanted=wanted, as_json=as_json)
 
 

@@ -22,6 +22,14 @@ Amplitudes = Annotated[
     str | None,
     typer.Option("--amplitudes", help='Sines for the nonlinear drive, e.g. "1 %,20 %"; "none" for no sweep.'),
 ]
+SlidingSpeed = Annotated[
+    str | None,
+    typer.Option(
+        "--sliding-speed",
+        help="Speed of the load at which models that slide against dry friction have the slopes of friction and "
+        'damping, e.g. "20 mm/s". Default: they just slide.',
+    ),
+]
 DesignGoals = Annotated[
     str | None,
     typer.Option(

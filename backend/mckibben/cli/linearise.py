@@ -14,8 +14,9 @@ from mckibben.documents.studio import Studio
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
 from mckibben.report.summary.linear import summary_of
+from mckibben.simulation.linear.bound import SLIDING_SPEED
 
-_OPTIONS = ("at", "input", "output", "amplitudes", "design")
+_OPTIONS = ("at", "input", "output", "amplitudes", "design", "sliding_speed")
 
 
 @dataclass(frozen=True, slots=True)
@@ -27,6 +28,7 @@ class Wanted:
     output: str = "position"
     amplitudes: str | None = None
     design: str | None = None
+    sliding_speed: str | None = None
 
 
 def run(studio: Studio, *, drive: str, wanted: Wanted, as_json: bool) -> None:
@@ -39,24 +41,37 @@ def run(studio: Studio, *, drive: str, wanted: Wanted, as_json: bool) -> None:
         at = None if wanted.at is None else condition_of(wanted.at)
         goals = None if wanted.design is None else goals_of(wanted.design)
         amplitudes = None if wanted.amplitudes is None else _amplitudes(wanted.amplitudes, wanted.input)
+        stated = wanted.sliding_speed
+        speed = SLIDING_SPEED if stated is None else si(stated, "m/s", field="sliding_speed")
     except InputError as error:
-        raise InputError(f"--{error.field} {error.message}", hint=error.hint) from error
+        raise InputError(f"{_option(error.field)} {error.message}", hint=error.hint) from error
     document = named_document(drive, studio)
     try:
         annotated = drive_of(document, studio, measured=True)
         question = LinearQuestion(
-            annotated, at=at, input=wanted.input, output=wanted.output, amplitudes=amplitudes, goals=goals
+            annotated,
+            at=at,
+            input=wanted.input,
+            output=wanted.output,
+            amplitudes=amplitudes,
+            goals=goals,
+            sliding_speed=speed,
         )
         with progress("linearising") as watch:
             result = linear_view(question, watch)
     except InputError as error:
         if error.field in _OPTIONS:
-            raise InputError(f"{drive}: --{error.field}: {error.message}", hint=error.hint) from error
+            raise InputError(f"{drive}: {_option(error.field)}: {error.message}", hint=error.hint) from error
         raise InputError(f"{drive}: {located(error.field, error.message)}", hint=error.hint) from error
     if as_json:
         write_json(result)
     else:
         write_summary(summary_of(result, drive))
+
+
+def _option(field: str | None) -> str:
+    """The option that a field of the question is."""
+    return f"--{(field or '').replace('_', '-')}"
 
 
 def _amplitudes(text: str, source: str) -> tuple[float, ...]:

@@ -32,6 +32,7 @@ from mckibben.server.schemas.linearisations import LinearisationRequest, LinearP
 from mckibben.server.schemas.reports import ReportRequest
 from mckibben.server.schemas.sizing_reports import SizingReportRequest
 from mckibben.server.short_jobs import SHORT_JOBS
+from mckibben.simulation.linear.bound import SLIDING_SPEED
 from mckibben.simulation.linear.point import Condition
 from mckibben.simulation.linear.trials import Goals
 
@@ -57,6 +58,7 @@ def linear_question(body: LinearisationRequest, studio: Studio) -> LinearQuestio
         output=body.output,
         amplitudes=None if body.amplitudes is None else tuple(body.amplitudes),
         goals=goals,
+        sliding_speed=SLIDING_SPEED if body.sliding_speed is None else body.sliding_speed,
     )
 
 

@@ -20,6 +20,8 @@ Array = np.ndarray
 
 # A muscle that just slides: its speed [m/s] is far below every other speed of the model.
 SLIDING_SPEED = 1e-9
+# Fastest sliding that can be stated [m/s]: muscles move by a few metres per second.
+FASTEST_SLIDING = 10.0
 # A command is moved this far to one side of a point at which the equations switch [-].
 ASIDE = 1e-9
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -131,6 +131,13 @@ def operating_point(bound: BoundDrive, condition: Condition | None, *, direction
             hint="state a lower position or a higher pressure, or a load that pulls on the muscle",
         )
     return point
+
+
+def at_speed(point: OperatingPoint, speed: float) -> OperatingPoint:
+    """The point of a sliding load with the speed at which its slopes are wanted [m/s]."""
+    state = point.state.copy()
+    state[point.bound.names.index("speed")] = point.direction * speed * point.bound.drive.load.lever_ratio
+    return replace(point, state=state)
 
 
 def held_positions(bound: BoundDrive) -> tuple[float, float]:
