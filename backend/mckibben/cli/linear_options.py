@@ -26,8 +26,8 @@ SlidingSpeed = Annotated[
     str | None,
     typer.Option(
         "--sliding-speed",
-        help="Speed of the load at which models that slide against dry friction have the slopes of friction and "
-        'damping, e.g. "20 mm/s". Default: they just slide.',
+        help="Speed of the load at which models that slide against dry friction have the slopes of friction "
+        'and damping, e.g. "20 mm/s". Default: they just slide.',
     ),
 ]
 DesignGoals = Annotated[

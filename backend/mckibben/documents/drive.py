@@ -241,8 +241,8 @@ class StartInput(Strict):
     )
     reached: Literal["from below", "from above"] | None = Field(
         None,
-        description="Where dry friction holds the load within a range of positions: the end of it at which the "
-        "load has come to rest. Default: between both, where it would rest without that friction.",
+        description="Where dry friction holds the load within a range of positions: the end of it at which "
+        "the load has come to rest. Default: between both, where it would rest without that friction.",
     )
 
 

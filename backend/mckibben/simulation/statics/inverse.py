@@ -133,8 +133,9 @@ def pressure_for_force(
     """The gauge pressure at which the muscle pulls with ``force`` [N] at ``length`` [m].
 
     Without a direction it is that without friction, and the details hold the lowest and the highest pressure
-    at which friction holds the muscle there: those of lengthening and of shortening. None with `OUT_OF_REACH` when no pressure up to 40 bar does, or when the muscle pulls more than that
-    without any pressure (it is stretched).
+    at which friction holds the muscle there: those of lengthening and of shortening. None with `OUT_OF_REACH`
+    when no pressure up to 40 bar does, or when the muscle pulls more than that without any pressure (it is
+    stretched).
     """
     contraction = 1.0 - length / model.muscle.nominal_length
 
@@ -195,8 +196,8 @@ def contraction_for_force(
 ) -> InverseResult:
     """The contraction ratio at which the muscle pulls with ``force`` [N] at a gauge pressure [Pa].
 
-    Without a direction it is that without friction, and the details hold the least and the largest contraction
-    at which friction holds the muscle: those reached by shortening and by lengthening.
+    Without a direction it is that without friction, and the details hold the least and the largest
+    contraction at which friction holds the muscle: those reached by shortening and by lengthening.
     """
     contraction = float(
         contraction_at(
