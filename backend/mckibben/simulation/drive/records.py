@@ -150,9 +150,16 @@ def _held_inputs(time: np.ndarray, pressure: np.ndarray, length: np.ndarray) -> 
         "pressure_slope": np.diff(pressure) / steps,
         "length": length[:-1],
         "length_slope": np.diff(length) / steps,
-        "direction": np.sign(np.diff(length)),
+        "direction": _directions(length),
         "begin": time[:-1],
     }
+
+
+def _directions(length: np.ndarray) -> np.ndarray:
+    """Direction of the dry friction between two rows: that of the length; where it rests, of its last motion."""
+    step = np.sign(np.diff(length))
+    last = np.maximum.accumulate(np.where(step != 0.0, np.arange(len(step)), 0))
+    return step[last]
 
 
 def _start(compiled: CompiledDrive, time: np.ndarray, begin: Mapping[str, float]) -> np.ndarray:
