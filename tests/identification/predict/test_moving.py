@@ -681,7 +681,7 @@ def test_each_run_lifts_the_weight_that_its_title_states() -> None:
 
 
 def test_noise_of_the_pressure_does_not_break_a_held_load_away() -> None:
-    """A load that stopped sliding is at the edge of its range: peaks of noise would push it on, row by row."""
+    """A load that stopped sliding is at the edge of its range: peaks of noise would push it on."""
     effects = {**HIDDEN, "coulomb_friction": {"force": 20.0}}
     time = np.linspace(0.0, 8.0, 1601)
     pressure = 2.5e5 + 0.5e5 * np.clip(time - 1.0, 0.0, 1.0)

@@ -294,3 +294,35 @@ def test_the_start_is_an_interval_whose_ends_can_be_stated(pressure: float) -> N
             assert reached in run.start.why.value
     with pytest.raises(InputError, match="has not come to rest there"):
         drive({**document, "start": {"reached": "from below", "position": "10 mm"}})
+
+
+@pytest.mark.parametrize("dwell", [2.0, 6.0])
+def test_a_law_may_grow_with_the_time_at_rest(dwell: float) -> None:
+    """Its age is a state of the effect: it grows while the load sticks, and the guard knows it."""
+    kinetic, share, time = 10.0, 0.5, 3.0
+
+    def guide(*, direction, age, force):
+        return force * (1.0 + share * (1.0 - ops.exp(-age / time))) * direction
+
+    def drive_rates(*, speed, age):
+        return (1.0 - 1e3 * age * ops.absolute(speed),)
+
+    plain = default_catalogue()["guide_friction"]
+    age = replace(plain.states[0], name="age", unit="s", initial=0.0)
+    own = tuple(each for each in plain.parameters if each.name == "force")
+    slots = {"guide": guide, "drive_rates": drive_rates}
+    effect = replace(plain, slots=slots, parameters=own, states=(age,), id="aging_guide")
+    base = drive(held(duration=f"{dwell + 2.0} s"))
+    model = StaticModel.of(base.muscle, (effect,), {"aging_guide": {"force": kinetic}})
+    pull = Ramp(begin=0.0, end=-40.0, start=dwell, duration=2.0)
+    given = replace(
+        base, model=model, load=replace(base.load, inclination=0.0, force=pull),
+        command=Step(level=0.0, initial=0.0), start_position=0.02,
+    )  # fmt: skip
+    run = simulate(given, points=101)
+    (breaks,) = [event.time for event in run.events if event.switch == "slides_up" and event.begins]
+    # 20 N/s pull until they reach the friction of that age.
+    expected = brentq(
+        lambda t: 20.0 * (t - dwell) - kinetic * (1.0 + share * (1.0 - np.exp(-t / time))), dwell, dwell + 2.0
+    )
+    assert breaks == pytest.approx(expected, abs=1e-4)

@@ -156,7 +156,7 @@ def _held_inputs(time: np.ndarray, pressure: np.ndarray, length: np.ndarray) -> 
 
 
 def _directions(length: np.ndarray) -> np.ndarray:
-    """Direction of the dry friction between two rows: that of the length; where it rests, of its last motion."""
+    """Direction of the dry friction between two rows: that of the length, at rest that of its last motion."""
     step = np.sign(np.diff(length))
     last = np.maximum.accumulate(np.where(step != 0.0, np.arange(len(step)), 0))
     return step[last]
