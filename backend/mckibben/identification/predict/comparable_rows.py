@@ -163,7 +163,7 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
     ordered = "time" in columns
     turning = _turning(state["direction"], records) | unsure
     moved = state["pressure"] if kind in _PRESSED else length
-    if "time" in columns and moved is not None:
+    if measurement.in_order and moved is not None:
         turning |= _between_rows(moved, records) | _unresolved(moved, records)
     excluded["turning points"] = int(np.count_nonzero(turning & keep))
     unseen = _unknown_history(measurement, length)
