@@ -114,3 +114,22 @@ def test_the_work_grows_with_the_rows(monkeypatch: pytest.MonkeyPatch) -> None:
         {"pressure": 1e5 + 1e5 * there, "length": 0.28 + 1e-3 * there, "force": 10.0 + 10.0 * there}
     )
     assert rows <= seen < 50 * rows
+
+
+def test_rows_at_a_shared_reversal_are_not_scored() -> None:
+    """A machine reads each end twice, once from either side: which friction acts there no row says."""
+    way = np.concatenate([np.arange(0.0, 46.0, 3.0), np.arange(45.0, -1.0, -3.0)])
+    stroke, pressure = np.tile(way, 3), np.repeat([2e5, 3e5, 4e5], len(way))
+    lengthening = np.concatenate([np.zeros(16, bool), np.ones(16, bool)])
+    force = 2e-3 * pressure - 4.0 * stroke + 25.0 * np.where(np.tile(lengthening, 3), 1.0, -1.0)
+    lines = [
+        f"{p / 1e5:.3f},{s:.3f},{f:.2f}" for p, s, f in zip(pressure, stroke, force, strict=True)
+    ]
+    rows = comparable_rows(csv(lines, "pressure_bar,displacement_mm,force_N"), MUSCLE)
+    scored = rows.rows[~rows.turning]
+    # Where the direction is told it is the true one; the second rows of the three ends are among the others.
+    told = np.where(np.tile(lengthening, 3), 1.0, -1.0)[scored]
+    assert np.all(rows.state["direction"][~rows.turning] * told >= 0.0)
+    assert {16, 48, 80} <= set(rows.rows[rows.turning].tolist())
+    assert len(scored) > 80
+    assert rows.excluded["turning points"] == np.count_nonzero(rows.turning)
