@@ -122,9 +122,7 @@ def test_rows_at_a_shared_reversal_are_not_scored() -> None:
     stroke, pressure = np.tile(way, 3), np.repeat([2e5, 3e5, 4e5], len(way))
     lengthening = np.concatenate([np.zeros(16, bool), np.ones(16, bool)])
     force = 2e-3 * pressure - 4.0 * stroke + 25.0 * np.where(np.tile(lengthening, 3), 1.0, -1.0)
-    lines = [
-        f"{p / 1e5:.3f},{s:.3f},{f:.2f}" for p, s, f in zip(pressure, stroke, force, strict=True)
-    ]
+    lines = [f"{p / 1e5:.3f},{s:.3f},{f:.2f}" for p, s, f in zip(pressure, stroke, force, strict=True)]
     rows = comparable_rows(csv(lines, "pressure_bar,displacement_mm,force_N"), MUSCLE)
     scored = rows.rows[~rows.turning]
     # Where the direction is told it is the true one; the second rows of the three ends are among the others.

@@ -150,3 +150,94 @@ class DryRig(Rig):
             "shape": "table", "times": list(instants), "values": list(openings), "interpolation": "hold",
         }  # fmt: skip
         return document
+
+
+@dataclass
+class HuntingRig(DryRig):
+    """The lift with a pressure regulator and a sampled PI controller of the position, by Runge-Kutta's method.
+
+    Attributes:
+        range, lag, band: of the regulator: highest set point [Pa], time constant [s], error at which an orifice
+            is fully open [Pa].
+        kp, ki: gains of the controller [1/m], [1/(m s)].
+        sample: its sample time [s].
+        target: its set point [m] from ``at`` [s] on; 0 before.
+    """
+
+    range: float = 6e5
+    lag: float = 0.03
+    band: float = 0.3e5
+    kp: float = 10.0
+    ki: float = 50.0
+    sample: float = 2e-3
+    target: float = 0.02
+    at: float = 0.5
+
+    def rates_of(self, y: np.ndarray, command: float, state: str) -> np.ndarray:
+        """Rates of (stroke, speed, pressure, gas mass, set point after its lag)."""
+        error = y[4] - y[2]
+        opening = min(max(error / self.band, -1.0), 1.0)
+        lagging = (AMBIENT + max(command, 0.0) * self.range - y[4]) / self.lag
+        return np.array([*self.motion(0.0, y[:4], opening, state), lagging])
+
+    def stepped(self, y: np.ndarray, command: float, state: str, h: float) -> np.ndarray:
+        """One step of the classical method of fourth order."""
+        a = self.rates_of(y, command, state)
+        b = self.rates_of(y + 0.5 * h * a, command, state)
+        c = self.rates_of(y + 0.5 * h * b, command, state)
+        d = self.rates_of(y + h * c, command, state)
+        return y + h / 6.0 * (a + 2.0 * b + 2.0 * c + d)
+
+    def ends(self, y: np.ndarray, state: str) -> str | None:
+        """The state that follows where this one has ended; a direction ends where the load is at rest."""
+        if state == "stuck":
+            up, down = (self.net(0.0, y, sense) for sense in (1.0, -1.0))
+            return "up" if up > 0.0 else "down" if down < 0.0 else None
+        return "stuck" if y[1] * (1.0 if state == "up" else -1.0) < 0.0 else None
+
+    def hunts(self, duration: float, parts: int = 8) -> tuple[np.ndarray, np.ndarray]:
+        """Strokes at the samples; instants at which the load breaks away upwards."""
+        y = np.array([0.0, 0.0, AMBIENT, AMBIENT * self.volume(self.rest) / (R * T0), AMBIENT])
+        state, integral, h, strokes, breaks = "stuck", 0.0, self.sample / parts, [], []
+        for number in range(round(duration / self.sample)):
+            strokes.append(y[0])
+            error = (self.target if number * self.sample >= self.at - 1e-12 else 0.0) - y[0]
+            grown = integral + self.ki * self.sample * error
+            wanted = self.kp * error + grown
+            command = min(max(wanted, 0.0), 1.0)
+            if wanted == command or (grown > integral) != (wanted > command):
+                integral = grown
+            command = min(max(self.kp * error + integral, 0.0), 1.0)
+            for part in range(parts):
+                left, now = h, number * self.sample + part * h
+                while left > 1e-15:
+                    if (following := self.ends(y, state)) is not None and y[1] == 0.0:
+                        state = following
+                        if state == "up":
+                            breaks.append(now + h - left)
+                    new = self.stepped(y, command, state, left)
+                    if self.ends(new, state) is None:
+                        y, left = new, 0.0
+                        continue
+                    low, high = 0.0, left
+                    for _ in range(50):
+                        middle = 0.5 * (low + high)
+                        ended = self.ends(self.stepped(y, command, state, middle), state) is not None
+                        low, high = (low, middle) if ended else (middle, high)
+                    y, left = self.stepped(y, command, state, high), left - high
+                    if state != "stuck":
+                        y[1], state = 0.0, "stuck"
+                if y[0] < 0.0:  # on the lower stop
+                    y[0], y[1], state = 0.0, 0.0, "stuck"
+        return np.array(strokes), np.array(breaks)
+
+    @property
+    def document(self) -> dict:
+        document = super().document
+        del document["command"]
+        document["regulator"] = {"range": self.range, "time": self.lag, "band": self.band}
+        document["controller"] = {
+            "type": "pid", "kp": f"{self.kp} 1/m", "ki": f"{self.ki} 1/(m*s)", "sample_time": self.sample,
+            "reference": {"shape": "step", "at": self.at, "level": self.target},
+        }  # fmt: skip
+        return document

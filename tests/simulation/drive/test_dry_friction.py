@@ -22,7 +22,7 @@ from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import Run, held_interval, segments_of, simulate
 from mckibben.simulation.statics.model import StaticModel
 from tests.shipped import shipped_studio
-from tests.simulation.drive.sticking import DryRig
+from tests.simulation.drive.sticking import DryRig, HuntingRig
 
 STUDIO = shipped_studio()
 POSITION = 1e-5  # m
@@ -246,6 +246,22 @@ def test_a_controller_with_an_integral_hunts_where_static_friction_exceeds_the_k
     assert np.ptp(period) < 0.02 * np.mean(period)
     calm = hunting(0.0)
     assert np.ptp(calm.states["stroke"][late]) < 1e-5  # Coulomb's law alone does not hunt
+
+
+@pytest.mark.examination("test_a_controller_with_an_integral_hunts_where_static_friction_exceeds_the_kinetic")
+def test_hunting_is_that_of_a_controller_and_a_drive_written_on_their_own() -> None:
+    rig = HuntingRig(
+        mass=10.0, spring=3000.0, drag=100.0, supply=7e5, fill=1e-8, exhaust=1e-8, kinetic=30.0, excess=0.5,
+        stribeck=2e-3, end=14.0, kp=2.0, ki=20.0,
+    )  # fmt: skip
+    strokes, breaks = rig.hunts(rig.end)
+    grid = rig.sample * np.arange(len(strokes))
+    run = simulate_controlled(drive(rig.document), grid=grid, engine="rodas")
+    begins = [event.time for event in run.events if event.switch == "slides_up" and event.begins]
+    assert begins == pytest.approx(breaks, abs=1e-3)
+    assert np.diff(begins)[2:] == pytest.approx(np.diff(breaks)[2:], rel=1e-3)
+    assert np.max(np.abs(run.states["stroke"] - strokes)) <= POSITION
+    assert np.ptp(strokes[grid > 7.0]) > 4e-3
 
 
 def test_lanes_give_the_numbers_of_a_run_alone() -> None:
