@@ -154,11 +154,11 @@ class DryRig(Rig):
 
 @dataclass
 class HuntingRig(DryRig):
-    """The lift with a pressure regulator and a sampled PI controller of the position, by Runge-Kutta's method.
+    """The lift with a pressure regulator and a sampled PI controller of the position, by Runge-Kutta steps.
 
     Attributes:
-        range, lag, band: of the regulator: highest set point [Pa], time constant [s], error at which an orifice
-            is fully open [Pa].
+        range, lag, band: of the regulator: highest set point [Pa], time constant [s], error at which an
+            orifice is fully open [Pa].
         kp, ki: gains of the controller [1/m], [1/(m s)].
         sample: its sample time [s].
         target: its set point [m] from ``at`` [s] on; 0 before.
