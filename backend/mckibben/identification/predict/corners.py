@@ -74,6 +74,7 @@ def with_corners(task: ComparableRows) -> ComparableRows:
         rows=repeated(task.rows),
         by_rest_length=repeated(by_rest_length) if isinstance(by_rest_length, np.ndarray) else by_rest_length,
         corners=inserted(np.zeros(len(task.rows), bool), unscored, unscored),
+        reversing=None,
     )
 
 

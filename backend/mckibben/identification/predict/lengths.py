@@ -42,7 +42,7 @@ def predicted_lengths(
     if remembered(acting):
         return followed_lengths(evaluation, acting, names)
     state = evaluation.state(fit_model)
-    if not any(map(_rubs, acting.effects)):
+    if not any(map(rubs, acting.effects)):
         return _balance(evaluation, fit_model, names, state)
     branches = []
     for sign in (-1.0, 1.0):
@@ -52,7 +52,7 @@ def predicted_lengths(
     return _stuck(evaluation, *branches)
 
 
-def _rubs(effect: Effect) -> bool:
+def rubs(effect: Effect) -> bool:
     """Whether an effect opposes the motion at any speed: a guide, or friction without memory."""
     rubbing = "friction" in effect.slots and "direction" in effect.wanted("friction") and not effect.states
     return "guide" in effect.slots or rubbing

@@ -16,7 +16,7 @@ from mckibben.identification.predict.folds import folds_of, ranges_of, sweeps_of
 from mckibben.identification.predict.free import Free
 from mckibben.identification.predict.free_runs import acting_of, remembered
 from mckibben.identification.predict.input_noise import with_smooth_pressure
-from mckibben.identification.predict.lengths import predicted_lengths
+from mckibben.identification.predict.lengths import predicted_lengths, rubs
 from mckibben.identification.predict.memory import HISTORIES, remembers
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.predict.sensor_dynamics import as_read, late
@@ -33,6 +33,7 @@ _FEWEST_READINGS = 8  # that show no trend
 _TREND = (
     0.3  # of the variance; readings that follow pressure or length less are those of no muscle that pulls
 )
+_BEYOND_CHANCE = 3.0  # standard deviations of the noise from which a row lies outside of a range
 _SLACK_BAND = 0.02  # scatter of the readings of a slack muscle, share of the range of the force
 
 
@@ -200,6 +201,28 @@ class QuasistaticPredictor(Predictor):
             ends.append(other.predict(fit_model))
         slope = (ends[1] - ends[0]) / (2.0 * step) if step > 0.0 else np.zeros(len(self.measured))
         return np.where(np.isfinite(slope), slope, 0.0)
+
+    def at_reversals(self, fit_model: FitModel, noise: float | None) -> tuple[str, ...]:
+        """As of the base class: dry friction may have any value there between those of both directions."""
+        rows, task = self.task.reversing, self.task
+        if rows is None or task.channel != "force" or not any(map(rubs, fit_model.effects)):
+            return ()
+        at_once = _at_once(fit_model)
+        state = self._evaluation.state(at_once)
+        ends = [
+            clip_slack(self._evaluation.at(at_once, (), {**state, "direction": np.full(len(rows), way)})[0])
+            for way in (-1.0, 1.0)
+        ]
+        low, high, measured = np.minimum(*ends)[rows], np.maximum(*ends)[rows], task.measured[rows]
+        beyond = np.maximum(np.maximum(low - measured, measured - high), 0.0)
+        outside = beyond > _BEYOND_CHANCE * (noise or 0.0)
+        told = "all lie within it"
+        if np.any(outside):
+            told = f"{np.count_nonzero(outside)} lie outside of it, by up to {np.max(beyond):.3g} N"
+        return (
+            f"{len(beyond)} rows at reversals are counted apart: dry friction may have any value of its "
+            f"range there; {told}",
+        )
 
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
         """Number of rows without a finite prediction, scored or not, and of all rows."""
