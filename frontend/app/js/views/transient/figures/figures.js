@@ -116,9 +116,14 @@ const remarks = (r) =>
 function conditions() {
   const r = run.value;
   if (!r) return "";
-  const { position, contraction, reason } = r.start, system = units.value;
+  const { position, contraction, reason, lowest, highest } = r.start, system = units.value;
+  const held = lowest === null || highest === null
+    ? ""
+    : ` Dry friction holds it there from ${withUnit(lowest, "length", system)} to ${
+      withUnit(highest, "length", system)
+    }.`;
   return `Starts at ${withUnit(position, "length", system)} (${withUnit(contraction, "ratio", system)}), ` +
-    `${reason}. Air: ${r.gas}.${r.rest ? ` At the end the load ${r.rest}.` : ""}`;
+    `${reason}.${held} Air: ${r.gas}.${r.rest ? ` At the end the load ${r.rest}.` : ""}`;
 }
 
 /** @param {string} key */
