@@ -1,6 +1,6 @@
 """Dry friction written on its own: stick, slide up and slide down as states, found and left by root finding.
 
-Shares no code with the package, and no rule with its kernel: scipy's Radau at 1e-10 on the rates of
+Shares no code with the package, and no rule with its kernel: scipy's Radau on the rates of
 `independent.Rig`, the friction a number in each of the states, the state changed where the speed is zero or
 the force on the stuck load leaves the range.
 """

@@ -77,7 +77,7 @@ def test_sticking_is_that_of_an_integration_written_on_its_own(name: str) -> Non
     rig = replace(RIGS[name], changes=[], hits=[])
     run = simulate(drive(rig.document), points=2001, engine="rodas")
     start = [float(run.states[state][0]) for state in ("stroke", "speed", "pressure", "gas_mass")]
-    rows = rig.followed(run.time, np.array(start))
+    rows = rig.followed(run.time, np.array(start), rtol=1e-9)
     assert np.max(np.abs(run.states["stroke"] - rows[:, 0])) <= POSITION
     # Near the edge of its range a load creeps with the temperature of the gas, at instants that mean little.
     begins = [(at, state) for at, state in rig.changes if state in ("up", "down") and at > 10.0]

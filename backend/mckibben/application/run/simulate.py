@@ -36,6 +36,7 @@ from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.physics.model import Model
 from mckibben.simulation.drive.transient import Run, held_interval
+from mckibben.simulation.integrate.engine import MOST_EVENTS
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.timing.evaluation import (
@@ -250,6 +251,8 @@ def result_of(
 
     between = held_interval(drive)
     notes = dict(annotated.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
+    if len(run.events) >= MOST_EVENTS:
+        notes["events"] = f"of very many events in a short time only the first {MOST_EVENTS} are listed"
     if drive.start_reached and between is None:
         notes["start.reached"] = "no dry friction holds the load at the start: it rests at one position"
     if follows is not None:
