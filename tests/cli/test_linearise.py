@@ -43,6 +43,7 @@ def test_the_tables_show_point_poles_loop_and_design(run: Run) -> None:
         (("propneu-20", "--input", "comand"), "Did you mean 'command'?"),
         (("propneu-20", "--design", "overshot 4 %"), "Did you mean 'overshoot'?"),
         (("propneu-20", "--amplitudes", "3 bar"), "--amplitudes"),
+        (("propneu-20", "--sliding-speed", "0 m/s"), "--sliding-speed"),
         (("propneu-2O",), "propneu-2O"),
     ],
 )

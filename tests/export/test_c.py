@@ -162,7 +162,10 @@ DRIVES = {
     "controlled": "paper-pid-triangle",
     "pair": {
         "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"},
-        "effects": {"bladder_elasticity": {}, "dahl": {}, "leak": {}, "sensor_lag": {}},
+        "effects": {
+            "bladder_elasticity": {}, "dahl": {}, "leak": {}, "sensor_lag": {}, "pressure_friction": {},
+            "coulomb_friction": {"force": "6 N", "static_share": 0.3},
+        },
         "supply": {"pressure": "6 bar"}, "valve": {"preset": "MPYE-5-1/8-HF"},
         "tube": {"inside_diameter": "4 mm", "length": "1 m"},
         "load": {"mass": "2 kg", "arrangement": "antagonist", "pulley_radius": "20 mm"},

@@ -12,8 +12,8 @@ from tests.export.models import subject
 from tests.export.test_c import drive
 
 WORDS = {
-    *("if", "then", "else", "and", "or", "not", "when", "elsewhen", "end", "der", "pre", "reinit", "true"),
-    *("false", *MODELICA.functions.values()),
+    *("if", "then", "else", "elseif", "and", "or", "not", "when", "elsewhen", "end", "der", "pre", "reinit"),
+    *("true", "false", *MODELICA.functions.values()),
 }
 DECLARED = re.compile(r"^\s*(parameter |input |output |discrete )?(?:Real|Boolean) (\w+)", re.MULTILINE)
 

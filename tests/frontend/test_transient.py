@@ -325,6 +325,27 @@ def test_rebound_and_start_position(page: Page) -> None:
     expect(told).to_contain_text("Starts at 0 mm")
 
 
+def test_a_load_that_sticks_is_marked_and_told(page: Page) -> None:
+    open_transient(page)
+    expect(page.locator(".key")).not_to_contain_text("stuck", use_inner_text=True)
+    with page.expect_response("**/api/simulations") as answered:
+        load_scenario(page, "paper-ramp")
+    answer = answered.value.json()
+    assert any(answer["stuck"])
+    expect(page.locator(".key")).to_contain_text("stuck by friction", use_inner_text=True)
+    stuck = [False, *answer["stuck"], False]  # a band has two rows or more
+    bands = sum(not a and b and c for a, b, c in zip(stuck, stuck[1:], stuck[2:], strict=False))
+    assert bands > 0
+    for name in TIMED:
+        assert page.locator(f"#run-{name} .band.stuck").count() == bands
+    events = page.locator("#run-start + details")
+    events.locator("summary").click()
+    expect(events.locator("li")).to_have_count(len(answer["events"]))
+    for event, line in zip(answer["events"], events.locator("li").all_inner_texts(), strict=True):
+        assert event["text"] in line
+    assert "sticks: dry friction holds the load" in [event["text"] for event in answer["events"]]
+
+
 def test_a_slack_muscle_is_marked_and_saved(page: Page) -> None:
     open_transient(page)
     expect(page.locator(".key")).to_contain_text("muscle slack")
@@ -353,7 +374,7 @@ def test_a_slack_muscle_is_marked_and_saved(page: Page) -> None:
     page.get_by_role("button", name="Position: save or show as table").click()
     page.get_by_role("menuitem", name="Show as table").click()
     last = page.get_by_role("dialog").locator("tbody tr").last.locator("td")
-    assert last.all_inner_texts()[-2:] == ["1", "1"]
+    assert last.all_inner_texts()[-3:] == ["1", "1", "0"]  # contact, slack, stuck
 
 
 FIGURES_OF_RUNS = """

@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from mckibben.identification.predict.comparable_rows import comparable_rows, records_of
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.measurement.order import order_of_rows
 from mckibben.physics.catalogue import default_catalogue
+from mckibben.simulation.statics.model import StaticModel
 from tests.identification.synthetic import MUSCLE, csv
 
 RNG = np.random.default_rng(3)
@@ -114,3 +116,44 @@ def test_the_work_grows_with_the_rows(monkeypatch: pytest.MonkeyPatch) -> None:
         {"pressure": 1e5 + 1e5 * there, "length": 0.28 + 1e-3 * there, "force": 10.0 + 10.0 * there}
     )
     assert rows <= seen < 50 * rows
+
+
+def test_rows_at_a_shared_reversal_are_not_scored() -> None:
+    """A machine reads each end twice, once from either side: which friction acts there no row says."""
+    way = np.concatenate([np.arange(0.0, 46.0, 3.0), np.arange(45.0, -1.0, -3.0)])
+    stroke, pressure = np.tile(way, 3), np.repeat([2e5, 3e5, 4e5], len(way))
+    lengthening = np.concatenate([np.zeros(16, bool), np.ones(16, bool)])
+    force = 2e-3 * pressure - 4.0 * stroke + 25.0 * np.where(np.tile(lengthening, 3), 1.0, -1.0)
+    lines = [f"{p / 1e5:.3f},{s:.3f},{f:.2f}" for p, s, f in zip(pressure, stroke, force, strict=True)]
+    rows = comparable_rows(csv(lines, "pressure_bar,displacement_mm,force_N"), MUSCLE)
+    scored = rows.rows[~rows.turning]
+    # Where the direction is told it is the true one; the second rows of the three ends are among the others.
+    told = np.where(np.tile(lengthening, 3), 1.0, -1.0)[scored]
+    assert np.all(rows.state["direction"][~rows.turning] * told >= 0.0)
+    assert {16, 48, 80} <= set(rows.rows[rows.turning].tolist())
+    assert len(scored) > 80
+    assert rows.excluded["turning points"] == np.count_nonzero(rows.turning)
+
+
+@pytest.mark.parametrize("wrong", [0.0, 30.0])
+def test_what_lies_outside_of_the_range_at_a_reversal_is_told(wrong: float) -> None:
+    """Between both branches friction may have any value; a reading beyond them is none of its."""
+    way = np.concatenate([np.arange(0.0, 46.0, 3.0), np.arange(45.0, -1.0, -3.0)])
+    length, pressure = 0.3 - 1e-3 * np.tile(way, 3), np.repeat([2e5, 3e5, 4e5], len(way))
+    model = StaticModel(MUSCLE, {"coulomb_friction": {"force": 25.0}})
+    direction = np.tile(np.where(np.arange(32) < 16, -1.0, 1.0), 3)
+    force = model.force(length=length, pressure=pressure, direction=direction)
+    force[[16, 48, 80]] -= [20.0, 35.0, 50.0 + wrong]  # on their way from one branch to the other
+    lines = [
+        f"{p / 1e5:.3f},{1e3 * (0.3 - x):.3f},{f:.4f}"
+        for p, x, f in zip(pressure, length, force, strict=True)
+    ]
+    measurement = csv(lines, "pressure_bar,displacement_mm,force_N")
+    predictor = QuasistaticPredictor(comparable_rows(measurement, MUSCLE))
+    friction = default_catalogue()["coulomb_friction"]
+    fit_model = FitModel(MUSCLE, (friction,), {"coulomb_friction": {**friction.defaults, "force": 25.0}})
+    (told,) = predictor.at_reversals(fit_model, 0.01)
+    rows = np.count_nonzero(predictor.task.reversing)
+    assert told.startswith(f"{rows} rows at reversals are counted apart")
+    assert told.endswith("1 lie outside of it, by up to 30 N" if wrong else "all lie within it")
+    assert predictor.at_reversals(FitModel(MUSCLE), 0.01) == ()

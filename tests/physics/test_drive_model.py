@@ -88,7 +88,8 @@ def numbers(
     states = {"gas_mass": 4e5 * 1.3e-4 / (287.05 * 293.15), **STATES, **changed}
     numbers = {symbol: table[name] for name, symbol in model.parameters.items()}
     numbers |= {symbol: INPUTS[name] for name, symbol in model.inputs.items()}
-    numbers |= {switch.symbol: 0.0 for switch in model.switches}
+    rising = states["speed"]
+    numbers |= {switch.symbol: float(switch.slides * rising > 0.0) for switch in model.switches}
     for state in model.states:
         own = state.name.removesuffix(COUNTER)
         numbers[model.symbols[state.name]] = states.get(own, share * state.scale)
@@ -177,7 +178,13 @@ def test_all_effects_at_once_with_the_muscle_measured(motion: bool) -> None:
     expressions = [*model.rates, *model.outputs, *jacobian(model)]
     table = {**CONSTANTS, **MUSCLE._asdict(), "temperature": 293.15}
     table |= {f"{effect.id}.{p.name}": p.default for effect in EFFECTS for p in effect.parameters}
-    measured = {"pressure": 3e5, "pressure_slope": 1e5, "length": 0.27, "length_slope": -0.1}
+    measured = {
+        "pressure": 3e5,
+        "pressure_slope": 1e5,
+        "length": 0.27,
+        "length_slope": -0.1,
+        "direction": -1.0,
+    }
     at = {symbol: table[name] for name, symbol in model.parameters.items()}
     at |= {symbol: (measured | INPUTS)[name] for name, symbol in model.inputs.items()}
     at |= {switch.symbol: 0.0 for switch in model.switches}

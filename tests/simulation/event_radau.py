@@ -1,4 +1,4 @@
-"""scipy's Radau at 1e-10 over a drive's compiled equations, with its own treatment of contact and slack."""
+"""scipy's Radau at 1e-10 over a drive's compiled equations; own treatment of contact, slack and sticking."""
 
 from __future__ import annotations
 
@@ -108,13 +108,22 @@ class EventRadau:
 
     def _change(self, k: int) -> None:
         name = self.kinds[k].name
+        if name.startswith("slides"):  # at rest it sticks
+            if self.switches[k] == 1.0:
+                self.state[self.names.index("speed")] = 0.0
+            self.switches[k] = 1.0 - self.switches[k]
+            return
         if self.switches[k] == 0.0 and name.endswith("stop"):
             stroke, speed = self.names.index("stroke"), self.names.index("speed")
             self.state[stroke] = self.low if name == "low_stop" else self.high
             self.state[speed] *= -self.bounce
-            if abs(self.state[speed]) > 1e-3:
+            if abs(self.state[speed]) <= 1e-3:
+                self.state[speed] = 0.0
+            for number, kind in enumerate(self.kinds):
+                if kind.name.startswith("slides"):
+                    self.switches[number] = float(kind.slides * self.state[speed] > 0.0)
+            if self.state[speed] != 0.0:
                 return
-            self.state[speed] = 0.0
         self.switches[k] = 1.0 - self.switches[k]
         if name.startswith("slack"):  # the muscle is as long as its fittings are apart
             sense = -1.0 if name.endswith("@counter") else 1.0

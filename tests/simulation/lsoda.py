@@ -5,6 +5,7 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pytest
@@ -100,8 +101,25 @@ class _Run:
         value.terminal, value.direction = True, -1.0  # type: ignore
         return value
 
+    def turning(self, _time: float, y: np.ndarray) -> float:
+        """Acceleration of a load that slides: where it is zero the load may have come to rest.
+
+        solve_ivp looks at the guards at the ends of its steps only.
+        """
+        slides = self.problem.drive.slides @ self.problem.switches
+        return float(slides * self.codes.rates(self.at(y))[self.problem.drive.moved[1]]) if slides else 1.0
+
+    def rested(self, found: Any) -> tuple[float, np.ndarray] | None:
+        """Where a load that slides has first been at rest within a step, and the state there."""
+        if not self.problem.drive.slides.any():
+            return None
+        for at, y in zip(found.t_events[-1], found.y_events[-1], strict=True):
+            if np.any(self.codes.guards(self.at(y)) < -self.problem.drive.least):
+                return float(at), y
+        return None
+
     def change(self, number: int, now: float) -> None:
-        """Change a switch; an end stop stops the load or throws it back."""
+        """Change a switch, as `mckibben.simulation.integrate.switching.change_switch`."""
         problem = self.problem
         to, speed, acceleration = 1.0 - problem.switches[number], 0.0, 0.0
         stop = problem.stops[number]
@@ -115,6 +133,14 @@ class _Run:
             if left > SLOWEST_REBOUND and left * left > 2.0 * LOWEST_REBOUND * pressing:
                 problem.state[speed_place] = -problem.restitution * speed
                 to = 0.0
+            slides = problem.drive.slides != 0.0
+            problem.switches[slides] = problem.drive.slides[slides] * problem.state[speed_place] > 0.0
+        sense = problem.drive.slides[number]
+        if sense != 0.0 and to == 0.0:
+            if abs(speed) > SLOWEST_REBOUND:
+                problem.switches[problem.drive.slides == -sense] = 1.0
+            else:
+                problem.state[speed_place] = 0.0
         place = int(problem.drive.follows[number])
         if place >= 0:
             # The guard of a switch that is 1 is the distance to be closed, times a stiffness.
@@ -156,6 +182,9 @@ def _piece(run: _Run, begin: float, finish: float, *, last: bool) -> tuple[float
     run.settle(begin)
     stop = np.searchsorted(problem.grid, finish, side="right" if last else "left")
     wanted = problem.grid[run.written : stop]
+    events: list[Any] = [run.guard(number) for number in range(len(problem.switches))]
+    if problem.drive.slides.any():
+        events.append(run.turning)
     # LSODA warns of failures that its result reports as well.
     with warnings.catch_warnings():
         warnings.simplefilter("ignore")
@@ -168,22 +197,27 @@ def _piece(run: _Run, begin: float, finish: float, *, last: bool) -> tuple[float
             t_eval=np.union1d(wanted, finish),
             rtol=problem.tolerance,
             atol=problem.absolute,
-            events=[run.guard(number) for number in range(len(problem.switches))] or None,
+            events=events or None,
         )
     run.steps += len(found.t)
     # Without a row before the first event, ``y`` is an empty list.
     states = np.reshape(found.y, (run.size, len(found.t))).T
     if not found.success or not np.all(np.isfinite(states)):
         return begin, Outcome.DIVERGED
-    count = int(np.searchsorted(wanted, found.t[-1], side="right")) if len(found.t) else 0
+    rested = run.rested(found)
+    reached = found.t if rested is None else found.t[found.t <= rested[0]]
+    count = int(np.searchsorted(wanted, reached[-1], side="right")) if len(reached) else 0
     for y in states[:count]:
         run.rows[run.written, : run.size] = y
         run.rows[run.written, run.size :] = run.codes.outputs(run.at(y))
         run.written += 1
+    if rested is not None:
+        problem.state[:] = rested[1]
+        return rested[0], None
     if found.status != 1:
         problem.state[:] = states[-1]
         return finish, None
-    number = next(index for index, times in enumerate(found.t_events) if len(times))
+    number = next(n for n in range(len(problem.switches)) if len(found.t_events[n]))
     at = float(found.t_events[number][0])
     problem.state[:] = found.y_events[number][0]
     run.change(number, at)

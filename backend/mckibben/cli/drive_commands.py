@@ -41,6 +41,14 @@ Amplitudes = Annotated[
     str | None,
     typer.Option("--amplitudes", help='Sines for the nonlinear drive, e.g. "1 %,20 %"; "none" for no sweep.'),
 ]
+SlidingSpeed = Annotated[
+    str | None,
+    typer.Option(
+        "--sliding-speed",
+        help="Speed of the load at which models that slide against dry friction have the slopes of friction "
+        'and damping, e.g. "20 mm/s". Default: they just slide.',
+    ),
+]
 DesignGoals = Annotated[
     str | None,
     typer.Option(
@@ -53,7 +61,7 @@ DesignGoals = Annotated[
 # Fields of a question about the linear view that are options.
 #: Exit code of a sizing that finds no drive.
 NO_DRIVE = 3
-_LINEAR_OPTIONS = ("at", "input", "output", "amplitudes", "design")
+_LINEAR_OPTIONS = ("at", "input", "output", "amplitudes", "design", "sliding_speed")
 
 
 @app.command()
@@ -96,6 +104,7 @@ def linearise(
     output: Output = "position",
     amplitudes: Amplitudes = None,
     design: DesignGoals = None,
+    sliding_speed: SlidingSpeed = None,
     as_json: AsJson = False,
     *,
     studio: Studio,
@@ -104,20 +113,24 @@ def linearise(
     from mckibben.application.linear.linearise import LinearQuestion, condition_of, goals_of, linear_view
     from mckibben.cli.output import progress, write_json, write_summary
     from mckibben.documents.drive_reading import drive_of, named_document
+    from mckibben.physics.units import si
     from mckibben.report.summary.linear import summary_of
+    from mckibben.simulation.linear.bound import SLIDING_SPEED
 
     try:
         point = None if at is None else condition_of(at)
         goals = None if design is None else goals_of(design)
         sines = None if amplitudes is None else _amplitudes(amplitudes, source)
+        speed = SLIDING_SPEED if sliding_speed is None else si(sliding_speed, "m/s", field="sliding_speed")
     except InputError as error:
-        raise InputError(f"--{error.field} {error.message}", hint=error.hint) from error
+        raise InputError(f"{_option(error.field)} {error.message}", hint=error.hint) from error
     document = named_document(drive, studio)
     with _errors_of(drive, _LINEAR_OPTIONS):
         annotated = drive_of(document, studio, measured=True)
         question = LinearQuestion(
-            annotated, at=point, input=source, output=output, amplitudes=sines, goals=goals
-        )
+            annotated, at=point, input=source, output=output, amplitudes=sines, goals=goals,
+            sliding_speed=speed,
+        )  # fmt: skip
         with progress("linearising") as watch:
             result = linear_view(question, watch)
     if as_json:
@@ -136,13 +149,18 @@ def _amplitudes(text: str, source: str) -> tuple[float, ...]:
     return tuple(si(part.strip(), unit, field="amplitudes") for part in text.split(","))
 
 
+def _option(field: str | None) -> str:
+    """The option that a field of the question is."""
+    return f"--{(field or '').replace('_', '-')}"
+
+
 @contextmanager
 def _errors_of(source: str, options: Collection[str] = ()) -> Iterator[None]:
     """Errors name the file, and the field in it or the option."""
     try:
         yield
     except InputError as error:
-        place = f"--{error.field}: {error.message}" if error.field in options else None
+        place = f"{_option(error.field)}: {error.message}" if error.field in options else None
         message = place or located(error.field, error.message)
         raise InputError(f"{source}: {message}", hint=error.hint) from error
 

@@ -239,6 +239,11 @@ class StartInput(Strict):
         description="Position of the load, positive = muscle shorter; released there at t = 0. Default: "
         "where it rests at the start pressure; on the lower end stop where it would rest anywhere.",
     )
+    reached: Literal["from below", "from above"] | None = Field(
+        None,
+        description="Where dry friction holds the load within a range of positions: the end of it at which "
+        "the load has come to rest. Default: between both, where it would rest without that friction.",
+    )
 
 
 class DriveDocument(Strict):

@@ -117,6 +117,7 @@ def _signal_or_constant(value: Any, unit: str, field: str) -> Signal:
 
 
 _DEFAULT_MAX_CONTRACTION = 0.25
+_REACHED = {None: 0, "from below": 1, "from above": -1}
 _SHORTEST = 0.1  # shortest possible muscle, share of its rest length
 
 
@@ -192,6 +193,12 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
     _check_flow(valve, command, None if control is None else control.controller)
     tube, control_valve = tube_of(document.tube, tube_preset), flow_control_of(document.flow_control)
     lowest, highest = _stops(document, model)
+    if document.start.position is not None and document.start.reached is not None:
+        raise InputError(
+            "a load that is released at a stated position has not come to rest there",
+            field="start.reached",
+            hint="leave out start.position or start.reached",
+        )
     drive = Drive(
         model=model,
         valve=valve,
@@ -209,6 +216,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         max_contraction=highest,
         start_pressure=document.start_pressure,
         start_position=document.start.position,
+        start_reached=_REACHED[document.start.reached],
         restitution=document.stops.restitution,
         fitting_volume=document.gas.dead_volume + port_volume_of(fittings),
         polytropic_exponent=document.gas.polytropic_exponent,

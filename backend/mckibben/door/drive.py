@@ -44,6 +44,7 @@ from mckibben.physics.errors import InputError
 from mckibben.presets import FittingPreset, TubePreset, ValvePreset
 from mckibben.report.summary import Summary, Table
 from mckibben.report.summary.simulation import notices, summary_of
+from mckibben.simulation.linear.bound import SLIDING_SPEED
 from mckibben.simulation.outcome import Watch
 
 if TYPE_CHECKING:
@@ -209,6 +210,7 @@ class Drive(Exportable):
         output: str = "position",
         amplitudes: Sequence[Quantity] | None = None,
         design: str | None = None,
+        sliding_speed: Quantity | None = None,
     ) -> LinearView:
         """Linear models of the drive at an operating point, and what they lose.
 
@@ -221,6 +223,8 @@ class Drive(Exportable):
                 tension, () = no sweep.
             design: goals of a position controller, "overshoot 5 %, settling 0.5 s, step 10 mm, no
                 saturation"; None = no design.
+            sliding_speed: of the load, at which models that slide against dry friction have the slopes of
+                friction and damping, "20 mm/s"; None = they just slide.
 
         Raises:
             Problem: there is no equilibrium there (with those there are), or no such input, output or goal.
@@ -235,6 +239,9 @@ class Drive(Exportable):
             if amplitudes is None
             else tuple(number_of(each, unit, "amplitudes") for each in amplitudes),
             goals=None if design is None else goals_of(design),
+            sliding_speed=SLIDING_SPEED
+            if sliding_speed is None
+            else number_of(sliding_speed, "m/s", "sliding_speed"),
         )
         return LinearView.of(linear_view(question, Watch()), _name=self._name)
 

@@ -70,7 +70,7 @@ class DriveC:
         yield " * Pressures of states and inputs are absolute. Strokes are positive towards shorter."
         yield " * A switch is 0 or 1 during a step. Where its guard falls below -DRIVE_LEAST, end the step"
         yield " * there and call change(): a stop catches the load or lets it go, a muscle goes slack or"
-        yield " * taut."
+        yield " * taut, a load with dry friction sticks or breaks away. Several may change at one instant."
         yield " */"
         yield "enum {"
         yield from (f"    {name.upper()}_{count} = {value}," for count, value in self._counts().items())
@@ -206,6 +206,17 @@ class DriveC:
                 yield f"                y[{speed}] = -{bounce!r} * hit;"
                 yield "                to = 0.0;"
                 yield "            }"
+                for place, other in enumerate(equations.switches):
+                    if other.slides:
+                        yield f"            w[{place}] = {other.slides!r} * y[{speed}] > 0.0 ? 1.0 : 0.0;"
+                yield "        }"
+            elif switch.slides:
+                opposite = [other.slides for other in equations.switches].index(-switch.slides)
+                yield "        /* At rest it sticks; where friction sets in it may move the other way. */"
+                yield f"        if (to == 0.0 && fabs(y[{speed}]) > {SLOWEST_REBOUND!r}) {{"
+                yield f"            w[{opposite}] = 1.0;"
+                yield "        } else if (to == 0.0) {"
+                yield f"            y[{speed}] = 0.0;"
                 yield "        }"
             else:
                 follows = list(equations.state_symbols).index(switch.follows or "length")

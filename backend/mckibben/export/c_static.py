@@ -119,7 +119,7 @@ class StaticC:
             yield "/* d/dt of the states; pressure_rate: of the gauge pressure [Pa/s]. */"
             yield f"void {name}_state_rates(const {name}_input *in, double pressure_rate, double *rates);"
         if states or self._tunable:
-            yield "/* A smooth direction for simulations: a muscle that creeps instead of sticking. */"
+            yield "/* The sign of a velocity: at rest 0, the mean of both directions. */"
             yield f"double {name}_direction(double velocity);"
 
     def source(self) -> Iterator[str]:

@@ -9,8 +9,9 @@ The pieces, each a list of named expressions:
 - ``prepare``: parameters -> constants of a run;
 - ``rates``: d/dt of the states;
 - ``outputs``: forces, flows, readings and the like;
-- ``guards``: one for each switch (a stop that holds the load, a muscle that hangs slack). A switch changes
-  where its guard falls below minus ``least``; `Switch` says what then happens to the states;
+- ``guards``: one for each switch (a stop that holds the load, a direction in which the load slides against
+  dry friction, a muscle that hangs slack). A switch changes where its guard falls below minus ``least``;
+  `Switch` says what then happens to the states;
 - ``jacobian``: the nonzero entries of d rates / d states, as (row, column, expression);
 - ``input_jacobian``: the same by the inputs, for directional derivatives.
 

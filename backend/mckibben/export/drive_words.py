@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Mapping
 from typing import NamedTuple
 
-from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LOW_STOP, SLACK
+from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LOW_STOP, SLACK, SLIDES_DOWN, SLIDES_UP
 from mckibben.physics.effect import Effect
 
 
@@ -55,6 +55,12 @@ _OUTPUTS: Mapping[str, Words] = {
     "diameter": Words("m", "Of the braid at mid-span."),
     "contact": Words("1", "1 on the upper end stop, -1 on the lower one, 0 between."),
     "net_force": Words("N", "Along the stroke, without that of the stops."),
+    "friction": Words("N", "Of the dry friction on the load, positive upwards; sticking what balances it."),
+    "friction_share": Words("1", "Share of its range that the dry friction takes; 1 sliding."),
+    "friction_left_up": Words(
+        "N", "Force upwards that the friction of a sticking load still takes; 0 sliding."
+    ),
+    "friction_left_down": Words("N", "The same downwards."),
     "external_force": Words("N", "Force on the load against the pull."),
     "pressure_reading": Words("Pa", "Gauge pressure as its sensor reads it."),
     "force_reading": Words("N", "Force as its sensor reads it."),
@@ -64,6 +70,8 @@ _SWITCHES: Mapping[str, Words] = {
     LOW_STOP: Words("1", "1 while the lower end stop holds the load."),
     HIGH_STOP: Words("1", "1 while the upper end stop holds the load."),
     SLACK: Words("1", "1 while the muscle hangs slack."),
+    SLIDES_UP: Words("1", "1 while the load slides up; in neither direction its dry friction holds it."),
+    SLIDES_DOWN: Words("1", "1 while the load slides down."),
 }
 _TABLES = {"state": _STATES, "input": _INPUTS, "output": _OUTPUTS, "switch": _SWITCHES}
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import symengine as se
 
-from mckibben.physics.chamber import sign_of
+from mckibben.physics import ops
 from mckibben.physics.custom import blamed_on_the_term
 from mckibben.physics.effect import Effect, StateVariable
 from mckibben.simulation.statics.symbolic import symbolic_state
@@ -57,7 +57,7 @@ class StaticEquations:
         constants: geometry and "effect.parameter" -> symbol; only those that the model depends on.
         results: `RESULTS` -> expression.
         rates: "effect.state" -> expression.
-        direction: the smooth sign of the velocity that a moving muscle has.
+        direction: the sign of the velocity, 0 at rest.
         compliant: whether a compliance in series has to be solved for.
         left_out: ids of the effects that do not act here.
     """
@@ -105,7 +105,7 @@ def static_equations(effects: tuple[Effect, ...]) -> StaticEquations:
         },
         results=results,
         rates=rates,
-        direction=sign_of(velocity=symbolic.inputs["velocity"]),
+        direction=ops.sign(symbolic.inputs["velocity"]),
         compliant=symbolic.model.has("compliance"),
         left_out=tuple(effect.id for effect in effects if effect not in acting),
     )

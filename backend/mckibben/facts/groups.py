@@ -43,7 +43,7 @@ from mckibben.facts.muscle import (
 from mckibben.facts.muscle import (
     LIMITS as MUSCLE_LIMITS,
 )
-from mckibben.facts.run import JOINT, RUN, STEP, TRACKING
+from mckibben.facts.run import EVENT, JOINT, RUN, STEP, TRACKING
 from mckibben.facts.sizing import LIMITS, SEARCH, SIZING
 from mckibben.facts.study import INFLUENCE, STUDY, SUMMARY, WATCHED
 from mckibben.facts.task import TASK
@@ -54,7 +54,21 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
     {
         group.name: group
         for group in (
-            *(TIMING, RUN, TRACKING, STEP, JOINT, TASK, SIZING, LIMITS, SEARCH, WATCHED, SUMMARY, INFLUENCE),
+            *(
+                TIMING,
+                RUN,
+                EVENT,
+                TRACKING,
+                STEP,
+                JOINT,
+                TASK,
+                SIZING,
+                LIMITS,
+                SEARCH,
+                WATCHED,
+                SUMMARY,
+                INFLUENCE,
+            ),
             *(STUDY, CHANNELS, COMPARISON, CHECK, SPECIMEN, PARAMETER, RESIDUAL, READING_ERROR, MEASURED),
             *(NOISE, DIAGNOSIS),
             *(CURVES, FORCE_INTERVAL, CHARACTERISTICS, OPERATING_POINT, LOOP, OVER_PRESSURE),

@@ -348,6 +348,10 @@ INVERSE = Group(
     ),
 )  # fmt: skip
 
+_UNDIRECTED = Condition(
+    "the model has dry friction, and no direction is stated",
+    "there is no dry friction, or the direction is stated",
+)
 #: What stands beside the answer to an inverse question.
 INVERSE_DETAILS = Group(
     "inverse_details",
@@ -358,6 +362,25 @@ INVERSE_DETAILS = Group(
     Figure(
         "contraction", "ε", "1", "Contraction", "Contraction at which the force acts.",
         _HELD, quantity="ratio",
+    ),
+    Figure(
+        "lowest_pressure", "P_1", "Pa", "Lowest pressure that friction holds",
+        "Gauge pressure of the stated force and length while lengthening; from there on friction holds the "
+        "muscle.", _UNDIRECTED,
+    ),
+    Figure(
+        "highest_pressure", "P_2", "Pa", "Highest pressure that friction holds",
+        "Gauge pressure of the stated force and length while shortening; beyond it the muscle moves.",
+        _UNDIRECTED,
+    ),
+    Figure(
+        "lowest_contraction", "ε_1", "1", "Least contraction that friction holds",
+        "ε of the stated force and pressure that is reached while shortening.", _UNDIRECTED, quantity="ratio",
+    ),
+    Figure(
+        "highest_contraction", "ε_2", "1", "Largest contraction that friction holds",
+        "ε of the stated force and pressure that is reached while lengthening.", _UNDIRECTED,
+        quantity="ratio",
     ),
     Figure(
         "start", "ε_s", "1", "Contraction at the start",

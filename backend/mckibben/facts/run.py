@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
 from mckibben.facts.figure import Condition, Figure, Group
 from mckibben.facts.timing import AT_ANR
 
@@ -74,6 +76,16 @@ RUN = Group(
         quantity="ratio",
     ),
     Figure("load_force", "", "N", "External force", "Force on the load besides gravity and spring."),
+    Figure(
+        "friction", "F_R", "N", "Dry friction",
+        "Force of the dry friction on the load, positive towards a shorter muscle; sticking it is what"
+        " balances the load.",
+    ),
+    Figure(
+        "friction_share", "", "1", "Share of the dry friction",
+        "Dry friction over the friction at which the load breaks away or that it slides against; 1 sliding.",
+        quantity="ratio",
+    ),
     Figure("temperature", "T", "K", "Gas temperature", "Temperature of the air in the muscle."),
     Figure(
         "weight", "", "N", "Weight along the motion",
@@ -84,6 +96,35 @@ RUN = Group(
         "supplied_volume_anr", "V_ANR", "m^3", "Air taken from the supply (ANR)",
         "Air that all muscles and tubes take from the supply over the whole run, as a volume "
         f"{AT_ANR}.", quantity="normal",
+    ),
+)  # fmt: skip
+
+#: What happens in a run: the key of an event, and what is said of it.
+EVENTS: Mapping[str, str] = {
+    "hits_high": "hits the upper stop",
+    "hits_low": "hits the lower stop",
+    "rebounds_high": "rebounds from the upper stop",
+    "rebounds_low": "rebounds from the lower stop",
+    "leaves_high": "leaves the upper stop",
+    "leaves_low": "leaves the lower stop",
+    "goes_slack": "muscle goes slack",
+    "goes_taut": "muscle goes taut",
+    "counter_goes_slack": "second muscle goes slack",
+    "counter_goes_taut": "second muscle goes taut",
+    "sticks": "sticks: dry friction holds the load",
+    "breaks_away_up": "breaks away upwards",
+    "breaks_away_down": "breaks away downwards",
+    "turns_up": "turns round and slides upwards",
+    "turns_down": "turns round and slides downwards",
+}
+#: The events as figures: when they happen, and how fast the load is just before.
+EVENT = Group(
+    "event",
+    "Events",
+    Figure("time", "t", "s", "Time of the event", "Time from the start of the run."),
+    Figure(
+        "speed", "v", "m/s", "Speed at the event",
+        "Velocity of the load just before the event, positive towards a shorter muscle.",
     ),
 )  # fmt: skip
 

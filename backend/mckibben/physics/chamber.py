@@ -12,15 +12,16 @@ from mckibben.physics.model import Model, State
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
 
-# Speed at which the smooth sign of friction is 0.7 [m/s]; below it the muscle creeps instead of sticking.
-SIGN_SPEED = 1e-3
-
 
 class Motion(NamedTuple):
-    """Stroke of a muscle from the drive's coordinate x: s = start + sense * x, sense +1 or -1."""
+    """Stroke of a muscle from the drive's coordinate x: s = start + sense * x, sense +1 or -1.
+
+    ``direction`` is that of the dry friction along x: +1 or -1 sliding, between them at rest.
+    """
 
     coordinate: Value
     rate: Value
+    direction: Value
     start: Value
     sense: float
 
@@ -57,11 +58,6 @@ def with_energy_balance(*, structure: DriveStructure, model: Model) -> bool:
     return not structure.polytropic or model.has("heat")
 
 
-def sign_of(*, velocity: Value, sign_speed: Value = SIGN_SPEED) -> Value:
-    """A smooth sign of a velocity; 0.7 at ``sign_speed`` [m/s]."""
-    return velocity / ops.sqrt(velocity**2 + sign_speed**2)
-
-
 def muscle_side(
     *,
     structure: DriveStructure,
@@ -73,7 +69,6 @@ def muscle_side(
     states: Mapping[str, Value],
     motion: Motion,
     command: Value,
-    sign_speed: Value = SIGN_SPEED,
 ) -> Side:
     """The equations of one muscle.
 
@@ -86,7 +81,6 @@ def muscle_side(
         states: states of this muscle, by name; absolute pressures.
         motion: its stroke from the drive's coordinate.
         command: opening of its valve, or set point of its regulator.
-        sign_speed: see `sign_of`.
     """
     pressure, ambient = states["pressure"], constants["ambient_temperature"]
     gauge = pressure - constants["ambient_pressure"]
@@ -102,7 +96,7 @@ def muscle_side(
     }
     resting = model.at(**still, values=values).tension
     velocity = -motion.sense * motion.rate - slack * resting / constants["slack_damping"]
-    moving = {**still, "velocity": velocity, "direction": sign_of(velocity=velocity, sign_speed=sign_speed)}
+    moving = {**still, "velocity": velocity, "direction": -motion.sense * motion.direction}
     state = model.at(**moving, values=values)
     # Series compliance: one Newton step from the rigid rig.
     yielding = 1.0 + state.compliance * state.tension.diff(length)

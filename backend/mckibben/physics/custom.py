@@ -274,7 +274,7 @@ def _call(node: ast.Call, names: dict[str, None], depth: int) -> TermFunction:
         if isinstance(node.args[0], ast.Name) and node.args[0].id == "v":
             return lambda known: known["direction"]
         inner = _node(node.args[0], names, depth + 1)
-        return lambda known: _sign(inner(known))
+        return lambda known: ops.sign(inner(known))
     inner, function = _node(node.args[0], names, depth + 1), FUNCTIONS[name]
     return lambda known: function(inner(known))
 
@@ -283,11 +283,6 @@ def _character_name(character: str) -> str:
     if not character.isprintable():
         return f"the character U+{ord(character):04X}"
     return _QUOTES.get(character, f"'{character}'")
-
-
-def _sign(value: Value) -> Value:
-    falling = ops.where(ops.greater(0.0, value), -1.0, 0.0)
-    return ops.where(ops.greater(value, 0.0), 1.0, falling)
 
 
 _OPERATORS: Mapping[type[ast.operator], Callable[[Any, Any], Value]] = {

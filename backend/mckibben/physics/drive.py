@@ -17,6 +17,14 @@ integrator finds impact and release as events.
 it carries no tension: :math:`\dot l = \dot d - F_0/c` with the tension F_0 at rest and a small damping c.
 While it is taut, l = d. Slack is a switch as well.
 
+**Dry friction** is set-valued (Filippov): all its laws enter the net force N through one direction d, which
+is the sign of the speed of a load that slides, and any number between -1 and 1 for one that sticks. Two
+switches say so: *slides up* and *slides down*, d = up - down. A load that slides sticks where its speed is
+zero; one that sticks breaks away upwards where :math:`N(d = 1) > 0` and downwards where :math:`N(d = -1) <
+0`. As N is that of the whole model, ranges of several laws add up, grow with pressure and act on both
+muscles of a pair; static friction above the kinetic is what a law gives at zero speed, and what grows with
+the time at rest is a state of its effect. A stop that holds the load carries all that N(0) presses on it.
+
 In an antagonist pair the first muscle contracts by s0 + s and the second by s0 - s. The second has its own
 gas, and its tension acts against the first.
 
@@ -30,11 +38,12 @@ from collections.abc import Mapping
 import symengine as se
 
 from mckibben.physics import ops
-from mckibben.physics.chamber import SIGN_SPEED, Motion, Side, muscle_side, sign_of, with_energy_balance
+from mckibben.physics.chamber import Motion, Side, muscle_side, with_energy_balance
 from mckibben.physics.drive_terms import (
     CONSTANTS,
     COUNTER,
     COUNTER_OUTPUTS,
+    GUARD_DAMPING,
     GUARD_STIFFNESS,
     HIGH_STOP,
     INPUTS,
@@ -42,6 +51,8 @@ from mckibben.physics.drive_terms import (
     LOW_STOP,
     OUTPUTS,
     SLACK,
+    SLIDES_DOWN,
+    SLIDES_UP,
     DriveStructure,
     StateInfo,
     Switch,
@@ -65,13 +76,10 @@ class DriveModel:
 
     Args:
         structure: features that determine the equations.
-        sign_speed: of the smooth sign in the friction (`mckibben.physics.chamber.sign_of`): a number, or a
-            symbol for a caller that sets it, as the linearisation of a sliding muscle does.
     """
 
-    def __init__(self, structure: DriveStructure, sign_speed: Value = SIGN_SPEED) -> None:
+    def __init__(self, structure: DriveStructure) -> None:
         model = Model(structure.effects)
-        self._sign_speed = sign_speed
         suffixes = ("", COUNTER) if structure.pair else ("",)
         self.output_names = (*OUTPUTS, *COUNTER_OUTPUTS) if structure.pair else OUTPUTS
         self.states = [
@@ -108,6 +116,7 @@ class DriveModel:
         external = u["external_force"] + u["external_force_slope"] * passed
         sides: list[Side] = []
         slack: list[Switch] = []
+        direction = se.Symbol("direction")
         for suffix, sense, opening in (("", 1.0, "opening"), (COUNTER, -1.0, "counter_opening")):
             if suffix and not structure.pair:
                 continue
@@ -122,9 +131,8 @@ class DriveModel:
                     values=self._values(model, own),
                     constants=c,
                     states=own,
-                    motion=Motion(y["stroke"], y["speed"], c["precontraction"], sense),
+                    motion=Motion(y["stroke"], y["speed"], direction, c["precontraction"], sense),
                     command=u[opening] + u[f"{opening}_slope"] * passed,
-                    sign_speed=self._sign_speed,
                 )
             )
             excess = GUARD_STIFFNESS * (own["length"] - sides[-1].distance)
@@ -134,11 +142,13 @@ class DriveModel:
         main = sides[0]
         pull = main.force - (sides[1].force if structure.pair else 0.0)
         values = self._values(model, y)
-        net, inertia = self._net_force(model, muscle, values, pull, external)
-        stops = stop_switches(constants=c, stroke=y["stroke"], net_force=net)
-        self.switches = [*stops, *slack]
-        low, high = (switch.symbol for switch in stops)
-        acceleration = (1.0 - low - high) * net / inertia
+        net, inertia = self._net_force(model, muscle, values, pull, external, direction)
+        self.switches, dry = motion_switches(
+            constants=c, stroke=y["stroke"], speed=y["speed"], net_force=net, direction=direction
+        )
+        self.switches += slack
+        contact = self.switches[1].symbol - self.switches[0].symbol
+        acceleration = dry.moves * dry.net_force / inertia
         rates = {"clock": 1.0, "stroke": y["speed"], "speed": acceleration, **main.rates}
         outputs = {
             "acceleration": acceleration,
@@ -152,8 +162,12 @@ class DriveModel:
             "gas_temperature": main.temperature,
             "volume": main.volume,
             "diameter": main.state.diameter,
-            "contact": high - low,
-            "net_force": net,
+            "contact": contact,
+            "net_force": dry.net_force,
+            "friction": dry.friction / c["lever_ratio"],
+            "friction_share": dry.share,
+            "friction_left_up": dry.left[0] / c["lever_ratio"],
+            "friction_left_down": dry.left[1] / c["lever_ratio"],
             "external_force": external,
             **main.readings,
         }
@@ -169,7 +183,7 @@ class DriveModel:
                 other.state.diameter,
             )
             outputs |= dict(zip(COUNTER_OUTPUTS, figures, strict=True))
-        return rates, outputs
+        return dry.resolved(rates), dry.resolved(outputs)
 
     def _net_force(
         self,
@@ -178,12 +192,12 @@ class DriveModel:
         values: Mapping[str, Mapping[str, Value]],
         pull: Value,
         external: Value,
+        direction: Value,
     ) -> tuple[Value, Value]:
         """Force along the stroke without that of the stops [N], and the mass it moves [kg]."""
         c, stroke, speed = self._constants, self.symbols["stroke"], self.symbols["speed"]
         factor = model.product("load_factor", values, {})
         inertia = factor * c["mass"] + c["own_mass"] + model.sum("inertia", values, {"muscle": muscle})
-        direction = sign_of(velocity=speed, sign_speed=self._sign_speed)
         lever = c["lever_ratio"]
         hung = model.sum("hung_mass", values, {}) * c["gravity"]
         load = factor * (c["mass"] * c["gravity"] + external) + hung
@@ -215,15 +229,81 @@ def _side_states(structure: DriveStructure, model: Model, suffix: str) -> list[S
     return [StateInfo(f"{s.name}{suffix}", s.initial, s.scale, s.settled) for s in states]
 
 
-def stop_switches(*, constants: Mapping[str, Value], stroke: Value, net_force: Value) -> list[Switch]:
-    """The lower and the upper end stop; each holds the load while the net force presses it there."""
-    stops = []
-    for name, ahead, pressing in (
-        (LOW_STOP, stroke - constants["stop_low"], -net_force),
-        (HIGH_STOP, constants["stop_high"] - stroke, net_force),
+class DryFriction:
+    """The dry friction of a load, by the direction d that its net force contains.
+
+    Attributes:
+        net_force: N(d) of the switches: d is 0 while the load sticks [N].
+        moves: 1 while the load slides, 0 while it sticks or rests on a stop.
+        friction: force of the friction along the stroke [N]: N(d) - N(0); sticking it carries -N(0), as far
+            as its range allows. 0 on a stop.
+        share: its share of the range that it has, 0 to 1; 1 sliding, 0 without dry friction.
+        left: force upwards and downwards that it still takes before the load breaks away [N]; 0 sliding.
+    """
+
+    def __init__(
+        self, *, net_force: Value, direction: Value, slides: tuple[Value, Value] | None, contact: Value
+    ) -> None:
+        net = se.sympify(net_force)
+        self._direction = direction
+        if slides is None:
+            self.net_force, self.moves = net, 1.0 - contact
+            self.friction = self.share = self._reached = se.Integer(0)
+            self.left = self.friction, self.friction
+            return
+        up, down = slides
+        self.moves = (1.0 - contact) * (up + down)
+        middle, upwards, downwards = (net.subs({direction: value}) for value in (0.0, 1.0, -1.0))
+        # Sticking: the part of the range that balances the load, on the side where the friction has to act.
+        sticks = (1.0 - contact) * (1.0 - up - down)
+        side = ops.where(ops.greater(middle, 0.0), middle - upwards, downwards - middle)
+        share = ops.minimum(ops.absolute(middle) / ops.maximum(side, LEAST_GUARD), 1.0)
+        balanced = sticks * ops.where(ops.greater(middle, 0.0), share, -share)
+        self._reached = up - down + balanced
+        self.net_force = net.subs({direction: up - down})
+        self.friction = net.subs({direction: self._reached}) - middle
+        resists = ops.greater(ops.absolute(downwards - upwards), LEAST_GUARD)
+        self.share = ops.where(resists, (1.0 - contact) * (up + down) + sticks * share, 0.0)
+        self.left = sticks * ops.positive_part(-upwards), sticks * ops.positive_part(downwards)
+
+    def resolved(self, expressions: Mapping[str, Value]) -> dict[str, Value]:
+        """Expressions of the direction as those of the switches; sticking, it is what balances the load."""
+        return {
+            name: each.subs({self._direction: self._reached})
+            if self._direction in (each := se.sympify(expression)).free_symbols
+            else each
+            for name, expression in expressions.items()
+        }
+
+
+def motion_switches(
+    *, constants: Mapping[str, Value], stroke: Value, speed: Value, net_force: Value, direction: Value
+) -> tuple[list[Switch], DryFriction]:
+    """The end stops, each of which holds the load while the net force presses it there, and the friction.
+
+    The directions of sliding follow the stops where the net force depends on the symbol ``direction``. Where
+    the friction has no force for the moment (of a muscle without pressure, of a law that is off) a direction
+    does not end: there is nothing that could stick.
+    """
+    up, down = (se.Symbol(f"w_{name}") for name in (SLIDES_UP, SLIDES_DOWN))
+    low, high = (se.Symbol(f"w_{name}") for name in (LOW_STOP, HIGH_STOP))
+    net = se.sympify(net_force)
+    slides = (up, down) if direction in net.free_symbols else None
+    dry = DryFriction(net_force=net, direction=direction, slides=slides, contact=low + high)
+    switches = []
+    for name, holds, ahead, pressing in (
+        ("stop_low", low, stroke - constants["stop_low"], -dry.net_force),
+        ("stop_high", high, constants["stop_high"] - stroke, dry.net_force),
     ):
-        holds = se.Symbol(f"w_{name}")
         guard = holds * pressing + (1.0 - holds) * GUARD_STIFFNESS * ahead
-        stop = "stop_low" if name == LOW_STOP else "stop_high"
-        stops.append(Switch(name, holds, guard, LEAST_GUARD, stop=stop))
-    return stops
+        switches.append(Switch(str(holds)[2:], holds, guard, LEAST_GUARD, stop=name))
+    if slides is None:
+        return switches, dry
+    upwards, downwards = net.subs({direction: 1.0}), net.subs({direction: -1.0})
+    sticks = (1.0 - low - high) * (1.0 - up - down)
+    resists = ops.greater(ops.absolute(downwards - upwards), LEAST_GUARD)
+    for own, sense, holding in ((up, 1.0, -upwards), (down, -1.0, downwards)):
+        ahead = ops.where(resists, sense * GUARD_DAMPING * speed, 0.0)
+        guard = own * ahead + sticks * holding
+        switches.append(Switch(str(own)[2:], own, guard, LEAST_GUARD, slides=sense))
+    return switches, dry

@@ -69,13 +69,19 @@ OUTPUTS = (
     "diameter",
     "contact",
     "net_force",
+    "friction",
+    "friction_share",
+    "friction_left_up",
+    "friction_left_down",
     "external_force",
     "pressure_reading",
     "force_reading",
     "stroke_reading",
 )
-# Switches: 0 or 1 during a step. A stop that holds the load, and a muscle that hangs slack.
+# Switches: 0 or 1 during a step. A stop that holds the load, a muscle that hangs slack, and the two
+# directions in which a load with dry friction slides; in neither of them it sticks.
 LOW_STOP, HIGH_STOP, SLACK = "low_stop", "high_stop", "slack"
+SLIDES_UP, SLIDES_DOWN = "slides_up", "slides_down"
 # Additional outputs for the second muscle of a pair; its states have the suffix as well.
 COUNTER = "@counter"
 COUNTER_OUTPUTS = tuple(
@@ -123,7 +129,9 @@ class StateInfo:
 
 # Guards of lengths are multiplied by this stiffness, so that all guards are forces [N/m].
 GUARD_STIFFNESS = 1e4
-# Guards above minus this are rounding errors [N]; of a length 1 nm.
+# Guards of speeds are multiplied by this damping [N s/m].
+GUARD_DAMPING = 1e4
+# Guards above minus this are rounding errors [N]; of a length 1 nm, of a speed 1 nm/s.
 LEAST_GUARD = 1e-5
 
 
@@ -135,12 +143,14 @@ class Switch:
     changes to the other value.
 
     Attributes:
-        name: `LOW_STOP`, `HIGH_STOP` or `SLACK`; of the second muscle of a pair with `COUNTER`.
+        name: `LOW_STOP`, `HIGH_STOP`, `SLIDES_UP`, `SLIDES_DOWN` or `SLACK`; of the second muscle of a pair
+            with `COUNTER`.
         symbol: its symbol in the equations.
         guard: expression of states, constants, inputs and switches.
         least: guard values above minus this are rounding errors.
         stop: for an end stop the name of its constant: where the load lands when the switch becomes 1.
         follows: for a slack muscle the name of its length: set to the distance of the fittings at a change.
+        slides: for a direction of sliding its sign, 1 up or -1 down: where it becomes 0 the speed is 0.
     """
 
     name: str
@@ -149,3 +159,4 @@ class Switch:
     least: float
     stop: str | None = None
     follows: str | None = None
+    slides: float = 0.0

@@ -109,6 +109,11 @@ def absolute(x: Value) -> Value:
     return where(greater(x, 0.0), x, -x)
 
 
+def sign(x: Value) -> Value:
+    """1, -1, or 0 at 0."""
+    return where(greater(x, 0.0), 1.0, where(greater(0.0, x), -1.0, 0.0))
+
+
 def derivative(function: Callable[[Value], Value], at: Value) -> Value:
     """The exact derivative df/dx of ``function`` at ``at``.
 

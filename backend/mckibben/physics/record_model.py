@@ -2,6 +2,9 @@
 
 Effects and composition are those of `mckibben.physics.drive`, without valve, tube and gas balance. Measured
 channels are linear between samples. Effects of sensors and lags on the readings are included.
+
+The direction of the dry friction is that of `mckibben.physics.drive` where the load moves. Where the length
+is measured it is an input, because a record knows only with its noise which way it goes.
 """
 
 from __future__ import annotations
@@ -11,14 +14,13 @@ from typing import Any
 import symengine as se
 
 from mckibben.physics import ops
-from mckibben.physics.chamber import sign_of
-from mckibben.physics.drive import stop_switches
+from mckibben.physics.drive import DryFriction, motion_switches
 from mckibben.physics.drive_terms import StateInfo, Switch
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
 from mckibben.physics.muscle import GEOMETRY, Muscle
 
-FORCE_INPUTS = ("pressure", "pressure_slope", "length", "length_slope", "begin")
+FORCE_INPUTS = ("pressure", "pressure_slope", "length", "length_slope", "direction", "begin")
 MOTION_INPUTS = ("pressure", "pressure_slope", "external_force", "external_force_slope", "begin")
 MOTION_CONSTANTS = (
     "mass",
@@ -100,7 +102,8 @@ def _equations(
     else:
         length = (u["length"] + u["length_slope"] * passed - offset) / scale
         velocity = u["length_slope"] / scale
-    direction = sign_of(velocity=velocity)
+    along = se.Symbol("direction")  # of the stroke, which grows where the length falls
+    direction = -along if motion else u["direction"]
     seen: dict[str, Any] = {
         "muscle": muscle,
         "length": length,
@@ -120,6 +123,7 @@ def _equations(
     rates: dict[str, Any] = {"clock": 1.0}
     stroke, speed = muscle.nominal_length - length, -velocity
     switches: list[Switch] = []
+    dry: DryFriction | None = None
     if motion:
         factor = model.product("load_factor", values, {})
         inertia = factor * c["mass"] + c["own_mass"] + model.sum("inertia", values, {"muscle": muscle})
@@ -127,12 +131,14 @@ def _equations(
         lever = c["lever_ratio"]
         hung = model.sum("hung_mass", values, {}) * c["gravity"]
         load = factor * (c["mass"] * c["gravity"] + external) + hung
-        guided = {"stroke": stroke, "speed": speed, "direction": -direction, "load": ops.absolute(load)}
+        guided = {"stroke": stroke, "speed": speed, "direction": along, "load": ops.absolute(load)}
         resisting = load + model.sum("guide", values, guided)
         net = lever**2 * force - lever * resisting - c["spring"] * stroke
-        switches = stop_switches(constants=c, stroke=stroke, net_force=net)
+        switches, dry = motion_switches(
+            constants=c, stroke=stroke, speed=speed, net_force=net, direction=along
+        )
         rates["stroke"] = speed
-        rates["speed"] = (1.0 - switches[0].symbol - switches[1].symbol) * net / inertia
+        rates["speed"] = dry.moves * dry.net_force / inertia
     reading = {
         "pressure_reading": pressure * sensors["pressure"].scale + sensors["pressure"].offset,
         "force_reading": sensors["force"].scale * force + sensors["force"].offset,
@@ -155,4 +161,6 @@ def _equations(
         "force": force,
         **{name: model.chain(name, value, values, {}, name="reading") for name, value in reading.items()},
     }
+    if dry is not None:
+        rates, outputs = dry.resolved(rates), dry.resolved(outputs)
     return rates, outputs, switches

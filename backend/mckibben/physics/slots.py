@@ -12,7 +12,9 @@ from typing import NamedTuple
 from mckibben.physics.ops import Value
 
 # Inputs of most slots: the muscle at rest, true length [m] and gauge pressure [Pa] at the muscle,
-# dL/dt [m/s] (> 0 lengthening), its sign, and the temperature of the elastomer [K].
+# dL/dt [m/s] (> 0 lengthening), its sign, and the temperature of the elastomer [K]. At rest the sign may be
+# any number from -1 to 1: a law of dry friction is the direction times its force, so that a load sticks in a
+# run (`mckibben.physics.drive`); its value at zero velocity is the force that breaks it away.
 _STATE = ("muscle", "length", "pressure", "velocity", "direction", "temperature")
 
 

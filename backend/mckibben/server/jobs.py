@@ -28,6 +28,7 @@ from mckibben.server.questions import model_question
 from mckibben.server.schemas.drives import LinearisationRequest, LinearPointInput, SizingReportRequest
 from mckibben.server.schemas.models import DiagnosisRequest, ReportRequest
 from mckibben.server.short_jobs import SHORT_JOBS
+from mckibben.simulation.linear.bound import SLIDING_SPEED
 from mckibben.simulation.linear.point import Condition
 from mckibben.simulation.linear.trials import Goals
 
@@ -53,6 +54,7 @@ def linear_question(body: LinearisationRequest, studio: Studio) -> LinearQuestio
         output=body.output,
         amplitudes=None if body.amplitudes is None else tuple(body.amplitudes),
         goals=goals,
+        sliding_speed=SLIDING_SPEED if body.sliding_speed is None else body.sliding_speed,
     )
 
 

@@ -775,3 +775,24 @@ def test_an_error_of_an_item_is_raised() -> None:
 
     with pytest.raises(ZeroDivisionError):
         side_by_side(work, [1, 0, 2])
+
+
+def test_noise_of_the_pressure_does_not_break_a_held_load_away() -> None:
+    """A load that stopped sliding is at the edge of its range: peaks of noise would push it on."""
+    effects = {**HIDDEN, "coulomb_friction": {"force": 20.0}}
+    time = np.linspace(0.0, 8.0, 1601)
+    pressure = 2.5e5 + 0.5e5 * np.clip(time - 1.0, 0.0, 1.0)
+    noisy = pressure + 2000.0 * np.random.default_rng(5).standard_normal(len(time))
+    predicted = {}
+    for name, readings in (("clean", pressure), ("noisy", noisy)):
+        measurement = build(
+            {"time": time, "pressure": readings, "displacement": np.full(len(time), 0.02)},
+            name=name, id="8" * 64, kind="transient", conditions={"load_mass": 12.0}, excluded_rows={},
+        )  # fmt: skip
+        predicted[name] = predictor_of(measurement, MUSCLE).predict(fit_model(effects))
+    held = time[predictor_of(measurement, MUSCLE).rows] > 3.0
+    assert np.ptp(predicted["clean"]) > 1e-3
+    assert np.ptp(predicted["clean"][held]) < 1e-9
+    # With the readings themselves it is pushed on by 0.13 mm, and ends 0.27 mm off.
+    assert np.ptp(predicted["noisy"][held]) < 1e-5
+    assert np.max(np.abs(predicted["noisy"] - predicted["clean"])[held]) < 1e-4

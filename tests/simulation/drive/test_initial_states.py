@@ -33,6 +33,7 @@ DRIVES = {
     "pair": replace(
         preset("paper-hysteresis"), pair=True, precontraction=0.08, max_contraction=0.16, start_pressure=2e5
     ),
+    "from above": replace(preset("paper-hysteresis"), start_pressure=2e5, start_reached=-1),
     "stated": replace(preset("paper-step"), start_position=0.01),
     "beyond its lock": replace(HEAVY, load=replace(HEAVY.load, mass=500.0)),
 }

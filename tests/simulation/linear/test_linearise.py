@@ -238,8 +238,29 @@ def test_friction_holds_and_slides() -> None:
         abs(step_response(m, "command", "position", np.linspace(0, 0.3, 31), 0.01)[-1])
         for m in (held, shorter)
     ]
-    assert gains[0] < 0.3 * gains[1]
+    assert gains[0] == 0.0 < gains[1]
+    assert "until the net force on it has grown by 10 N upwards or 10 N downwards" in held.text
     assert any(text.startswith("friction") for text in linear.lost)
+
+
+def test_sliding_at_a_stated_speed_has_the_slope_of_the_law_there() -> None:
+    """Stribeck: F_c (1 + s exp(-v/v_s)) falls by F_c s/v_s exp(-v/v_s) per speed, against the damping."""
+    document = read_document(DOCUMENTS["friction"], "the drive")
+    coulomb = {"force": "10 N", "static_share": 0.5, "stribeck_speed": "5 mm/s"}
+    effects = {**(document.effects or {}), "coulomb_friction": coulomb}
+    given = drive_of(document.model_copy(update={"effects": effects}), STUDIO).drive
+    damping = {}
+    for speed in (1e-9, 2e-3, 1e-2, 0.3):
+        linear = linearise(given, Condition("position", 0.02), sliding_speed=speed)
+        model = next(each for each in linear.models if each.name.startswith("sliding shorter"))
+        row = [state.name for state in model.states].index("speed")
+        damping[speed] = -model.a[row, row] * (given.load.mass + given.own_mass)
+        assert ("slopes at" in model.text) == (speed != 1e-9)
+    for speed in (1e-9, 2e-3, 1e-2):
+        falls = 10.0 * 0.5 / 5e-3 * np.exp(-speed / 5e-3)
+        assert damping[0.3] - damping[speed] == pytest.approx(falls, rel=1e-6)
+    with pytest.raises(InputError, match="sliding speed"):
+        linearise(given, sliding_speed=0.0)
 
 
 @pytest.mark.parametrize("effect", ["dahl", "bouc_wen", "maxwell_slip"])

@@ -118,3 +118,26 @@ def test_working_range_of_an_ideal_muscle_cannot_hold_a_preload_without_pressure
     answer = inverse.working_range(ideal, load=400.0, pressure=6e5, preload=50.0)
     assert answer.value is None
     assert "out_of_reach" in codes(answer)
+
+
+@pytest.mark.parametrize("pressure", [2e5, 5e5])
+def test_without_a_direction_both_ends_of_what_friction_holds_are_told(real, pressure):
+    force = float(real.force(length=0.28, pressure=pressure)[0])
+    answer = inverse.pressure_for_force(real, force=force, length=0.28)
+    low, high = answer.details["lowest_pressure"], answer.details["highest_pressure"]
+    assert low < answer.value < high
+    # Each is the pressure of its branch.
+    for end, direction in ((low, 1.0), (high, -1.0)):
+        assert real.force(length=0.28, pressure=end, direction=direction)[0] == pytest.approx(force, abs=1e-3)
+    held = inverse.contraction_for_force(real, force=force, pressure=pressure)
+    for name, direction in (("lowest_contraction", -1.0), ("highest_contraction", 1.0)):
+        length = 0.3 * (1.0 - held.details[name])
+        reached = real.force(length=length, pressure=pressure, direction=direction)[0]
+        assert reached == pytest.approx(force, abs=1e-3)
+    stated = inverse.pressure_for_force(real, force=force, length=0.28, direction=1.0)
+    assert "lowest_pressure" not in stated.details
+
+
+def test_without_friction_there_is_no_interval(ideal):
+    answer = inverse.pressure_for_force(ideal, force=200.0, length=0.27)
+    assert set(answer.details) == {"length", "contraction", "force"}

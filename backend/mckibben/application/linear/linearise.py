@@ -23,6 +23,7 @@ from mckibben.application.linear.result import (
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import si
+from mckibben.simulation.linear.bound import SLIDING_SPEED
 from mckibben.simulation.linear.design import design
 from mckibben.simulation.linear.equations import COMMAND, LOAD_FORCE, POSITION
 from mckibben.simulation.linear.linearise import Linearisation, linearise
@@ -55,6 +56,7 @@ class LinearQuestion:
         amplitudes: of the sines for the nonlinear drive, in the unit of the input; None = `SHARES` of full
             command or tension, () = no sweep.
         goals: of a controller design; None = no design.
+        sliding_speed: of the load, see `mckibben.simulation.linear.linearise.linearise` [m/s].
     """
 
     annotated: AnnotatedDrive
@@ -63,6 +65,7 @@ class LinearQuestion:
     output: str = POSITION.name
     amplitudes: tuple[float, ...] | None = None
     goals: Goals | None = None
+    sliding_speed: float = SLIDING_SPEED
 
 
 def linear_view(question: LinearQuestion, watch: Watch | None = None) -> LinearResult:
@@ -81,7 +84,7 @@ def prepare(question: LinearQuestion) -> Callable[[Watch], LinearResult]:
     Raises:
         InputError: as `linear_view`.
     """
-    linear = linearise(question.annotated.drive, question.at)
+    linear = linearise(question.annotated.drive, question.at, sliding_speed=question.sliding_speed)
     _check(question, linear)
     return lambda watch: _answer(question, linear, watch)
 

@@ -310,7 +310,7 @@ def model_result(
     poles, zeros = poles_of(model, source, out)
     width, why = bandwidth(model, source, out)
     response = frequency_response(model, source, out, frequency)
-    outputs = bound.values(point.state, point.command, point.switches, slides=point.direction != 0).ports
+    outputs = bound.values(point.state, point.command, point.switches, direction=point.motion).ports
     inputs = input_values(linear)
     return ModelResult(
         name=model.name,

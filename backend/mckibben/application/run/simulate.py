@@ -29,6 +29,7 @@ from mckibben.application.operating_limits import (
 )
 from mckibben.application.prediction_interval import PositionInterval
 from mckibben.application.run.drive_run import measured_interval, run_drive, use_of_run
+from mckibben.application.run.events import STILL, RunEvent, events_of_run, rest_of_run
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.facts.result import Booleans, FiniteSeries, Series, result_class
@@ -37,7 +38,8 @@ from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.physics.model import Model
-from mckibben.simulation.drive.transient import GRAVITY, Run
+from mckibben.simulation.drive.transient import GRAVITY, Run, held_interval
+from mckibben.simulation.integrate.engine import MOST_EVENTS
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.timing.evaluation import (
@@ -175,6 +177,10 @@ class StartPosition:
     """Contraction of the muscle at t = 0 [-]."""
     reason: str
     """Why the run starts there, as a sentence."""
+    lowest: float | None
+    """Lowest position at which dry friction holds the load at the start pressure [m]; None without it."""
+    highest: float | None
+    """Highest such position [m]."""
 
 
 @result_class
@@ -217,6 +223,14 @@ class SimulationResult:
     """Whether the load rests on an end stop."""
     slack: Booleans
     """Whether the muscle hangs slack: it is then longer than its fittings are apart."""
+    stuck: Booleans
+    """Whether dry friction holds the load."""
+    friction: Series
+    friction_share: Series
+    events: list[RunEvent]
+    """What happens in the whole run, whatever rows are requested: impacts, slack, sticking, breaking away."""
+    rest: str | None
+    """What holds the load at the end if dry friction does, and the force left until it breaks away."""
     start: StartPosition
     """Where the load is at t = 0, and why there."""
     gas: str
@@ -307,7 +321,12 @@ def result_of(
     def gauge(name: str) -> Array | None:
         return states[name][rows] - drive.ambient_pressure if name in states else None
 
+    between = held_interval(drive)
     notes = dict(annotated.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
+    if len(run.events) >= MOST_EVENTS:
+        notes["events"] = f"of very many events in a short time only the first {MOST_EVENTS} are listed"
+    if drive.start_reached and between is None:
+        notes["start.reached"] = "no dry friction holds the load at the start: it rests at one position"
     if follows is not None:
         notes |= {f"tracking.{name}": why for name, why in follows.notes.items()}
     return SimulationResult(
@@ -333,8 +352,16 @@ def result_of(
         temperature=out["gas_temperature"][rows],
         contact=out["contact"][rows] != 0.0,
         slack=states["length"][rows] > rest * (1.0 - contraction[rows]) + _SLACK,
+        stuck=_stuck(run)[rows],
+        friction=out["friction"][rows],
+        friction_share=out["friction_share"][rows],
+        events=events_of_run(run),
+        rest=rest_of_run(run) if run.outcome is Outcome.COMPLETED else None,
         start=StartPosition(
-            run.start.stroke / lever, run.start.stroke / rest + drive.precontraction, run.start.why.value
+            run.start.stroke / lever,
+            run.start.stroke / rest + drive.precontraction,
+            run.start.why.value,
+            *(end if end is None else end / lever for end in between or (None, None)),
         ),
         gas=drive.gas_closure,
         readings=_readings(run, rows),
@@ -376,6 +403,14 @@ def _stated_pressures(annotated: AnnotatedDrive) -> dict[str, float]:
 def _bounds(annotated: AnnotatedDrive) -> DriveBounds:
     low, high = stops_of(annotated.drive)
     return DriveBounds(**asdict(annotated.drive.model.limits), position_min=low, position_max=high)
+
+
+def _stuck(run: Run) -> Array:
+    """Rows in which dry friction holds the load."""
+    out = run.outputs
+    left = out["friction_left_up"] + out["friction_left_down"]
+    held = (left > 0.0) | (out["friction_share"] > 0.0)
+    return held & (np.abs(run.states["speed"]) <= STILL) & (out["contact"] == 0.0)
 
 
 def _readings(run: Run, rows: Array) -> SensorReadings | None:

@@ -115,7 +115,11 @@ def _arrays(plant: Plant) -> Iterator[tuple[str, list[str]]]:
         texts = [repr(float(value or 0.0)) for value in values] or ["0.0"]
         yield f"const double model_{name}[{len(texts)}]", texts
     switches = [] if plant.drive is None else plant.drive.equations.switches
-    for name, flags in (("played", plant.played), ("is_stop", [each.stop is not None for each in switches])):
+    for name, flags in (
+        ("played", plant.played),
+        ("is_stop", [each.stop is not None for each in switches]),
+        ("slides", [each.slides for each in switches]),
+    ):
         texts = [str(int(flag)) for flag in flags] or ["0"]
         yield f"const int model_{name}[{len(texts)}]", texts
 

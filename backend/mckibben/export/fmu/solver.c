@@ -165,6 +165,28 @@ static double turning(const step_of *s, int i)
     }
     return low;
 }
+
+/* Share of the step at which a speed, times its sense, is smallest and negative inside of it; 0 if nowhere. */
+static double backmost(const step_of *s, int i, int sense)
+{
+    const double a = -3.0 * s->dense[1][i], b = 2.0 * (s->dense[1][i] - s->dense[0][i]);
+    const double c = s->end[i] - s->start[i] + s->dense[0][i], inside = b * b - 4.0 * a * c;
+    double found = 0.0, least = 0.0;
+    if (inside >= 0.0) {
+        const double q = -0.5 * (b + (b > 0.0 ? sqrt(inside) : -sqrt(inside)));
+        const double roots[2] = {a != 0.0 ? q / a : -1.0, q != 0.0 ? c / q : -1.0};
+        for (int root = 0; root < 2; ++root) {
+            if (roots[root] > 0.0 && roots[root] < 1.0) {
+                const double value = sense * interpolated(s, i, roots[root]);
+                if (value < least) {
+                    found = roots[root];
+                    least = value;
+                }
+            }
+        }
+    }
+    return found;
+}
 #endif
 
 /* Share of the step at which a guard that is violated at ``high`` falls below, by the Illinois method. */
@@ -216,6 +238,21 @@ static int first_event(const plant *it, step_of *s, double *share)
         } else if (turn > 0.0 && it->w[i] == 0.0 && model_is_stop[i] && guard_at(it, s, turn, i) < 0.0) {
             high = turn;
         }
+#if MODEL_SPEED >= 0
+        if (high == 0.0 && model_slides[i] != 0 && it->w[i] == 1.0) {
+            /* A load that has all but come to rest within the step may have stuck there. */
+            const double slowest = backmost(s, MODEL_SPEED, model_slides[i]);
+            if (slowest > 0.0 && guard_at(it, s, slowest, i) < 0.0) {
+                high = slowest;
+            }
+        }
+        for (int part = 1; part < 4 && high == 0.0 && model_slides[i] != 0 && it->w[i] == 0.0; ++part) {
+            /* One that sticks may have been pulled beyond its range only within the step. */
+            if (guard_at(it, s, 0.25 * part, i) < 0.0) {
+                high = 0.25 * part;
+            }
+        }
+#endif
         if (high > 0.0) {
             const double at = crossing(it, s, i, high);
             if (at < *share) {

@@ -329,6 +329,17 @@ class DriveMatlab:
                 yield f"          y({speed}) = -{bounce!r} * hit;"
                 yield "          to = 0.0;"
                 yield "        end"
+                for place, other in enumerate(equations.switches, 1):
+                    if other.slides:
+                        yield f"        w({place}) = double({other.slides!r} * y({speed}) > 0.0);"
+                yield "      end"
+            elif switch.slides:
+                opposite = [other.slides for other in equations.switches].index(-switch.slides) + 1
+                yield "      % At rest it sticks; where friction sets in it may move the other way."
+                yield f"      if to == 0.0 && abs(y({speed})) > {SLOWEST_REBOUND!r}"
+                yield f"        w({opposite}) = 1.0;"
+                yield "      elseif to == 0.0"
+                yield f"        y({speed}) = 0.0;"
                 yield "      end"
             else:
                 follows = states.index(switch.follows or "length") + 1

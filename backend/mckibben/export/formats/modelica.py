@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 
 from mckibben.export.code import Code, indented
 from mckibben.export.language import MODELICA, names_for, plain, words_of
@@ -12,6 +12,7 @@ from mckibben.export.subject import RunnableDrive, Subject
 from mckibben.physics.drive_terms import GUARD_STIFFNESS
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
+from mckibben.simulation.integrate.problem import SLOWEST_REBOUND
 
 _LABEL = "NOT COMPILED: no Modelica compiler has read this text. Its numbers are those of the other formats."
 
@@ -62,7 +63,7 @@ def _muscle(subject: Subject) -> Iterator[str]:
     yield 'input Real pressure(start = 0.0) "Pa, gauge";'
     yield f'parameter Real temperature = {ROOM_TEMPERATURE!r} "K, of the elastomer";'
     yield 'Real velocity "m/s";'
-    yield 'Real direction "a smooth sign of the velocity";'
+    yield 'Real direction "the sign of the velocity";'
     yield 'Real pressure_rate "Pa/s";'
     yield 'output Real pull "N, force of the muscle; 0 when slack";'
     for name in equations.results:
@@ -141,7 +142,11 @@ def _drive(runnable: RunnableDrive) -> Iterator[str]:
     yield "equation"
     yield from indented(lines, 2)
     least = equations.switches[0].least
+    slides = [own for switch, own in zip(equations.switches, switches.values(), strict=True) if switch.slides]
+    yield from indented([*_sliding(runnable, states["speed"], switches, guards)], 2)
     for switch, own, guard in zip(equations.switches, switches.values(), guards.values(), strict=True):
+        if switch.slides:
+            continue
         yield f"  when {guard} < -{least!r} then"
         yield f"    {own} = 1.0 - pre({own});"
         yield "  end when;"
@@ -156,7 +161,29 @@ def _drive(runnable: RunnableDrive) -> Iterator[str]:
             yield f"    reinit({states['speed']}, 0.0);"
             yield f"    reinit({states['stroke']}, {parameters[switch.stop]});"
             word = "elsewhen"
+    if slides:
+        yield f"  {word} {' + '.join(slides)} < 0.5 then"
+        yield f"    reinit({states['speed']}, 0.0);"
     yield "  end when;"
+
+
+def _sliding(
+    runnable: RunnableDrive, speed: str, switches: Mapping[str, str], guards: Mapping[str, str]
+) -> Iterator[str]:
+    """When the load slides: on a stop it rests; a direction also ends where it moves the other way."""
+    named = {f"switch {switch.name}": switch for switch in runnable.equations.switches}
+    least = runnable.equations.switches[0].least
+    slides = [name for name, switch in named.items() if switch.slides]
+    stops = [f"{switches[name]} > 0.5" for name, switch in named.items() if switch.stop]
+    for name, other in zip(slides, reversed(slides), strict=True):
+        ends = [f"{guards[each]} < -{least!r}" for each in slides]
+        yield f"when {{{', '.join([*ends, *stops])}}} then"
+        yield f"  {switches[name]} = if {' or '.join(stops)} then 0.0"
+        yield f"    elseif {guards[name]} < -{least!r} then 1.0 - pre({switches[name]})"
+        moving = f"{named[name].slides!r} * {speed} > {SLOWEST_REBOUND!r}"
+        yield f"    elseif pre({switches[other]}) > 0.5 and {moving} then 1.0"
+        yield f"    else pre({switches[name]});"
+        yield "end when;"
 
 
 FORMAT = Format(

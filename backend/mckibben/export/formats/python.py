@@ -140,6 +140,16 @@ class DrivePython:
                 yield f"        high = left * left > {2.0 * LOWEST_REBOUND!r} * pressing"
                 yield f"        if left > {SLOWEST_REBOUND!r} and high:"
                 yield f"            y[{speed}], to = -{bounce!r} * hit, 0.0"
+                for place, other in enumerate(equations.switches):
+                    if other.slides:
+                        yield f"        w[{place}] = float({other.slides!r} * y[{speed}] > 0.0)"
+            elif switch.slides:
+                opposite = [other.slides for other in equations.switches].index(-switch.slides)
+                yield f"    if number == {number} and to == 0.0:  # {switch.name}: at rest it sticks"
+                yield f"        if abs(y[{speed}]) > {SLOWEST_REBOUND!r}:  # friction sets in as it moves"
+                yield f"            w[{opposite}] = 1.0"
+                yield "        else:"
+                yield f"            y[{speed}] = 0.0"
             else:
                 follows = states.index(switch.follows or "length")
                 yield f"    if number == {number}:  # {switch.name}: the length follows the fittings again"
@@ -254,7 +264,7 @@ def state_rates(length, pressure, velocity, direction, temperature, states, pres
 
 
 def direction_of(velocity):
-    """A smooth direction for simulations: a muscle that creeps instead of sticking."""
+    """The sign of a velocity: at rest 0, the mean of both directions."""
 '''
 
 

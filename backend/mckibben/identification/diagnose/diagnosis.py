@@ -480,6 +480,7 @@ def _search(
         messages=(
             *([] if gauge_zero is None else [gauge_zero.message]),
             *messages(fitter, best, fit, added),
+            *predictor.at_reversals(best.fit_model, fitter.noise),
             *predictor.assumed_history(best.fit_model),
             *sign_changes(fitter, fit_model, best),
         ),

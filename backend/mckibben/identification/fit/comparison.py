@@ -285,7 +285,12 @@ def compared(
         fit=result,
         rows=rows,
         excluded=predictor.excluded,
-        messages=(*messages, *predictor.assumed_history(fit_model), *(result.messages if result else ())),
+        messages=(
+            *messages,
+            *predictor.at_reversals(fit_model, floor),
+            *predictor.assumed_history(fit_model),
+            *(result.messages if result else ()),
+        ),
         absorbed=absorbed_by(predictor, fit_model),
         stopped=stopped,
     )

@@ -69,6 +69,8 @@ class ComparableRows:
         excluded: reason -> number of excluded rows.
         unknown_load: whether the load is not stated and has to be fitted.
         load_read: whether a sensor read the load, so that it has the errors of a force sensor.
+        reversing: mask of those of ``turning`` at which the motion turns: dry friction may have any value of
+            its range there; None without any.
         messages: the assumptions.
         rest_length: the nominal length that the lengths are calculated with [m].
         by_rest_length: derivative of each length by it: 0 where the length itself is measured, 1 for a
@@ -96,6 +98,7 @@ class ComparableRows:
     corners: np.ndarray | None = None
     ordered: bool = False
     load_read: bool = False
+    reversing: np.ndarray | None = None
 
     def chosen(self, keep: np.ndarray) -> ComparableRows:
         """Only some of the rows (a mask or indices)."""
@@ -112,6 +115,7 @@ class ComparableRows:
             if isinstance(self.by_rest_length, np.ndarray)
             else self.by_rest_length,
             corners=None if self.corners is None else self.corners[keep],
+            reversing=None if self.reversing is None else self.reversing[keep],
         )
 
 
@@ -172,9 +176,10 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
     ordered = "time" in columns
     turning = _turning(state["direction"], records) | unsure
     moved = state["pressure"] if kind in _PRESSED else length
-    if "time" in columns and moved is not None:
+    if measurement.in_order and moved is not None:
         turning |= _between_rows(moved, records) | _unresolved(moved, records)
     excluded["turning points"] = int(np.count_nonzero(turning & keep))
+    reversing = turning[keep]
     unseen = _unknown_history(measurement, length)
     excluded["history unknown at the start or after a break"] = int(
         np.count_nonzero(unseen & keep & ~turning)
@@ -200,6 +205,7 @@ def comparable_rows(measurement: Measurement, muscle: Muscle) -> ComparableRows:
         by_rest_length=_by_rest_length(columns)[keep] if length is not None else 0.0,
         ordered=measurement.in_order,
         load_read=bool(read),
+        reversing=reversing if np.any(reversing) else None,
     )
 
 

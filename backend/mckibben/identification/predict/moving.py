@@ -40,6 +40,7 @@ from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.recorded_run import RecordedRun
 from mckibben.simulation.drive.records import motions_of_records
+from mckibben.simulation.integrate.engine import compiled_driven
 from mckibben.simulation.statics.model import StaticModel
 
 # Error per step of a motion under a measured pressure: below 0.1 um in all where something damps the motion,
@@ -428,8 +429,9 @@ class TransientPredictor(Predictor):
     def _motions(drives: Sequence[Drive], record: Record) -> list[RecordedRun]:
         """Runs of drives under the measured pressure; without readings where no drive can have the values."""
         assert record.driving is not None  # noqa: S101 - checked by the constructor
-        time, pressure = record.driving
         try:
+            sticks = compiled_driven(drives[0].model.effects, True).slides.any()
+            time, pressure = record.smooth_driving if sticks else record.driving
             return motions_of_records(
                 drives,
                 time=time,

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from mckibben.identification.predict.input_noise import without_input_noise
 from mckibben.measurement.derivative import noise_of
 from mckibben.measurement.experiment import GRAVITY
 from mckibben.measurement.kind import weights_of_runs
@@ -80,6 +81,13 @@ class Record:
                 del self._pieces[next(iter(self._pieces))]
             self._pieces[delays] = segments_after(drive, delays)[:2]
         return self._pieces[delays]
+
+    @cached_property
+    def smooth_driving(self) -> tuple[np.ndarray, np.ndarray]:
+        """``driving`` without the noise of its sensor, which would break a load away that friction holds."""
+        assert self.driving is not None  # noqa: S101 - of a measured pressure
+        time, pressure = self.driving
+        return time, without_input_noise(time, pressure)
 
     def until(self, count: int) -> Record:
         """The first rows of the run."""

@@ -190,6 +190,16 @@ class Predictor(ABC):
         ]
         return (*(_ASSUMED[name] for name in names), *lasting)
 
+    def at_reversals(self, fit_model: FitModel, noise: float | None) -> tuple[str, ...]:
+        """A sentence on rows that are not scored because the motion turns there; () without any.
+
+        Args:
+            fit_model: the model.
+            noise: of the predicted channel; None = unknown.
+        """
+        del fit_model, noise
+        return ()
+
     def reading(self, values: np.ndarray) -> Predictor:
         """This predictor of other readings, shape (values,), at the same inputs."""
         other = copy(self)

@@ -42,6 +42,7 @@ _FEWEST_READINGS = 8  # that show no trend
 _TREND = (
     0.3  # of the variance; readings that follow pressure or length less are those of no muscle that pulls
 )
+_BEYOND_CHANCE = 3.0  # standard deviations of the noise from which a row lies outside of a range
 _SLACK_BAND = 0.02  # scatter of the readings of a slack muscle, share of the range of the force
 
 _NEWTON_STEPS = 40
@@ -227,6 +228,28 @@ class QuasistaticPredictor(Predictor):
         slope = (ends[1] - ends[0]) / (2.0 * step) if step > 0.0 else np.zeros(len(self.measured))
         return np.where(np.isfinite(slope), slope, 0.0)
 
+    def at_reversals(self, fit_model: FitModel, noise: float | None) -> tuple[str, ...]:
+        """As of the base class: dry friction may have any value there between those of both directions."""
+        rows, task = self.task.reversing, self.task
+        if rows is None or task.channel != "force" or not any(map(rubs, fit_model.effects)):
+            return ()
+        at_once = _at_once(fit_model)
+        state = self._evaluation.state(at_once)
+        ends = [
+            clip_slack(self._evaluation.at(at_once, (), {**state, "direction": np.full(len(rows), way)})[0])
+            for way in (-1.0, 1.0)
+        ]
+        low, high, measured = np.minimum(*ends)[rows], np.maximum(*ends)[rows], task.measured[rows]
+        beyond = np.maximum(np.maximum(low - measured, measured - high), 0.0)
+        outside = beyond > _BEYOND_CHANCE * (noise or 0.0)
+        told = "all lie within it"
+        if np.any(outside):
+            told = f"{np.count_nonzero(outside)} lie outside of it, by up to {np.max(beyond):.3g} N"
+        return (
+            f"{len(beyond)} rows at reversals are counted apart: dry friction may have any value of its "
+            f"range there; {told}",
+        )
+
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
         """Number of rows without a finite prediction, scored or not, and of all rows."""
         with np.errstate(all="ignore"):
@@ -360,7 +383,7 @@ def predicted_lengths(
     if remembered(acting):
         return followed_lengths(evaluation, acting, names)
     state = evaluation.state(fit_model)
-    if not any(map(_rubs, acting.effects)):
+    if not any(map(rubs, acting.effects)):
         return _balance(evaluation, fit_model, names, state)
     branches = []
     for sign in (-1.0, 1.0):
@@ -370,7 +393,7 @@ def predicted_lengths(
     return _stuck(evaluation, *branches)
 
 
-def _rubs(effect: Effect) -> bool:
+def rubs(effect: Effect) -> bool:
     """Whether an effect opposes the motion at any speed: a guide, or friction without memory."""
     rubbing = "friction" in effect.slots and "direction" in effect.wanted("friction") and not effect.states
     return "guide" in effect.slots or rubbing
@@ -531,6 +554,7 @@ def with_corners(task: ComparableRows) -> ComparableRows:
         rows=repeated(task.rows),
         by_rest_length=repeated(by_rest_length) if isinstance(by_rest_length, np.ndarray) else by_rest_length,
         corners=inserted(np.zeros(len(task.rows), bool), unscored, unscored),
+        reversing=None,
     )
 
 

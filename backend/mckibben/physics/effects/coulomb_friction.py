@@ -3,7 +3,8 @@ r"""Coulomb friction between the threads and between threads and bladder, which 
 .. math:: F = F_c\,\bigl[1 + s\,e^{-|\dot L|/v_s}\bigr]\operatorname{sgn}\dot L, \quad s = F_s/F_c - 1
 
 Without a static excess s it is constant; with one it falls from :math:`F_s` to :math:`F_c` (Stribeck). A
-static curve has a direction but no speed: it uses :math:`F_s`.
+static curve has a direction but no speed: it uses :math:`F_s`. At rest the friction takes any value between
+:math:`-F_s` and :math:`F_s`: in a run the load sticks until the force on it leaves that range.
 """
 
 from mckibben.physics import ops

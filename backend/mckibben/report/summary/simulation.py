@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import pi
 
 from mckibben.application.run.simulate import SimulationResult
-from mckibben.facts.run import JOINT, STEP, TRACKING
+from mckibben.facts.run import EVENT, JOINT, STEP, TRACKING
 from mckibben.facts.timing import PHASES, TIMING
 from mckibben.report.summary import Summary, Table, figure, shown
 from mckibben.simulation.timing.table import TimingTable
@@ -23,6 +23,8 @@ _OF_STEPS = (
 )
 _MOST_STEPS = 12
 
+_MOST_EVENTS = 20
+
 
 def summary_of(result: SimulationResult, name: str) -> Summary:
     """Timing, start, air, how the reference is followed, notices.
@@ -38,7 +40,17 @@ def summary_of(result: SimulationResult, name: str) -> Summary:
         *(f"– {remark}" for remark in timing_remarks(result.timing)),
         f"start at {round(start.position, 9) * 1e3 + 0.0:.4g} mm "
         f"({start.contraction * 100:.3g} %), {start.reason}",
+        *(
+            []
+            if start.lowest is None or start.highest is None
+            else [
+                f"dry friction holds the load there from {start.lowest * 1e3:.4g} mm to "
+                f"{start.highest * 1e3:.4g} mm"
+            ]
+        ),
         f"air: {result.gas}",
+        *([] if result.rest is None else [f"at the end the load {result.rest}"]),
+        *_events(result),
         *_tracking(result),
         *_joint(result),
         *notices(result),
@@ -80,6 +92,19 @@ def timing_remarks(timing: TimingTable) -> list[str]:
 
 def _several(names: list[str]) -> str:
     return ", ".join(names) if len(names) <= _MOST_NAMED else f"{len(names)} figures"
+
+
+def _events(result: SimulationResult) -> Summary:
+    """The events of the run in their order; of many the first."""
+    if not result.events:
+        return []
+    rows = [
+        [shown(EVENT["time"], each.time), each.text, shown(EVENT["speed"], each.speed)]
+        for each in result.events[:_MOST_EVENTS]
+    ]
+    table = Table(EVENT.title, [EVENT["time"].label, "", EVENT["speed"].label], rows)
+    further = len(result.events) - len(rows)
+    return [table, *([f"and {further} further events, which the answer lists"] if further else [])]
 
 
 def _tracking(result: SimulationResult) -> Summary:

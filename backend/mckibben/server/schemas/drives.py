@@ -13,11 +13,13 @@ from mckibben.documents.strict import Strict
 from mckibben.documents.study import Subject
 from mckibben.documents.task import SizingTask
 from mckibben.server.schemas.common import streamed
+from mckibben.simulation.linear.bound import FASTEST_SLIDING
 
 Instant = Annotated[float, QuantityField("s", "0.5 s", at_least=0.0, at_most=LONGEST)]
 
 Share = Annotated[float, QuantityField("1", "5 %", at_least=0.0, at_most=1.0)]
 Settling = Annotated[float, QuantityField("s", "0.5 s", at_least=0.01, at_most=20.0)]
+SlidingSpeed = Annotated[float, QuantityField("m/s", "20 mm/s", above=0.0, at_most=FASTEST_SLIDING)]
 Amplitude = Annotated[float, Field(gt=0.0, le=1e6)]
 
 
@@ -76,6 +78,11 @@ class LinearisationRequest(Strict):
         None,
         description="Amplitudes of sines for the nonlinear drive, in the SI unit of the input. Default: 1, 5 "
         "and 20 % of full command or of the tension; an empty list: no sweep.",
+    )
+    sliding_speed: SlidingSpeed | None = Field(
+        None,
+        description="Speed of the load at which models that slide against dry friction have the slopes of "
+        "friction and damping. Default: they just slide.",
     )
     design: DesignInput | None = Field(None, description="Goals of a controller design; null: no design.")
 

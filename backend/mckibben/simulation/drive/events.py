@@ -17,9 +17,9 @@ class Event:
 
     Attributes:
         time: instant [s].
-        switch: `mckibben.physics.drive_terms.LOW_STOP`, `HIGH_STOP` or `SLACK`, of the second muscle of a
-            pair with `COUNTER`.
-        begins: whether the contact, or the slack, begins; of an impact with rebound False.
+        switch: `mckibben.physics.drive_terms.LOW_STOP`, `HIGH_STOP`, `SLIDES_UP`, `SLIDES_DOWN` or `SLACK`,
+            of the second muscle of a pair with `COUNTER`.
+        begins: whether the contact, the slack or the sliding begins; of an impact with rebound False.
         speed: of the stroke just before [m/s], positive = shortening.
         acceleration: of the stroke just before [m/s^2].
     """

@@ -10,13 +10,15 @@ import numpy as np
 
 from mckibben.physics import gas
 from mckibben.physics.braid import volume as braid_volume
-from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LOW_STOP, SLACK
+from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LEAST_GUARD, LOW_STOP, SLACK
 from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.integrate.engine import CompiledDrive
 
 # Net force that counts as none [N].
 BALANCED = 1e-6
+# Strokes that differ by less are one [m].
+_SAME_PLACE = 1e-9
 
 
 class Rest(Enum):
@@ -28,6 +30,8 @@ class Rest(Enum):
     ANYWHERE = (
         "on the lower end stop: without pressure the load would rest anywhere; a start position can be stated"
     )
+    BELOW = "where it comes to rest from below at the start pressure, against its dry friction"
+    ABOVE = "where it comes to rest from above at the start pressure, against its dry friction"
     STATED = "at the stated start position"
 
 
@@ -61,7 +65,10 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
     if drive.start_position is not None:
         stroke, why = stated_stroke(drive), Rest.STATED
     else:
+        search.slide(drive.start_reached)
         stroke, why = _rest(drive, search.net_force)
+        why = reached_rest(why, drive.start_reached) if search.directions else why
+        search.slide(0)
     net = search.net_force(stroke)
     switches = np.zeros(len(compiled.model.switches))
     for index, switch in enumerate(compiled.model.switches):
@@ -71,7 +78,57 @@ def start_of(drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inpu
             switches[index] = float(stroke >= high and net >= 0.0)
     start = search.settled(switches)
     settle(compiled, start, parameters, inputs)
+    packed = np.concatenate([start, parameters, inputs])
+    without_friction(compiled, switches, lambda given: compiled.guards(packed, given))
     return Start(start, switches, stroke, why)
+
+
+def reached_rest(why: Rest, reached: int) -> Rest:
+    """Why a load with dry friction starts where it does, which has come there from below or above."""
+    return {0: why, 1: Rest.BELOW, -1: Rest.ABOVE}[reached] if why is Rest.BALANCED else why
+
+
+def held_between(
+    drive: Drive, compiled: CompiledDrive, parameters: np.ndarray, inputs: np.ndarray
+) -> tuple[float, float] | None:
+    """Lowest and highest stroke [m] at which dry friction holds the load at the start pressure; None without.
+
+    Their ends are where the load comes to rest from below and from above: :math:`N(d = 1) = 0` and
+    :math:`N(d = -1) = 0`, or an end stop.
+
+    Raises:
+        InputError: the load stretches the muscle beyond its braid lock.
+    """
+    search = _Search(drive, compiled, parameters, inputs)
+    if not search.directions:
+        return None
+    ends = []
+    for direction in (1, -1):
+        search.slide(direction)
+        ends.append(_rest(drive, search.net_force)[0])
+    return (ends[0], ends[1]) if ends[1] - ends[0] > _SAME_PLACE else None
+
+
+def without_friction(
+    compiled: CompiledDrive, switches: np.ndarray, guards: Callable[[np.ndarray], np.ndarray]
+) -> None:
+    """Let a load that no stop and no dry friction holds slide: without friction nothing sticks; in place.
+
+    Args:
+        compiled: the equations; nothing is done where they contain no dry friction.
+        switches: at the start, shape (switches,) or (switches, sets); a load with friction sticks there.
+        guards: guards for switches, of their shape.
+    """
+    each = compiled.model.switches
+    directions = [index for index, switch in enumerate(each) if switch.slides]
+    if not directions:
+        return
+    free = switches.copy()
+    stops = [index for index, switch in enumerate(each) if switch.stop]
+    free[stops] = 0.0
+    # The guards of a load that sticks are what is left of the range of the friction, upwards and downwards.
+    wide = np.sum(guards(free)[directions], axis=0)
+    switches[directions[0]] = (np.sum(switches[stops], axis=0) == 0.0) & (np.abs(wide) <= LEAST_GUARD)
 
 
 def stated_stroke(drive: Drive) -> float:
@@ -150,12 +207,20 @@ class _Search:
         self.net = compiled.model.output_names.index("net_force")
         self._outputs = np.empty(compiled.codes.outputs.width)
         self._call_outputs = compiled.codes.outputs.bound(self.packed, self._outputs)
+        #: Places of the switches *slides up* and *slides down* among the arguments; none without friction.
+        first = len(self.packed) - len(compiled.model.switches)
+        self.directions = [first + n for n, switch in enumerate(compiled.model.switches) if switch.slides]
         self.slack = [
             index for index, switch in enumerate(compiled.model.switches) if switch.name.startswith(SLACK)
         ]
 
     def _places(self, name: str) -> list[int]:
         return [index for index, full in enumerate(self.names) if full.removesuffix(COUNTER) == name]
+
+    def slide(self, direction: int) -> None:
+        """Let `net_force` be that of a load that slides up (1) or down (-1), or has no friction (0)."""
+        for place, sense in zip(self.directions, (1, -1), strict=False):
+            self.packed[place] = float(sense == direction)
 
     def net_force(self, stroke: float) -> float:
         """Force along the stroke without that of the stops [N]."""

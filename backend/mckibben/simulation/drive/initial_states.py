@@ -12,7 +12,14 @@ from mckibben.physics.braid import volume as braid_volume
 from mckibben.physics.drive_terms import COUNTER, HIGH_STOP, LOW_STOP, SLACK
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import GEOMETRY, Muscle
-from mckibben.simulation.drive.initial_state import BALANCED, Rest, beyond_lock, stated_stroke
+from mckibben.simulation.drive.initial_state import (
+    BALANCED,
+    Rest,
+    beyond_lock,
+    reached_rest,
+    stated_stroke,
+    without_friction,
+)
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.integrate.engine import CompiledDrive
 from mckibben.simulation.integrate.lane_calls import LaneCalls
@@ -114,7 +121,11 @@ class _Search:
     def found(self) -> Starts:
         drives, model = self.drives, self.compiled.model
         low, high = self.low, self.high
+        self._slide([drive.start_reached for drive in drives])
         strokes, why, errors = self._rest(low, high)
+        self._slide([0] * len(drives))
+        if any(switch.slides for switch in model.switches):
+            why = [reached_rest(each, drive.start_reached) for each, drive in zip(why, drives, strict=True)]
         for index, drive in enumerate(drives):
             if drive.start_position is not None:
                 try:
@@ -133,9 +144,17 @@ class _Search:
         for place, volume in zip(self._places("gas_mass"), volumes, strict=True):
             self.calls.put(place, self.specific * volume)
         self._settle()
+        without_friction(self.compiled, switches.T, self._guards)
         states = np.column_stack([self.calls.get(index) for index in range(self.compiled.size)])
         states[[error is not None for error in errors]] = np.nan
         return Starts(states, switches, strokes, tuple(why), tuple(errors))
+
+    def _slide(self, directions: list[int]) -> None:
+        """Let the net force be that of loads that slide up (1) or down (-1), or have no friction (0)."""
+        first = self.compiled.codes.rates.size - len(self.compiled.model.switches)
+        for index, switch in enumerate(self.compiled.model.switches):
+            if switch.slides:
+                self.calls.put(first + index, np.equal(directions, switch.slides).astype(float))
 
     def _rest(
         self, low: np.ndarray, high: np.ndarray
@@ -192,6 +211,16 @@ class _Search:
         """Tensions at rest of the muscles that a switch belongs to [N]; the switches are 0 here."""
         guards = self.calls.call(self.compiled.lanes.step["jacobian"])[-len(self.compiled.model.switches) :]
         return guards[number]
+
+    def _guards(self, switches: np.ndarray) -> np.ndarray:
+        """Guards of the sets, shape (switches, sets)."""
+        first, kinds = self.compiled.codes.rates.size - len(switches), len(switches)
+        for index, values in enumerate(switches):
+            self.calls.put(first + index, values)
+        guards = self.calls.call(self.compiled.lanes.step["jacobian"])[-kinds:]
+        for index in range(kinds):
+            self.calls.put(first + index, 0.0)
+        return guards
 
     def _settle(self) -> None:
         """Set the states that start settled to where their rates, linear in them, are zero."""

@@ -142,6 +142,8 @@ class Drive:
         min_contraction, max_contraction: end stops as contraction ratios of the (first) muscle.
         start_pressure: pressure in the muscle at t = 0 [Pa].
         start_position: of the load at t = 0 [m]; None = where it rests.
+        start_reached: how the load has come to rest against its dry friction: 1 from below, -1 from above, 0
+            as without that friction.
         restitution: share of the speed that an impact on an end stop leaves, in the opposite direction.
         own_mass: moving mass of muscle and fittings [kg].
         fitting_volume: dead volume of fittings [m^3].
@@ -172,6 +174,7 @@ class Drive:
     max_contraction: float = 0.25
     start_pressure: float = 0.0
     start_position: float | None = None
+    start_reached: int = 0
     restitution: float = 0.0
     own_mass: float = 0.0
     fitting_volume: float = 0.0

@@ -9,7 +9,7 @@ import numpy as np
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import GEOMETRY
-from mckibben.simulation.drive.initial_state import settle
+from mckibben.simulation.drive.initial_state import settle, without_friction
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.recorded_run import RecordedRun
 from mckibben.simulation.drive.transient import constants_of, external_force, skewed
@@ -134,8 +134,16 @@ def _held_inputs(time: np.ndarray, pressure: np.ndarray, length: np.ndarray) -> 
         "pressure_slope": np.diff(pressure) / steps,
         "length": length[:-1],
         "length_slope": np.diff(length) / steps,
+        "direction": _directions(length),
         "begin": time[:-1],
     }
+
+
+def _directions(length: np.ndarray) -> np.ndarray:
+    """Direction of the dry friction between two rows: that of the length, at rest that of its last motion."""
+    step = np.sign(np.diff(length))
+    last = np.maximum.accumulate(np.where(step != 0.0, np.arange(len(step)), 0))
+    return step[last]
 
 
 def _start(compiled: CompiledDrive, time: np.ndarray, begin: Mapping[str, float]) -> np.ndarray:
@@ -210,7 +218,7 @@ def motions_of_records(
     first = drives[0]
     compiled = compiled_driven(first.model.effects, motion=True)
     steps, names = _steps(time), [state.name for state in compiled.model.states]
-    parameters, starts, packed = [], [], []
+    parameters, starts, switches, packed = [], [], [], []
     alike = all(drive.load is first.load for drive in drives)  # then one table of inputs serves them all
     for drive in drives:
         table = constants_of(drive) | {"temperature": drive.temperature}
@@ -228,6 +236,10 @@ def motions_of_records(
         constants = np.array([table[name] for name in compiled.model.parameters])
         columns, at_rest = _packed(compiled, inputs)
         settle(compiled, start, constants, at_rest)
+        held = np.zeros(len(compiled.model.switches))
+        packed_start = np.concatenate([start, constants, at_rest])
+        without_friction(compiled, held, lambda given, at=packed_start: compiled.guards(at, given))
+        switches.append(held)
         parameters.append(constants)
         starts.append(start)
         if not (alike and packed):
@@ -236,6 +248,7 @@ def motions_of_records(
         compiled,
         parameters=np.array(parameters),
         starts=np.array(starts),
+        switches=np.array(switches),
         times=time,
         inputs=packed[0] if alike else np.array(packed),
         grid=grid,

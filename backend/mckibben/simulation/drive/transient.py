@@ -15,7 +15,7 @@ from mckibben.physics.muscle import GEOMETRY
 from mckibben.simulation.command.segments import Segments, delayed, merged
 from mckibben.simulation.command.signals import Signal
 from mckibben.simulation.drive.events import Event, events_of
-from mckibben.simulation.drive.initial_state import Start, start_of
+from mckibben.simulation.drive.initial_state import Start, held_between, start_of
 from mckibben.simulation.drive.parts import Drive, FlowControl, QuickExhaust, Regulator
 from mckibben.simulation.integrate.engine import CompiledDrive, Outcome, Solution, compiled_drive, integrate
 from mckibben.simulation.statics.model import StaticModel
@@ -188,6 +188,14 @@ def before_of(drive: Drive, inputs: np.ndarray) -> np.ndarray:
     for name, value in (("opening", rest_command), ("counter_opening", drive.counter(rest_command))):
         before[INPUTS.index(name)], before[INPUTS.index(f"{name}_slope")] = value, 0.0
     return before
+
+
+def held_interval(drive: Drive) -> tuple[float, float] | None:
+    """Strokes [m] between which dry friction holds the load at the start; None where it holds it nowhere."""
+    compiled = compiled_drive(drive.structure)
+    inputs = np.zeros(len(INPUTS))
+    inputs[INPUTS.index("external_force")] = float(external_force(drive).value(0.0))
+    return held_between(drive, compiled, parameters_of(drive, compiled), inputs)
 
 
 def simulate(

@@ -36,7 +36,7 @@ class Alone:
         self._kernels, self._columns = lane_kernels.awaited(), columns_of(drive, None)
         self.constants = drive.codes.constants(parameters)
         self._stops = drive.stops(parameters)[None]
-        self._switching = (drive.least, bounce_of(restitution), drive.follows, drive.watched)
+        self._switching = (drive.least, bounce_of(restitution), drive.follows, drive.watched, drive.slides)
         self._absolute = tolerance * drive.scales
 
     def run(

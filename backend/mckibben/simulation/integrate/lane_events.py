@@ -42,7 +42,7 @@ def change(k: int, lane: int, q: int, t: float, rates: np.ndarray, model: Any, l
         lanes: state, arguments and arguments by lane; arrays for one lane.
         kept: of each set: strokes of stops, events, counts.
     """
-    guards, moved, (least, bounce, follows, watched) = model
+    guards, moved, (least, bounce, follows, watched, slides) = model
     state, packed, own, (start, before, _, _, guarded, switches) = lanes
     stops, events, counts = kept
     n, kinds = state.shape[0], switches.shape[0]
@@ -52,8 +52,8 @@ def change(k: int, lane: int, q: int, t: float, rates: np.ndarray, model: Any, l
     for i in range(kinds):
         switches[i] = packed[first + i, lane]
     change_switch(
-        k, t, before, guards, moved, (least, stops[q], bounce, follows, watched), own[lane], guarded, start,
-        switches, events[q], counts[q],
+        k, t, before, guards, moved, (least, stops[q], bounce, follows, watched, slides), own[lane], guarded,
+        start, switches, events[q], counts[q],
     )  # fmt: skip
     for i in range(n):
         state[i, lane] = start[i]
@@ -66,7 +66,7 @@ def _gather(
     lane: int, whole: np.ndarray, ends: np.ndarray, first_guard: int, room: Any, model: Any, lanes: Any
 ) -> None:
     """The step of a lane into the arrays for one lane: what guards depend on, and the speed."""
-    _, moved, (_, _, _, watched) = model
+    _, moved, (_, _, _, watched, _) = model
     state, packed, _, (start, end, dense, columns, _, switches) = lanes
     _, trial, u, _, _, _, _ = room
     n, kinds = state.shape[0], switches.shape[0]
@@ -92,13 +92,13 @@ def _event(
     model: Any, lanes: Any, kept: Any,
 ) -> tuple[float, int]:  # fmt: skip
     """`first_event` of a lane."""
-    guards, moved, (least, bounce, follows, watched) = model
+    guards, moved, (least, bounce, follows, watched, slides) = model
     _, _, own, (start, end, dense, columns, guarded, switches) = lanes
     control = room[6]
     _gather(lane, whole, ends, first_guard, room, model, lanes)
     return first_event(
         guards, control[INSTANT, lane], control[STEP, lane], columns[0], columns[1], 0, switches, moved,
-        (least, kept[0][q], bounce, follows, watched), clock, own[lane], guarded, start, end, dense,
+        (least, kept[0][q], bounce, follows, watched, slides), clock, own[lane], guarded, start, end, dense,
     )  # fmt: skip
 
 
@@ -108,7 +108,7 @@ def _same_event(
     room: Any, model: Any, lanes: Any,
 ) -> float:  # fmt: skip
     """`same_event` of a lane."""
-    guards, _, (least, _, _, watched) = model
+    guards, _, (least, _, _, watched, _) = model
     _, _, own, (start, end, dense, _, guarded, _) = lanes
     control = room[6]
     _gather(lane, whole, ends, first_guard, room, model, lanes)
@@ -153,13 +153,29 @@ def settle(
 
 
 @njit(inline="always", error_model="numpy")
-def suspicious(at: int, at_guards: int, at_state: int, at_trial: int, speed: int, least: np.ndarray) -> int:
-    """Accepted lanes in whose step a switch may change; those that end at a change already are left out."""
+def suspicious(
+    at: int, at_guards: int, at_state: int, at_trial: int, speed: int, rates: tuple[int, int],
+    at_switches: int, model: Any,
+) -> int:  # fmt: skip
+    """Accepted lanes in whose step a switch may change; those that end at a change already are left out.
+
+    A guard may also be negative only inside the step: of a speed that is smallest there, and of a load that
+    sticks. ``rates``: those before and after the step.
+    """
+    least, _, follows, _, slides = model[2]
     one, flag = splat(1.0), splat(0.0)
     for k in range(least.shape[0]):
         flag = where_positive(splat(-least[k]) - load(at_guards, k), one, flag)
     if speed >= 0:
         flag = where_positive(splat(0.0) - load(at_state, speed) * load(at_trial, speed), one, flag)
+    free, dry = one, False
+    for k in range(least.shape[0]):
+        dry |= slides[k] != 0.0
+        if follows[k] < 0.0:  # of stops and directions of sliding; without any of them the load sticks
+            free = free - load(at_switches, k)
+    if dry:
+        turns = splat(0.0) - load(rates[0], speed) * load(rates[1], speed)
+        flag = where_positive(turns, one, where_positive(free, one, flag))
     flag = where_positive(load(at, LANDING) + 1.0, splat(0.0), flag)
     flag = where_positive(load(at, ACCEPTED), flag, splat(0.0))
     store(at, FLAG, flag)

@@ -133,7 +133,7 @@ def _begin(
 _ROWS = "float64[:,::1]"
 _TABLE = "float64[:,:,::1]"
 _SIGNATURE = (
-    "void(UniTuple(int64,5),int64,uint64[::1],int64,int64,int64,UniTuple(int64,2),UniTuple(float64[::1],4),"
+    "void(UniTuple(int64,5),int64,uint64[::1],int64,int64,int64,UniTuple(int64,2),UniTuple(float64[::1],5),"
     f"{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},float64[::1],{_ROWS},float64,float64[::1],"
     f"UniTuple(int64[::1],4),{_TABLE},{_ROWS},{_TABLE},int64[:,::1],int64[::1],int64,boolean,"
     f"int64,{LOOP},Tuple((UniTuple({_ROWS},7),UniTuple({_ROWS},2),{_ROWS},{_ROWS},{_ROWS},{_ROWS},{_TABLE},"
@@ -202,8 +202,8 @@ def rodas4_lanes(
         moved: numbers of the states stroke and speed, which end stops act on; -1 without stops.
         switching_: of each switch the least guard; the coefficient of restitution, the speed [m/s] and the
             height [m] below which the load does not rebound, and the stiffness of guards of lengths [N/m]; of
-            each switch the number of the length that follows (-1: none); and the numbers of the states that
-            guards depend on.
+            each switch the number of the length that follows (-1: none); the numbers of the states that
+            guards depend on; and of each switch the direction of sliding that it is (0: none).
         stops: of each set the stroke of the end stop of each switch (NaN: none).
         constants, starts: of each set.
         switches: at the start, overwritten with the end.
@@ -246,9 +246,8 @@ def rodas4_lanes(
     state, _, _, _, _, _, control = room
     a, b, c, d, e, f = of_lane
     of_lane = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e), borrowed(f)
-    a, b, c, d = switching_
-    switching_ = borrowed(a), borrowed(b), borrowed(c), borrowed(d)
-    least = switching_[0]
+    a, b, c, d, e = switching_
+    switching_ = borrowed(a), borrowed(b), borrowed(c), borrowed(d), borrowed(e)
     h, i, j, k = columns
     columns = borrowed(h), borrowed(i), borrowed(j), borrowed(k)
     n, kinds, sets, segments = state.shape[0], switches.shape[1], starts.shape[0], inputs.shape[1]
@@ -259,6 +258,7 @@ def rodas4_lanes(
     )  # fmt: skip
     at_state, at_trial, at_u, _, _, at_values, at = places
     at_packed, sizes = packed.ctypes.data, (n, entries, positions, clock)
+    at_switches = at_packed + 8 * LANES * first_switch
     given = constants, starts, switches, times, inputs, grids
     model, lanes, of_sets = (
         (guards, moved, switching_),
@@ -310,7 +310,8 @@ def rodas4_lanes(
         if accepted:
             call(functions[1], following.ctypes.data, at_packed)
             at_guards = following.ctypes.data + 8 * LANES * first_guard
-            if suspicious(at, at_guards, at_state, at_trial, moved[1], least):
+            rates = whole.ctypes.data, following.ctypes.data
+            if suspicious(at, at_guards, at_state, at_trial, moved[1], rates, at_switches, model):
                 locate(
                     clock, whole, following, first_guard, numbers[OWNER], together, room, model, lanes,
                     of_sets,

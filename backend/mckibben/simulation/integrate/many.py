@@ -12,13 +12,14 @@ from mckibben.simulation.integrate.lane_buffers import Columns, LaneKernels, col
 from mckibben.simulation.integrate.problem import (
     EVENT_WIDTH,
     FIRST_STEP,
-    MOST_EVENTS,
     bounce_of,
     outcome_of,
 )
 from mckibben.simulation.integrate.recycled import recycled
 from mckibben.simulation.integrate.system import CompiledDrive
 from mckibben.simulation.outcome import MAX_STEPS, Outcome
+
+_KEPT_EVENTS = 256  # of each of many runs, which share one array
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,11 +224,11 @@ def _run(
     padded[:, :rows] = given.grid
     out = recycled(sets, chosen.count, room)
     ends, counts, statuses = np.empty((sets, n)), np.zeros((sets, 4), np.int64), np.zeros(sets, np.int64)
-    events = np.empty((sets, MOST_EVENTS, EVENT_WIDTH))
+    events = np.empty((sets, _KEPT_EVENTS, EVENT_WIDTH))
     with chosen.room(kernels) as arrays:
         kernels.run(
             *chosen.model,
-            (drive.least, bounce_of(options[0]), drive.follows, drive.watched),
+            (drive.least, bounce_of(options[0]), drive.follows, drive.watched, drive.slides),
             stops,
             constants,
             given.starts,
@@ -253,7 +254,7 @@ def _run(
     table = out[:, :, :rows].transpose(0, 2, 1)
     for index in np.flatnonzero(counts[:, 2] < rows):
         table[index, counts[index, 2] :] = np.nan
-    kept = np.minimum(counts[:, 3], MOST_EVENTS).tolist()
+    kept = np.minimum(counts[:, 3], _KEPT_EVENTS).tolist()
     happened = tuple(events[index, :count].copy() for index, count in enumerate(kept))
     return ManySolutions(
         table,

@@ -12,7 +12,7 @@ from mckibben.simulation.outcome import Outcome
 FIRST_STEP = 1e-4  # s
 SLOWEST_REBOUND = 1e-3  # m/s; an impact that would leave less leaves the load at rest on its stop
 LOWEST_REBOUND = 1e-7  # m; a lower one would be a matter of rounding, and leaves the load at rest too
-MOST_EVENTS = 256  # events of a run that are kept
+MOST_EVENTS = 1024  # events of a run that are kept
 EVENT_WIDTH = 5  # see `Solution.events`
 
 

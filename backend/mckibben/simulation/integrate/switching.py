@@ -31,6 +31,9 @@ def _call_at(_typing: Any, _address: Any, _out: Any, _inputs: Any) -> Any:
 
 call: Any = intrinsic(_call_at)
 
+# Guards of a load that sticks are looked at so many times in a step, its end included.
+SAMPLES = 4
+
 
 @njit(inline="always", error_model="numpy")
 def _interpolated(i: int, s: float, start: np.ndarray, end: np.ndarray, dense: np.ndarray) -> float:
@@ -123,6 +126,23 @@ def _turning(i: int, start: np.ndarray, end: np.ndarray, dense: np.ndarray) -> f
 
 
 @njit(inline="always", error_model="numpy")
+def _backmost(i: int, sense: float, start: np.ndarray, end: np.ndarray, dense: np.ndarray) -> float:
+    """Share of a step at which a speed, times its sense, is smallest and negative inside; 0 if nowhere."""
+    a, b, c = -3.0 * dense[1, i], 2.0 * (dense[1, i] - dense[0, i]), end[i] - start[i] + dense[0, i]
+    inside = b * b - 4.0 * a * c
+    if inside < 0.0:
+        return 0.0
+    q = -0.5 * (b + (np.sqrt(inside) if b > 0.0 else -np.sqrt(inside)))
+    found, least = 0.0, 0.0
+    for root in (q / a if a != 0.0 else -1.0, c / q if q != 0.0 else -1.0):
+        if 0.0 < root < 1.0:
+            value = sense * _interpolated(i, root, start, end, dense)
+            if value < least:
+                found, least = root, value
+    return found
+
+
+@njit(inline="always", error_model="numpy")
 def first_event(
     guards: int, t: float, h: float, begins: np.ndarray, ends: np.ndarray, first_guard: int,
     switches: np.ndarray, moved: tuple[int, int], switching: Any, clock: int, packed: np.ndarray,
@@ -133,7 +153,7 @@ def first_event(
     ``begins`` and ``ends`` hold the guards at the start and at the end of the step from ``first_guard`` on;
     ``packed`` the constants, the inputs and the switches.
     """
-    least, stops, _, _, watched = switching
+    least, stops, _, _, watched, slides = switching
     share, landing, turn = 2.0, -1, 0.0
     if moved[1] >= 0 and start[moved[1]] * end[moved[1]] < 0.0:
         # A load that turns round within the step may have touched a stop.
@@ -145,6 +165,24 @@ def first_event(
         elif turn > 0.0 and switches[k] == 0.0 and stops[k] == stops[k]:
             at_upper = _guard_at(guards, turn, t, h, k, clock, watched, packed, guarded, start, end, dense)
             upper = turn if at_upper < -least[k] else 0.0
+        elif slides[k] != 0.0 and switches[k] == 1.0:
+            # A load that has all but come to rest within the step may have stuck there.
+            upper = _backmost(moved[1], slides[k], start, end, dense)
+            if upper > 0.0:
+                at_upper = _guard_at(
+                    guards, upper, t, h, k, clock, watched, packed, guarded, start, end, dense
+                )
+                upper = upper if at_upper < -least[k] else 0.0
+        elif slides[k] != 0.0:
+            # One that sticks may have been pulled beyond its range only within the step.
+            for part in range(1, SAMPLES):
+                inside = part / SAMPLES
+                at_upper = _guard_at(
+                    guards, inside, t, h, k, clock, watched, packed, guarded, start, end, dense
+                )
+                if at_upper < -least[k]:
+                    upper = inside
+                    break
         if upper > 0.0:
             at = _crossing(
                 guards, upper, begins[first_guard + k] + least[k], at_upper + least[k], t, h, k, least[k],
@@ -199,8 +237,12 @@ def change_switch(
     packed: np.ndarray, guarded: np.ndarray, state: np.ndarray, switches: np.ndarray, events: np.ndarray,
     counts: np.ndarray,
 ) -> None:  # fmt: skip
-    """Change switch k; an end stop stops the load or throws it back. ``rates`` are those before."""
-    _, stops, bounce, follows, _ = switching
+    """Change switch k. ``rates`` are those before.
+
+    An end stop stops the load or throws it back; then it sticks there or slides the other way. A load that
+    ends to slide is at rest, unless it moves the other way already: where friction has just set in.
+    """
+    _, stops, bounce, follows, _, slides = switching
     speed = acceleration = 0.0
     if moved[1] >= 0:
         speed, acceleration = state[moved[1]], rates[moved[1]]
@@ -213,6 +255,16 @@ def change_switch(
         if left > bounce[1] and left * left > 2.0 * bounce[3] * pressing:
             state[moved[1]] = -bounce[0] * speed
             to = 0.0
+        for j in range(switches.shape[0]):
+            if slides[j] != 0.0:
+                switches[j] = 1.0 if slides[j] * state[moved[1]] > 0.0 else 0.0
+    if slides[k] != 0.0 and to == 0.0:
+        if abs(speed) > bounce[1]:
+            for j in range(switches.shape[0]):
+                if slides[j] == -slides[k]:
+                    switches[j] = 1.0
+        else:
+            state[moved[1]] = 0.0
     if follows[k] >= 0.0:
         # The guard of a switch that is 1 is the distance to be closed, times a stiffness.
         for i in range(state.shape[0]):

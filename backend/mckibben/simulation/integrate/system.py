@@ -134,6 +134,11 @@ class CompiledDrive:
         return np.array([names.index(s.follows) if s.follows else -1.0 for s in self.model.switches], float)
 
     @cached_property
+    def slides(self) -> np.ndarray:
+        """The direction of sliding that each switch is, 1 or -1; 0 for others."""
+        return np.array([switch.slides for switch in self.model.switches], float)
+
+    @cached_property
     def watched(self) -> np.ndarray:
         """Numbers of the states that the guards depend on."""
         arguments, guards = self.functions["guards"]

@@ -9,8 +9,7 @@ import numpy as np
 
 from mckibben.physics import gas
 from mckibben.physics.braid import volume as braid_volume
-from mckibben.physics.chamber import SIGN_SPEED
-from mckibben.physics.drive_terms import COUNTER, INPUTS, SLACK
+from mckibben.physics.drive_terms import COUNTER, INPUTS, LEAST_GUARD, SLACK
 from mckibben.simulation.drive.initial_state import settle
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import external_force, parameters_of
@@ -19,8 +18,10 @@ from mckibben.simulation.linear.equations import LinearEquations, Values, linear
 
 Array = np.ndarray
 
-# A sliding muscle: its speed [m/s] is far below every other speed of the model, and its friction is constant.
-SLIDING_SPEED, SLIDING_SIGN = 1e-9, 1e-17
+# A muscle that just slides: its speed [m/s] is far below every other speed of the model.
+SLIDING_SPEED = 1e-9
+# Fastest sliding that can be stated [m/s]: muscles move by a few metres per second.
+FASTEST_SLIDING = 10.0
 # A command is moved this far to one side of a point at which the equations switch [-].
 ASIDE = 1e-9
 
@@ -88,15 +89,36 @@ class BoundDrive:
         values["external_force"] = self.load_force
         return np.array([values[name] for name in INPUTS])
 
-    def values(self, state: Array, command: float, switches: Array, *, slides: bool = False) -> Values:
-        """Rates, outputs and derivatives; of a muscle that slides, or rests as in a run."""
+    def values(self, state: Array, command: float, switches: Array, *, direction: int | None = 0) -> Values:
+        """Rates, outputs and derivatives.
+
+        Args:
+            state, command: of the point.
+            switches: of stops and slack muscles.
+            direction: in which the load slides against its dry friction, 1 up or -1 down; 0 without that
+                friction; None if it sticks.
+        """
+        switches = switches.copy()
+        switches[self.directions] = {None: (0.0, 0.0), 0: (0.5, 0.5), 1: (1.0, 0.0), -1: (0.0, 1.0)}[
+            direction
+        ][: len(self.directions)]
         return self.equations.at(
-            state=state,
-            parameters=self.parameters,
-            inputs=self.inputs(command),
-            switches=switches,
-            sign_speed=SLIDING_SIGN if slides else SIGN_SPEED,
+            state=state, parameters=self.parameters, inputs=self.inputs(command), switches=switches
         )
+
+    @cached_property
+    def directions(self) -> list[int]:
+        """Numbers of the switches *slides up* and *slides down*; none without dry friction."""
+        return [index for index, switch in enumerate(self.equations.model.switches) if switch.slides]
+
+    def range_left(self, state: Array, command: float) -> tuple[float, float]:
+        """Force [N] on the load that its dry friction still takes, upwards and downwards; 0 without any."""
+        if not self.directions:
+            return 0.0, 0.0
+        guards = self.compiled.guards(np.concatenate([state, self.parameters, self.inputs(command)]))
+        lever = self.drive.load.lever_ratio
+        up, down = (float(guards[index]) / lever for index in self.directions)
+        return (up, down) if up + down > LEAST_GUARD else (0.0, 0.0)
 
     @property
     def free(self) -> Array:

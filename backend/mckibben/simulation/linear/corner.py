@@ -31,8 +31,7 @@ def corners_of(point: OperatingPoint) -> tuple[Corner, ...]:
     bound = point.bound
     if bound.drive.regulator is None:
         return ()
-    slides = point.direction != 0
-    sides = {sign: matrices(point, side=sign, slides=slides)[0] for sign in (1, -1)}
+    sides = {sign: matrices(point, side=sign, motion=point.motion)[0] for sign in (1, -1)}
     outlets = bound.places("tube_pressure") or bound.places("pressure")
     found = []
     for outlet, source, sense in zip(outlets, bound.places("regulator_pressure"), (1, -1), strict=False):

@@ -1,8 +1,7 @@
 """The equations of a drive with exact derivatives by states and inputs, as machine code.
 
-They are those of the engine, `mckibben.physics.drive.DriveModel`, with one difference: the speed at which the
-smooth sign of the friction turns round is an argument. At its usual value a muscle at rest is held by a
-steep damper, as in a run; at 0 it slides, and its friction is constant.
+They are those of the engine, `mckibben.physics.drive.DriveModel`. Its switches say whether dry friction holds
+the load or in which direction it slides; both directions by half are a load without dry friction.
 """
 
 from __future__ import annotations
@@ -96,16 +95,9 @@ class LinearEquations:
         """States that nothing depends on."""
         return [i for i, name in enumerate(self.names) if name.removesuffix(COUNTER) in _COUNTED]
 
-    def at(
-        self, *, state: Array, parameters: Array, inputs: Array, switches: Array, sign_speed: float
-    ) -> Values:
-        """Rates, outputs and derivatives at a point.
-
-        Args:
-            state, parameters, inputs, switches: in the order of ``model``.
-            sign_speed: of the smooth sign in the friction [m/s].
-        """
-        row = np.concatenate([state, parameters, inputs, switches, [sign_speed]])
+    def at(self, *, state: Array, parameters: Array, inputs: Array, switches: Array) -> Values:
+        """Rates, outputs and derivatives at a point; arguments in the order of ``model``."""
+        row = np.concatenate([state, parameters, inputs, switches])
         values = self._function(row)
         size, names = len(state), self.model.output_names
         ports = len(self.outputs)
@@ -136,8 +128,7 @@ def linear_equations(structure: DriveStructure) -> LinearEquations:
 
 
 def _compiled(structure: DriveStructure) -> LinearEquations:
-    sign_speed = se.Symbol("sign_speed")
-    model = DriveModel(structure, sign_speed)
+    model = DriveModel(structure)
     y, p, u = model.symbols, model.parameters, model.inputs
     inputs = {COMMAND: u["opening"], SUPPLY: p["supply_pressure"], LOAD_FORCE: u["external_force"]}
     if structure.pair:
@@ -163,9 +154,7 @@ def _compiled(structure: DriveStructure) -> LinearEquations:
             places, values = _derivatives(rows, symbols)
             entries.append(places)
             derivatives += values
-    arguments = [
-        *states, *p.values(), *u.values(), *(switch.symbol for switch in model.switches), sign_speed,
-    ]  # fmt: skip
+    arguments = [*states, *p.values(), *u.values(), *(switch.symbol for switch in model.switches)]
     results = [*model.rates, *model.outputs, *ports, *derivatives]
     function = machine_code({"linear": (arguments, results)})["linear"]
     a, b, c, d = entries

@@ -20,11 +20,11 @@ from mckibben.simulation.command.shapes import Signal
 from mckibben.simulation.drive.joint import at_stiffness
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import dead_times
-from mckibben.simulation.linear.bound import BoundDrive
+from mckibben.simulation.linear.bound import FASTEST_SLIDING, SLIDING_SPEED, BoundDrive
 from mckibben.simulation.linear.corner import Corner, corners_of, slopes_in_words
 from mckibben.simulation.linear.equations import COMMAND, COUNTER_COMMAND, LOAD_FORCE, POSITION, PRESSURE
-from mckibben.simulation.linear.model import INPUT_SCALES, LinearModel, matrices, mean_of, model_of, moving
-from mckibben.simulation.linear.point import Condition, OperatingPoint, operating_point
+from mckibben.simulation.linear.model import INPUT_SCALES, LinearModel, matrices, mean_of, model_of
+from mckibben.simulation.linear.point import Condition, OperatingPoint, at_speed, operating_point
 
 
 def losses(
@@ -155,21 +155,32 @@ class _Side(NamedTuple):
     offset: float
 
 
-def linearise(drive: Drive, condition: Condition | None = None) -> Linearisation:
+def linearise(
+    drive: Drive, condition: Condition | None = None, *, sliding_speed: float = SLIDING_SPEED
+) -> Linearisation:
     """Linear models of a drive.
 
     Args:
         drive: any drive.
         condition: of the operating point; None is the middle of the positions that can be held.
+        sliding_speed: of the load, at which models of a load that slides against dry friction have the slopes
+            of friction and damping [m/s]; default: it just slides.
 
     Raises:
-        InputError: there is no such equilibrium; the message says which there are. Field "at".
+        InputError: there is no such equilibrium; the message says which there are (field "at"). Or the speed
+            is not positive or above 10 m/s (field "sliding_speed").
     """
+    if not 0.0 < sliding_speed <= FASTEST_SLIDING:
+        raise InputError(
+            f"a sliding speed of {sliding_speed:g} m/s is not between 0 and {FASTEST_SLIDING:g} m/s",
+            field="sliding_speed",
+            hint="e.g. '20 mm/s'",
+        )
     if drive.stiffness is not None:
         drive, condition = _joint(drive, condition)
     bound = BoundDrive(replace(drive, pwm=None))
     with np.errstate(all="ignore"):
-        found = _linearised(bound, condition)
+        found = _linearised(bound, condition, sliding_speed)
     if drive.pwm is None:
         return found
     return replace(found, lost=(*found.lost, _modulated(drive.pwm)))
@@ -209,7 +220,7 @@ def _joint(drive: Drive, condition: Condition | None) -> tuple[Drive, Condition]
     return at_stiffness(drive, stroke), condition
 
 
-def _linearised(bound: BoundDrive, condition: Condition | None) -> Linearisation:
+def _linearised(bound: BoundDrive, condition: Condition | None, speed: float) -> Linearisation:
     rest = operating_point(bound, condition)
     sides = [side for sign in (1, -1) if (side := _side(rest, sign)) is not None]
     switches = len(sides) == 2 and (sides[0].offset != sides[1].offset or _differ(rest, sides[0], sides[1]))
@@ -237,6 +248,7 @@ def _linearised(bound: BoundDrive, condition: Condition | None) -> Linearisation
             way = ways[direction] if switches else ""
             try:
                 point = operating_point(bound, Condition("position", rest.position), direction=direction)
+                point = at_speed(point, speed)
             except InputError as error:
                 notes.append(f"there is no model that slides {word}: {error.message}")
                 continue
@@ -245,8 +257,9 @@ def _linearised(bound: BoundDrive, condition: Condition | None) -> Linearisation
             change = abs(point.pressure - rest.pressure)
             name = " ".join(filter(None, [f"sliding {word}", way]))
             text = (
-                f"the muscle slides {word} against constant friction, which takes {change / 1e5:.3g} bar "
+                f"the muscle slides {word} against its friction, which takes {change / 1e5:.3g} bar "
                 f"{'more' if point.pressure > rest.pressure else 'less'} than the balance without it"
+                + ("" if speed == SLIDING_SPEED else f"; slopes at {speed * 1e3:.4g} mm/s")
             )
             sign = side.sign if switches else 0
             sliding.append(
@@ -330,21 +343,23 @@ def _text(rest: OperatingPoint, way: str, sticks: bool, corner: bool) -> str:
     words = [f"the valve is {way}"] if way else []
     if rest.on_stop:
         words.append("the load rests on its end stop, so that only the air moves")
-    elif sticks and rest.bound.reached:
-        words.append("friction holds the muscle: while it builds up it is a spring, until the muscle slides")
-    elif sticks:
+    elif rest.motion is None:
+        up, down = rest.friction
         words.append(
-            "friction holds the muscle: it creeps below 1 mm/s, as it does in a run, and hardly moves"
+            f"dry friction holds the load: it does not move until the net force on it has grown by {up:.3g} "
+            f"N upwards or {down:.3g} N downwards; only the air moves"
         )
+    elif sticks:
+        words.append("friction holds the muscle: while it builds up it is a spring, until the muscle slides")
     if corner and not way:
         words.append("the regulator rests on a corner, between filling and venting: the mean of both slopes")
     return " and ".join(words) or "the equations are smooth here"
 
 
-def _scaled(point: OperatingPoint, side: _Side, *, slides: bool = False) -> Array:
+def _scaled(point: OperatingPoint, side: _Side) -> Array:
     """A and B over the magnitudes of states; one row of numbers."""
     scales = point.bound.scales
-    a, b, _, _ = matrices(point, side=side.sign, slides=slides, offset=side.offset)
+    a, b, _, _ = matrices(point, side=side.sign, motion=point.motion, offset=side.offset)
     b = b * np.array([INPUT_SCALES[port.name] for port in point.bound.equations.inputs])
     return np.concatenate([(a * scales / scales[:, None]).ravel(), (b / scales[:, None]).ravel()])
 
@@ -367,7 +382,7 @@ def _respond_differently(point: OperatingPoint, first: _Side, second: _Side) -> 
     position = equations.outputs.index(POSITION)
     responses: list[Array] = []
     for side in (first, second):
-        a, b, c, _ = matrices(point, side=side.sign, slides=False, offset=side.offset)
+        a, b, c, _ = matrices(point, side=side.sign, motion=point.direction, offset=side.offset)
         scaled, columns = a * scales / scales[:, None], b[:, inputs] / scales[:, None]
         turns = [1j * w * np.eye(len(scales)) - scaled for w in _SEEN]
         responses.append(
@@ -378,17 +393,13 @@ def _respond_differently(point: OperatingPoint, first: _Side, second: _Side) -> 
 
 
 def _sticks(rest: OperatingPoint) -> bool:
-    """Whether friction acts: the derivatives of a sliding muscle are not those at rest."""
-    if rest.bound.reached:
-        return True
-    neutral = _Side(0, 0.0)
-    held, slides = _scaled(rest, neutral), _scaled(moving(rest, 1), neutral, slides=True)
-    return bool(np.any(np.abs(held - slides) > _DIFFERENT * (1.0 + np.abs(slides))))
+    """Whether friction holds the load at rest, dry friction or friction with memory."""
+    return bool(rest.bound.reached) or rest.motion is None
 
 
 def _acts(point: OperatingPoint, sign: int, offset: float) -> bool:
     """Whether the pressure, of a pair both, reacts to a small change of the command on this side."""
-    a, b, _, _ = matrices(point, side=sign, slides=False, offset=offset)
+    a, b, _, _ = matrices(point, side=sign, motion=point.motion, offset=offset)
     bound, scales = point.bound, point.bound.scales
     ports = bound.equations.inputs
     commands = [COMMAND, COUNTER_COMMAND] if bound.drive.pair else [COMMAND]

@@ -8,7 +8,7 @@ import numpy as np
 
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.simulation.drive.initial_state import settle
-from mckibben.simulation.linear.bound import ASIDE, SLIDING_SPEED, BoundDrive
+from mckibben.simulation.linear.bound import ASIDE, BoundDrive
 from mckibben.simulation.linear.equations import COMMAND, COUNTER_COMMAND, LOAD_FORCE, SUPPLY, Port
 from mckibben.simulation.linear.point import OperatingPoint
 
@@ -90,25 +90,25 @@ class LinearModel:
 
 
 def matrices(
-    point: OperatingPoint, *, side: int, slides: bool, offset: float = 0.0
+    point: OperatingPoint, *, side: int, motion: int | None, offset: float = 0.0
 ) -> tuple[Array, Array, Array, Array]:
     """Derivatives by the independent states and the inputs, for a command moved a trifle to one side.
 
     Args:
         point: the operating point.
         side: 1 or -1, to which the command is moved; 0 it is not, and the result is the mean of both sides.
-        slides: whether the friction is that of a sliding muscle.
+        motion: of the load against dry friction, see `mckibben.simulation.linear.bound.BoundDrive.values`.
         offset: of the command from that of the point [-], with which valve and sensors settle.
     """
     if side == 0:
-        both = [_beside(point, sign, 0, slides=slides, offset=offset) for sign in (1, -1)]
+        both = [_beside(point, sign, 0, motion=motion, offset=offset) for sign in (1, -1)]
         a, b, c, d = (0.5 * (one + other) for one, other in zip(*both, strict=True))
         return a, b, c, d
-    return _beside(point, side, side, slides=slides, offset=offset)
+    return _beside(point, side, side, motion=motion, offset=offset)
 
 
 def _beside(
-    point: OperatingPoint, flow: int, side: int, *, slides: bool, offset: float
+    point: OperatingPoint, flow: int, side: int, *, motion: int | None, offset: float
 ) -> tuple[Array, Array, Array, Array]:
     """The derivatives while air just flows in (flow 1) or out (-1).
 
@@ -125,9 +125,9 @@ def _beside(
     keep, expansion = bound.independent, bound.expansion
     found: list[tuple[Array, Array, Array, Array]] = []
     speed = bound.names.index("speed")
-    for creep in (_CREEP, -_CREEP) if bound.reached and not slides else (state[speed],):
+    for creep in (_CREEP, -_CREEP) if bound.reached and not motion else (state[speed],):
         state[speed] = creep
-        values = bound.values(state, command, point.switches, slides=slides)
+        values = bound.values(state, command, point.switches, direction=motion)
         found.append(((values.a @ expansion)[keep], values.b[keep], values.c @ expansion, values.d))
     a, b, c, d = (np.mean(each, axis=0) for each in zip(*found, strict=True))
     return a, b, c, d
@@ -144,9 +144,9 @@ def model_of(
 ) -> LinearModel:
     """The model at a point, without the states that never change there."""
     bound = point.bound
-    a, b, c, d = matrices(point, side=side, slides=point.direction != 0, offset=offset)
+    a, b, c, d = matrices(point, side=side, motion=point.motion, offset=offset)
     names = [bound.names[index] for index in bound.independent]
-    fixed = {"stroke", "speed"} if point.on_stop else set()
+    fixed = {"stroke", "speed"} if point.on_stop or point.motion is None else set()
     if point.direction:
         fixed |= {bound.names[index] for index in bound.reached}
     still = (np.abs(a).sum(axis=1) == 0.0) & (np.abs(b).sum(axis=1) == 0.0)
@@ -202,10 +202,3 @@ def _port_of(bound: BoundDrive, name: str) -> Port:
 def name_of_state(state: Port) -> str:
     """What a state of a model is called beside inputs and outputs, whose pressures are gauge."""
     return f"absolute_{state.name}" if state.name.removesuffix(COUNTER) in _ABSOLUTE else state.name
-
-
-def moving(point: OperatingPoint, direction: int) -> OperatingPoint:
-    """The same states with the speed at which a muscle just slides."""
-    state = point.state.copy()
-    state[point.bound.names.index("speed")] = direction * SLIDING_SPEED
-    return OperatingPoint(point.bound, state, point.switches, point.command, direction, point.on_stop)

@@ -47,7 +47,11 @@ class _Settled(PidController):
 
 
 def _start(point: OperatingPoint) -> Start:
-    return Start(point.state.copy(), point.switches.copy(), point.stroke, Rest.STATED)
+    bound, switches = point.bound, point.switches.copy()
+    if bound.directions:
+        free = point.motion == 0 and point.on_stop is None
+        switches[bound.directions] = point.direction > 0 or free, point.direction < 0
+    return Start(point.state.copy(), switches, point.stroke, Rest.STATED)
 
 
 def run_from(point: OperatingPoint, drive: Drive, *, grid: Array, tolerance: float = TOLERANCE) -> Run:

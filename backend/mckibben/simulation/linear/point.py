@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
@@ -81,9 +81,20 @@ class OperatingPoint:
     @property
     def force(self) -> float:
         """Tension of the (first) muscle [N]."""
-        slides = self.direction != 0
-        values = self.bound.values(self.state, self.command, self.switches, slides=slides)
+        values = self.bound.values(self.state, self.command, self.switches, direction=self.direction)
         return values.outputs["force"]
+
+    @property
+    def friction(self) -> tuple[float, float]:
+        """Force [N] on the load that its dry friction still takes at rest, upwards and downwards."""
+        state = self.state.copy()
+        state[self.bound.names.index("speed")] = 0.0
+        return self.bound.range_left(state, self.command)
+
+    @property
+    def motion(self) -> int | None:
+        """How the load moves under small changes, see `BoundDrive.values`: dry friction holds it at rest."""
+        return self.direction or (None if any(self.friction) else 0)
 
 
 def operating_point(bound: BoundDrive, condition: Condition | None, *, direction: int = 0) -> OperatingPoint:
@@ -120,6 +131,13 @@ def operating_point(bound: BoundDrive, condition: Condition | None, *, direction
             hint="state a lower position or a higher pressure, or a load that pulls on the muscle",
         )
     return point
+
+
+def at_speed(point: OperatingPoint, speed: float) -> OperatingPoint:
+    """The point of a sliding load with the speed at which its slopes are wanted [m/s]."""
+    state = point.state.copy()
+    state[point.bound.names.index("speed")] = point.direction * speed * point.bound.drive.load.lever_ratio
+    return replace(point, state=state)
 
 
 def held_positions(bound: BoundDrive) -> tuple[float, float]:
@@ -183,8 +201,7 @@ class _Search:
     def net(self, stroke: float, pressure: float) -> float:
         """Force along the stroke without that of the stops [N]."""
         state = self.bound.rest(stroke, self.pressures(pressure), 0.0, self.direction)
-        slides = self.direction != 0
-        return self.bound.values(state, 0.0, self.bound.free, slides=slides).outputs["net_force"]
+        return self.bound.values(state, 0.0, self.bound.free, direction=self.direction).outputs["net_force"]
 
     def stroke_at(self, pressure: float) -> tuple[float, str | None]:
         """The stroke at a pressure, and the stop that the load rests on there."""
@@ -290,7 +307,7 @@ class _Search:
         columns = [i for i, name in enumerate(names) if name not in fixed_names]
         counter = 1 if bound.drive.pair else 0
         for _ in range(40):
-            values = bound.values(state, command, switches, slides=direction != 0)
+            values = bound.values(state, command, switches, direction=direction)
             residual = (values.rates[keep] / scales)[rows]
             leaks = regulator is None and command == 0.0 and np.abs(residual).max(initial=0.0) > _STILL
             if leaks:
@@ -310,7 +327,7 @@ class _Search:
             command += float(step[-1])
             if np.abs(step).max(initial=0.0) < 1e-13:
                 break
-        values = bound.values(state, command, switches, slides=direction != 0)
+        values = bound.values(state, command, switches, direction=direction)
         residual = np.abs(values.rates[keep] / scales)[rows]
         if not np.isfinite(residual).all() or residual.max(initial=0.0) > _STILL:
             worst = names[rows[int(np.nanargmax(np.where(np.isfinite(residual), residual, np.inf)))]]

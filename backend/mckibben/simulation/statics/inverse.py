@@ -132,12 +132,14 @@ def pressure_for_force(
 ) -> InverseResult:
     """The gauge pressure at which the muscle pulls with ``force`` [N] at ``length`` [m].
 
-    None with `OUT_OF_REACH` when no pressure up to 40 bar does, or when the muscle pulls more than that
-    without any pressure (it is stretched).
+    Without a direction it is that without friction, and the details hold the lowest and the highest pressure
+    at which friction holds the muscle there: those of lengthening and of shortening. None with `OUT_OF_REACH`
+    when no pressure up to 40 bar does, or when the muscle pulls more than that without any pressure (it is
+    stretched).
     """
     contraction = 1.0 - length / model.muscle.nominal_length
 
-    def excess(pressure: float) -> float:
+    def excess(pressure: float, direction: float = direction) -> float:
         reading = model.force(
             length=length, pressure=pressure, direction=direction, temperature=temperature, clipped=False
         )
@@ -164,7 +166,24 @@ def pressure_for_force(
     pressure = 0.0
     if without < 0.0:
         pressure = float(root_scalar(excess, bracket=(0.0, SEARCH_PRESSURE), xtol=1e-6).root)
+    if direction == 0.0:
+        ends: list[float | None] = []
+        for branch in (1.0, -1.0):
+            weak, strong = excess(0.0, branch), excess(SEARCH_PRESSURE, branch)
+            if weak < 0.0 <= strong:
+                found = root_scalar(excess, args=(branch,), bracket=(0.0, SEARCH_PRESSURE), xtol=1e-6)
+                ends.append(float(found.root))
+            else:
+                ends.append(0.0 if weak >= 0.0 else None)
+        details |= _ends("pressure", *ends, least=1e-3)
     return InverseResult(pressure, "Pa", details, [*flags, *model.limits.flags(pressure=pressure)])
+
+
+def _ends(name: str, low: float | None, high: float | None, *, least: float) -> dict[str, float | None]:
+    """Both ends of the interval in which friction holds the muscle; none without friction."""
+    if low is not None and high is not None and high - low < least:
+        return {}
+    return {f"lowest_{name}": low, f"highest_{name}": high}
 
 
 def contraction_for_force(
@@ -175,7 +194,11 @@ def contraction_for_force(
     direction: float = 0.0,
     temperature: float = ROOM_TEMPERATURE,
 ) -> InverseResult:
-    """The contraction ratio at which the muscle pulls with ``force`` [N] at a gauge pressure [Pa]."""
+    """The contraction ratio at which the muscle pulls with ``force`` [N] at a gauge pressure [Pa].
+
+    Without a direction it is that without friction, and the details hold the least and the largest
+    contraction at which friction holds the muscle: those reached by shortening and by lengthening.
+    """
     contraction = float(
         contraction_at(
             model, load=force, pressures=np.array([pressure]), direction=direction, temperature=temperature
@@ -187,6 +210,12 @@ def contraction_for_force(
         why = f"{force:.4g} N stretches the muscle to the braid lock at {pressure / 1e5:.3g} bar"
         return InverseResult(None, "1", details, [*flags, LimitFlag(FlagCode.OUT_OF_REACH, why, "force")])
     details["length"] = model.muscle.nominal_length * (1.0 - contraction)
+    if direction == 0.0:
+        branches = np.array([-1.0, 1.0])
+        low, high = contraction_at(
+            model, load=force, pressures=np.full(2, pressure), direction=branches, temperature=temperature
+        ).tolist()
+        details |= _ends("contraction", *(None if np.isnan(end) else end for end in (low, high)), least=1e-9)
     return InverseResult(contraction, "1", details, [*flags, *model.limits.flags(contraction=contraction)])
 
 

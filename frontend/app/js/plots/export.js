@@ -42,7 +42,10 @@ async function svgOf(chart, title) {
 
 /** Bands along an edge of the plot, as shares of its height; all others fill it.
  * @type {Record<string, [number, number]>} */
-const EDGES = { contact: [0, 0.03], slack: [0.04, 0.07] };
+const EDGES = { contact: [0, 0.03], slack: [0.04, 0.07], stuck: [0.08, 0.1] };
+
+/** @type {Record<string, string>} */
+const EDGES_COLOUR = { contact: LIGHT.soft, slack: LIGHT.ink, stuck: LIGHT.load };
 
 /** Bands and marks, which the page draws under the plot. @param {import("./chart.js").Spec} spec */
 const bands = (spec) => [
@@ -54,7 +57,7 @@ const bands = (spec) => [
     x1: x[1],
     y0: EDGES[kind]?.[0] ?? 0,
     y1: EDGES[kind]?.[1] ?? 1,
-    fillcolor: kind === "contact" ? LIGHT.soft : kind === "slack" ? LIGHT.ink : LIGHT.zone,
+    fillcolor: EDGES_COLOUR[kind] ?? LIGHT.zone,
     line: { width: 0 },
   })),
   ...(spec.marks ?? []).map((x) => ({

@@ -38,6 +38,8 @@ const COLUMNS = [
   ["volume", "volume", "volume"],
   ["load_force", "force", "load_force"],
   ["gas_temperature", "temperature", "temperature"],
+  ["friction", "force", "friction"],
+  ["friction_share", "ratio", "friction_share"],
 ];
 
 /** Columns of an antagonist pair. @type {[string, Quantity, keyof NonNullable<Run["joint"]>][]} */

@@ -12,6 +12,9 @@ import { lapse, motions, reasons, timingTable } from "./timing.js";
 /** @typedef {import("../../../format.js").Quantity} Quantity */
 /** @typedef {import("../../../types.js").Run} Run */
 
+/** Events that the page lists; the saved answer has all. */
+const MOST_EVENTS = 60;
+
 /** The value of a figure in its unit. @param {string} key @param {number | null | undefined} value */
 function shownAs(key, value) {
   const { quantity } = figure(key);
@@ -127,9 +130,14 @@ const remarks = (r) =>
 function conditions() {
   const r = run.value;
   if (!r) return "";
-  const { position, contraction, reason } = r.start, system = units.value;
+  const { position, contraction, reason, lowest, highest } = r.start, system = units.value;
+  const held = lowest === null || highest === null
+    ? ""
+    : ` Dry friction holds it there from ${withUnit(lowest, "length", system)} to ${
+      withUnit(highest, "length", system)
+    }.`;
   return `Starts at ${withUnit(position, "length", system)} (${withUnit(contraction, "ratio", system)}), ` +
-    `${reason}. Air: ${r.gas}.`;
+    `${reason}.${held} Air: ${r.gas}.${r.rest ? ` At the end the load ${r.rest}.` : ""}`;
 }
 
 /** @param {string} key */
@@ -201,6 +209,31 @@ function tracking() {
   );
 }
 
+/** What happens in the run: impacts, slack, sticking. */
+function eventList() {
+  const r = run.value;
+  if (!r || !r.events.length) return null;
+  const system = units.value;
+  return h(
+    "details",
+    null,
+    h("summary", null, `${r.events.length} event${r.events.length > 1 ? "s" : ""}`),
+    h(
+      "ul",
+      { class: "plain" },
+      ...r.events.slice(0, MOST_EVENTS).map((e) =>
+        h(
+          "li",
+          null,
+          `${lapse(e.time)}: ${e.text}`,
+          e.speed ? ` (${withUnit(e.speed, "speed", system)})` : "",
+        )
+      ),
+      r.events.length > MOST_EVENTS ? h("li", null, `and ${r.events.length - MOST_EVENTS} more`) : null,
+    ),
+  );
+}
+
 /** How long the simulation took, and with what. */
 function runLine() {
   const r = run.value;
@@ -220,6 +253,7 @@ export function figureCards() {
       h("div", { class: "card-head" }, h("h2", null, "Run")),
       h("div", { class: "verdicts" }, verdict),
       h("p", { class: "hint", id: "run-start" }, conditions),
+      eventList,
       h("p", { class: "runline" }, runLine),
     ),
     jointCard,

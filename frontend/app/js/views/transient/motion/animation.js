@@ -218,6 +218,12 @@ export function stageCard() {
       { class: "legend key" },
       h("li", null, h("i", { class: "hatch" }), "on a stop"),
       h("li", null, h("i", { class: "slack" }), () => paired.value ? "muscle 1 slack" : "muscle slack"),
+      h(
+        "li",
+        { hidden: () => !run.value?.stuck.includes(true) },
+        h("i", { class: "stuck" }),
+        "stuck by friction",
+      ),
       h("li", null, h("i", { class: "fill" }), "choked filling"),
       h("li", null, h("i", { class: "exhaust" }), "choked venting"),
       h("li", null, h("i", { class: "instant" }), "switching"),

@@ -25,8 +25,8 @@ import { intervals, measuredColumn, resampled, withoutImpacts } from "../series.
 export const pinColours = (p) =>
   p.dark ? ["#c9a2ff", "#4fd1c0", "#e6c54a", "#ff8fbf"] : ["#7b3fb5", "#00776b", "#8a6a00", "#b3206e"];
 
-/** What a row of a run is, besides its values. @type {("contact" | "slack")[]} */
-export const STATES = ["contact", "slack"];
+/** What a row of a run is, besides its values. @type {("contact" | "slack" | "stuck")[]} */
+export const STATES = ["contact", "slack", "stuck"];
 
 /** @param {View} v @param {Palette} p @param {{key: string, title: string, quantity: Quantity, lines: Line[],
  *   dots?: {x: number[], y: (number | null)[]} | null, within?: (number | null)[][], zero?: boolean,
@@ -283,6 +283,10 @@ export function lowerSpec(v, p) {
         dash: "dash",
         width: 1.5,
       });
+    }
+    if (run.friction.some((x) => x !== 0)) {
+      const name = figure("run.friction").label.toLowerCase();
+      lines.unshift({ id: "friction", name, values: run.friction, color: p.load, dash: "dot", width: 1.5 });
     }
     return overTime(v, p, {
       key: lower,
