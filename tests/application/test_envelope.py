@@ -44,7 +44,7 @@ def ranges(**given: tuple[float, float]) -> dict[str, MeasuredRange]:
         (
             {"temperature": (293.15, 293.15)},
             {"temperature": (293.15, 323.15)},
-            ["temperature up to 50 °C: the model was measured at 20 °C"],
+            ["muscle temperature up to 50 °C: the model was measured at 20 °C"],
         ),
         (
             {"pressure": (1e5, 6e5)},

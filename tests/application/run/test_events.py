@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import pytest
-from mckibben.documents.drive_files import read_document
 
 from mckibben.application.run.simulate import SimulationQuestion, simulate
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.facts.run import EVENTS
 from mckibben.report.summary.simulation import summary_of
 from tests.shipped import shipped_studio
@@ -15,7 +14,7 @@ from tests.simulation.drive.test_dry_friction import held
 
 def answer(document: dict):
     annotated = drive_of(read_document(document, "the drive"), shipped_studio())
-    return simulate(SimulationQuestion(annotated, engine="rodas"))
+    return simulate(SimulationQuestion(annotated))
 
 
 def test_sticking_and_breaking_away_are_events_with_their_instants() -> None:

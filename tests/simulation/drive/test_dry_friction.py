@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import atan, pi, sqrt
 
 import numpy as np
 import pytest
-from mckibben.documents.drive_files import read_document
 from scipy.optimize import brentq
 
-from mckibben.documents.drive_reading import drive_of
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.physics import ops
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import Effect
@@ -23,6 +23,7 @@ from mckibben.simulation.drive.transient import Run, held_interval, segments_of,
 from mckibben.simulation.statics.model import StaticModel
 from tests.shipped import shipped_studio
 from tests.simulation.drive.sticking import DryRig, HuntingRig
+from tests.simulation.lsoda import simulated
 
 STUDIO = shipped_studio()
 POSITION = 1e-5  # m
@@ -75,7 +76,7 @@ STATES = {"slides_up": "up", "slides_down": "down"}
 @pytest.mark.parametrize("name", ["held", "rebounding"])
 def test_sticking_is_that_of_an_integration_written_on_its_own(name: str) -> None:
     rig = replace(RIGS[name], changes=[], hits=[])
-    run = simulate(drive(rig.document), points=2001, engine="rodas")
+    run = simulate(drive(rig.document), points=2001)
     start = [float(run.states[state][0]) for state in ("stroke", "speed", "pressure", "gas_mass")]
     rows = rig.followed(run.time, np.array(start), rtol=1e-9)
     assert np.max(np.abs(run.states["stroke"] - rows[:, 0])) <= POSITION
@@ -95,9 +96,9 @@ def test_more_sticking_is_that_of_an_integration_written_on_its_own(name: str) -
     test_sticking_is_that_of_an_integration_written_on_its_own(name)
 
 
-@pytest.mark.parametrize("engine", ["rodas", "lsoda"])
-def test_a_held_load_stays(engine: str) -> None:
-    run = simulate(drive(held()), points=11001, engine=engine)
+@pytest.mark.parametrize("integrator", [simulate, simulated], ids=["rodas", "lsoda"])
+def test_a_held_load_stays(integrator: Callable[..., Run]) -> None:
+    run = integrator(drive(held()), points=11001)
     model, stroke = run.drive.model, run.states["stroke"]
     # Up to 12 s the load is pulled to where 4 bar carry 20 kg and 100 N less the friction, and at 14 s let go
     # to where they carry 20 kg and the friction: to the same place.
@@ -233,7 +234,7 @@ def hunting(share: float, *, duration: float = 20.0) -> Run:
         },
         "duration": f"{duration} s",
     }  # fmt: skip
-    return simulate_controlled(drive(document), grid=np.linspace(0.0, duration, 2001), engine="rodas")
+    return simulate_controlled(drive(document), grid=np.linspace(0.0, duration, 2001))
 
 
 def test_a_controller_with_an_integral_hunts_where_static_friction_exceeds_the_kinetic() -> None:
@@ -256,7 +257,7 @@ def test_hunting_is_that_of_a_controller_and_a_drive_written_on_their_own() -> N
     )  # fmt: skip
     strokes, breaks = rig.hunts(rig.end)
     grid = rig.sample * np.arange(len(strokes))
-    run = simulate_controlled(drive(rig.document), grid=grid, engine="rodas")
+    run = simulate_controlled(drive(rig.document), grid=grid)
     begins = [event.time for event in run.events if event.switch == "slides_up" and event.begins]
     assert begins == pytest.approx(breaks, abs=1e-3)
     assert np.diff(begins)[2:] == pytest.approx(np.diff(breaks)[2:], rel=1e-3)
@@ -272,7 +273,7 @@ def test_lanes_give_the_numbers_of_a_run_alone() -> None:
     grid = np.linspace(0.0, 16.0, 161)
     many = readings_of_many(drives, [segments_of(each)[:2] for each in drives], grid=grid)
     for each, found in zip(drives, many, strict=True):
-        alone = simulate(each, grid=grid, engine="rodas")
+        alone = simulate(each, grid=grid)
         assert np.array_equal(found["stroke_reading"], alone.outputs["stroke_reading"])
 
 

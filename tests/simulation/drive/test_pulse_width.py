@@ -16,7 +16,8 @@ from mckibben.simulation.drive.controlled import simulate_controlled
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.linear.linearise import linearise
-from mckibben.simulation.timing.evaluation import timing_of, trace_of
+from mckibben.simulation.timing.evaluation import trace_of
+from mckibben.simulation.timing.table import Phase, timing
 from tests.simulation.drive.sampled import Edges
 from tests.simulation.drive.test_muscle_valves import AMBIENT, HELD, STUDIO, SUPPLY, VALVE
 
@@ -174,7 +175,7 @@ def test_a_level_in_a_pause_between_pulses_is_said() -> None:
         grid = np.linspace(0.0, 0.6, 601)
         trace = trace_of(simulate(given, grid=grid))
         assert trace is not None
-        table = timing_of(given, trace)
+        table = timing(trace, fill=Phase((0.0, 0.3)), vent=None)
         assert table.extend.pressure_delay_time is not None
         found.append(table.extend.pressure_delay_time)
         first, last = (float(each) for each in table.notes["extend.pressure_delay_time"].split()[1:4:2])
