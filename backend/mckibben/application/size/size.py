@@ -264,11 +264,17 @@ def _searched(sizing: Sizing, question: SizingQuestion, specimens: int) -> str:
         if sizing.refined
         else ""
     )
+    tolerances = (
+        f" Shares of successful specimens are those of {specimens // len(sizing.proposals)} each, with the "
+        "tolerances and the friction that the models assume."
+        if specimens and sizing.proposals
+        else ""
+    )
     return (
         f"Searched: {sizing.combinations} combinations of {chosen}, up to "
         f"{question.task.limits.max_parallel} in parallel, with {LENGTHS} lengths and {PRESSURES} pressures "
-        f"each; {sizing.pruned} fail by the static calculation, {sizing.simulated} runs and {specimens} of "
-        f"specimens were simulated{refined}."
+        f"each; {sizing.pruned} fail by the static calculation, {sizing.simulated} runs were simulated{refined}."
+        f"{tolerances}"
     )
 
 
@@ -440,6 +446,9 @@ def _notices(proposals: list[ProposedDrive], document: SizingTask) -> list[Notic
     if document.limits.life is not None:
         text = "the life is an estimate between 100 000 and 10 million cycles; no maker's curve is known"
         notices.append(Notice("unverified", text, "limits.life"))
+    if proposals and document.limits.end_fittings == 0.0:
+        text = "the task states no end fittings: installed lengths are those of the muscles alone"
+        notices.append(Notice("assumed", text, "limits.end_fittings"))
     return notices
 
 
