@@ -27,8 +27,8 @@ from mckibben.sizing.refine import CLOSE
 from mckibben.sizing.statics import LimitName
 from mckibben.sizing.trial import Trial
 
-#: A search is bounded in runs, so that the same task has the same answer however busy the machine is; only one
-#: that takes longer still ends with the drives found so far [s].
+#: A search is bounded in runs, so the same task has the same answer however busy the machine is; only one that
+#: takes longer still ends with the drives found so far [s].
 TIME_LIMIT = 900.0
 #: How it would take less time.
 HINT = "name fewer muscles, valves or tubes, or ask for fewer specimens"
@@ -273,8 +273,8 @@ def _searched(sizing: Sizing, question: SizingQuestion, specimens: int) -> str:
     return (
         f"Searched: {sizing.combinations} combinations of {chosen}, up to "
         f"{question.task.limits.max_parallel} in parallel, with {LENGTHS} lengths and {PRESSURES} pressures "
-        f"each; {sizing.pruned} fail by the static calculation, {sizing.simulated} runs were simulated{refined}."
-        f"{tolerances}"
+        f"each; {sizing.pruned} fail by the static calculation, {sizing.simulated} runs were simulated"
+        f"{refined}.{tolerances}"
     )
 
 
