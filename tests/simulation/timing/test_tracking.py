@@ -90,8 +90,12 @@ def test_a_second_order_answer_overshoots_by_its_closed_form(damping):
     assert found.state == "settles"
 
 
+def swinging() -> np.ndarray:
+    return np.where(T < 1.0, 0.0, 0.02 + 0.003 * np.sin(2.0 * np.pi * 3.7 * LATE))
+
+
 def test_a_limit_cycle_swings_with_its_frequency_and_share_of_the_step():
-    found = tracked(T, STEP, np.where(T < 1.0, 0.0, 0.02 + 0.003 * np.sin(2.0 * np.pi * 3.7 * LATE)))
+    found = tracked(T, STEP, swinging())
     step = found.steps[0]
     assert found.state == step.state == "swings"
     assert step.settling_time is None
@@ -99,6 +103,8 @@ def test_a_limit_cycle_swings_with_its_frequency_and_share_of_the_step():
     assert step.swing_amplitude == pytest.approx(0.003, rel=1e-3)
     assert "15 % of the step" in found.verdict
     assert "3.7 Hz" in found.verdict
+    assert "friction" not in (found.advice or "")
+    assert "hunts" in (tracked(T, STEP, swinging(), rubs=True).advice or "")
 
 
 def test_what_rests_away_from_the_reference_says_why():

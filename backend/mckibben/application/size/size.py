@@ -27,8 +27,8 @@ from mckibben.sizing.refine import CLOSE
 from mckibben.sizing.statics import LimitName
 from mckibben.sizing.trial import Trial
 
-#: A search is bounded in runs, so the same task has the same answer however busy the machine is; only one that
-#: takes longer still ends with the drives found so far [s].
+#: A search is bounded in runs, so a task has the same answer however busy the machine is; only one that takes
+#: longer still ends with the drives found so far [s].
 TIME_LIMIT = 900.0
 #: How it would take less time.
 HINT = "name fewer muscles, valves or tubes, or ask for fewer specimens"

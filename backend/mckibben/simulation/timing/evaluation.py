@@ -262,6 +262,7 @@ def tracking_of(run: Run, trace: Trace | None) -> Tracking | None:
             full_pressure=full_pressure_of(run.drive),
             pulled_back=run.drive.pair,
             integrates=controller.ki > 0.0,
+            rubs=bool(np.any(run.outputs["friction"])),
         )
     )
 

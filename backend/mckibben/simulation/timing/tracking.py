@@ -97,6 +97,7 @@ class Followed:
         full_pressure: highest gauge pressure that the muscle can be given [Pa].
         pulled_back: whether a second muscle pulls the load back.
         integrates: whether the controller has an integral part.
+        rubs: whether dry friction acts on the load.
     """
 
     time: Array
@@ -109,6 +110,7 @@ class Followed:
     full_pressure: float = np.inf
     pulled_back: bool = False
     integrates: bool = True
+    rubs: bool = False
 
     def at_limits(self, rows: slice) -> float:
         """Share of the time of some rows with the command at one of its limits."""
@@ -208,10 +210,12 @@ def _of_motion(followed: Followed, rms: float, largest: float, lag: float | None
 def _advice(state: FollowState, followed: Followed) -> str | None:
     """What to change."""
     lower = "lower the gains, or let the linear view design them"
+    if followed.rubs and followed.integrates:
+        lower += "; the integral part hunts where dry friction holds the load, which no linear model shows"
     if state in GOOD:
         return None
     return {
-        "swings": f"{lower}; where dry friction holds the load, the integral part makes it hunt",
+        "swings": lower,
         "cannot_return": "add what pulls the load back: a second muscle, a spring, or gravity",
         "saturates": "a higher supply pressure, a larger muscle or a larger valve",
         "on_stop": "a reference between the end stops, or other stops",
