@@ -92,9 +92,9 @@ def _own_working_directory(tmp_path_factory: pytest.TempPathFactory) -> Iterator
 
 @pytest.fixture(scope="session")
 def compiled_kernels(tmp_path_factory: pytest.TempPathFactory) -> None:
-    """The integrators' machine code, compiled by one of the workers and then in numba's cache for all.
+    """The integrators' machine code: of the installation, or compiled by one of the workers for all.
 
-    In a fresh checkout that takes half a minute of processor time, once; afterwards half a second.
+    The latter takes 20 s of processor time, after a change of a kernel.
     """
     from mckibben.simulation.integrate.many import lane_kernels
 
