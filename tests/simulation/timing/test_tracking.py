@@ -103,6 +103,8 @@ def test_a_limit_cycle_swings_with_its_frequency_and_share_of_the_step():
     assert step.swing_amplitude == pytest.approx(0.003, rel=1e-3)
     assert "15 % of the step" in found.verdict
     assert "3.7 Hz" in found.verdict
+    growing = np.where(T < 1.0, 0.0, 0.02 + 0.001 * np.exp(0.5 * LATE) * np.sin(2.0 * np.pi * 3.7 * LATE))
+    assert tracked(T, STEP, growing).state == "unstable"
     assert "friction" not in (found.advice or "")
     assert "hunts" in (tracked(T, STEP, swinging(), rubs=True).advice or "")
 

@@ -2,12 +2,13 @@
 
 A step is a jump of the reference to a constant level, or a constant reference away from where the load
 begins. It *settles* if the position stays within 2 % of the step around the level from some time before the
-last tenth of its time on. Else it *swings* (two even periods in the second half of its time), or the load
-rests: *beside* the level, with the command at its limit or the muscle at full pressure (*saturates*), on an
-end stop (*on the stop*), or beyond the level with a muscle that is vented and cannot push it back (*cannot
-return*); or it still *moves*. A run under steps is as good as its worst one. Where the reference moves all
-the time the run *tracks* if the RMS error is at most 5 % of the range of the reference, *saturates* if it
-is not and the command is at its limits for a fifth of the time or more, and *deviates* otherwise.
+last tenth of its time on. Else it *swings* (two even periods in the second half of its time; *unstable*
+where they grow), or the load rests: *beside* the level, with the command at its limit or the muscle at full
+pressure (*saturates*), on an end stop (*on the stop*), or beyond the level with a muscle that is vented and
+cannot push it back (*cannot return*); or it still *moves*. A run under steps is as good as its worst one.
+Where the reference moves all the time the run *tracks* if the RMS error is at most 5 % of the range of the
+reference, *saturates* if it is not and the command is at its limits for a fifth of the time or more, and
+*deviates* otherwise.
 """
 
 from __future__ import annotations
@@ -28,10 +29,11 @@ Array = NDArray[np.float64]
 
 #: How a controlled run, or a step of its reference, ends; the worst first.
 FollowState = Literal[
-    "swings", "cannot_return", "saturates", "on_stop", "beside", "moves", "deviates", "tracks", "settles"
-]
+    "unstable", "swings", "cannot_return", "saturates", "on_stop", "beside", "moves", "deviates", "tracks",
+    "settles",
+]  # fmt: skip
 _WORST_FIRST: tuple[FollowState, ...] = (
-    "swings", "cannot_return", "saturates", "on_stop", "beside", "moves", "settles",
+    "unstable", "swings", "cannot_return", "saturates", "on_stop", "beside", "moves", "settles",
 )  # fmt: skip
 GOOD: frozenset[FollowState] = frozenset({"tracks", "settles"})
 
@@ -40,6 +42,7 @@ _PEAK_MARGIN = 1e-3
 _TRACKS = 0.05  # of the range of the reference
 _SATURATED, _LIMITED = 0.2, 0.9  # shares of the time with the command at its limits
 _VENTED = 0.01  # of the largest pressure
+_GROWS = 1.02  # of the amplitude from period to period
 _SMALLEST = 1e-5  # m; a smaller step is none
 _SEEN = 5e-4  # least swing, as a share of the step; the settling band is 40 times as wide
 
@@ -172,6 +175,7 @@ def _of_steps(steps: list[FollowedStep]) -> tuple[FollowState, str]:
     texts: dict[FollowState, str] = {
         "settles": f"settles within 2 % of each step, in {late * 1e3:.4g} ms at most, overshoot at most "
         f"{100.0 * over:.3g} %",
+        "unstable": f"{which}the load swings more and more: {swing} at the end{at}",
         "swings": f"{which}the load swings to the end: {swing}{at}",
         "cannot_return": f"{which}the load stays {away} beyond the reference: the muscle is vented and "
         f"cannot push it back{at}",
@@ -215,6 +219,7 @@ def _advice(state: FollowState, followed: Followed) -> str | None:
     if state in GOOD:
         return None
     return {
+        "unstable": lower,
         "swings": lower,
         "cannot_return": "add what pulls the load back: a second muscle, a spring, or gravity",
         "saturates": "a higher supply pressure, a larger muscle or a larger valve",
@@ -313,7 +318,7 @@ def _step(followed: Followed, begin: int, end: int, size: float) -> FollowedStep
     if (not len(outside) or outside[-1] < len(t) - 1) and settled <= SETTLED_BEFORE * last:
         state = "settles"
     elif swing is not None and swing.amplitude > 0.5 * band:
-        state = "swings"
+        state = "unstable" if swing.growth > _GROWS else "swings"
     elif np.ptp(rest) <= band:
         state = _at_rest(followed, quarter, -error)
     return FollowedStep(
