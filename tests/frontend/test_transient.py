@@ -346,6 +346,27 @@ def test_a_load_that_sticks_is_marked_and_told(page: Page) -> None:
     assert "sticks: dry friction holds the load" in [event["text"] for event in answer["events"]]
 
 
+def test_from_which_side_a_load_has_come_to_rest(page: Page) -> None:
+    muscle = {"preset": "DMSP-20", "form": "braid", "values": {"nominal_length": 0.3}}
+    effects = {"bladder_elasticity": {}, "coulomb_friction": {"force": 50}}
+    drive = {
+        "supply": {"pressure": 4e5}, "valve": {"preset": "MPYE-5-1/8-HF"}, "start_pressure": 4e5,
+        "load": {"mass": 20, "arrangement": "hanging"}, "duration": 1,
+        "command": {"shape": "step", "level": 0, "initial": 0},
+    }  # fmt: skip
+    design = {"muscle": muscle, "effects": effects}
+    state = {"schema": 1, "view": "transient", "design": design, "transient": {"drive": drive}}
+    open_transient(page, link_to(state))
+    page.get_by_text("End stops").first.click()
+    choice = page.get_by_label("Has come to rest")
+    with page.expect_response("**/api/simulations") as answered:
+        rerun(page, lambda: choice.select_option("from above"))
+    start = answered.value.json()["start"]
+    assert start["position"] == pytest.approx(start["highest"])
+    expect(page.locator("#run-start")).to_contain_text("comes to rest from above")
+    expect(page.locator("#run-start")).to_contain_text("Dry friction holds it there from")
+
+
 def test_a_slack_muscle_is_marked_and_saved(page: Page) -> None:
     open_transient(page)
     expect(page.locator(".key")).to_contain_text("muscle slack")

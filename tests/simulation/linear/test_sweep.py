@@ -68,7 +68,9 @@ def test_friction_lies_between_held_and_sliding() -> None:
     small, large = describing_points(
         linear, source="command", out="position", frequencies=(1.0,), amplitudes=(0.005, 0.05)
     )
-    assert small.gain == pytest.approx(0.0, abs=1e-12)
+    assert small.gain == 0.0
+    assert np.isnan(small.phase)
+    assert small.remark == "dry friction holds the load"
     assert 0.0 < large.gain < sliding
 
 

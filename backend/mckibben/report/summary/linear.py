@@ -143,10 +143,12 @@ def sweep_table(result: LinearResult) -> list[Table]:
             point = table.get((frequency, amplitude))
             good = point is not None and math.isfinite(point.gain)
             cells.append(
-                f"{figure(point.gain)}  {math.degrees(point.phase):.0f}°  "
+                "–"
+                if not (point and good)
+                else f"{figure(point.gain)}  {math.degrees(point.phase):.0f}°  "
                 f"{shown(DESCRIBING['distortion'], point.distortion)}"
-                if point and good
-                else "–"
+                if math.isfinite(point.phase)
+                else figure(point.gain)
             )
         rows.append([shown(DESCRIBING["frequency"], frequency), *cells])
     share = QUANTITIES["ratio"].scales["bar"]

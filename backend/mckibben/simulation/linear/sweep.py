@@ -35,6 +35,10 @@ _ROWS = 48  # of a period
 _TOLERANCE = 1e-5
 
 
+# Outputs that are zero while the load does not move.
+_OF_MOTION = ("position", "velocity", "position_reading")
+
+
 @result_class
 class DescribingPoint:
     """One frequency and amplitude."""
@@ -118,6 +122,8 @@ def _point(
     run = run_from(point, changed, grid=grid, tolerance=_TOLERANCE)
     if run.outcome is not Outcome.COMPLETED:
         return _nothing(frequency, amplitude, f"the run ended early: {run.outcome.label}")
+    if out in _OF_MOTION and not np.any(run.states["speed"]):
+        return DescribingPoint(frequency, amplitude, 0.0, math.nan, math.nan, "dry friction holds the load")
     output = {
         "position": run.states["stroke"] / drive.load.lever_ratio,
         "velocity": run.states["speed"] / drive.load.lever_ratio,

@@ -41,6 +41,7 @@ const NAMES = new Set([
   "valves",
   "type",
   "interpolation",
+  "reached",
   "title",
 ]);
 

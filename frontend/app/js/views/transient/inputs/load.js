@@ -5,6 +5,7 @@ import { computed } from "../../../reactive.js";
 import { units } from "../../../state.js";
 import { number, scaleOf, toShown } from "../../../format.js";
 import { rearranged } from "../../../drive/document.js";
+import { at } from "../../../paths.js";
 import { choiceField, driveField, partMessage, SPECS } from "./fields.js";
 import { arrangement, drive, numberAt, run, setDrive } from "../model.js";
 import { middleOf } from "../series.js";
@@ -82,12 +83,26 @@ function stopsText() {
   return `End stops: ${asText(low)} to ${asText(high)} ${s.unit}; start`;
 }
 
+/** How the load has come to rest, where dry friction leaves it a choice. */
+function reachedField() {
+  const start = run.value?.start, stated = at(drive.value, "start.reached");
+  if (!stated && (start?.lowest ?? null) === null) return null;
+  return choiceField(
+    "Has come to rest",
+    () => [["", "as without dry friction"], ["from below", "from below"], ["from above", "from above"]],
+    () => at(drive.value, "start.reached") ?? "",
+    (value) => setDrive("start.reached", value || undefined, `at rest ${value || "as without friction"}`),
+    "start.reached",
+  );
+}
+
 export function loadCard() {
   const stopped = anyGiven(
     "stops.min_contraction",
     "stops.max_contraction",
     "stops.restitution",
     "start.position",
+    "start.reached",
   );
   return h(
     "section",
@@ -117,6 +132,7 @@ export function loadCard() {
       driveField("stops.max_contraction"),
       driveField("stops.restitution"),
       driveField("start.position"),
+      reachedField,
     ),
   );
 }
