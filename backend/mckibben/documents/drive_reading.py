@@ -219,6 +219,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         stiffness=None if control is None else control.stiffness,
         ambient_pressure=document.gas.ambient_pressure,
         temperature=document.gas.temperature,
+        curve_fit=document.curve_fit,
     )
     unverified = {
         part.id: value_names(paths, studio.catalogue)

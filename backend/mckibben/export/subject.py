@@ -246,8 +246,11 @@ def _used(name: str, runnable: RunnableDrive | None) -> bool:
 
 
 def _title(stated: Stated, start: StartModel) -> str:
-    if stated.title:
-        return stated.title
+    title = stated.title or _model_name(stated, start)
+    return title if stated.document is None else stated.document.named(title)
+
+
+def _model_name(stated: Stated, start: StartModel) -> str:
     bore = start.muscle.inside_diameter or start.muscle.braid_diameter
     name = f"muscle of {bore * 1e3:.3g} mm" if start.preset is None else start.preset.id
     kind = "drive with " if stated.document is not None else ""

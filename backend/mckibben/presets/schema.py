@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, PrivateAttr
 
+from mckibben.facts.run import curve_fit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.parameter import UNVERIFIED_GRADES, Parameter
@@ -67,6 +68,11 @@ class Preset(PresetModel):
         self._origin = origin
 
     @property
+    def heading(self) -> str:
+        """The title as lists show it."""
+        return self.title
+
+    @property
     def verified(self) -> bool:
         """Whether no value of the preset is general knowledge (M) or an estimate (E)."""
         return all(quantity.verified for _, quantity in quantities(self))
@@ -76,8 +82,8 @@ class Preset(PresetModel):
         return self.model_dump(mode="json", by_alias=True, exclude_none=True)
 
     def public(self) -> dict[str, Any]:
-        """The document plus ``verified`` and ``origin``, as the API shows it."""
-        return {**self.to_document(), "verified": self.verified, "origin": self.origin}
+        """The document plus ``verified`` and ``origin`` as the API shows it, with the heading as its title."""
+        return {**self.to_document(), "title": self.heading, "verified": self.verified, "origin": self.origin}
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
         """Errors that the types cannot catch: units, ranges, column lengths, effects."""
@@ -346,6 +352,12 @@ class DrivePreset(_DocumentPreset):
     paper: PaperFigures | None = Field(
         default=None, description="Published figures of the drive; null where there are none."
     )
+
+    @property
+    def heading(self) -> str:
+        """The title; that of a curve fit says that it is one."""
+        of = self.document.get("curve_fit")
+        return f"{self.title} ({curve_fit_of(of)})" if of else self.title
 
 
 class TaskPreset(_DocumentPreset):

@@ -154,6 +154,7 @@ class Drive:
         stiffness: second set point of a controlled pair; its controller then gives half the difference of
             both commands.
         common: command that both muscles of a pair have in common; None = 0.5 of a regulator, 0 of a valve.
+        curve_fit: what it was fitted to, with parts that do not exist; "" of a drive.
     """
 
     model: StaticModel
@@ -186,6 +187,7 @@ class Drive:
     common: float | None = None
     ambient_pressure: float = ideal.ATMOSPHERE
     temperature: float = 293.15
+    curve_fit: str = ""
 
     @property
     def muscle(self) -> Muscle:

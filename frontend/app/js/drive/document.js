@@ -42,6 +42,7 @@ const NAMES = new Set([
   "type",
   "interpolation",
   "title",
+  "curve_fit",
 ]);
 
 /** SI units of the fields of drives and tasks, by their path; a text that does not fit stays for the server, which
