@@ -76,26 +76,7 @@ def test_a_physical_drive_rests_on_its_stop_and_is_made_of_parts(
     assert np.max(np.abs(position[resting] - 0.2)) < 1e-3
     assert position[resting][-1] == pytest.approx(0.2, abs=1e-6)
     assert position[-1] == pytest.approx(0.0, abs=1e-6)
-    # Conductances between those of the smallest and the largest proportional valve of the catalogue,
-    # a dead volume of less than a third of the bore, no stated exponent.
-    valves = [preset for preset in shipped_studio().library.list("valves") if preset.id.startswith("MPYE")]
-    flows = [preset.data["sonic_conductance"].si("m^3/(s*Pa)") for preset in valves]  # type: ignore[attr-defined]
-    for flow in (given.valve.fill_conductance, given.valve.exhaust_conductance):
-        assert min(flows) < flow < max(flows)
-    muscle = given.model.muscle
-    bore = np.pi / 4.0 * muscle.inside_diameter**2 * muscle.nominal_length
-    assert 0.0 < given.fitting_volume < bore / 3.0
     assert given.polytropic_exponent is None
-
-
-@pytest.mark.parametrize("size", [20, 10])
-def test_a_curve_fit_is_called_one_wherever_it_is_listed(size: int) -> None:
-    library = shipped_studio().library
-    fit, physical = (library.get("drives", f"propneu-{size}{end}") for end in ("", "-physical"))
-    assert fit.title.endswith("curve fit")
-    assert fit.description.startswith("Curve fit, not a drive that could be built")
-    assert physical.id in fit.description
-    assert physical.title.endswith("physical drive")
 
 
 def test_the_ramp_crosses_the_rest_length_when_the_load_is_the_blocked_force(
