@@ -1,8 +1,8 @@
 """Every drive preset is one that could be built, or is declared a curve fit.
 
-A drive rests where its source does, its conductances and dead volume are those of parts, it keeps the limits of
-its own parts, and the air that passes its valve is what its muscle takes in: the change of p V, with V by the
-closed form of the braid, at ANR. The integrator's volumes and its air balance are used for none of it.
+A drive rests where its source does, its conductances and dead volume are those of parts, it keeps the limits
+of its own parts, and the air that passes its valve is what its muscle takes in: the change of p V, with V by
+the closed form of the braid. The integrator's volumes and its air balance are used for none of it.
 """
 
 from __future__ import annotations
@@ -27,10 +27,9 @@ from tests.shipped import shipped_studio
 STUDIO = shipped_studio()
 DRIVES = {each.id: each for each in STUDIO.library.list("drives") if isinstance(each, DrivePreset)}
 LITRE_BAR = 1e-8  # m3/(s Pa)
-ANR = 1.185  # kg/m3, ISO 8778
 GAS_CONSTANT = 287.05  # J/(kg K), dry air
-#: Fittings of 1 to 10 cm3 each (engineering estimate, E), one on either end of 1 m of the widest tube: PUN-H-10x1.5
-#: has 7 mm of bore (type code, M).
+#: Fittings of 1 to 10 cm3 each (engineering estimate, E), one on either end of 1 m of the widest tube:
+#: PUN-H-10x1.5 has 7 mm of bore (type code, M).
 MOST_DEAD_VOLUME = 2 * 10e-6 + pi / 4 * 7e-3**2 * 1.0
 AIR_FACTOR = 2.0
 #: A phase of a step whose positioning time the source prints ends at rest.
@@ -61,7 +60,7 @@ def misses(annotated: AnnotatedDrive, result: SimulationResult, printed: set[str
 
 
 def air_ratio(annotated: AnnotatedDrive, result: SimulationResult) -> float:
-    """Air through the valve in both directions, over the changes of p V/(R T) in muscle and dead volume of parts."""
+    """Air through the valve both ways, over the changes of p V/(R T) in muscle and dead volume of parts."""
     drive, joint = annotated.drive, result.joint
     dead = min(drive.fitting_volume, MOST_DEAD_VOLUME)
     contraction = result.contraction

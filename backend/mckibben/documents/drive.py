@@ -44,9 +44,9 @@ from mckibben.documents.signals import (
 from mckibben.documents.strict import Id, Strict
 from mckibben.facts.linear import CONTROLLER
 from mckibben.facts.run import curve_fit_of
+from mckibben.physics import gas
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import absolute_text, si
-from mckibben.simulation.drive.parts import WALL_HEAT_TRANSFER
 
 #: Gauge pressures of a drive document, by their path.
 _GAUGE = (("supply", "pressure"), ("regulator", "range"), ("start_pressure",))
@@ -209,7 +209,7 @@ class GasInput(Strict):
         "from the energy balance with heat exchange, and its mass is conserved.",
     )
     wall_heat_transfer: HeatTransfer = Field(
-        WALL_HEAT_TRANSFER,
+        gas.WALL_HEAT_TRANSFER,
         description="Heat transfer coefficient between the gas in the muscle and its wall, for the energy "
         "balance. 0 is adiabatic. Not verified: 20 to 60 at rest, several hundred during a fast fill.",
     )

@@ -24,7 +24,7 @@ _STIFFNESS = Condition("the stiffness is controlled", "the stiffness is not cont
 
 
 def curve_fit_of(what: str) -> str:
-    """What a drive is that was fitted to something, with parts that do not exist; ``what`` it was fitted to."""
+    """What a drive is that was fitted to something with parts that do not exist."""
     return f"curve fit of {what}, not a drive"
 
 

@@ -82,7 +82,7 @@ class Preset(PresetModel):
         return self.model_dump(mode="json", by_alias=True, exclude_none=True)
 
     def public(self) -> dict[str, Any]:
-        """The document plus ``verified`` and ``origin`` as the API shows it, with the heading as its title."""
+        """The document as the API shows it: with ``verified``, ``origin`` and the heading as its title."""
         return {**self.to_document(), "title": self.heading, "verified": self.verified, "origin": self.origin}
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
