@@ -184,13 +184,14 @@ def test_work_warms_the_wall_and_rest_cools_it() -> None:
 
 def test_warming_softens_a_filled_bladder_alike_by_temperature_and_by_work() -> None:
     """Their defaults are one statement: -0.5 % per kelvin at the 20 K of steady work, to first order."""
-    by_work = SELF_HEATING.call("elastomer_factor", {"warmth": 1.0}, {})
-    by_kelvin = TEMPERATURE.call("elastomer_factor", {"temperature": 293.15 + 20.0}, {})
+    by_work = SELF_HEATING.call("elastomer_factor", {"warmth": 1.0}, SELF_HEATING.defaults)
+    by_kelvin = TEMPERATURE.call("elastomer_factor", {"temperature": 293.15 + 20.0}, TEMPERATURE.defaults)
     assert float(by_kelvin) == pytest.approx(0.9)
     assert float(by_work) == pytest.approx(float(by_kelvin), abs=0.1**2 / 2)
 
 
 def test_an_unfilled_bladder_stiffens_by_entropy() -> None:
     """Modulus n k T: in proportion to the absolute temperature, at beta = 1/T0."""
-    got = TEMPERATURE.call("elastomer_factor", {"temperature": 330.0}, {"coefficient": 1.0 / 293.15})
+    entropic = TEMPERATURE.defaults | {"coefficient": 1.0 / 293.15}
+    got = TEMPERATURE.call("elastomer_factor", {"temperature": 330.0}, entropic)
     assert float(got) == pytest.approx(330.0 / 293.15)
