@@ -55,6 +55,9 @@ class Preset(PresetModel):
         "", description="What it is, in a few sentences."
     )
     references: list[Text] = Field(default_factory=list, description="Sources for further reading.")
+    misprints: list[Text] = Field(
+        default_factory=list, description="What its source prints there and cannot be right, with what is."
+    )
 
     _origin: Origin = PrivateAttr(default="built-in")
 
@@ -291,7 +294,10 @@ class DesignPreset(Preset):
     """An example document of the Design view; its content is checked when it is used."""
 
     kind: Literal["design"] = Field(description="Says that it is a design.")
-    document: dict[str, Any] = Field(description="The document that the Design view opens.")
+    document: dict[str, Any] = Field(description="Its question, as /api/curves takes it.")
+    view: dict[str, Any] = Field(
+        default_factory=dict, description="What the Design view shows of the answer, and over what."
+    )
 
 
 class Ground(PresetModel):

@@ -75,7 +75,8 @@ function verdict() {
   }
   const done = r.outcome === "completed";
   const fits = r.flags.filter((f) => f.code === FIT);
-  const hard = r.flags.filter((f) => f.code !== NOTE && f.code !== FIT), doubts = r.flags.filter((f) => f.code === NOTE);
+  const hard = r.flags.filter((f) => f.code !== NOTE && f.code !== FIT),
+    doubts = r.flags.filter((f) => f.code === NOTE);
   // A complete run in which nothing moves is a warning.
   const still = r.timing.extend.max_speed == null && !r.tracking
     ? r.timing.notes["extend.max_speed"] ?? null
@@ -85,7 +86,9 @@ function verdict() {
   const grade = !done ? "bad" : hard.length || still || away ? "warn" : "good";
   const end = r.time.at(-1) ?? 0;
   return [
-    ...fits.map((f) => h("p", { class: "flag note" }, icon("info"), h("span", null, `${capital(f.message)}.`))),
+    ...fits.map((f) =>
+      h("p", { class: "flag note" }, icon("info"), h("span", null, `${capital(f.message)}.`))
+    ),
     h(
       "p",
       { class: `verdict ${grade}` },
