@@ -151,3 +151,16 @@ def test_the_loop_of_a_regulator_is_its_stated_hysteresis() -> None:
         np.mean([e for e, r in zip(error, rising, strict=True) if bool(r) is way]) for way in (True, False)
     )
     assert down - up == pytest.approx(0.005 * 6e5, rel=0.1)
+
+
+@pytest.mark.parametrize("name", REGULATORS)
+def test_the_output_range_of_a_regulator_is_no_limit_of_its_supply(name: str) -> None:
+    part = valve(name)
+    assert part.regulator is not None
+    if "max_pressure" in part.data:
+        assert part.data["max_pressure"].si("Pa") > part.regulator.range.si("Pa")
+    supply = {"supply": {"pressure": part.regulator.range.si("Pa") + 1e5}}
+    flow = {"preset": name, "sonic_conductance": "1 l/(s*bar)"}
+    drive = {**HELD, **supply, "valve": flow, "regulator": {"range": part.regulator.range.si("Pa")}}
+    result = simulate(SimulationQuestion(drive_of(read_document(drive, "the drive"), STUDIO)))
+    assert "outside_valve_pressure" not in {flag.code for flag in result.flags}

@@ -7,6 +7,8 @@ import re
 import numpy as np
 import pytest
 
+from mckibben.application.run.simulate import SimulationQuestion, simulate
+from mckibben.documents.drive_reading import drive_of, preset_document
 from tests.benchmarks.scenarios import SCENARIOS, Scenario, loop_width, rows_of, run_scenario, table
 from tests.shipped import shipped_studio
 
@@ -57,7 +59,7 @@ def test_every_printed_figure_is_compared_or_said_to_be_impossible(
 @pytest.mark.parametrize("name", PHYSICAL)
 def test_a_miss_of_a_physical_drive_is_stated_as_it_is(scenarios: dict[str, Scenario], name: str) -> None:
     missed = [row for row in rows_of(scenarios[name]) if row.excluded and "missed" in row.excluded]
-    assert len(missed) == 4
+    assert len(missed) == 1
     for row in missed:
         stated = re.search(r"missed by ([+-][\d.]+) %", row.excluded or "")
         assert stated, row.name
@@ -76,26 +78,25 @@ def test_a_physical_drive_rests_on_its_stop_and_is_made_of_parts(
     assert np.max(np.abs(position[resting] - 0.2)) < 1e-3
     assert position[resting][-1] == pytest.approx(0.2, abs=1e-6)
     assert position[-1] == pytest.approx(0.0, abs=1e-6)
-    # Conductances between those of the smallest and the largest proportional valve of the catalogue,
-    # a dead volume of less than a third of the bore, no stated exponent.
-    valves = [preset for preset in shipped_studio().library.list("valves") if preset.id.startswith("MPYE")]
-    flows = [preset.data["sonic_conductance"].si("m^3/(s*Pa)") for preset in valves]  # type: ignore[attr-defined]
-    for flow in (given.valve.fill_conductance, given.valve.exhaust_conductance):
-        assert min(flows) < flow < max(flows)
-    muscle = given.model.muscle
-    bore = np.pi / 4.0 * muscle.inside_diameter**2 * muscle.nominal_length
-    assert 0.0 < given.fitting_volume < bore / 3.0
     assert given.polytropic_exponent is None
+    lift = (position > 0.05) & (time < time[landed])
+    assert not np.any(np.asarray(result.slack)[lift])
 
 
-@pytest.mark.parametrize("size", [20, 10])
-def test_a_curve_fit_is_called_one_wherever_it_is_listed(size: int) -> None:
-    library = shipped_studio().library
-    fit, physical = (library.get("drives", f"propneu-{size}{end}") for end in ("", "-physical"))
-    assert fit.title.endswith("curve fit")
-    assert fit.description.startswith("Curve fit, not a drive that could be built")
-    assert physical.id in fit.description
-    assert physical.title.endswith("physical drive")
+@pytest.mark.parametrize("name", PHYSICAL)
+def test_a_later_cut_of_a_physical_drive_changes_no_figure_of_its_return(
+    scenarios: dict[str, Scenario], name: str
+) -> None:
+    """It has come to rest, so that the figures of the return do not depend on when the valve switches."""
+    document = preset_document(name, shipped_studio())
+    changes = {"command": {"shape": "pulse", "on": 0.0, "off": 2.1}, "duration": 3.1}
+    later = drive_of(document.model_copy(update=changes), shipped_studio())
+    moved = simulate(SimulationQuestion(later)).timing.retract
+    first = scenarios[name].result.timing.retract
+    for row in rows_of(scenarios[name]):
+        phase, _, key = row.name.partition(".")
+        if phase == "retract":
+            assert getattr(moved, key) == pytest.approx(getattr(first, key), rel=0.01), key
 
 
 def test_the_ramp_crosses_the_rest_length_when_the_load_is_the_blocked_force(

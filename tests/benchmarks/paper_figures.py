@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.application.curves.curves import CurvesQuestion, CurvesResult, curves
-from mckibben.documents.start_model import StatedMuscle
+from mckibben.application.curves.curves import CurvesResult, curves, example_question
+from mckibben.documents.muscle_files import start_of_input
 from mckibben.documents.studio import Studio
 from mckibben.presets.schema import DesignPreset
 from mckibben.resources import presets_folder
@@ -78,18 +78,8 @@ def design(name: str) -> CurvesResult:
     """The curves of a figure's example."""
     preset = studio().library.get("designs", name)
     assert isinstance(preset, DesignPreset)
-    document = preset.document
-    muscle, low = document["muscle"], document.get("range")
-    stated = StatedMuscle(muscle["preset"], **muscle["values"])
-    question = CurvesQuestion(
-        studio().start_model(stated, document.get("effects")),
-        tuple(document["pressures"]),
-        unclipped=not document.get("clipped", True),
-        contraction_from=low and low[0],
-        contraction_to=low and low[1],
-        load=document["load"],
-        fixed_length=document.get("fixed_length"),
-    )
+    start = start_of_input(studio(), preset.document["muscle"], preset.document.get("effects"), name)
+    question = example_question(preset, start)
     return curves(question, studio())
 
 

@@ -393,6 +393,8 @@ def test_the_figures_of_the_paper(page: Page) -> None:
     example(page, "Figure 9:")
     rows = page.get_by_role("region", name="Characteristics per pressure").locator("tbody tr")
     expect(rows.locator("td:first-of-type")).to_have_text(["64", "193", "386"])
+    note = page.get_by_role("region", name="Example")
+    expect(note).to_contain_text("They are no data to validate against.")
     table = list(csv.DictReader(Path(download(page, "Curves as CSV").path()).read_text().splitlines()))
     first = [float(row["force [N]"]) for row in table if float(row["contraction [%]"]) == 0]
     assert first == pytest.approx([64.39, 193.16, 386.31], abs=0.01)

@@ -40,6 +40,7 @@ def record(effects: tuple[str, ...]) -> dict[str, np.ndarray]:
         min_contraction=-0.05,
         max_contraction=0.3,
         temperature=WARM,
+        wall_heat_transfer=0.0,  # heat exchange is an effect here
     )
     run = simulate(drive, points=361, tolerance=1e-7)
     assert len(run.time) == 361, run.outcome

@@ -350,7 +350,7 @@ def test_a_limit_that_the_free_contraction_crosses_is_a_sentence(shared_client: 
     inside, outside = answer["characteristics"]
     assert inside["free_contraction_note"] is None
     assert outside["free_contraction_flag"] == "over_contraction_limit"
-    assert outside["free_contraction_note"].endswith("% is above the permitted 25 %")
+    assert outside["free_contraction_note"].endswith("% is above 25 %, the limit of the maker of the muscle")
 
 
 def test_the_highest_pressure_that_holds_within_the_limits(shared_client: TestClient) -> None:

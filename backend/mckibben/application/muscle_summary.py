@@ -10,6 +10,7 @@ from mckibben.documents.start_model import StartModel
 from mckibben.documents.value_names import value_names
 from mckibben.facts.muscle import GEOMETRY, LIMITS
 from mckibben.facts.result import result_class
+from mckibben.facts.run import curve_fit_of
 from mckibben.physics.muscle import Muscle, assumption
 from mckibben.simulation.statics.limits import LimitFlag
 
@@ -99,6 +100,14 @@ def unverified_notice(figures: str, field: str) -> Notice:
     """Notice that these figures of a preset were not read in a source; ``figures``: "PRESET: name, name"."""
     why = "from general knowledge or estimated, not read in a source"
     return Notice("unverified", f"{figures}; {why}", field)
+
+
+def curve_fit_notices(what: str) -> list[Notice]:
+    """Notice that a drive is a curve fit of something; none where it is a drive, ``what`` = ""."""
+    if not what:
+        return []
+    message = f"{curve_fit_of(what)}: its volumes and conductances are those of no parts"
+    return [Notice("curve_fit", message)]
 
 
 def start_notices(start: StartModel) -> list[Notice]:

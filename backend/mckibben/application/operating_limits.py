@@ -90,7 +90,8 @@ def _too_fast(rating: ValveRating, pwm: PulseWidth | None) -> list[Notice]:
     if pwm is None or highest is None or pwm.frequency <= highest * (1.0 + _HAIR):
         return []
     message = (
-        f"a carrier of {pwm.frequency:.4g} Hz; {rating.valve} can be switched at {highest:.4g} Hz at most"
+        f"a carrier of {pwm.frequency:.4g} Hz; {rating.valve} can be switched at {highest:.4g} Hz at most "
+        f"({rating.source})"
     )
     return [Notice(OVER_FREQUENCY, message, "pwm.frequency")]
 
@@ -100,5 +101,5 @@ def _pressure_outside(rating: ValveRating, supply: float) -> list[Notice]:
     if (low is None or supply >= low * (1.0 - _HAIR)) and (high is None or supply <= high * (1.0 + _HAIR)):
         return []
     ends = " to ".join(f"{end / 1e5:.4g} bar" for end in (low, high) if end is not None)
-    message = f"the supply has {supply / 1e5:.4g} bar; {rating.valve} is made for {ends}"
+    message = f"the supply has {supply / 1e5:.4g} bar; {rating.valve} is made for {ends} ({rating.source})"
     return [Notice(OUTSIDE_VALVE, message, "supply.pressure")]

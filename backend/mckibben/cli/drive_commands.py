@@ -88,7 +88,7 @@ def simulate(
     if out is not None:
         write_text(out, trace_text(document, result), named=f"--out {out}")
     if not as_json:
-        write_summary(summary_of(result, drive))
+        write_summary(summary_of(result, document.named(drive)))
         return
     write_json(result)
     for sentence in notices(result):
@@ -136,7 +136,7 @@ def linearise(
     if as_json:
         write_json(result)
     else:
-        write_summary(summary_of(result, drive))
+        write_summary(summary_of(result, document.named(drive)))
 
 
 def _amplitudes(text: str, source: str) -> tuple[float, ...]:

@@ -28,12 +28,13 @@ if TYPE_CHECKING:
     from mckibben.application.measurement.files import FileOptions
     from mckibben.documents.start_model import StartModel
     from mckibben.documents.studio import Studio
+    from mckibben.presets import DesignPreset
 
 MuscleText = Annotated[
     str,
     typer.Option(
         metavar="M",
-        help="A preset (DMSP-20), also with a length (DMSP-20:300mm), or a JSON file.",
+        help="A preset (DMSP-20), also with a length (DMSP-20:300mm), a JSON file, or an example design.",
         show_default=False,
     ),
 ]
@@ -303,10 +304,23 @@ def start_model(
         raise InputError("--muscle is missing", hint="e.g. --muscle DMSP-20:300mm")
     if is_file(muscle, studio):
         return start_of_file(studio, Path(muscle), chosen, rest_length)
+    example = example_design(muscle, studio)
+    if example is not None:
+        of_example = cast("Effects | None", example.document.get("effects"))
+        return start_of_input(
+            studio, example.document["muscle"], _chosen(options, of_example), f"--muscle {muscle}"
+        )
     by_preset: dict[str, object] = {"preset": name}
     if separator:
         by_preset["nominal_length"] = length
     return start_of_input(studio, with_length(by_preset, rest_length), chosen, f"--muscle {muscle}")
+
+
+def example_design(muscle: str, studio: Studio) -> DesignPreset | None:
+    """The example design that --muscle names; None where it names something else."""
+    if muscle not in {preset.id for preset in studio.library.list("designs")}:
+        return None
+    return cast("DesignPreset", studio.library.get("designs", muscle))
 
 
 def stated_model(options: ModelOptions) -> tuple[dict[str, object], str]:

@@ -113,14 +113,16 @@ def curves(
     studio: Studio,
 ) -> None:
     """Force, stiffness, volume and diameter of a muscle over its contraction."""
-    from mckibben.application.curves.curves import CurvesQuestion, pressures_of
+    from mckibben.application.curves.curves import CurvesQuestion, example_question, pressures_of
     from mckibben.application.curves.curves import curves as curves_of
-    from mckibben.cli.options import start_model
-    from mckibben.cli.output import write_json, write_summary
+    from mckibben.cli.options import example_design, start_model
+    from mckibben.cli.output import remark, write_json, write_summary
     from mckibben.report.summary.curves import summary_of
 
     start = start_model(studio, ModelOptions(muscle, ideal, effect or (), model=model))
-    question = CurvesQuestion(start, further_stiffness=stiffness)
+    example = example_design(muscle, studio)
+    question = CurvesQuestion(start) if example is None else example_question(example, start)
+    question = replace(question, further_stiffness=stiffness)
     if pressure is not None:
         question = replace(question, pressures=pressures_of(pressure.split(","), "--pressure"))
     result = curves_of(question, studio)
@@ -128,3 +130,5 @@ def curves(
         write_json(result)
     else:
         write_summary(summary_of(result, muscle or model))
+    for misprint in [] if example is None else example.misprints:
+        remark(f"misprint of the source: {misprint}")

@@ -43,9 +43,10 @@ from mckibben.documents.signals import (
 )
 from mckibben.documents.strict import Id, Strict
 from mckibben.facts.linear import CONTROLLER
+from mckibben.facts.run import curve_fit_of
+from mckibben.physics import gas
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import absolute_text, si
-from mckibben.simulation.drive.parts import WALL_HEAT_TRANSFER
 
 #: Gauge pressures of a drive document, by their path.
 _GAUGE = (("supply", "pressure"), ("regulator", "range"), ("start_pressure",))
@@ -208,7 +209,7 @@ class GasInput(Strict):
         "from the energy balance with heat exchange, and its mass is conserved.",
     )
     wall_heat_transfer: HeatTransfer = Field(
-        WALL_HEAT_TRANSFER,
+        gas.WALL_HEAT_TRANSFER,
         description="Heat transfer coefficient between the gas in the muscle and its wall, for the energy "
         "balance. 0 is adiabatic. Not verified: 20 to 60 at rest, several hundred during a fast fill.",
     )
@@ -253,6 +254,12 @@ class DriveDocument(Strict):
 
     schema_version: Literal[1] = Field(1, alias="schema", description="Version of the document.")
     title: Annotated[str, Field(max_length=200)] = Field("", description="Title for display.")
+    curve_fit: Annotated[str, Field(max_length=200)] = Field(
+        "",
+        description="What the drive was fitted to, where its volumes and conductances are those of no parts: "
+        "then it is called a curve fit wherever it is shown. Empty: a drive.",
+        examples=["Figure 24 of the paper"],
+    )
     muscle: MuscleInput = Field(description="The muscle; both muscles of an antagonist pair.")
     effects: EffectsInput | None = Field(
         None, description="The effects of the model; null: those of the presets."
@@ -306,6 +313,10 @@ class DriveDocument(Strict):
         default_factory=lambda: StartInput.model_validate({}),
         description="Where the load is released at t = 0. Default: where it rests.",
     )
+
+    def named(self, name: str) -> str:
+        """A name of the drive as titles show it: that of a curve fit says that it is one."""
+        return f"{name} ({curve_fit_of(self.curve_fit)})" if self.curve_fit else name
 
     @model_validator(mode="before")
     @classmethod

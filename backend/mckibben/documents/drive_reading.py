@@ -129,12 +129,14 @@ class ValveRating:
         valve: id of its preset.
         lowest_pressure, highest_pressure: of the supply, gauge [Pa].
         highest_frequency: at which it can be switched [Hz].
+        source: where these figures come from.
     """
 
     valve: str
     lowest_pressure: float | None
     highest_pressure: float | None
     highest_frequency: float | None
+    source: str
 
 
 @dataclass(frozen=True)
@@ -227,6 +229,7 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         stiffness=None if control is None else control.stiffness,
         ambient_pressure=document.gas.ambient_pressure,
         temperature=document.gas.temperature,
+        curve_fit=document.curve_fit,
     )
     unverified = {
         part.id: value_names(paths, studio.catalogue)
@@ -240,8 +243,10 @@ def _rating(preset: ValvePreset | None) -> ValveRating | None:
     if preset is None:
         return None
     units = {"min_pressure": "Pa", "max_pressure": "Pa", "max_frequency": "Hz"}
-    stated = {name: preset.data[name].si(unit) for name, unit in units.items() if name in preset.data}
-    return ValveRating(preset.id, *(stated.get(name) for name in units))
+    stated = {name: preset.data[name] for name in units if name in preset.data}
+    numbers = (stated[name].si(unit) if name in stated else None for name, unit in units.items())
+    sources = dict.fromkeys(quantity.source for quantity in stated.values())
+    return ValveRating(preset.id, *numbers, source="; ".join(sources))
 
 
 def _preset(studio: Studio, kind: str, preset_id: str | None, field: str) -> Part | None:

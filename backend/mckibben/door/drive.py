@@ -145,6 +145,11 @@ class Drive(Exportable):
             raise InputError(f"{name}: {error.message}", field=error.field, hint=error.hint) from error
 
     @property
+    def _title(self) -> str:
+        """Its name in titles."""
+        return self._document.named(self._name)
+
+    @property
     def document(self) -> dict[str, Any]:
         """The drive document, as `save` writes it."""
         return self._document.to_document()
@@ -199,7 +204,7 @@ class Drive(Exportable):
             end=None if end is None else number_of(end, "s", "end"),
         )
         result = prepare(question)(Watch(progress=None if progress is None else _teller(progress)))
-        return Run.of(result, _document=self._document, _name=self._name)
+        return Run.of(result, _document=self._document, _name=self._title)
 
     @reported
     def linearise(
@@ -243,7 +248,7 @@ class Drive(Exportable):
             if sliding_speed is None
             else number_of(sliding_speed, "m/s", "sliding_speed"),
         )
-        return LinearView.of(linear_view(question, Watch()), _name=self._name)
+        return LinearView.of(linear_view(question, Watch()), _name=self._title)
 
     def _annotated(self) -> AnnotatedDrive:
         return drive_of(self._document, self._studio)
@@ -266,16 +271,16 @@ class Drive(Exportable):
         return of_drive(self._document, self._studio, "", title=title), self._studio
 
     def _summary(self) -> Summary:
-        return _summary_of(self._document, self._name)
+        return _summary_of(self._document, self._title)
 
     def __str__(self) -> str:
         return plain_text(self._summary())
 
     def __repr__(self) -> str:
-        return f"<Drive {self._name}>"
+        return f"<Drive {self._title}>"
 
     def _repr_html_(self) -> str:
-        return notebook_cell(f"Drive {self._name}", (), self._summary())
+        return notebook_cell(f"Drive {self._title}", (), self._summary())
 
 
 def _document_of(parts: Mapping[str, Any]) -> dict[str, Any]:

@@ -131,7 +131,7 @@ def _cards(kind: str) -> dict[str, PresetCard]:
         preset.id: PresetCard(
             kind=kind,
             id=preset.id,
-            title=preset.title,
+            title=preset.heading,
             maker=preset.maker,
             description=preset.description,
             verified=preset.verified,

@@ -179,13 +179,13 @@ def subject_of(stated: Stated, studio: Studio) -> Subject:
         if drive_constants is None
         else {name: value for name, value in drive_constants.items() if _used(name, runnable)}
     )
-    title = _title(stated, start)
+    title = stated.title or _title(stated, start)
     digest = _digest(statics, start, runnable, drive_constants)
     name = words_of(title)
     about = About(
         id=f"{name}-{digest[:12]}",
         hash=digest,
-        title=title,
+        title=title if document is None else document.named(title),
         program=f"mckibben {__version__}",
         effects=tuple(_effects(start)),
         constants=sources.constants(used),
@@ -246,8 +246,6 @@ def _used(name: str, runnable: RunnableDrive | None) -> bool:
 
 
 def _title(stated: Stated, start: StartModel) -> str:
-    if stated.title:
-        return stated.title
     bore = start.muscle.inside_diameter or start.muscle.braid_diameter
     name = f"muscle of {bore * 1e3:.3g} mm" if start.preset is None else start.preset.id
     kind = "drive with " if stated.document is not None else ""

@@ -24,6 +24,12 @@ _TUBE = Condition("there is a tube", "there is no tube")
 _REGULATOR = Condition("there is a proportional pressure regulator", "there is no regulator")
 _STIFFNESS = Condition("the stiffness is controlled", "the stiffness is not controlled")
 
+
+def curve_fit_of(what: str) -> str:
+    """What a drive is that was fitted to something with parts that do not exist."""
+    return f"curve fit of {what}, not a drive"
+
+
 #: Columns over time, and what is said of the whole run.
 RUN = Group(
     "run",

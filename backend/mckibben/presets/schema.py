@@ -7,6 +7,7 @@ from typing import Annotated, Any, Literal
 
 from pydantic import Field, PrivateAttr
 
+from mckibben.facts.run import curve_fit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.parameter import UNVERIFIED_GRADES, Parameter
@@ -54,6 +55,9 @@ class Preset(PresetModel):
         "", description="What it is, in a few sentences."
     )
     references: list[Text] = Field(default_factory=list, description="Sources for further reading.")
+    misprints: list[Text] = Field(
+        default_factory=list, description="What its source prints there and cannot be right, with what is."
+    )
 
     _origin: Origin = PrivateAttr(default="built-in")
 
@@ -67,6 +71,11 @@ class Preset(PresetModel):
         self._origin = origin
 
     @property
+    def heading(self) -> str:
+        """The title as lists show it."""
+        return self.title
+
+    @property
     def verified(self) -> bool:
         """Whether no value of the preset is general knowledge (M) or an estimate (E)."""
         return all(quantity.verified for _, quantity in quantities(self))
@@ -76,8 +85,8 @@ class Preset(PresetModel):
         return self.model_dump(mode="json", by_alias=True, exclude_none=True)
 
     def public(self) -> dict[str, Any]:
-        """The document plus ``verified`` and ``origin``, as the API shows it."""
-        return {**self.to_document(), "verified": self.verified, "origin": self.origin}
+        """The document as the API shows it: with ``verified``, ``origin`` and the heading as its title."""
+        return {**self.to_document(), "title": self.heading, "verified": self.verified, "origin": self.origin}
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
         """Errors that the types cannot catch: units, ranges, column lengths, effects."""
@@ -285,7 +294,10 @@ class DesignPreset(Preset):
     """An example document of the Design view; its content is checked when it is used."""
 
     kind: Literal["design"] = Field(description="Says that it is a design.")
-    document: dict[str, Any] = Field(description="The document that the Design view opens.")
+    document: dict[str, Any] = Field(description="Its question, as /api/curves takes it.")
+    view: dict[str, Any] = Field(
+        default_factory=dict, description="What the Design view shows of the answer, and over what."
+    )
 
 
 class Ground(PresetModel):
@@ -346,6 +358,12 @@ class DrivePreset(_DocumentPreset):
     paper: PaperFigures | None = Field(
         default=None, description="Published figures of the drive; null where there are none."
     )
+
+    @property
+    def heading(self) -> str:
+        """The title; that of a curve fit says that it is one."""
+        of = self.document.get("curve_fit")
+        return f"{self.title} ({curve_fit_of(of)})" if of else self.title
 
 
 class TaskPreset(_DocumentPreset):

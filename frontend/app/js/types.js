@@ -13,7 +13,8 @@
  *   effects?: Record<string, Values>, reference_curve?: string | null, measurement?: string | null,
  *   references?: string[], verified: boolean, origin: string, data_columns?: Record<string, Column>,
  *   nominal_length?: PresetValue, excluded?: S["Exclusion"][], slack?: number[],
- *   source?: string, grade?: string, note?: string, document?: Partial<Design>}} Preset */
+ *   source?: string, grade?: string, note?: string, document?: Partial<Design>,
+ *   view?: Partial<Design>, misprints?: string[]}} Preset */
 /** @typedef {S["EffectProblem"] & Partial<S["LibraryProblem"]>} Problem */
 /** @typedef {S["EffectParameter"]} Parameter */
 /** @typedef {S["EffectAnswer"]} Effect */

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
+from mckibben.documents.drive import GasInput
 from mckibben.physics import gas
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.muscle import Muscle
@@ -245,3 +246,7 @@ def test_guide_friction_grows_with_the_load_that_presses_on_it() -> None:
     guide = CATALOGUE["guide_friction"]
     values = {**guide.defaults, "force": 5.0, "load_share": 0.02, "presliding": -1.0}
     assert guide.call("guide", {"speed": 0.0, "load": 400.0}, values) == pytest.approx(-13.0)
+
+
+def test_heat_exchange_starts_from_the_coefficient_that_a_drive_has_without_it() -> None:
+    assert CATALOGUE["heat_exchange"].defaults["coefficient"] == GasInput().wall_heat_transfer

@@ -12,6 +12,7 @@ from tests.physics.contract_states import MUSCLE
 CREEP = default_catalogue()["creep"]
 MULLINS = default_catalogue()["mullins"]
 SELF_HEATING = default_catalogue()["self_heating"]
+TEMPERATURE = default_catalogue()["temperature"]
 PRESSURE_CREEP = default_catalogue()["pressure_creep"]
 ARMS = 3.0 * 10.0 ** np.array([-1.0, -0.5, 0.0, 0.5, 1.0])  # s
 
@@ -179,3 +180,18 @@ def test_work_warms_the_wall_and_rest_cools_it() -> None:
         rel=0.01,
     )
     assert SELF_HEATING.call("elastomer_factor", {}, {**values, "warmth": 2.0}) == pytest.approx(np.exp(-0.4))
+
+
+def test_warming_softens_a_filled_bladder_alike_by_temperature_and_by_work() -> None:
+    """Their defaults are one statement: -0.5 % per kelvin at the 20 K of steady work, to first order."""
+    by_work = SELF_HEATING.call("elastomer_factor", {"warmth": 1.0}, SELF_HEATING.defaults)
+    by_kelvin = TEMPERATURE.call("elastomer_factor", {"temperature": 293.15 + 20.0}, TEMPERATURE.defaults)
+    assert float(by_kelvin) == pytest.approx(0.9)
+    assert float(by_work) == pytest.approx(float(by_kelvin), abs=0.1**2 / 2)
+
+
+def test_an_unfilled_bladder_stiffens_by_entropy() -> None:
+    """Modulus n k T: in proportion to the absolute temperature, at beta = 1/T0."""
+    entropic = TEMPERATURE.defaults | {"coefficient": 1.0 / 293.15}
+    got = TEMPERATURE.call("elastomer_factor", {"temperature": 330.0}, entropic)
+    assert float(got) == pytest.approx(330.0 / 293.15)

@@ -26,6 +26,7 @@ from mckibben.facts.muscle import CURVES, LIMITS, LOOP, OVER_PRESSURE, branch_of
 from mckibben.facts.result import FiniteSeries, Rows, Series, result_class
 from mckibben.physics.errors import InputError
 from mckibben.physics.units import si
+from mckibben.presets import DesignPreset
 from mckibben.simulation.statics.characteristics import (
     FILLING,
     VENTING,
@@ -82,6 +83,15 @@ class CurvesQuestion:
     fixed_length: float | None = None
     conditions: Conditions = field(default_factory=Conditions)
     further_stiffness: bool = False
+
+
+def example_question(example: DesignPreset, start: StartModel) -> CurvesQuestion:
+    """The question of an example design about a muscle, its own or that with other effects."""
+    asked: dict[str, Any] = {
+        name: value for name, value in example.document.items() if name not in ("muscle", "effects")
+    }
+    asked["pressures"] = tuple(asked["pressures"])
+    return CurvesQuestion(start, **asked)
 
 
 @result_class

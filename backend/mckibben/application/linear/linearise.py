@@ -20,6 +20,7 @@ from mckibben.application.linear.result import (
     near,
     point_of,
 )
+from mckibben.application.muscle_summary import curve_fit_notices
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import si
@@ -109,7 +110,7 @@ def _check(question: LinearQuestion, linear: Linearisation) -> None:
 
 def _answer(question: LinearQuestion, linear: Linearisation, watch: Watch) -> LinearResult:
     source, out, drive = question.input, question.output, question.annotated.drive
-    notes: list[str] = []
+    notes = [str(notice) for notice in curve_fit_notices(drive.curve_fit)]
     with np.errstate(all="ignore"):
         frequency = frequencies_for(linear.primary, sweep_frequencies(linear))
         models = [model_result(linear, model, source, out, frequency) for model in linear.models]

@@ -16,6 +16,7 @@ from mckibben.application.muscle_summary import (
     GeometrySummary,
     MakerLimits,
     Notice,
+    curve_fit_notices,
     geometry_of,
     limit_notices,
     start_notices,
@@ -33,7 +34,7 @@ from mckibben.application.run.events import STILL, RunEvent, events_of_run, rest
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.facts.result import Booleans, FiniteSeries, Series, result_class
-from mckibben.facts.run import JOINT, RUN
+from mckibben.facts.run import JOINT, RUN, curve_fit_of
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
@@ -376,6 +377,7 @@ def result_of(
         steps=run.steps,
         flags=[
             *start_notices(annotated.start),
+            *curve_fit_notices(drive.curve_fit),
             *_part_notices(annotated),
             *limit_notices(_crossed(run)),
             *pressure_notices(_stated_pressures(annotated)),
@@ -489,6 +491,8 @@ def trace_text(document: DriveDocument, result: SimulationResult) -> str:
     columns = trace_columns(result)
     text = io.StringIO()
     text.write("# kind: transient\n# pressure: gauge\n")
+    if document.curve_fit:
+        text.write(f"# drive: {curve_fit_of(document.curve_fit)}\n")
     if document.muscle.preset is not None:
         text.write(f"# muscle: {document.muscle.preset}:{result.geometry.nominal_length * 1e3:g}mm\n")
     text.write(

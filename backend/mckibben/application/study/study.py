@@ -12,6 +12,7 @@ from typing import ClassVar, Literal, Protocol
 import numpy as np
 import orjson
 
+from mckibben.application.muscle_summary import curve_fit_notices
 from mckibben.application.study.subject import StudySubject, evaluator, subject_of
 from mckibben.application.study.variables import goals_of, limits_of, plan_of, variables_of
 from mckibben.documents.studio import Studio
@@ -316,7 +317,10 @@ def _result(
         seed=getattr(method, "seed", None),
         outcome=outcome.label,
         message=_ENDED.get(outcome),
-        remarks=_remarks(table, sensitivity, blocks),
+        remarks=[
+            *(str(notice) for notice in curve_fit_notices(question.subject.content.get("curve_fit", ""))),
+            *_remarks(table, sensitivity, blocks),
+        ],
         wall_ms=wall_ms,
     )
 

@@ -24,7 +24,7 @@ def heat(
     )
 
 
-_RANGE = Source("free to forced convection in small vessels, 20-50 W/(m2 K)", "E")
+_RANGE = Source("small vessels: 20-60 W/(m2 K) at rest, several hundred during a fast fill", "M")
 _BY_HAND = Source("30 * pi * 0.02 * (0.3 + 0.01) * (293 - 333) W", "D")
 
 EFFECT = Effect(
@@ -39,7 +39,7 @@ EFFECT = Effect(
             "coefficient",
             "h",
             "W/(m2*K)",
-            default=30.0,
+            default=gas.WALL_HEAT_TRANSFER,
             lower=0.0,
             upper=1000.0,
             source=_RANGE,

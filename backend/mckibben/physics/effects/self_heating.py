@@ -6,7 +6,8 @@ relative to steady work at :math:`v_r` = 5 % of the rest length per second,
 .. math:: F_{el} \to F_{el}\,e^{-a w}, \qquad \tau\,\dot w = |\dot L|/v_r - w, \qquad w(0) = 0
 
 The record is assumed to begin with a cold wall. Where the temperature of the wall is measured, `temperature`
-is the direct description.
+is the direct description; the default here is its default, -0.5 % per kelvin of filled rubber, at 20 K of
+warming.
 """
 
 from mckibben.physics import ops

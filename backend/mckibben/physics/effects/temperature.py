@@ -1,7 +1,11 @@
 r"""Temperature of the elastomer multiplies all its tensions by :math:`1 + \beta(T-T_0)`.
 
-Ideal rubber stiffens when warm, :math:`\beta = 1/T_0`; filled rubber often softens, so the sign has to be
-fitted. The temperature is that of the wall, which a working muscle heats over minutes.
+Two mechanisms act against each other. The network of the rubber is elastic by entropy and stiffens when
+warm, :math:`\beta = 1/T_0`, +0.3 % per kelvin: an unfilled bladder of latex or silicone. The network of the
+filler (carbon black) between its chains loosens when warm, -0.3 to -1 % per kelvin, and outweighs it: the
+chloroprene bladder of a made muscle. The default is that of filled rubber, as in `self_heating`, where the
+same softening is stated per work instead of per kelvin; a positive value is that of an unfilled bladder. The
+temperature is that of the wall, which a working muscle heats over minutes.
 """
 
 from mckibben.physics.effect import Effect, Example, Prior, Signature, Twin
@@ -14,7 +18,7 @@ def elastomer_factor(*, temperature: Value, coefficient: Value, reference_temper
     return 1.0 + coefficient * (temperature - reference_temperature)
 
 
-_ENTROPIC = Source("kinetic theory of rubber, 1/293 K; filled rubber -0.01 to -0.003 1/K", "M")
+_BOTH_SIGNS = Source("filled rubber -0.01 to -0.003 1/K; unfilled, by kinetic theory, +1/293 K", "M")
 _NO_ELASTOMER = Source("without an elastomer there is nothing to warm: the blocked force", "D")
 _SIZE_10 = {"nominal_length": 0.1, "braid_diameter": 0.01, "braid_angle": 0.4363323129985824}
 
@@ -22,19 +26,20 @@ EFFECT = Effect(
     title="Temperature of the elastomer",
     family="elastomer",
     type="static",
-    cause="The modulus of rubber depends on its temperature, and a working muscle warms its wall. The "
-    "elastic share of the force then drifts over minutes.",
+    cause="Filled rubber gets softer when warm, rubber without filler stiffer, and a working muscle warms "
+    "its wall. The elastic share of the force then drifts over minutes.",
     equation=r"F_{el}(T) = \left[1+\beta\,(T-T_0)\right] F_{el}",
     parameters=(
         Parameter(
             "coefficient",
             r"\beta",
             "1/K",
-            default=0.0034,
+            default=-0.005,
             lower=-0.015,
             upper=0.01,
-            source=_ENTROPIC,
-            description="Relative change of the elastomer's modulus per kelvin; negative when it softens.",
+            source=_BOTH_SIGNS,
+            description="Relative change of the elastomer's modulus per kelvin: negative of filled rubber, "
+            "which softens, +1/T of rubber without filler.",
             off=0.0,
         ),
         Parameter(

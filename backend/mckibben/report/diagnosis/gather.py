@@ -19,6 +19,7 @@ from mckibben.application.measurement.summary import summary_of
 from mckibben.documents.start_model import PresetFacts, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.documents.value_names import value_names, value_words
+from mckibben.facts.run import curve_fit_of
 from mckibben.identification.predict.fit_model import LOAD
 from mckibben.measurement.experiment import ACCURACY, FIELDS, FROM_DRIVE, LOAD_FORCE, Experiment, shown_value
 from mckibben.measurement.points import Points
@@ -185,6 +186,8 @@ def _drive(question: ModelQuestion) -> Iterator[tuple[str, str]]:
     if drive is None:
         return
     valve, load = drive.valve, drive.load
+    if drive.curve_fit:
+        yield "Drive", curve_fit_of(drive.curve_fit)
     yield "Supply", f"{drive.supply_pressure / 1e5:.4g} bar"
     yield "Valve, filling", f"{valve.fill_conductance * 1e8:.4g} l/(s·bar)"
     yield "Valve, venting", f"{valve.exhaust_conductance * 1e8:.4g} l/(s·bar)"

@@ -5,18 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import pi, radians
 
-from mckibben.physics import ideal
+from mckibben.physics import gas, ideal
 from mckibben.physics.drive_terms import DriveStructure
 from mckibben.physics.muscle import Muscle
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.command.pwm import PulseWidth
 from mckibben.simulation.command.signals import Signal
 from mckibben.simulation.statics.model import StaticModel
-
-# Heat transfer between the air in a muscle and its wall [W/(m^2 K)], where nothing is stated: 20-60 at rest,
-# several hundred during a fast fill (general knowledge, not verified). With it the gas temperature follows
-# the wall within 0.2 s (10 mm bore) to 0.9 s (40 mm).
-WALL_HEAT_TRANSFER = 100.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,6 +151,7 @@ class Drive:
         stiffness: second set point of a controlled pair; its controller then gives half the difference of
             both commands.
         common: command that both muscles of a pair have in common; None = 0.5 of a regulator, 0 of a valve.
+        curve_fit: what it was fitted to, with parts that do not exist; "" of a drive.
     """
 
     model: StaticModel
@@ -179,7 +175,7 @@ class Drive:
     own_mass: float = 0.0
     fitting_volume: float = 0.0
     polytropic_exponent: float | None = None
-    wall_heat_transfer: float = WALL_HEAT_TRANSFER
+    wall_heat_transfer: float = gas.WALL_HEAT_TRANSFER
     pair: bool = False
     precontraction: float = 0.0
     pulley_radius: float | None = None
@@ -189,6 +185,7 @@ class Drive:
     common: float | None = None
     ambient_pressure: float = ideal.ATMOSPHERE
     temperature: float = 293.15
+    curve_fit: str = ""
 
     @property
     def muscle(self) -> Muscle:

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from enum import StrEnum
 
+_PERMITTED = ", the limit of the maker of the muscle"  # whose limit it is
+
 
 class FlagCode(StrEnum):
     """Code of a crossed limit; results are flagged, never clipped."""
@@ -54,7 +56,7 @@ class MuscleLimits:
             found.append(
                 LimitFlag(
                     FlagCode.OVER_PRESSURE,
-                    f"{pressure / 1e5:.3g} bar is above the permitted {self.max_pressure / 1e5:.3g} bar",
+                    f"{pressure / 1e5:.3g} bar is above {self.max_pressure / 1e5:.3g} bar{_PERMITTED}",
                     "pressures",
                 )
             )
@@ -62,7 +64,7 @@ class MuscleLimits:
             found.append(
                 LimitFlag(
                     FlagCode.OVER_FORCE_LIMIT,
-                    f"{force:.4g} N is above the permitted {self.max_force:.4g} N",
+                    f"{force:.4g} N is above {self.max_force:.4g} N{_PERMITTED}",
                     "load",
                 )
             )
@@ -72,16 +74,16 @@ class MuscleLimits:
             found.append(
                 LimitFlag(
                     FlagCode.OVER_CONTRACTION_LIMIT,
-                    f"a contraction of {contraction * 100:.3g} % is above the permitted "
-                    f"{self.max_contraction * 100:.3g} %",
+                    f"a contraction of {contraction * 100:.3g} % is above "
+                    f"{self.max_contraction * 100:.3g} %{_PERMITTED}",
                 )
             )
         if self.max_pretension is not None and _above(-contraction, self.max_pretension):
             found.append(
                 LimitFlag(
                     FlagCode.OVER_PRETENSION_LIMIT,
-                    f"a stretch of {-contraction * 100:.3g} % is above the permitted "
-                    f"{self.max_pretension * 100:.3g} %",
+                    f"a stretch of {-contraction * 100:.3g} % is above "
+                    f"{self.max_pretension * 100:.3g} %{_PERMITTED}",
                 )
             )
         return found

@@ -43,6 +43,7 @@ const NAMES = new Set([
   "interpolation",
   "reached",
   "title",
+  "curve_fit",
 ]);
 
 /** SI units of the fields of drives and tasks, by their path; a text that does not fit stays for the server, which
@@ -209,6 +210,21 @@ const GEOMETRY = [
   "wall_thickness",
 ];
 
+/** A muscle as documents state it, in SI, as the page edits it.
+ * @param {Drive} muscle @returns {import("../types.js").Muscle} @throws {Error} names what cannot be read */
+export function muscleParts({ preset = null, rhombus, ...geometry }) {
+  const values = Object.fromEntries(
+    [...Object.entries(geometry), ...Object.entries(rhombus ?? {})].filter(([, v]) => typeof v === "number"),
+  );
+  const unknown = Object.keys(geometry).filter((key) => !(key in values) || !GEOMETRY.includes(key));
+  if (unknown.length) throw new Error(`“muscle.${unknown[0]}” cannot be read`);
+  return {
+    preset,
+    form: rhombus ? "rhombus" : "turns" in values || "thread_length" in values ? "thread" : "braid",
+    values,
+  };
+}
+
 /** A drive document in parts: muscle and effects for the design, the rest for the Transient view.
  * @param {Drive} document @param {string | null} scenario
  * @returns {{muscle: import("../types.js").Muscle, effects: Record<string, Record<string, number>> | null,
@@ -216,17 +232,10 @@ const GEOMETRY = [
 export function partsOfDrive(document, scenario) {
   const { schema: _schema, muscle, effects, ...rest } = inSi(document);
   if (!isObject(muscle)) throw new Error("“muscle” is missing");
-  const { preset = null, rhombus, ...geometry } = muscle;
-  const values = Object.fromEntries(
-    [...Object.entries(geometry), ...Object.entries(rhombus ?? {})].filter(([, v]) => typeof v === "number"),
-  );
-  const unknown = Object.keys(geometry).filter((key) => !(key in values) || !GEOMETRY.includes(key));
-  if (unknown.length) throw new Error(`“muscle.${unknown[0]}” cannot be read`);
   if (isObject(rest.load)) rest.load = withArrangement(rest.load);
-  const form = rhombus ? "rhombus" : "turns" in values || "thread_length" in values ? "thread" : "braid";
   const start = defaultDrive();
   return {
-    muscle: { preset, form, values },
+    muscle: muscleParts(muscle),
     effects: effects ?? null,
     transient: {
       drive: { command: start.command, controller: start.controller, ...rest },

@@ -5,6 +5,7 @@ import { presets } from "../../store.js";
 import { chartColumn } from "./charts.js";
 import { designEffectsCard } from "./effects.js";
 import { errorCard } from "./errors.js";
+import { exampleNote, openExample } from "./examples.js";
 import { inverseCard } from "./inverse.js";
 import { curvesAreCurrent, fault, startModel } from "./model.js";
 import { muscleCard } from "./muscle.js";
@@ -22,6 +23,7 @@ export function designView() {
       "div",
       { class: () => `column results${fault.value || !curvesAreCurrent.value ? " stale" : ""}` },
       errorCard(),
+      exampleNote,
       ...verdict,
       inverseCard(),
     ),
@@ -61,6 +63,6 @@ export function designExamples() {
   return designs.map((d) => ({
     label: d.title,
     note: d.description,
-    run: async () => (await import("./examples.js")).openExample(d),
+    run: () => openExample(d),
   }));
 }

@@ -64,7 +64,7 @@ const OUTCOMES = {
   timed_out: "The run took too long.",
   cancelled: "The run was cancelled.",
 };
-const NOTE = "unverified";
+const NOTE = "unverified", FIT = "curve_fit";
 /** How a controlled run ends that does what its reference asks. */
 const FOLLOWED = new Set(["tracks", "settles"]);
 
@@ -77,7 +77,9 @@ function verdict() {
     return h("p", { class: "muted" }, fault.value ? "No valid drive yet." : "Waiting for the first run…");
   }
   const done = r.outcome === "completed";
-  const hard = r.flags.filter((f) => f.code !== NOTE), doubts = r.flags.filter((f) => f.code === NOTE);
+  const fits = r.flags.filter((f) => f.code === FIT);
+  const hard = r.flags.filter((f) => f.code !== NOTE && f.code !== FIT),
+    doubts = r.flags.filter((f) => f.code === NOTE);
   // A complete run in which nothing moves is a warning.
   const still = r.timing.extend.max_speed == null && !r.tracking
     ? r.timing.notes["extend.max_speed"] ?? null
@@ -87,6 +89,9 @@ function verdict() {
   const grade = !done ? "bad" : hard.length || still || away ? "warn" : "good";
   const end = r.time.at(-1) ?? 0;
   return [
+    ...fits.map((f) =>
+      h("p", { class: "flag note" }, icon("info"), h("span", null, `${capital(f.message)}.`))
+    ),
     h(
       "p",
       { class: `verdict ${grade}` },

@@ -6,6 +6,7 @@ import { brief, scaleOf, toShown } from "../../../format.js";
 import { run, scenario, untouched } from "../model.js";
 import { figureName, figureOf, TIMING } from "./timing.js";
 import { siNumber } from "../../../quantities.js";
+import { misprintList } from "../../../ui/misprints.js";
 
 /** @typedef {{figure?: string, figures?: Record<string, {value: number, unit: string}>,
  *   excluded?: Record<string, string>}} Paper */
@@ -65,6 +66,7 @@ export function paperCard() {
       h("h2", null, "Compared with the paper"),
       h("span", { class: "muted" }, paper()?.figure ?? ""),
     ),
+    scenario.value ? misprintList(scenario.value) : null,
     untouched.value ? null : h(
       "p",
       { class: "flag note" },
