@@ -25,7 +25,7 @@ def _read(path: str) -> dict[str, object]:
 
 
 def drive_document(path: str) -> dict[str, object]:
-    """The parts of a drive document or preset; a document of a model alone has only ``effects`` (and ``muscle``).
+    """The parts of a drive document or preset; that of a model alone has only ``effects`` (and ``muscle``).
 
     Of a saved model, and of the model of a diagnosis, they are those of its drive, if it has one.
     """

@@ -85,10 +85,10 @@ class StatedModel:
         if not isinstance(muscle, Mapping):
             place = f"{source}: " if source else ""
             raise InputError(f"{place}the document has no muscle", hint='{"muscle": {"preset": "DMSP-20"}}')
-        effects = cast("Effects | None", document.get("effects"))
+        effects = document.get("effects")
         if effects is None and "valve" in document:
             effects = drive_of(read_document(document, source), of, measured=True).start.effects
-        return cls(dict(cast("Mapping[str, object]", muscle)), effects, None, source)
+        return cls(dict(cast("Mapping[str, object]", muscle)), cast("Effects | None", effects), None, source)
 
     @classmethod
     def of_file(cls, path: Path, studio: Studio) -> StatedModel:

@@ -276,7 +276,7 @@ def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]
             field="from" if question.begin is not None else "to",
             hint=f"0 to {duration:g} s",
         )
-    jumps = drive.command.segments(duration).times[1:-1] if drive.controller is None else ()
+    jumps = drive.command.segments(duration).times[1:-1].tolist() if drive.controller is None else ()
     grid = grid_of(duration=duration, begin=begin, end=end, points=question.points, jumps=jumps)
 
     def work(watch: Watch) -> SimulationResult:

@@ -10,8 +10,8 @@ import numpy as np
 from mckibben.measurement.derivative import noise_of
 from mckibben.measurement.experiment import GRAVITY
 from mckibben.measurement.kind import weights_of_runs
-from mckibben.measurement.read.conditions import COMMAND_BEFORE
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
+from mckibben.measurement.read.conditions import COMMAND_BEFORE
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import TableSignal
 from mckibben.simulation.drive.many_runs import Pieces
@@ -197,8 +197,8 @@ def record_of(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Recor
     columns, conditions = measurement.columns, measurement.conditions
     if drive.stiffness is not None:
         raise InputError(
-            f"{measurement.name}: a joint whose stiffness is controlled is not compared: its two commands differ, "
-            "and a measurement holds one",
+            f"{measurement.name}: a joint whose stiffness is controlled is not compared: its two commands "
+            "differ, and a measurement holds one",
             field="controller.stiffness",
             hint="compare a run of the joint with a command, or leave the stiffness out of the drive",
         )
@@ -252,9 +252,7 @@ def _start_pressure(drive: Drive, pressure: np.ndarray, command: np.ndarray) -> 
     return measured if abs(measured - drive.start_pressure) > _NOT_VENTED else drive.start_pressure
 
 
-def _command(
-    time: np.ndarray, command: np.ndarray, rows: np.ndarray, before: float | str | None
-) -> Recorded:
+def _command(time: np.ndarray, command: np.ndarray, rows: np.ndarray, before: float | str | None) -> Recorded:
     """The measured command: held between changes if they are few, else interpolated linearly."""
     # Of a later run of the file it is that of the row before.
     stated = None if before is None else float(before) if rows[0] == 0 else float(command[rows[0] - 1])

@@ -62,7 +62,8 @@ export function toCsv({ columns, rows, notes = [] }) {
   const head = columns.map((c) => quote(headOf(c)));
   const write = (/** @type {string | number | null} */ v) =>
     v == null ? "" : typeof v === "number" ? String(Number(v.toPrecision(12))) : quote(v);
-  return [...notes.map((note) => `# ${note}`), head.join(","), ...rows.map((row) => row.map(write).join(","))].join("\n") + "\n";
+  return [...notes.map((note) => `# ${note}`), head.join(","), ...rows.map((row) => row.map(write).join(","))]
+    .join("\n") + "\n";
 }
 
 /** The name of a saved file with the date of today: "mckibben-run-2024-05-01.csv".
