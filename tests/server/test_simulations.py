@@ -118,7 +118,9 @@ def test_timing_does_not_depend_on_the_rows_asked_for(
     for phase in ("extend", "retract"):
         for name, value in lift["timing"][phase].items():
             exact = value is None or isinstance(value, str)
-            assert few["timing"][phase][name] == (value if exact else pytest.approx(value, rel=0.02, abs=2e-3))
+            assert few["timing"][phase][name] == (
+                value if exact else pytest.approx(value, rel=0.02, abs=2e-3)
+            )
 
 
 def test_a_window_holds_the_same_run(shared_client: TestClient, lift: dict[str, Any]) -> None:
