@@ -171,7 +171,9 @@ def _details(body: str, _studio: Studio, store: MeasurementStore) -> Prepared:
 
 
 def _comparison(body: ComparisonRequest, studio: Studio, store: MeasurementStore) -> Prepared:
-    return lambda _: to_json(compare(model_question(body, studio, store), fit=body.fit, within=body.within))
+    return lambda _: to_json(
+        compare(model_question(body, studio, store), fit=body.fit, within=body.within, explain=body.explain)
+    )
 
 
 def _experiments(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) -> Prepared:

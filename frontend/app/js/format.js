@@ -33,6 +33,9 @@ export function quantityOf(unit, name = "") {
   return OF_SI[unit] ?? null;
 }
 
+/** A sentence whose numbers stay on a line with their units. @param {string} text */
+export const unbroken = (text) => text.replace(/(\d) (?=%|mm|ms|Hz|[smJlgN]\b|kg|bar|m\/s)/g, "$1\u00a0");
+
 /** A scale for a unit that has none: values are shown as they are. @param {string} unit */
 export const plainScale = (unit) => ({ unit: tidyUnit(unit), factor: 1, digits: 6, offset: 0 });
 
