@@ -226,6 +226,17 @@ JOINT = Group(
         _STIFFNESS, column="stiffness_reference",
     ),
     Figure(
+        "angle_range", "", "rad", "Angle, from and to", "Least and largest angle of the rows of the answer.",
+    ),
+    Figure(
+        "torque_range", "", "N*m", "Torque, from and to",
+        "Least and largest torque of the rows of the answer.",
+    ),
+    Figure(
+        "stiffness_range", "", "N*m/rad", "Joint stiffness, from and to",
+        "Least and largest stiffness of the rows of the answer.",
+    ),
+    Figure(
         "stiffness_error", "", "N*m/rad", "RMS error of the joint stiffness",
         "√(1/T ∫(stiffness − set point)² dt) over the whole run, with the transient at its start.",
         _STIFFNESS,

@@ -32,7 +32,7 @@ from mckibben.application.run.drive_run import measured_interval, run_drive, use
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.facts.comparison import CHANNELS
 from mckibben.facts.figure import Figure, Group
-from mckibben.facts.result import Booleans, FiniteSeries, Series, result_class
+from mckibben.facts.result import Booleans, FiniteSeries, Number, Series, result_class
 from mckibben.facts.run import JOINT, RUN
 from mckibben.measurement.read.conditions import COMMAND_BEFORE, IGNORE
 from mckibben.physics.drive_terms import COUNTER
@@ -83,6 +83,9 @@ class JointMotion:
     angle_reference: Series | None
     stiffness_reference: Series | None
     stiffness_error: float | None
+    angle_range: tuple[Number, Number]
+    torque_range: tuple[Number, Number]
+    stiffness_range: tuple[Number, Number]
 
 
 def joint_of(run: Run, rows: Array) -> JointMotion | None:
@@ -104,10 +107,12 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         own = drive.command if drive.reference is None else run.command
         command = 2.0 * drive.common_command - np.asarray(own.value(run.time))[rows]
     inflow, supplied, vented = flows
+    angle, stiffness = run.states["stroke"][rows] / radius, _stiffness(run, rows)
+    torque = radius * (run.outputs["force"][rows] - counter)
     return JointMotion(
-        angle=run.states["stroke"][rows] / radius,
-        torque=radius * (run.outputs["force"][rows] - counter),
-        stiffness=_stiffness(run, rows),
+        angle=angle,
+        torque=torque,
+        stiffness=stiffness,
         counter_force=counter,
         counter_pressure=run.states[f"pressure{COUNTER}"][rows] - drive.ambient_pressure,
         counter_command=command,
@@ -120,7 +125,16 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         else np.asarray(drive.reference.value(run.time))[rows] / radius,
         stiffness_reference=None if wanted is None else wanted[rows],
         stiffness_error=error,
+        angle_range=_range(angle),
+        torque_range=_range(torque),
+        stiffness_range=_range(stiffness),
     )
+
+
+def _range(values: Array) -> tuple[float, float]:
+    """Least and largest value; NaN of none."""
+    finite = values[np.isfinite(values)]
+    return (float(finite.min()), float(finite.max())) if len(finite) else (float("nan"), float("nan"))
 
 
 def _stiffness(run: Run, rows: Array | slice) -> Array:
