@@ -26,10 +26,10 @@ from mckibben.simulation.drive.transient import dead_times
 from mckibben.simulation.linear.linearise import Linearisation, linearise
 from mckibben.simulation.linear.model import LinearModel
 from mckibben.simulation.linear.nonlinear import run_from
-from mckibben.simulation.linear.response import step_response
 from tests.benchmarks.diagnosis import say
 from tests.export.models import studio
 from tests.simulation.linear.differences import offset_of, side_of
+from tests.simulation.linear.steps import step_response
 
 Array = np.ndarray
 

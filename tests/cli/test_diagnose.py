@@ -255,7 +255,7 @@ def test_a_trace_is_diagnosed_with_its_drive(run: Run, lifted: str) -> None:
     lines = Path(lifted).read_text("utf-8").splitlines()
     head = next(number for number, line in enumerate(lines) if not line.startswith("#"))
     names = lines[head].split(",")
-    kept = [names.index(name) for name in ("time_s", "command", "pressure_Pa", "displacement_m")]
+    kept = [names.index(name) for name in ("time_s", "command", "pressure_Pa", "length_m")]
     random = np.random.default_rng(5)
     rows = []
     for line in lines[head + 1 :: 10]:
@@ -264,7 +264,7 @@ def test_a_trace_is_diagnosed_with_its_drive(run: Run, lifted: str) -> None:
         values[3] += random.normal(0.0, 5e-5)
         rows.append(",".join(f"{value:.7g}" for value in values))
     conditions = [line.lstrip("# ") for line in lines[:head]]
-    write("noisy.csv", text(rows, "time_s,command,pressure_Pa,displacement_m", *conditions))
+    write("noisy.csv", text(rows, "time_s,command,pressure_Pa,length_m", *conditions))
     write("drive.json", DRIVE)
     answer = answer_of(run("diagnose", "noisy.csv", "--drive", "drive.json", "--json"))
     assert (answer["kind"], answer["predicted"], answer["unit"]) == (

@@ -60,10 +60,53 @@ def test_the_trace_can_be_read_back_as_a_measurement(run: Run) -> None:
     measurement = read_measurement(Path("trace.csv").read_bytes(), "trace.csv")
     assert measurement.kind == "transient"
     assert measurement.rows == 2001
-    assert {"time", "command", "pressure", "displacement", "force"} <= set(measurement.columns)
+    assert set(measurement.columns) == {"time", "command", "pressure", "force", "length", "diameter", "group"}
+    assert not [text for text in measurement.messages if "column" in text]
     assert measurement.conditions["muscle"] == "DMSP-20:800mm"
     assert measurement.conditions["load_mass"] == 10.0
-    assert measurement.columns["displacement"].max() == pytest.approx(0.2, abs=2e-3)
+    assert measurement.columns["length"].min() == pytest.approx(0.6, abs=2e-3)
+
+
+SPOOL = {"preset": "MPYE-5-1/8-HF"}  # its spool begins where the command stood before the run
+ROUND_TRIPS = {
+    "hanging": {"valve": SPOOL},
+    "lever": {"valve": SPOOL, "load": {"mass": "5 kg", "arrangement": "lever", "lever_ratio": 0.5}},
+    "jumps beside the rows": {"command": {"shape": "pulse", "on": "33.3 ms", "off": "617.1 ms"}},
+    "joint": {
+        "valve": {"preset": "VPPM-6"},
+        "load": {
+            "mass": "4 kg", "arrangement": "antagonist", "pulley_radius": "30 mm", "precontraction": "10 %",
+        },
+        "stops": {"min_contraction": "-2 %", "max_contraction": "22 %"},
+        "command": {"shape": "step", "at": "0.2 s", "initial": 0.5, "level": 0.7},
+        "start_pressure": "3 bar",
+    },
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", ROUND_TRIPS)
+def test_a_run_read_back_is_the_run_of_its_drive(run: Run, name: str) -> None:
+    """Sign, reference and size of every column: the error is that of twelve printed digits."""
+    drive = write("drive.json", {
+        "muscle": {"preset": "DMSP-20", "nominal_length": "300 mm"}, "supply": {"pressure": "6 bar"},
+        "valve": {"preset": "MHE4"}, "command": {"shape": "pulse", "on": "0 s", "off": "0.6 s"},
+        "load": {"mass": "10 kg", "arrangement": "hanging"}, "duration": "1 s", **ROUND_TRIPS[name],
+    })  # fmt: skip
+    assert run("simulate", drive, "--out", "run.csv")[0] == 0
+    code, out, err = run("compare", "run.csv", "--drive", drive, "--json")
+    assert code == 0, err
+    channels = json.loads(out)["channels"]
+    assert set(channels) == {"pressure", "displacement", "force"}
+    for channel in channels.values():
+        assert channel["rmse"] < 1e-10 * channel["full_scale"]
+
+
+def test_a_joint_with_two_commands_is_not_compared(run: Run) -> None:
+    shutil.copy(presets_folder() / "drives" / "joint-20.json", "joint.json")
+    assert run("simulate", "joint.json", "--out", "run.csv")[0] == 0
+    code, _, err = run("compare", "run.csv", "--drive", "joint.json")
+    assert code == 2
+    assert "stiffness is controlled is not compared" in err
 
 
 def test_presets_run_by_id_and_by_file(run: Run) -> None:

@@ -180,7 +180,7 @@ def test_simulations(run: Run) -> None:
     mine = mk.Drive.preset("propneu-20").run()
     check(mine, theirs)
     assert mine.timing.extend.rise_time == pytest.approx(theirs["timing"]["extend"]["rise_time"], rel=1e-12)
-    assert mine.to_frame()["displacement_m"].tolist() == theirs["position"]
+    assert mine.to_frame()["load_position_m"].tolist() == theirs["position"]
 
 
 def test_sizings(run: Run) -> None:

@@ -122,6 +122,28 @@ def test_a_scenario_brings_its_drive_and_the_printed_figures(page: Page) -> None
     expect(page.locator("#drive-muscle")).to_contain_text("300 mm")
 
 
+def test_a_loop_that_swings_bears_no_tick(page: Page) -> None:
+    open_transient(page)
+    load_scenario(page, "paper-pid-pulse")
+    verdict = page.locator(".transient .verdict")
+    expect(verdict).to_have_class("verdict good")
+    expect(verdict).to_contain_text(re.compile(r"Settles within 2\s% of each step"))
+    steps = page.get_by_role("region", name="Tracking").locator("summary")
+    expect(steps).to_have_text("6 steps of the reference")
+    rerun(page, lambda: run(page, GAINS, [3, 60]))
+    expect(verdict).to_have_class("verdict warn")
+    expect(verdict).to_contain_text("the load swings to the end")
+    expect(verdict).to_contain_text("Lower the gains")
+
+
+GAINS = """
+(await import("/js/state.js")).edit((d) => {
+  const [kp, ki] = argument, { drive } = d.transient;
+  const controller = { ...drive.controller, kp, ki };
+  return { ...d, transient: { ...d.transient, drive: { ...drive, controller } } };
+}, "gains");
+"""
+
 CHANGED_BY = """
 (await import("/js/state.js")).edit((d) => {
   const design = structuredClone(d.design);

@@ -176,6 +176,22 @@ def test_the_rows_of_a_range_by_themselves(shared_client: TestClient, rubbing: s
     assert compare(shared_client, IDEAL, rubbing)["inside"] == []
 
 
+def test_what_an_effect_explains_in_a_range_is_the_model_less_it(
+    shared_client: TestClient, rubbing: str
+) -> None:
+    effects = {"coulomb_friction": {"force": 10.0}, "prestress": {"force": 5.0}}
+    within = {"contraction": [0.0, 0.05]}
+    answer = compare(shared_client, IDEAL, rubbing, effects=effects, within=within, explain=True)
+    found = {one["effect"]: one for one in answer["explains"]}
+    assert set(found) == set(effects)
+    assert {one["channel"] for one in found.values()} == {"force"}
+    # A constant force against the pull, and one against the motion, by the laws of both effects.
+    assert found["prestress"]["explained_mean"] == pytest.approx(-5.0)
+    assert found["prestress"]["explained_rms"] == pytest.approx(5.0)
+    assert found["coulomb_friction"]["explained_rms"] == pytest.approx(10.0, rel=0.05)
+    assert compare(shared_client, IDEAL, rubbing, effects=effects, within=within)["explains"] == []
+
+
 def test_curves_carry_what_plots_need(shared_client: TestClient, rubbing: str) -> None:
     answer = compare(shared_client, IDEAL, rubbing)
     for series in answer["series"]:

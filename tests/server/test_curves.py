@@ -349,7 +349,6 @@ def test_a_limit_that_the_free_contraction_crosses_is_a_sentence(shared_client: 
     answer = curves(shared_client, {"preset": "DMSP-20"}, pressures=["2 bar", "6 bar"])
     inside, outside = answer["characteristics"]
     assert inside["free_contraction_note"] is None
-    assert outside["free_contraction_flag"] == "over_contraction_limit"
     assert outside["free_contraction_note"].endswith("% is above 25 %, the limit of the maker of the muscle")
 
 

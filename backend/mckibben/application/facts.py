@@ -34,6 +34,8 @@ class DeclaredFigure:
     """Quantity of /api/units that says how it is shown; None for its SI unit."""
     default: float | None
     """SI value of an input that is left out; None without one."""
+    column: str
+    """Name of its column in the file of a run; empty of a figure without one."""
 
 
 @result_class
@@ -109,6 +111,7 @@ def figures() -> list[DeclaredFigure]:
             otherwise=figure.exists_when.otherwise,
             quantity=figure.shown_as,
             default=figure.default,
+            column=figure.column,
         )
         for figure in FIGURES.values()
     ]

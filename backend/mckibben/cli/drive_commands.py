@@ -86,7 +86,7 @@ def simulate(
         annotated = drive_of(document, studio)
         result = simulate_drive(SimulationQuestion(annotated))
     if out is not None:
-        write_text(out, trace_text(document, result), named=f"--out {out}")
+        write_text(out, trace_text(result), named=f"--out {out}")
     if not as_json:
         write_summary(summary_of(result, document.named(drive)))
         return

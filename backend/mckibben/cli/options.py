@@ -294,6 +294,10 @@ def start_model(
     if not options.muscle and "muscle" in document:
         start = start_of_input(studio, with_length(document["muscle"], rest_length), chosen, source)
         if not options.model:
+            if chosen is None and "valve" in document:
+                from mckibben.documents.drive_reading import read_document, with_effects_of_parts
+
+                start = with_effects_of_parts(start, read_document(document, source), studio)
             return start
         from mckibben.documents.saved_model import with_record
 

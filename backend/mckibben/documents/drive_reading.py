@@ -170,24 +170,12 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         InputError: an unknown preset, effect or shape (with the nearest match), or impossible values;
             ``field`` is the path in the document.
     """
-    valve_preset = _preset(studio, "valves", document.valve.preset, "valve.preset")
-    tube_preset = _preset(studio, "tubes", document.tube.preset if document.tube else None, "tube.preset")
-    fittings = [
-        _preset(studio, "fittings", name, f"fittings.{index}") for index, name in enumerate(document.fittings)
-    ]
-    assert valve_preset is None or isinstance(valve_preset, ValvePreset)  # noqa: S101 - of its folder
-    assert tube_preset is None or isinstance(tube_preset, TubePreset)  # noqa: S101
+    valve_preset, tube_preset, fittings = _preset_parts(document, studio)
     parts = [part for part in (valve_preset, tube_preset, *fittings) if part is not None]
 
     start = studio.start_model(stated_muscle(document.muscle), document.effects)
     if document.effects is None:
-        preset_effects = {
-            name: studio.catalogue[name].defaults | values
-            for part in parts
-            for name, values in part.effect_values().items()
-        }
-        # What the parts of the drive add changes nothing of the muscle that was measured.
-        start = replace(start, effects={**start.effects, **preset_effects}, fitted=start.fit)
+        start = with_effects_of_parts(start, document, studio)
     model = studio.static_model(start)
     regulator = regulator_of(document.regulator, valve_preset)
     valve = valve_of(document.valve, valve_preset)
@@ -237,6 +225,36 @@ def drive_of(document: DriveDocument, studio: Studio, *, measured: bool = False)
         if (paths := unverified_of(part, with_effects=document.effects is None))
     }
     return AnnotatedDrive(drive, start, unverified, notes, _rating(valve_preset))
+
+
+def _preset_parts(
+    document: DriveDocument, studio: Studio
+) -> tuple[ValvePreset | None, TubePreset | None, list[FittingPreset]]:
+    valve = _preset(studio, "valves", document.valve.preset, "valve.preset")
+    tube = _preset(studio, "tubes", document.tube.preset if document.tube else None, "tube.preset")
+    fittings = [
+        _preset(studio, "fittings", name, f"fittings.{index}") for index, name in enumerate(document.fittings)
+    ]
+    assert valve is None or isinstance(valve, ValvePreset)  # noqa: S101 - of its folder
+    assert tube is None or isinstance(tube, TubePreset)  # noqa: S101
+    return valve, tube, [part for part in fittings if isinstance(part, FittingPreset)]
+
+
+def with_effects_of_parts(start: StartModel, document: DriveDocument, studio: Studio) -> StartModel:
+    """The model of a muscle with the effects of the presets of valve, tube and fittings of its drive.
+
+    Raises:
+        InputError: an unknown preset.
+    """
+    valve, tube, fittings = _preset_parts(document, studio)
+    added = {
+        name: studio.catalogue[name].defaults | values
+        for part in (valve, tube, *fittings)
+        if part is not None
+        for name, values in part.effect_values().items()
+    }
+    # What the parts of the drive add changes nothing of the muscle that was measured.
+    return replace(start, effects={**start.effects, **added}, fitted=start.fit)
 
 
 def _rating(preset: ValvePreset | None) -> ValveRating | None:

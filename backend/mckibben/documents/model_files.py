@@ -25,7 +25,7 @@ def _read(path: str) -> dict[str, object]:
 
 
 def drive_document(path: str) -> dict[str, object]:
-    """The parts of a drive document; a document of a model alone has only ``effects`` (and ``muscle``).
+    """The parts of a drive document or preset; that of a model alone has only ``effects`` (and ``muscle``).
 
     Of a saved model, and of the model of a diagnosis, they are those of its drive, if it has one.
     """
@@ -35,6 +35,8 @@ def drive_document(path: str) -> dict[str, object]:
     if document.get("kind") == "model":
         document = saved_model(path).to_document()
         document = {name: document[name] for name in ("muscle", "effects", "drive") if name in document}
+    if document.get("kind") == "drive":  # a preset
+        document = {"drive": document.get("document")}
     inside = document.pop("drive", None)
     if isinstance(inside, dict):
         document = inside

@@ -204,7 +204,7 @@ class Drive(Exportable):
             end=None if end is None else number_of(end, "s", "end"),
         )
         result = prepare(question)(Watch(progress=None if progress is None else _teller(progress)))
-        return Run.of(result, _document=self._document, _name=self._title)
+        return Run.of(result, _name=self._title)
 
     @reported
     def linearise(
@@ -331,17 +331,14 @@ class Run(ResultOf[SimulationResult], SimulationResult):
     Arrays are read-only, shape (N,). A figure of `timing` that does not exist is None; its ``notes`` say why.
     """
 
-    _document: DriveDocument
-
     @property
     def messages(self) -> Sequence[str]:
         """Limits that are crossed, values that are assumed or not verified, why a run ended early."""
         return tuple(notices(self))
 
     def to_frame(self) -> pd.DataFrame:
-        """One row for each time, SI, with the names of a measurement file: time_s, command, pressure_Pa,
-        displacement_m, velocity_m/s, acceleration_m/s2, force_N, length_m, diameter_m, mass_flow_kg/s and,
-        with a controller, reference_m.
+        """One row for each time, SI: time_s, command, pressure_Pa, force_N, length_m and diameter_m are those
+        of a measurement file; load_position_m, load_velocity_m/s and the other columns are not of the muscle.
         """
         return frame_of(trace_columns(self))
 
@@ -354,7 +351,7 @@ class Run(ResultOf[SimulationResult], SimulationResult):
     def _files(self, path: Path) -> str:
         """``.csv``: the trace with the conditions that a measurement file has."""
         if path.suffix.lower() == ".csv":
-            return trace_text(self._document, self)
+            return trace_text(self)
         return super()._files(path)
 
     def _summary(self) -> Summary:

@@ -255,8 +255,6 @@ def read(
 ) -> Measurement:
     """Read a measurement file (CSV, .xlsx, .mat, .tdms), or a measurement preset by its id.
 
-    Messages name the options of the command line; ``--rest-length`` is the argument ``rest_length``.
-
     Args:
         path: the file or id.
         columns: what columns are whose heads do not say it, ``{"force": "-Kraft [kN]"}``: sign and unit.

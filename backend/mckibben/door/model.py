@@ -476,7 +476,7 @@ def load(path: str | PathLike[str]) -> Model:
 
 def model_of_document(document: Mapping[str, object], of: Studio) -> Model:
     """The model of muscle and effects of a drive document."""
-    return Model.of(StatedModel.of_parts(document, ""), of)
+    return Model.of(StatedModel.of_parts(document, "", of), of)
 
 
 def _force_of(

@@ -8,6 +8,7 @@ from collections.abc import Callable
 from functools import wraps
 from typing import ParamSpec, TypeVar
 
+from mckibben.documents.doors import error_in_words_of
 from mckibben.documents.located import one_line
 from mckibben.physics.errors import InputError
 from mckibben.presets.reading import BadDocumentError
@@ -59,6 +60,7 @@ def reported(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def _problem(error: InputError) -> Problem:
+    error = error_in_words_of("python", error)
     return Problem(
         one_line(error), message=error.message, field=error.field, hint=error.hint, code=error.code
     )

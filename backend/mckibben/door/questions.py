@@ -15,6 +15,7 @@ from mckibben.application.compare.stated_question import SavedStart, stated_ques
 from mckibben.application.measurement.experiment import QuestionModel
 from mckibben.application.measurement.files import ARGUMENT
 from mckibben.documents.drive import DriveDocument
+from mckibben.documents.drive_reading import drive_of, read_document
 from mckibben.documents.located import at_file
 from mckibben.documents.model_files import drive_document, saved_model
 from mckibben.documents.muscle_files import Effects, preset_of_file, start_of_input, with_length
@@ -74,8 +75,8 @@ class StatedModel:
         return cls(muscle, effects, saved, source)
 
     @classmethod
-    def of_parts(cls, document: Mapping[str, object], source: str) -> StatedModel:
-        """Muscle and effects of a drive document.
+    def of_parts(cls, document: Mapping[str, object], source: str, of: Studio) -> StatedModel:
+        """Muscle and effects of a drive document; without stated effects those of all its presets.
 
         Raises:
             InputError: there is no muscle.
@@ -84,8 +85,10 @@ class StatedModel:
         if not isinstance(muscle, Mapping):
             place = f"{source}: " if source else ""
             raise InputError(f"{place}the document has no muscle", hint='{"muscle": {"preset": "DMSP-20"}}')
-        effects = cast("Effects | None", document.get("effects"))
-        return cls(dict(cast("Mapping[str, object]", muscle)), effects, None, source)
+        effects = document.get("effects")
+        if effects is None and "valve" in document:
+            effects = drive_of(read_document(document, source), of, measured=True).start.effects
+        return cls(dict(cast("Mapping[str, object]", muscle)), cast("Effects | None", effects), None, source)
 
     @classmethod
     def of_file(cls, path: Path, studio: Studio) -> StatedModel:
@@ -109,7 +112,7 @@ class StatedModel:
         if isinstance(content, dict):
             document = cast("dict[str, object]", content)
             if "muscle" in document or "drive" in document:
-                return cls.of_parts(drive_document(source), source)
+                return cls.of_parts(drive_document(source), source, studio)
             return cls(document, None, None, source)
         raise InputError(f"{source}: holds no model", hint='e.g. {"preset": "DMSP-20"}')
 

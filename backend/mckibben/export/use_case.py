@@ -34,10 +34,9 @@ class ExportQuestion:
 
 @dataclass(frozen=True)
 class Export:
-    """The files of a format, the main one first, and the id of the model in them."""
+    """The files of a format, the main one first."""
 
     files: tuple[ExportedFile, ...]
-    model_id: str
     name: str
 
     @property
@@ -63,7 +62,7 @@ def export(question: ExportQuestion, studio: Studio) -> Export:
             hint="name a drive, or take another format",
         )
     name = subject.name if stem is None else stem
-    return Export(form.write(subject, name), subject.about.id, name)
+    return Export(form.write(subject, name), name)
 
 
 def checked_stem(stem: str, form: Format) -> str:

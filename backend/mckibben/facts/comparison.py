@@ -211,6 +211,15 @@ RESIDUAL = Group(
     ),
     Figure("count", "", "1", "Rows", "Number of rows in each range or cell.", quantity="number"),
     Figure(
+        "explained_mean", "", "", "An effect explains",
+        "Mean over the rows in the range of the prediction of the model less that without the effect, its "
+        "other values unchanged.",
+    ),
+    Figure(
+        "explained_rms", "", "", "RMS of what an effect explains",
+        "√(mean d²) over the rows in the range, d the prediction of the model less that without the effect.",
+    ),
+    Figure(
         "share", "", "1", "Part of the squared error",
         "Share of Σ r² that a variable takes from what those before it left (sequential analysis of "
         "variance, "

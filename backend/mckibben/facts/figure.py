@@ -41,6 +41,8 @@ class Figure:
         quantity: of `mckibben.facts.units.QUANTITIES`, which says how it is shown; "" for that of the unit.
         section: heading inside the table of its group; "" without one.
         default: SI value of an input that is left out; None without one.
+        column: name of its column in the file of a run; "" of a figure without one. It is the name of a
+            channel only where sign and reference are those of the channel.
         group: set by `Group`.
     """
 
@@ -53,6 +55,7 @@ class Figure:
     quantity: str = ""
     section: str = ""
     default: float | None = None
+    column: str = ""
     group: str = ""
 
     @property

@@ -34,65 +34,87 @@ def curve_fit_of(what: str) -> str:
 RUN = Group(
     "run",
     "Run",
-    Figure("time", "t", "s", "Time", "Time from the start of the run."),
+    Figure("time", "t", "s", "Time", "Time from the start of the run.", column="time"),
     Figure(
         "position", "x", "m", "Position",
         "Position of the load, positive towards a shorter muscle; 0 at the rest length, of a pair in the"
-        " middle.",
+        " middle.", column="load_position",
     ),
-    Figure("velocity", "v", "m/s", "Velocity", "dx/dt of the load, positive towards a shorter muscle."),
+    Figure(
+        "velocity", "v", "m/s", "Velocity",
+        "dx/dt of the load, positive towards a shorter muscle.", column="load_velocity",
+    ),
     Figure(
         "acceleration", "a", "m/s^2", "Acceleration",
-        "d²x/dt² of the load, positive towards a shorter muscle.",
+        "d²x/dt² of the load, positive towards a shorter muscle.", column="load_acceleration",
     ),
-    Figure("pressure", "p", "Pa", "Pressure", "Gauge pressure in the muscle; of a pair in the first one."),
-    Figure("force", "F", "N", "Force", "Tension of the muscle; of a pair of the first one."),
+    Figure(
+        "pressure", "p", "Pa", "Pressure",
+        "Gauge pressure in the muscle; of a pair in the first one.", column="pressure",
+    ),
+    Figure("force", "F", "N", "Force", "Tension of the muscle; of a pair of the first one.", column="force"),
     Figure(
         "mass_flow", "ṁ", "kg/s", "Air flow",
         "Mass flow of air into the muscle, negative out of it; of a pair of the first one. With a stated "
         "polytropic exponent it does not conserve mass: its integral is not the air of the timing table.",
+        column="air_flow",
     ),
     Figure(
         "command", "u", "1", "Command", "Command before dead times: 1 fill, 0 closed, −1 vent.",
-        quantity="number",
+        quantity="number", column="command",
     ),
-    Figure("opening", "", "1", "Opening", "Opening of the valve after all effects.", quantity="number"),
-    Figure("reference", "r", "m", "Reference", "Set point of the position.", _CONTROLLED),
+    Figure(
+        "opening", "", "1", "Opening",
+        "Opening of the valve after all effects.", quantity="number", column="valve_opening",
+    ),
+    Figure("reference", "r", "m", "Reference", "Set point of the position.", _CONTROLLED, column="reference"),
     Figure(
         "supply_flow", "", "kg/s", "Flow from the supply",
-        "Mass flow from the supply; of a pair to the first muscle.",
+        "Mass flow from the supply; of a pair to the first muscle.", column="supply_flow",
     ),
     Figure(
         "exhaust_flow", "", "kg/s", "Flow to the atmosphere",
-        "Mass flow to the atmosphere; of a pair from the first muscle.",
+        "Mass flow to the atmosphere; of a pair from the first muscle.", column="exhaust_flow",
     ),
-    Figure("tube_pressure", "", "Pa", "Pressure in the tube", "Gauge pressure in the tube.", _TUBE),
+    Figure(
+        "tube_pressure", "", "Pa", "Pressure in the tube",
+        "Gauge pressure in the tube.", _TUBE, column="tube_pressure",
+    ),
     Figure(
         "regulator_pressure", "", "Pa", "Set point of the regulator",
-        "Gauge pressure that the regulator holds, after its lag.", _REGULATOR,
+        "Gauge pressure that the regulator holds, after its lag.", _REGULATOR, column="regulator_pressure",
     ),
-    Figure("volume", "V", "m^3", "Gas volume", "Gas volume of the muscle with all dead volumes."),
-    Figure("diameter", "Ø", "m", "Braid diameter", "Diameter of the braid at mid-span."),
+    Figure(
+        "volume", "V", "m^3", "Gas volume",
+        "Gas volume of the muscle with all dead volumes.", column="volume",
+    ),
+    Figure("diameter", "Ø", "m", "Braid diameter", "Diameter of the braid at mid-span.", column="diameter"),
     Figure(
         "length", "L", "m", "Length between the fittings",
-        "Distance of the fittings; a slack muscle is longer.",
+        "Distance of the fittings; a slack muscle is longer.", column="length",
     ),
     Figure(
         "contraction", "ε", "1", "Contraction", "1 − length/rest length, by the distance of the fittings.",
         quantity="ratio",
     ),
-    Figure("load_force", "", "N", "External force", "Force on the load besides gravity and spring."),
+    Figure(
+        "load_force", "", "N", "External force",
+        "Force on the load besides gravity and spring.", column="external_force",
+    ),
     Figure(
         "friction", "F_R", "N", "Dry friction",
         "Force of the dry friction on the load, positive towards a shorter muscle; sticking it is what"
-        " balances the load.",
+        " balances the load.", column="friction",
     ),
     Figure(
         "friction_share", "", "1", "Share of the dry friction",
         "Dry friction over the friction at which the load breaks away or that it slides against; 1 sliding.",
-        quantity="ratio",
+        quantity="ratio", column="friction_share",
     ),
-    Figure("temperature", "T", "K", "Gas temperature", "Temperature of the air in the muscle."),
+    Figure(
+        "temperature", "T", "K", "Gas temperature",
+        "Temperature of the air in the muscle.", column="gas_temperature",
+    ),
     Figure(
         "weight", "", "N", "Weight along the motion",
         "m g sin(inclination) of the mass of the load, positive against the contraction.",
@@ -200,44 +222,66 @@ JOINT = Group(
     "Joint",
     Figure(
         "angle", "φ", "rad", "Angle",
-        "Angle of the pulley from the middle, positive as the first muscle pulls.",
+        "Angle of the pulley from the middle, positive as the first muscle pulls.", column="joint_angle",
     ),
-    Figure("torque", "M", "N*m", "Torque", "r (F₁ − F₂), torque of both muscles on the pulley of radius r."),
+    Figure(
+        "torque", "M", "N*m", "Torque",
+        "r (F₁ − F₂), torque of both muscles on the pulley of radius r.", column="joint_torque",
+    ),
     Figure(
         "stiffness", "k", "N*m/rad", "Joint stiffness",
-        "r² (dF₁/dL₁ + dF₂/dL₂) at constant pressures; a slack muscle counts as 0.",
+        "r² (dF₁/dL₁ + dF₂/dL₂) at constant pressures; a slack muscle counts as 0.", column="joint_stiffness",
     ),
-    Figure("counter_force", "F₂", "N", "Force of the second muscle", "Tension of the second muscle."),
+    Figure(
+        "counter_force", "F₂", "N", "Force of the second muscle",
+        "Tension of the second muscle.", column="counter_force",
+    ),
     Figure(
         "counter_pressure",
         "p₂", "Pa", "Pressure in the second muscle", "Gauge pressure in the second muscle.",
+        column="counter_pressure",
     ),
     Figure(
         "counter_command",
         "u₂", "1", "Command of the second muscle", "Command of the second valve or regulator.",
-        quantity="number",
+        quantity="number", column="counter_command",
     ),
     Figure(
         "counter_mass_flow",
         "", "kg/s", "Air flow of the second muscle", "Mass flow of air into the second muscle.",
+        column="counter_air_flow",
     ),
     Figure(
         "counter_supply_flow", "", "kg/s", "Flow from the supply to the second muscle",
-        "Mass flow from the supply to the second muscle.",
+        "Mass flow from the supply to the second muscle.", column="counter_supply_flow",
     ),
     Figure(
         "counter_exhaust_flow", "", "kg/s", "Flow from the second muscle to the atmosphere",
-        "Mass flow from the second muscle to the atmosphere.",
+        "Mass flow from the second muscle to the atmosphere.", column="counter_exhaust_flow",
     ),
     Figure(
         "counter_diameter", "Ø₂", "m", "Braid diameter of the second muscle",
-        "Diameter of the braid of the second muscle at mid-span.",
+        "Diameter of the braid of the second muscle at mid-span.", column="counter_diameter",
     ),
-    Figure("angle_reference", "", "rad", "Set point of the angle", "Set point of the angle.", _CONTROLLED),
+    Figure(
+        "angle_reference", "", "rad", "Set point of the angle",
+        "Set point of the angle.", _CONTROLLED, column="angle_reference",
+    ),
     Figure(
         "stiffness_reference",
         "", "N*m/rad", "Set point of the stiffness", "Set point of the joint stiffness.",
-        _STIFFNESS,
+        _STIFFNESS, column="stiffness_reference",
+    ),
+    Figure(
+        "angle_range", "", "rad", "Angle, from and to", "Least and largest angle of the rows of the answer.",
+    ),
+    Figure(
+        "torque_range", "", "N*m", "Torque, from and to",
+        "Least and largest torque of the rows of the answer.",
+    ),
+    Figure(
+        "stiffness_range", "", "N*m/rad", "Joint stiffness, from and to",
+        "Least and largest stiffness of the rows of the answer.",
     ),
     Figure(
         "stiffness_error", "", "N*m/rad", "RMS error of the joint stiffness",

@@ -87,7 +87,7 @@ def unusable_rows(
         runs = _runs(values)
         runs = runs.only(runs.rows >= _SHORTEST)
         if name == "force" and len(runs.begin):
-            runs = runs.only(~slack[runs.begin])
+            runs = runs.only(~slack[runs.begin] & (values[runs.begin] != 0.0))  # exactly 0: it is slack
         if not len(runs.begin):
             continue
         bad = _judged(values, runs, others, may_rest=may_rest)

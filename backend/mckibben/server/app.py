@@ -14,7 +14,7 @@ from fastapi.routing import APIRoute
 from starlette.datastructures import MutableHeaders
 from starlette.middleware.gzip import GZipMiddleware
 from starlette.requests import ClientDisconnect
-from starlette.types import ASGIApp, Message, Receive, Scope, Send
+from starlette.types import Message, Receive, Scope, Send
 
 from mckibben.documents.studio import Studio
 from mckibben.measurement.store import MeasurementStore
@@ -42,7 +42,7 @@ from mckibben.server.routes.models import (
 from mckibben.server.routes.presets import order_codes_router, presets_router
 from mckibben.server.routes.program import description_router, facts_router, health_router, help_router
 from mckibben.server.routes.projects import projects_router
-from mckibben.server.security import BodyLimitMiddleware, SecurityMiddleware
+from mckibben.server.security import BodyLimitMiddleware, HttpMiddleware, SecurityMiddleware
 from mckibben.server.settings import Settings
 from mckibben.simulation.integrate.many import lane_kernels
 from mckibben.version import __version__
@@ -177,17 +177,11 @@ def _operation_name(route: APIRoute) -> str:
     return route.name
 
 
-class TimingMiddleware:
+class TimingMiddleware(HttpMiddleware):
     """``Server-Timing: app;dur=<ms>`` on API answers, no caching unless a route sets it, 500 as JSON."""
 
-    def __init__(self, app: ASGIApp) -> None:
-        self.app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Time one request from its arrival to the first byte of its answer, without waiting for its body."""
-        if scope["type"] != "http":
-            await self.app(scope, receive, send)
-            return
         start, waited, started = perf_counter(), 0.0, False
         is_api = scope["path"].startswith("/api/")
 

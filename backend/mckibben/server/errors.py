@@ -16,6 +16,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from starlette.exceptions import HTTPException
 
+from mckibben.documents.doors import error_in_words_of
 from mckibben.documents.problems import first_problem
 from mckibben.physics.errors import InputError
 from mckibben.server.answer import BodyError, JsonAnswer
@@ -66,6 +67,7 @@ def _printable(text: str | None) -> Any:
 
 def input_error_answer(error: InputError) -> JsonAnswer:
     """422 for input that cannot be used, 404 for something unknown, 409 for a conflict."""
+    error = error_in_words_of("http", error)
     status = _STATUS_OF_CODE.get(error.code, 422)
     return error_answer(status, error.message, code=error.code, field=error.field, hint=error.hint)
 

@@ -61,6 +61,21 @@ def _host_name(host: str) -> str | None:
     return parts.hostname
 
 
+class HttpMiddleware:
+    """What `answer` does with requests; all else passes."""
+
+    def __init__(self, app: ASGIApp) -> None:
+        self.app = app
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer a request, or pass on what is none."""
+        await (self.answer if scope["type"] == "http" else self.app)(scope, receive, send)
+
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Answer one request."""
+        raise NotImplementedError
+
+
 class SecurityMiddleware:
     """Host, origin and token checks, and the security headers on every answer."""
 
@@ -170,17 +185,11 @@ def _cookie_value(header: str, name: str) -> str:
     return morsel.value if morsel else ""
 
 
-class BodyLimitMiddleware:
+class BodyLimitMiddleware(HttpMiddleware):
     """Refuse a body that is too large: by its declared length, or while it streams in."""
 
-    def __init__(self, app: ASGIApp) -> None:
-        self.app = app
-
-    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+    async def answer(self, scope: Scope, receive: Receive, send: Send) -> None:
         """Pass one request on with its body counted."""
-        if scope["type"] != "http":
-            await self.app(scope, receive, send)
-            return
         limit = UPLOAD_LIMIT if (scope["method"], scope["path"]) in UPLOADS else JSON_LIMIT
         message = f"The body is larger than {limit // 1_000_000} MB."
         declared = Headers(scope=scope).get("content-length", "0")

@@ -19,6 +19,7 @@ from mckibben.application.measurement.summary import details_of, preview_of, sum
 from mckibben.application.model.saved import present_model
 from mckibben.application.project.projects import restore_files, unpacked
 from mckibben.application.run import simulate
+from mckibben.documents.doors import error_in_words_of
 from mckibben.documents.studio import Studio
 from mckibben.export.use_case import export
 from mckibben.measurement.read import Correction, preview
@@ -161,6 +162,8 @@ def _upload(body: FileRequest, _studio: Studio, store: MeasurementStore) -> Prep
 def _preview(body: FileRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
     def read(_: Watch) -> bytes:
         found = preview(body.content, clean_name(body.name), body.correction)
+        problem = found.problem and error_in_words_of("http", found.problem)
+        found = replace(found, problem=problem)
         return to_json(preview_of(found, preview_form(found, studio, body.muscle)))
 
     return read
@@ -171,7 +174,9 @@ def _details(body: str, _studio: Studio, store: MeasurementStore) -> Prepared:
 
 
 def _comparison(body: ComparisonRequest, studio: Studio, store: MeasurementStore) -> Prepared:
-    return lambda _: to_json(compare(model_question(body, studio, store), fit=body.fit, within=body.within))
+    return lambda _: to_json(
+        compare(model_question(body, studio, store), fit=body.fit, within=body.within, explain=body.explain)
+    )
 
 
 def _experiments(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) -> Prepared:

@@ -33,6 +33,15 @@ export function quantityOf(unit, name = "") {
   return OF_SI[unit] ?? null;
 }
 
+/** How far a number is from one that stands beside it: "−41 %". @param {number} from @param {number} to */
+export function changeText(from, to) {
+  const percent = (100 * (to - from)) / Math.abs(from);
+  return `${percent < 0 ? "−" : "+"}${Math.abs(percent).toFixed(Math.abs(percent) < 10 ? 1 : 0)}\u00a0%`;
+}
+
+/** A sentence whose numbers stay on a line with their units. @param {string} text */
+export const unbroken = (text) => text.replace(/(\d) (?=%|mm|ms|Hz|[smJlgN]\b|kg|bar|m\/s)/g, "$1\u00a0");
+
 /** A scale for a unit that has none: values are shown as they are. @param {string} unit */
 export const plainScale = (unit) => ({ unit: tidyUnit(unit), factor: 1, digits: 6, offset: 0 });
 

@@ -17,9 +17,10 @@ from mckibben.simulation.linear.corner import corners_of
 from mckibben.simulation.linear.linearise import Linearisation, linearise
 from mckibben.simulation.linear.nonlinear import run_from
 from mckibben.simulation.linear.point import Condition
-from mckibben.simulation.linear.response import eigenvalues, static_gain, step_response
+from mckibben.simulation.linear.response import eigenvalues, static_gain
 from tests.simulation.linear.differences import differences, of_model, side_of
 from tests.simulation.linear.drives import DOCUMENTS, SMOOTH, STUDIO, drive
+from tests.simulation.linear.steps import step_response
 
 
 @pytest.mark.parametrize("name", [*SMOOTH, "pair"])

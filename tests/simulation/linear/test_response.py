@@ -14,7 +14,7 @@ from scipy import signal
 from mckibben.simulation.command.pid import PidController
 from mckibben.simulation.command.shapes import Step
 from mckibben.simulation.linear.linearise import linearise
-from mckibben.simulation.linear.loop import closed_loop_step, margins, sampled
+from mckibben.simulation.linear.loop import margins, sampled
 from mckibben.simulation.linear.model import LinearModel
 from mckibben.simulation.linear.nonlinear import controlled_from
 from mckibben.simulation.linear.response import (
@@ -24,10 +24,10 @@ from mckibben.simulation.linear.response import (
     phase_of,
     poles_of,
     static_gain,
-    step_response,
     zeros,
 )
 from tests.simulation.linear.drives import drive
+from tests.simulation.linear.steps import closed_loop_step, step_response
 
 
 def state_space(model: LinearModel, source: str, out: str) -> signal.StateSpace:

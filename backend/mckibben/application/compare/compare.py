@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 
 from mckibben.application.compare.question import EffectDocument, ModelQuestion
 from mckibben.application.compare.residual_map import (
+    ExplainedInside,
     Over,
     ResidualMap,
     RowsInside,
+    explained_inside,
     residual_map,
     rows_inside,
 )
@@ -135,6 +137,8 @@ class ComparisonResult:
     """The residual over two variables; None where there are too few points."""
     inside: list[RowsInside]
     """The rows of the fit in the range that was asked for, by channel; empty without a range."""
+    explains: list[ExplainedInside]
+    """What each effect of the model explains there; empty where it was not asked for."""
     parts: list[ResidualPart]
     """What the squared residual is made of; the shares add up to 1."""
     whiteness: Whiteness
@@ -188,14 +192,22 @@ class Compared:
 
 
 def compare(
-    question: ModelQuestion, *, fit: bool = False, within: Mapping[Over, Sequence[float]] | None = None
+    question: ModelQuestion,
+    *,
+    fit: bool = False,
+    within: Mapping[Over, Sequence[float]] | None = None,
+    explain: bool = False,
 ) -> ComparisonResult:
     """Compare a model with measurements; see `compared_whole`."""
-    return compared_whole(question, fit=fit, within=within).result
+    return compared_whole(question, fit=fit, within=within, explain=explain).result
 
 
 def compared_whole(
-    question: ModelQuestion, *, fit: bool = False, within: Mapping[Over, Sequence[float]] | None = None
+    question: ModelQuestion,
+    *,
+    fit: bool = False,
+    within: Mapping[Over, Sequence[float]] | None = None,
+    explain: bool = False,
 ) -> Compared:
     """Compare a model with measurements.
 
@@ -203,6 +215,7 @@ def compared_whole(
         question: the model and the measurements.
         fit: fit the parameters that the effects declare as fitted, and those freed by the question.
         within: variable -> range whose rows the answer looks at by themselves, SI.
+        explain: also what each effect of the model explains of them.
 
     Raises:
         InputError: the measurement does not allow the comparison, or a geometry field cannot be freed.
@@ -267,6 +280,7 @@ def compared_whole(
         where=where,
         heat_map=residual_map(comparison),
         inside=rows_inside(comparison, within) if within else [],
+        explains=explained_inside(comparison, within) if within and explain else [],
         parts=residual_parts(residual, variables),
         whiteness=white,
         cross=_cross(comparison, residual, variables),

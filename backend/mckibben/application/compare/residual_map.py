@@ -14,6 +14,7 @@ from mckibben.application.compare.series import Array, KnownInputs, constant_lev
 from mckibben.facts.comparison import RESIDUAL
 from mckibben.facts.result import Series, result_class
 from mckibben.identification.fit.comparison import Comparison
+from mckibben.identification.predict.predictor import PredictedChannel
 from mckibben.identification.residual.profiles import variables_of
 
 _PARTS = 8  # columns, and rows where there are no levels
@@ -103,6 +104,20 @@ class RowsInside:
     count: int
 
 
+@result_class
+class ExplainedInside:
+    """What an effect of the model explains of a channel in the chosen range."""
+
+    FIGURES: ClassVar = RESIDUAL.name
+
+    effect: str
+    """Id of the effect."""
+    channel: str
+    """The predicted channel; of several those first in which the effect shows most over their noise."""
+    explained_mean: float
+    explained_rms: float
+
+
 @dataclass(frozen=True, slots=True)
 class _Sums:
     """Sums of the residual in each column, shape (columns,)."""
@@ -133,6 +148,47 @@ def rows_inside(comparison: Comparison, within: Mapping[Over, Sequence[float]]) 
 
     A row of which a variable is not known is outside.
     """
+    found = []
+    for channel, chosen in _chosen(comparison, within):
+        residual = comparison.residual[chosen]
+        some = len(residual) > 0
+        found.append(
+            RowsInside(
+                channel=channel.name,
+                rms=float(np.sqrt(np.mean(residual**2))) if some else None,
+                mean=float(np.mean(residual)) if some else None,
+                count=len(residual),
+            )
+        )
+    return found
+
+
+def explained_inside(comparison: Comparison, within: Mapping[Over, Sequence[float]]) -> list[ExplainedInside]:
+    """What each effect of the model explains of each channel in a range, see `rows_inside`.
+
+    A channel without rows there, and rows that the model without the effect does not reach, do not count.
+    """
+    predictor, model = comparison.predictor, comparison.fit_model
+    whole = predictor.predict(model)
+    chosen = _chosen(comparison, within)
+    found = []
+    for effect in model.effects:
+        changes = whole - predictor.predict(model.without(effect.id))
+        shares = []
+        for channel, rows in chosen:
+            change = changes[rows & np.isfinite(changes)]
+            if len(change):
+                rms = float(np.sqrt(np.mean(change**2)))
+                share = ExplainedInside(effect.id, channel.name, float(np.mean(change)), rms)
+                shares.append((rms / (channel.noise or 1.0), share))
+        found += [share for _, share in sorted(shares, key=lambda one: -one[0])]
+    return found
+
+
+def _chosen(
+    comparison: Comparison, within: Mapping[Over, Sequence[float]]
+) -> list[tuple[PredictedChannel, NDArray[np.bool_]]]:
+    """Each channel with a mask of its rows in a range."""
     known = inputs_of(comparison)
     inside = np.ones(len(comparison.residual), dtype=bool)
     for name, (low, high) in within.items():
@@ -147,16 +203,7 @@ def rows_inside(comparison: Comparison, within: Mapping[Over, Sequence[float]]) 
     for channel in comparison.predictor.channels:
         chosen = np.zeros(len(inside), bool)
         chosen[channel.rows] = inside[channel.rows]
-        residual = comparison.residual[chosen]
-        some = len(residual) > 0
-        found.append(
-            RowsInside(
-                channel=channel.name,
-                rms=float(np.sqrt(np.mean(residual**2))) if some else None,
-                mean=float(np.mean(residual)) if some else None,
-                count=len(residual),
-            )
-        )
+        found.append((channel, chosen))
     return found
 
 

@@ -9,6 +9,7 @@ from mckibben.facts.result import Column, Number, Series, result_class
 from mckibben.measurement.experiment import Origin
 from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement, StatedValue
 from mckibben.measurement.question import Question
+from mckibben.measurement.read.left_out import UNWANTED
 from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
 
 #: Units offered by a form for each channel.
@@ -380,7 +381,8 @@ def unread_sentence(measurement: Measurement) -> str:
     said = [
         f"'{column}' ({why})"
         for column, why in measurement.unread
-        if not any(
+        if why != UNWANTED.text  # the file itself says so
+        and not any(
             f"'{column}' is not {done}" in m for m in measurement.messages for done in ("used", "read")
         )
     ]

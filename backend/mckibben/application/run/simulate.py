@@ -31,10 +31,12 @@ from mckibben.application.operating_limits import (
 from mckibben.application.prediction_interval import PositionInterval
 from mckibben.application.run.drive_run import measured_interval, run_drive, use_of_run
 from mckibben.application.run.events import STILL, RunEvent, events_of_run, rest_of_run
-from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import AnnotatedDrive
-from mckibben.facts.result import Booleans, FiniteSeries, Series, result_class
+from mckibben.facts.comparison import CHANNELS
+from mckibben.facts.figure import Figure, Group
+from mckibben.facts.result import Booleans, FiniteSeries, Number, Series, result_class
 from mckibben.facts.run import JOINT, RUN, curve_fit_of
+from mckibben.measurement.read.conditions import COMMAND_BEFORE, IGNORE
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
@@ -84,6 +86,9 @@ class JointMotion:
     angle_reference: Series | None
     stiffness_reference: Series | None
     stiffness_error: float | None
+    angle_range: tuple[Number, Number]
+    torque_range: tuple[Number, Number]
+    stiffness_range: tuple[Number, Number]
 
 
 def joint_of(run: Run, rows: Array) -> JointMotion | None:
@@ -105,10 +110,12 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         own = drive.command if drive.reference is None else run.command
         command = 2.0 * drive.common_command - np.asarray(own.value(run.time))[rows]
     inflow, supplied, vented = flows
+    angle, stiffness = run.states["stroke"][rows] / radius, _stiffness(run, rows)
+    torque = radius * (run.outputs["force"][rows] - counter)
     return JointMotion(
-        angle=run.states["stroke"][rows] / radius,
-        torque=radius * (run.outputs["force"][rows] - counter),
-        stiffness=_stiffness(run, rows),
+        angle=angle,
+        torque=torque,
+        stiffness=stiffness,
         counter_force=counter,
         counter_pressure=run.states[f"pressure{COUNTER}"][rows] - drive.ambient_pressure,
         counter_command=command,
@@ -121,7 +128,16 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         else np.asarray(drive.reference.value(run.time))[rows] / radius,
         stiffness_reference=None if wanted is None else wanted[rows],
         stiffness_error=error,
+        angle_range=_range(angle),
+        torque_range=_range(torque),
+        stiffness_range=_range(stiffness),
     )
+
+
+def _range(values: Array) -> tuple[float, float]:
+    """Least and largest value; NaN of none."""
+    finite = values[np.isfinite(values)]
+    return (float(finite.min()), float(finite.max())) if len(finite) else (float("nan"), float("nan"))
 
 
 def _stiffness(run: Run, rows: Array | slice) -> Array:
@@ -269,6 +285,8 @@ class SimulationResult:
     weight: float
     duration: float
     supplied_volume_anr: float | None
+    conditions: dict[str, str]
+    """What a measurement file of this run states besides its columns: condition -> value with its unit."""
 
 
 def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]:
@@ -277,7 +295,8 @@ def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]
     Raises:
         InputError: the rows do not lie within the run; field "from" or "to".
     """
-    duration = question.annotated.drive.duration
+    drive = question.annotated.drive
+    duration = drive.duration
     begin = 0.0 if question.begin is None else question.begin
     end = duration if question.end is None else question.end
     if not 0.0 <= begin < end <= duration:
@@ -286,7 +305,8 @@ def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]
             field="from" if question.begin is not None else "to",
             hint=f"0 to {duration:g} s",
         )
-    grid = grid_of(duration=duration, begin=begin, end=end, points=question.points)
+    jumps = drive.command.segments(duration).times[1:-1].tolist() if drive.controller is None else ()
+    grid = grid_of(duration=duration, begin=begin, end=end, points=question.points, jumps=jumps)
 
     def work(watch: Watch) -> SimulationResult:
         run = run_drive(question.annotated, grid, watch)
@@ -393,6 +413,7 @@ def result_of(
         weight=drive.load.mass * GRAVITY * float(np.sin(drive.load.inclination)),
         duration=drive.duration,
         supplied_volume_anr=None if trace is None else float(np.ptp(trace.supplied)) / ANR_DENSITY,
+        conditions=_conditions(annotated),
     )
 
 
@@ -469,38 +490,47 @@ def _at_most(value: float, limit: float | None) -> float:
 
 
 def trace_columns(result: SimulationResult) -> dict[str, np.ndarray]:
-    """Header -> column; names as in measurement files, so that a trace can be read back."""
-    columns = {
-        "time_s": result.time,
-        "command": result.command,
-        "pressure_Pa": result.pressure,
-        "displacement_m": result.position,
-        "velocity_m/s": result.velocity,
-        "acceleration_m/s2": result.acceleration,
-        "force_N": result.force,
-        "length_m": result.length,
-        "diameter_m": result.diameter,
-        "mass_flow_kg/s": result.mass_flow,
-        "reference_m": result.reference,
+    """Head -> column, SI: the figures of a run that have a column, with those of a joint.
+
+    Only what has sign and reference of a channel of measurements bears its name.
+    """
+    parts: list[tuple[Group, object]] = [(RUN, result), (JOINT, result.joint)]
+    return {
+        _head(figure): values
+        for group, part in parts
+        for figure in group.values()
+        if figure.column and (values := getattr(part, figure.name, None)) is not None
     }
-    return {header: column for header, column in columns.items() if column is not None}
 
 
-def trace_text(document: DriveDocument, result: SimulationResult) -> str:
-    """The columns as CSV, with the conditions that measurement files require."""
+def _head(figure: Figure) -> str:
+    return figure.column if figure.unit == "1" else f"{figure.column}_{figure.unit}"
+
+
+def trace_text(result: SimulationResult) -> str:
+    """The columns as CSV, with the conditions of the run and which columns are no channels."""
     columns = trace_columns(result)
+    channels = {_head(figure) for figure in (*RUN.values(), *JOINT.values()) if figure.column in CHANNELS}
+    others = ", ".join(head for head in columns if head not in channels)
     text = io.StringIO()
-    text.write("# kind: transient\n# pressure: gauge\n")
-    if document.curve_fit:
-        text.write(f"# drive: {curve_fit_of(document.curve_fit)}\n")
-    if document.muscle.preset is not None:
-        text.write(f"# muscle: {document.muscle.preset}:{result.geometry.nominal_length * 1e3:g}mm\n")
-    text.write(
-        f"# supply_pressure: {document.supply.pressure:g} Pa\n# load_mass: {document.load.mass:g} kg\n"
-    )
-    if isinstance(document.load.force, float) and document.load.force:
-        text.write(f"# load_force: {document.load.force:g} N\n")
+    text.writelines(f"# {key}: {value}\n" for key, value in {**result.conditions, IGNORE: others}.items())
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(columns)
-    writer.writerows([f"{value:.9g}" for value in row] for row in zip(*columns.values(), strict=True))
+    writer.writerows([f"{value:.12g}" for value in row] for row in zip(*columns.values(), strict=True))
     return text.getvalue()
+
+
+def _conditions(annotated: AnnotatedDrive) -> dict[str, str]:
+    """What a measurement file of the run would state."""
+    drive, preset = annotated.drive, annotated.start.preset
+    stated = {"kind": "transient", "pressure": "gauge"}
+    if drive.curve_fit:
+        stated["drive"] = curve_fit_of(drive.curve_fit)
+    if preset is not None:
+        stated["muscle"] = f"{preset.id}:{drive.muscle.nominal_length * 1e3:g}mm"
+    stated |= {"supply_pressure": f"{drive.supply_pressure!r} Pa", "load_mass": f"{drive.load.mass!r} kg"}
+    if isinstance(drive.load.force, float) and drive.load.force:
+        stated["load_force"] = f"{drive.load.force!r} N"
+    if drive.controller is None:
+        stated[COMMAND_BEFORE] = f"{drive.command.before!r} 1"
+    return stated

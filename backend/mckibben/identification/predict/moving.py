@@ -24,6 +24,7 @@ from mckibben.identification.predict.moving_records import (
     MOST_DRIVING,
     MOST_ROWS,
     Record,
+    middle_of,
     record_of,
     recorded_channels,
     stroke_of,
@@ -358,6 +359,8 @@ class TransientPredictor(Predictor):
         for record, run in zip(self._records, runs, strict=True):
             for part, channel in zip(parts, self.channels, strict=True):
                 values = run.readings.get(_READINGS[channel.name], np.empty(0))
+                if channel.name == "displacement":  # a pair's stroke counts from its middle
+                    values = values + middle_of(record.drive)
                 lost = np.full(len(record.rows) - len(values), np.nan)
                 part.append(np.concatenate([values, lost]))
         return np.concatenate([np.concatenate(part) for part in parts])

@@ -12,6 +12,7 @@ from mckibben.measurement.derivative import noise_of
 from mckibben.measurement.experiment import GRAVITY
 from mckibben.measurement.kind import weights_of_runs
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
+from mckibben.measurement.read.conditions import COMMAND_BEFORE
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import TableSignal
 from mckibben.simulation.drive.many_runs import Pieces
@@ -38,15 +39,21 @@ _ROOM = 1.1  # the same, over what was seen
 _NOT_VENTED = 30e3  # Pa from the documented start pressure; less may be a zero error of the gauge
 
 
+@dataclass(frozen=True, kw_only=True, eq=False)
 class Recorded(TableSignal):
-    """A measured command; if the first row is not 0, the command is switched on at that row."""
+    """A measured command; if the first row is not 0, the command is switched on at that row.
+
+    Attributes:
+        stated_before: command before the first row as the file states it; None = it does not.
+    """
 
     shape = "recorded"
+    stated_before: float | None = None
 
     @property
     def before(self) -> float:
         """Command before the first row: 0 if the first row fills, because the muscle was at rest."""
-        return min(float(self.values[0]), 0.0)
+        return min(float(self.values[0]), 0.0) if self.stated_before is None else self.stated_before
 
 
 @dataclass(frozen=True)
@@ -58,7 +65,7 @@ class Record:
         time: of the compared rows, from 0 [s].
         driving: times and readings of the pressure that drives the model, of all rows; None where a command
             does.
-        stroke: at the first row [m].
+        stroke: of the drive at the first row [m].
         rows: the compared rows of the measurement.
         most_steps: accepted and rejected steps after which a run of the model stops.
     """
@@ -115,6 +122,11 @@ def stroke_of(measurement: Measurement, drive: Drive) -> np.ndarray | None:
     if "displacement" in measurement.columns:
         return measurement.columns["displacement"]
     return drive.muscle.nominal_length - lengths(measurement, drive.muscle.nominal_length)
+
+
+def middle_of(drive: Drive) -> float:
+    """Contraction stroke where the stroke of the drive is 0 [m]: of a pair in its middle position."""
+    return drive.precontraction * drive.muscle.nominal_length
 
 
 def lowest_stop(measurement: Measurement, rest_length: float) -> float:
@@ -191,6 +203,13 @@ def record_of(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Recor
         InputError: it is too short.
     """
     columns, conditions = measurement.columns, measurement.conditions
+    if drive.stiffness is not None:
+        raise InputError(
+            f"{measurement.name}: a joint whose stiffness is controlled is not compared: its two commands "
+            "differ, and a measurement holds one",
+            field="controller.stiffness",
+            hint="compare a run of the joint with a command, or leave the stiffness out of the drive",
+        )
     if len(rows) < 3:
         raise InputError(f"{measurement.name}: a run of {len(rows)} rows is too short", field="time")
     whole, rows = rows, thinned(rows, MOST_ROWS)
@@ -206,7 +225,8 @@ def record_of(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Recor
     if "supply_pressure" in conditions:
         changed["supply_pressure"] = float(conditions["supply_pressure"])
     if "command" in columns:
-        changed["command"] = _command(columns["time"], columns["command"], rows)
+        before = conditions.get(COMMAND_BEFORE)
+        changed["command"] = _command(columns["time"], columns["command"], rows, before)
     driving = None
     if "command" not in columns:
         whole = thinned(whole, MOST_DRIVING)
@@ -221,7 +241,7 @@ def record_of(measurement: Measurement, drive: Drive, rows: np.ndarray) -> Recor
         drive=own,
         time=time,
         driving=driving,
-        stroke=0.0 if stroke is None else float(stroke[rows[0]]),
+        stroke=0.0 if stroke is None else float(stroke[rows[0]]) - middle_of(drive),
         rows=rows,
         most_steps=max(MAX_STEPS, _STEPS_EACH * segments),
     )
@@ -240,12 +260,14 @@ def _start_pressure(drive: Drive, pressure: np.ndarray, command: np.ndarray) -> 
     return measured if abs(measured - drive.start_pressure) > _NOT_VENTED else drive.start_pressure
 
 
-def _command(time: np.ndarray, command: np.ndarray, rows: np.ndarray) -> Recorded:
+def _command(time: np.ndarray, command: np.ndarray, rows: np.ndarray, before: float | str | None) -> Recorded:
     """The measured command: held between changes if they are few, else interpolated linearly."""
+    # Of a later run of the file it is that of the row before.
+    stated = None if before is None else float(before) if rows[0] == 0 else float(command[rows[0] - 1])
     part = slice(rows[0], rows[-1] + 1)
     t, u = time[part] - time[part.start], command[part]
     changes = np.flatnonzero(np.diff(u) != 0.0) + 1
     if len(changes) > _FEW_LEVELS * len(u):
-        return Recorded(times=t, values=u, interpolation="linear")
+        return Recorded(times=t, values=u, interpolation="linear", stated_before=stated)
     kept = np.concatenate([[0], changes])
-    return Recorded(times=t[kept], values=u[kept], interpolation="hold")
+    return Recorded(times=t[kept], values=u[kept], interpolation="hold", stated_before=stated)

@@ -24,7 +24,7 @@ from mckibben.measurement.read.air import air_questions, column_of_air
 from mckibben.measurement.read.cells import CellTable, Skip
 from mckibben.measurement.read.channels import ChannelReading, read_channels
 from mckibben.measurement.read.checks import questions_of
-from mckibben.measurement.read.conditions import key_of, read_conditions
+from mckibben.measurement.read.conditions import key_of, read_conditions, unwanted_columns
 from mckibben.measurement.read.constants import notes_with_constants, with_constants
 from mckibben.measurement.read.contradictions import condition_questions, numbers_in_words
 from mckibben.measurement.read.correction import Correction
@@ -33,7 +33,7 @@ from mckibben.measurement.read.hangers import add_hanger
 from mckibben.measurement.read.head_text import channel_number, without_paths
 from mckibben.measurement.read.header import Meaning, map_headers
 from mckibben.measurement.read.held_by_text import hold_pressure, hold_stroke
-from mckibben.measurement.read.left_out import UNKNOWN, Reason
+from mckibben.measurement.read.left_out import UNKNOWN, UNWANTED, Reason
 from mckibben.measurement.read.plain_head import TEXT_COLUMNS, HeaderColumn
 from mckibben.measurement.read.propose import with_clock, with_proposed_stroke
 from mckibben.measurement.read.questions import refusal
@@ -66,15 +66,22 @@ class Read(NamedTuple):
 
 def meaning_of(source: RawTable, correction: Correction, *, collect: bool = False) -> Meaning:
     """What the columns of a source are; a stroke that no head names is proposed where the numbers show it."""
+    unwanted = dict.fromkeys(name for name in unwanted_columns(source.notes) if name in source.headers)
     meaning = map_headers(
         source.headers,
         place=source.place,
         row=source.header_row,
         noun=source.noun,
-        chosen=correction.columns,
+        chosen={**unwanted, **correction.columns},
         collect=collect,
         units=source.units, stood=source.stood,
     )  # fmt: skip
+    own = {
+        place: UNWANTED
+        for place in meaning.dismissed
+        if source.headers[place] in unwanted and source.headers[place] not in correction.columns
+    }
+    meaning = meaning._replace(reasons={**meaning.reasons, **own})
     meaning = with_valve_pressure(source, with_constants(source, with_clock(source, meaning)))
     return with_proposed_stroke(source, meaning, correction.conditions)
 

@@ -14,16 +14,21 @@ from mckibben.physics.units import is_unit, si
 
 ATMOSPHERE = 101_325.0  # Pa, subtracted from an absolute pressure where the file states no ambient one
 
+#: Command before the first row: the valve may have stood elsewhere than at rest.
+COMMAND_BEFORE = "command_before"
 #: Conditions that are physical values -> SI unit; the others stay text.
 CONDITION_UNITS = {
     "load_mass": "kg", "load_force": "N", "supply_pressure": "Pa", "nominal_length": "m", "temperature": "K",
     "inclination": "rad", "force_zero": "N", "pressure_zero": "Pa", "ambient_pressure": "Pa",
+    COMMAND_BEFORE: "1",
 }  # fmt: skip
 #: Conditions with a meaning that are text.
 TEXT_CONDITIONS = (
     "muscle", "sample", "pressure", "accuracy", "valve", "tube", "stops", "fixed_end",
 )  # fmt: skip
-_SIGNED = ("inclination", "force_zero", "pressure_zero")  # conditions that may be negative
+#: Key of the columns that a file says are not to be read.
+IGNORE = "ignore"
+_SIGNED = ("inclination", "force_zero", "pressure_zero", COMMAND_BEFORE)  # conditions that may be negative
 _INCLINATIONS = {"vertical": "90 deg", "hanging": "90 deg", "horizontal": "0 deg"}
 _MAX_TEXT = 200
 _LINE = re.compile(r"#+\s*([A-Za-z][A-Za-z_ -]{0,30}?)\s*:\s*(.*)")
@@ -74,10 +79,18 @@ def read_conditions(notes: Iterable[Note], messages: list[str]) -> dict[str, flo
     conditions: dict[str, float | str] = {}
     for where, name, value in notes:
         key, unit = key_of(name)
+        if key == IGNORE:
+            continue
         if unit is not None and key in CONDITION_UNITS:
             value = f"{value} {unit}"
         conditions[key] = condition_value(key, value, where=f"{where}, {key}", field=key, messages=messages)
     return conditions
+
+
+def unwanted_columns(notes: Iterable[Note]) -> list[str]:
+    """Columns that the file itself says are not to be read: ``# ignore: load_position_m, air_flow_kg/s``."""
+    found = [str(value).split(",") for _, name, value in notes if key_of(name)[0] == IGNORE]
+    return [name.strip() for names in found for name in names]
 
 
 def condition_value(

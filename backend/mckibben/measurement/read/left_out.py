@@ -26,7 +26,7 @@ class Reason(Enum):
     REMARK = "a remark"
     CONDITION = "a condition"
     RIVAL = "rival"  # the channel is read from another column
-    DISMISSED = "dismissed"  # the user does not want it
+    DISMISSED = "dismissed"  # the user, or the file itself, does not want it
 
 
 #: Reasons that a word of the name gives: the column is something else.
@@ -50,6 +50,7 @@ class LeftOut(NamedTuple):
 
 UNKNOWN = LeftOut(Reason.UNKNOWN, "its name is not known")
 DISMISSED = LeftOut(Reason.DISMISSED, "you do not want it")
+UNWANTED = LeftOut(Reason.DISMISSED, "the file says that it is no channel")
 
 
 def by_word(reason: Reason) -> LeftOut:

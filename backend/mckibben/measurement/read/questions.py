@@ -26,7 +26,7 @@ def refusal(name: str, questions: Sequence[Question], *, strict: bool = False) -
     return InputError(
         f"{name}: {asked}",
         field=field,
-        hint="answer with these options" if len(open_ones) > 1 else "answer with this option",
+        hint="answer all of them" if len(open_ones) > 1 else "answer it so",
     )
 
 

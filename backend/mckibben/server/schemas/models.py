@@ -131,6 +131,9 @@ class ComparisonRequest(ModelRequest):
     within: dict[Over, RangeInput] = Field(
         default={}, description="Variable -> range (SI) whose rows the answer looks at in 'inside'."
     )
+    explain: bool = Field(
+        False, description="Also what each effect of the model explains in the range, in 'explains'."
+    )
 
 
 class DiagnosisRequest(ModelRequest):

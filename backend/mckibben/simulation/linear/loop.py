@@ -210,13 +210,3 @@ def _closed(model: LinearModel, controller: PidController) -> tuple[Any, Any, An
         alive = [index for index in range(keep) if index != size]
         return rows[np.ix_(alive, alive)], rows[alive, -1], reading[alive]
     return rows[:, :keep], rows[:, -1], reading[:keep]
-
-
-def closed_loop_step(model: LinearModel, controller: PidController, size: float, samples: int) -> Array:
-    """Deviation of the position reading at each sample after a step of the reference [m]."""
-    matrix, drive, reading = _closed(model, controller)
-    state, result = np.zeros(len(matrix)), np.empty(samples)
-    for index in range(samples):
-        result[index] = reading @ state
-        state = matrix @ state + drive * size
-    return result

@@ -227,33 +227,3 @@ def bandwidth(model: LinearModel, input_name: str, output_name: str) -> tuple[fl
     i = int(below[0])
     share = (FALLEN - ratio[i - 1]) / (ratio[i] - ratio[i - 1])
     return float(axis[i - 1] * (axis[i] / axis[i - 1]) ** share), None
-
-
-def step_response(model: LinearModel, input_name: str, output_name: str, time: Array, size: float) -> Array:
-    """Deviation of an output after a step of an input at t = 0.
-
-    Args:
-        model: the model; its dead time delays a command.
-        input_name, output_name: the channel.
-        time: [s], ascending and evenly spaced from 0.
-        size: of the step, in the unit of the input.
-    """
-    from scipy.linalg import expm
-
-    a, b, c, d = model.channel(input_name, output_name)
-    scales = model.scales[0]
-    a, b, c = a * scales / scales[:, None], b / scales, c * scales
-    delay = model.dead_time if input_name.endswith("command") else 0.0
-    late = np.asarray(time, float) - delay
-    block = np.zeros((len(a) + 1, len(a) + 1))
-    block[:-1, :-1], block[:-1, -1] = a, b * size
-    result = np.zeros(len(late))
-    first = int(np.searchsorted(late, 0.0))
-    if first == len(late):
-        return result
-    state = expm(block * late[first]) @ np.append(np.zeros(len(a)), 1.0)
-    advance = expm(block * (late[1] - late[0])) if len(late) > 1 else np.eye(len(block))
-    for index in range(first, len(late)):
-        result[index] = c @ state[:-1] + d * size
-        state = advance @ state
-    return result

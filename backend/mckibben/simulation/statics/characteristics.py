@@ -53,10 +53,8 @@ class Characteristics:
     pressure: float
     blocked_force: Number
     free_contraction: Number
-    free_contraction_flag: str | None
-    """Code of the limit that the free contraction crosses."""
     free_contraction_note: str | None
-    """The same as a sentence."""
+    """The limit that the free contraction crosses, as a sentence."""
     max_work: Number
     thread_tension_total: Number
 
@@ -168,27 +166,26 @@ def characteristics(
     ).reshape(at.shape)
     work = np.where(stroke > 0.0, rest * stroke / 2.0 * (force[:, 1:] @ _WEIGHTS), np.nan)
     tension = ideal.thread_tension(braid=model.muscle.braid, pressure=pressures, length=rest)
-    crossed = [_free_flag(model, contraction) for contraction in free.tolist()]
+    crossed = [_free_note(model, contraction) for contraction in free.tolist()]
     return [
         Characteristics(
             pressure=pressure,
             blocked_force=force[index, 0],
             free_contraction=contraction,
-            free_contraction_flag=None if flag is None else str(flag.code),
-            free_contraction_note=None if flag is None else flag.message,
+            free_contraction_note=note,
             max_work=work[index],
             thread_tension_total=tension[index],
         )
-        for index, (pressure, contraction, flag) in enumerate(
+        for index, (pressure, contraction, note) in enumerate(
             zip(pressures.tolist(), free.tolist(), crossed, strict=True)
         )
     ]
 
 
-def _free_flag(model: StaticModel, contraction: float) -> LimitFlag | None:
+def _free_note(model: StaticModel, contraction: float) -> str | None:
     if not isfinite(contraction):
-        return LimitFlag(FlagCode.OUT_OF_REACH, CHARACTERISTICS["free_contraction"].exists_when.otherwise)
-    return next(iter(model.limits.flags(contraction=contraction)), None)
+        return CHARACTERISTICS["free_contraction"].exists_when.otherwise
+    return next((flag.message for flag in model.limits.flags(contraction=contraction)), None)
 
 
 def operating_points(

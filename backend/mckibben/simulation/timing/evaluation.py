@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import ceil
 from typing import ClassVar, Literal
@@ -28,6 +29,8 @@ Array = np.ndarray
 _FINEST, _FEWEST, _MOST = 1e-3, 2000, 20_000
 _TRIMMING = 0.01  # of the largest flow of a run; a regulator trims with less
 _FILL, _EXHAUST = 1, 2
+_JUMPS = 0.1  # most jumps of a command that get a row each, over the evenly spaced rows
+_SAME_TIME = 1e-9  # of the duration; a row so near to a jump is its row
 _FEWEST_TRACKED = 4  # least number of rows for tracking figures
 
 
@@ -58,15 +61,33 @@ def time_step(duration: float) -> float:
     return max(min(_FINEST, duration / _FEWEST), duration / _MOST)
 
 
-def grid_of(*, duration: float, begin: float, end: float, points: int) -> Grid:
-    """Evenly spaced rows from begin to end within a finer grid of the whole run [s]."""
+def grid_of(*, duration: float, begin: float, end: float, points: int, jumps: Sequence[float] = ()) -> Grid:
+    """Evenly spaced rows from begin to end within a finer grid of the whole run [s].
+
+    Args:
+        duration: of the run.
+        begin, end: first and last row.
+        points: number of evenly spaced rows.
+        jumps: times that get a row as well, where they lie within and are few beside the others, so that a
+            command that is held between rows is the command of the run.
+    """
     step = time_step(duration)
     finer = max(1, ceil((end - begin) / (points - 1) / step - 1e-9))
     inner = np.linspace(begin, end, finer * (points - 1) + 1)
     before = np.linspace(0.0, begin, ceil(begin / step), endpoint=False)
     after = np.linspace(end, duration, ceil((duration - end) / step) + 1)[1:]
-    rows = len(before) + finer * np.arange(points)
-    return Grid(np.concatenate([before, inner, after]), rows)
+    time = np.concatenate([before, inner, after])
+    shown = inner[::finer]
+    more = np.array([t for t in jumps if begin < t < end])
+    if 0 < len(more) <= _JUMPS * points:
+        shown, time = (_with_times(grid, more, _SAME_TIME * duration) for grid in (shown, time))
+    return Grid(time, np.searchsorted(time, shown))
+
+
+def _with_times(grid: Array, times: Array, near: float) -> Array:
+    """An ascending grid with these times, in the place of what is so near to one of them."""
+    beside = np.min(np.abs(grid[:, np.newaxis] - times), axis=1) <= near
+    return np.union1d(grid[~beside], times)
 
 
 def trace_of(run: Run) -> Trace | None:

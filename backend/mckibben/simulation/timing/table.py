@@ -233,7 +233,8 @@ class _Motion:
             dies = "" if swing.growth > 0.98 else f", {100.0 * (1.0 - swing.growth):.2g} % less each period"
             size = f"{swing.frequency:.3g} Hz by ±{1e3 * swing.amplitude:.3g} mm"
             return "swings", f"swings until the end of the phase at {size}{dies}"
-        most, reached = float(np.abs(self.travel).max()), f"{1e3 * self.reached:.4g} mm"
+        most = float(np.abs(self.travel).max())
+        reached = f"{1e3 * self.reached:.4g} mm".replace("-", "−")
         if abs(self.reached) <= _RETURNED * most:
             return (
                 "returned",
@@ -242,7 +243,7 @@ class _Motion:
         if self.demanded and (self.settled is None or not self.stroke >= SMALLEST_STROKE):
             return (
                 "never_arrived",
-                f"{reached} of the demanded {1e3 * self.stroke:.4g} mm at the end of the phase",
+                f"is at {reached} of the demanded {1e3 * self.stroke:.4g} mm at the end of the phase",
             )
         if self.reached < 0.0:
             return "never_arrived", f"goes the other way: it ends {reached} from its start"
@@ -253,7 +254,8 @@ class _Motion:
             return "arrived_bounced", f"hits the stop, and rests {1e3 * behind:.3g} mm before it"
         if self.settled is not None:
             return "arrived_held", f"arrives after {reached} and holds"
-        return "drifts", f"still moves at {1e3 * float(self.speed[-1]):.3g} mm/s at the end of the phase"
+        pace = f"{1e3 * float(self.speed[-1]):.3g} mm/s".replace("-", "−")
+        return "drifts", f"still moves at {pace} at the end of the phase"
 
     def figures(self, mass: float | None) -> Figures:
         """Figures of position, speed and acceleration."""

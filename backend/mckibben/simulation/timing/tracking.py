@@ -160,8 +160,11 @@ def _of_steps(steps: list[FollowedStep]) -> tuple[FollowState, str]:
     """The worst state of the steps, and its sentence."""
     worst = min(steps, key=lambda step: _WORST_FIRST.index(step.state))
     same = [step for step in steps if step.state == worst.state]
-    which = "" if len(steps) == 1 else f"in {len(same)} of {len(steps)} steps "
-    at = "" if len(steps) == 1 else f", first after {same[0].time:.4g} s"
+    every = len(same) == len(steps)
+    which = (
+        f"in {len(same)} of {len(steps)} steps " if not every else "in each step " if len(steps) > 1 else ""
+    )
+    at = "" if every else f", first after {same[0].time:.4g} s"
     step, away = same[0], f"{abs(same[0].steady_error) * 1e3:.3g} mm"
     side = "beyond" if step.steady_error * step.size < 0.0 else "short of"
     late = max((each.settling_time or 0.0) for each in steps)
@@ -185,7 +188,9 @@ def _of_steps(steps: list[FollowedStep]) -> tuple[FollowState, str]:
         "beside": f"{which}the load rests {away} {side} the reference, outside of 2 % of the step{at}",
         "moves": f"{which}the load still moves when the time of the step is over{at}",
     }
-    return worst.state, texts[worst.state]
+    others = sum(each.state not in GOOD for each in steps) - len(same) if worst.state not in GOOD else 0
+    more = f"; {others} more {'does' if others == 1 else 'do'} not settle" if others else ""
+    return worst.state, f"{texts[worst.state]}{more}"
 
 
 def _of_motion(followed: Followed, rms: float, largest: float, lag: float | None) -> tuple[FollowState, str]:

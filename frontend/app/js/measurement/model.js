@@ -36,9 +36,9 @@ export async function eachOf(list, act) {
   return results;
 }
 
-/** What would be right, unless in the words of the command line. @param {string | null} hint */
+/** What would be right, unless in the words of requests. @param {string | null} hint */
 const inView = (hint) =>
-  hint?.includes("--") ? "say below what the columns are, or which row names them" : hint;
+  /"\w+": /.test(hint ?? "") ? "say below what the columns are, or which row names them" : hint;
 
 /** @typedef {{files: File[], previews: Preview[], mapping: Mapping, experiments: Experiment[],
  *   kept: import("./memory.js").Kept | null, signature: string, asks: boolean,

@@ -11,9 +11,9 @@ export class ApiError extends Error {
     this.hint = hint;
     this.status = status;
   }
-  /** Message and hint as sentences, without hints for the command line or for programs. */
+  /** Message and hint as sentences, without hints for programs. */
   get words() {
-    const hint = /(^|\s)(--[a-z]|(GET|PUT|POST|PATCH|DELETE) \/)/.test(this.hint ?? "") ? null : this.hint;
+    const hint = /(^|\s)("\w+": |(GET|PUT|POST|PATCH|DELETE) \/)/.test(this.hint ?? "") ? null : this.hint;
     return [this.message, hint].filter((text) => text != null && text !== "").map(sentence).join(" ");
   }
 }

@@ -4,7 +4,8 @@ import { h } from "../dom.js";
 import { aligned } from "../format.js";
 
 /** @typedef {{title: string, unit?: string, text?: boolean}} Column */
-/** @typedef {{columns: Column[], rows: (string | number | null)[][]}} Table  null: no value */
+/** `notes`: lines above the head of a file; null: no value.
+ * @typedef {{columns: Column[], rows: (string | number | null)[][], notes?: string[]}} Table */
 
 /** @param {Table} table @param {string} caption */
 export function dataTable(table, caption) {
@@ -50,15 +51,19 @@ export function dataTable(table, caption) {
   );
 }
 
+/** The head of a column in a file. @param {Column} column */
+export const headOf = ({ title, unit }) => unit ? `${title} [${unit}]` : title;
+
 /** Comma-separated, "name [unit]" in the header: the form measurement files are read in.
  * @param {Table} table */
-export function toCsv({ columns, rows }) {
+export function toCsv({ columns, rows, notes = [] }) {
   const quote = (/** @type {string} */ text) =>
     /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
-  const head = columns.map((c) => quote(c.unit ? `${c.title} [${c.unit}]` : c.title));
+  const head = columns.map((c) => quote(headOf(c)));
   const write = (/** @type {string | number | null} */ v) =>
-    v == null ? "" : typeof v === "number" ? String(Number(v.toPrecision(7))) : quote(v);
-  return [head.join(","), ...rows.map((row) => row.map(write).join(","))].join("\n") + "\n";
+    v == null ? "" : typeof v === "number" ? String(Number(v.toPrecision(12))) : quote(v);
+  return [...notes.map((note) => `# ${note}`), head.join(","), ...rows.map((row) => row.map(write).join(","))]
+    .join("\n") + "\n";
 }
 
 /** The name of a saved file with the date of today: "mckibben-run-2024-05-01.csv".

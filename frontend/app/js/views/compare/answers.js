@@ -46,7 +46,7 @@ const comparisons = new Memory(REMEMBERED);
 const comparisonOf = (text, fit, signal) => post("/api/comparisons", { ...JSON.parse(text), fit }, signal);
 
 /** @param {string} text @param {AbortSignal} [signal] */
-const compareWith = (text, signal) => comparisonOf(text, false, signal);
+export const compareWith = (text, signal) => comparisonOf(text, false, signal);
 
 /** The parameters of a model fitted to the data. @param {string} text @param {AbortSignal} [signal] */
 export const fitWith = (text, signal) => comparisonOf(text, true, signal);

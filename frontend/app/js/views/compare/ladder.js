@@ -2,6 +2,7 @@
 // From the start to the noise: a row for each step so far and each one proposed, with the way back for each.
 import { h, icon, mathml } from "../../dom.js";
 import { figure, inSentence } from "../../facts.js";
+import { changeText } from "../../format.js";
 import { units } from "../../state.js";
 import { effectsById } from "../../store.js";
 import { ahead, answer, compare, diagnosis, preset, stale } from "./answers.js";
@@ -11,7 +12,7 @@ import { addAll, entries } from "./list/plan.js";
 import { state } from "./list/state.js";
 import { fitting, goBack, here } from "./model/history.js";
 import { addedBy, isContext, takeOut } from "./model/steps.js";
-import { errorText, errorUnit, measuredText, parameterScale, signed, titleOf } from "./words.js";
+import { errorText, errorUnit, measuredText, parameterScale, titleOf } from "./words.js";
 
 /** @typedef {import("../../types.js").Step} Step */
 /** `from`: the error before; `index`: of the models so far, −1 for a proposed one.
@@ -127,7 +128,7 @@ function ladderRow(row, most, noise) {
         noise === null ? null : h("s", { style: `left:${share(noise)}%` }),
         from === null || rmse === null || !from
           ? null
-          : h("em", { style: `left:${share(high)}%` }, signed(100 * (rmse / from - 1))),
+          : h("em", { style: `left:${share(high)}%` }, changeText(from, rmse)),
       ),
     ),
     h("td", null, asText(rmse)),

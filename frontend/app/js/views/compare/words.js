@@ -176,7 +176,3 @@ export const sigmaText = (sigma) => {
   const places = sigma > 0 ? 1 - Math.floor(Math.log10(sigma)) : 99;
   return places > 7 ? "" : `± ${places < 0 ? Math.round(sigma) : sigma.toFixed(places)}`;
 };
-
-/** "−41 %" @param {number} percent */
-export const signed = (percent) =>
-  `${percent < 0 ? "−" : "+"}${Math.abs(percent).toFixed(Math.abs(percent) < 10 ? 1 : 0)}\u00a0%`;

@@ -2,6 +2,7 @@
 // The table of all runs: sorted by its heads, filtered by one column, each run can be pinned and opened.
 import { h, icon } from "../../dom.js";
 import { computed, effect, signal } from "../../reactive.js";
+import { changeText } from "../../format.js";
 import { units } from "../../state.js";
 import { columnField } from "./fields.js";
 import { shown, study } from "./model.js";
@@ -202,8 +203,7 @@ export function pinsCard() {
     const a = valueAt(c.name, first), b = valueAt(c.name, place);
     if (place === first) return null;
     if (typeof a !== "number" || typeof b !== "number" || a === 0) return h("small");
-    const share = (100 * (b - a)) / Math.abs(a);
-    return h("small", null, `${share < 0 ? "−" : "+"}${Math.abs(share).toFixed(1)}\u00a0%`);
+    return h("small", null, changeText(a, b));
   };
   return h(
     "section",

@@ -9,7 +9,7 @@ import { caseId } from "../cases.js";
 import { fitting } from "../model/history.js";
 import { isQuiet, mapScale, placeOf } from "../where/scale.js";
 import { tint } from "../where/colours.js";
-import { signed } from "../words.js";
+import { changeText } from "../../../format.js";
 import { columns, draw, unpin, useModel } from "./columns.js";
 import { rowsOf } from "./rows.js";
 
@@ -145,9 +145,7 @@ function line(row) {
     ),
     ...row.texts.map(([text, beside], i) => {
       const value = row.numbers[i];
-      const share = row.compared && from && value !== null && i !== base
-        ? signed(100 * (value / from - 1))
-        : "";
+      const share = row.compared && from && value !== null && i !== base ? changeText(from, value) : "";
       return h(
         "td",
         { class: all[i].index < 0 ? "me" : "" },

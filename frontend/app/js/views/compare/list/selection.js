@@ -1,8 +1,7 @@
 // @ts-check
 // "What would cause this?": what each entry would explain of the residual in the chosen range.
-import { brush, shown } from "../answers.js";
-import { isInside } from "../words.js";
-import { without } from "./sketch.js";
+import { inside } from "../answers.js";
+import { explains } from "./sketch.js";
 
 /** `mean`: of what the effect would explain; `seen`: mean of the residual; SI of the channel.
  * @typedef {{channel: string, mean: number, seen: number}} Share */
@@ -12,30 +11,20 @@ import { without } from "./sketch.js";
 /** Share of the residual there from which on an effect is an answer. */
 const CAUSE = 0.1;
 
-/** What an effect explains in the chosen range: the whole proposal less that without it, for each channel on its own,
- * as their units differ. Null: no range is chosen, or it is not known.
+/** What an effect explains in the chosen range, for each channel on its own, as their units differ. Null: no range
+ * is chosen, or it is not known.
  * @param {string} effect @returns {Inside | null} */
 export function insideOf(effect) {
-  const whole = without.value[""], less = without.value[effect], now = shown.value, range = brush.value;
-  if (!whole || !less || !now || !range) return null;
-  const found = [...new Set(less.series.map((s) => s.channel))].flatMap((channel) => {
-    const noise = less.channels[channel]?.noise_floor ?? less.noise_floor;
-    let n = 0, sum = 0, squares = 0, seen = 0, all = 0;
-    less.series.forEach((s, k) => {
-      if (s.channel !== channel) return;
-      s.predicted.forEach((mine, i) => {
-        const together = whole.series[k]?.predicted[i], r = now.series[k]?.residual[i];
-        if (mine === null || together == null || r == null || !isInside(s, i, range)) return;
-        n++;
-        sum += together - mine;
-        squares += (together - mine) ** 2;
-        seen += r;
-        all += r * r;
-      });
-    });
-    const size = Math.sqrt(squares / (n || 1)) / (noise || 1);
-    return n ? [{ channel, mean: sum / n, seen: seen / n, size, cause: squares >= CAUSE ** 2 * all }] : [];
+  const seen = new Map((inside.value ?? []).map((one) => [one.channel, one]));
+  const shares = (explains.value ?? []).filter((one) => one.effect === effect).flatMap((one) => {
+    const { mean = null, rms = null } = seen.get(one.channel) ?? {};
+    if (mean === null || rms === null) return [];
+    return [{
+      channel: one.channel,
+      mean: one.explained_mean,
+      seen: mean,
+      cause: one.explained_rms >= CAUSE * rms,
+    }];
   });
-  found.sort((a, b) => b.size - a.size);
-  return found.length ? { shares: found, cause: found.some((one) => one.cause) } : null;
+  return shares.length ? { shares, cause: shares.some((one) => one.cause) } : null;
 }

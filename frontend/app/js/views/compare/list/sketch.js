@@ -5,7 +5,7 @@ import { svg } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { view } from "../../../state.js";
 import { Question } from "../../../server/question.js";
-import { ahead, compare, comparisonsWith, diagnosis, stage } from "../answers.js";
+import { ahead, brush, compare, compareWith, comparisonsWith, diagnosis, stage } from "../answers.js";
 import { keyOf, valuesOf } from "../request.js";
 import { channelWords, column, varies } from "../words.js";
 import { entries } from "./plan.js";
@@ -112,10 +112,23 @@ const texts = computed(() => {
   return JSON.stringify(["", ...ids.value].map(ask));
 });
 
+/** What each effect of the whole proposal explains in the chosen range. */
+const explained = new Question(compareWith, { patience: 0 });
+/** The answer; null while it is not known. */
+export const explains = computed(() =>
+  explained.stale.value ? null : explained.answer.value?.explains ?? null
+);
+
 const question = new Question((text, stop) => comparisonsWith(JSON.parse(text), stop), { patience: 0 });
 /** Starts asking; called once. */
-export const followSketches = () =>
-  question.follow(() => texts.value, { active: () => view.value === "compare" });
+export function followSketches() {
+  const active = () => view.value === "compare";
+  question.follow(() => texts.value, { active });
+  explained.follow(() => {
+    const range = brush.value, whole = texts.value && JSON.parse(texts.value)[0];
+    return range && whole ? JSON.stringify({ ...JSON.parse(whole), within: range, explain: true }) : null;
+  }, { active });
+}
 
 /** Effect -> the comparison of the whole proposal without it, and "": with all.
  * @type {import("../../../reactive.js").Signal<Record<string, Comparison>>} */

@@ -1,6 +1,7 @@
 // @ts-check
 // The one recommended action: what it is, what it will do, and its button. Nothing else on the page recommends.
 import { computed } from "../../../reactive.js";
+import { changeText } from "../../../format.js";
 import { units } from "../../../state.js";
 import { status } from "../../../store.js";
 import { missing } from "../../../server/missing.js";
@@ -16,7 +17,7 @@ import { copyPlan, nextMeasurement } from "../list/unknown.js";
 import { chooseFiles } from "../measurement/card.js";
 import { fitting, refit } from "../model/history.js";
 import { showTake } from "../take.js";
-import { errorText, signed, titleOf } from "../words.js";
+import { errorText, titleOf } from "../words.js";
 
 /** `bar`: share of the error that is left, or of the work that is done.
  * @typedef {{tone: "" | "warn" | "good" | "idle", what: string, effect: string, more?: string, label: string,
@@ -36,7 +37,7 @@ const inSentence = (whole) => {
 };
 
 /** "−67 %" @param {number} from @param {number} to */
-const change = (from, to) => from > 0 ? signed(100 * (to / from - 1)) : "";
+const change = (from, to) => from > 0 ? changeText(from, to) : "";
 
 /** The field of the page for a path of the request. @param {string} path */
 const keyOf = (path) => path.replace(/^(muscle|effects)\./, "compare.").replace(/^drive\./, "rig.");

@@ -3,7 +3,7 @@
 import { h, icon } from "../../../dom.js";
 import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
-import { brief, readable, withUnit } from "../../../format.js";
+import { brief, readable, unbroken, withUnit } from "../../../format.js";
 import { jointCard } from "../plots/joint.js";
 import { fault, roundTrip, run } from "../model.js";
 import { paperCard } from "./paper.js";
@@ -100,18 +100,18 @@ function verdict() {
         "span",
         null,
         OUTCOMES[r.outcome] ?? r.outcome,
-        followed ? ` ${capital(followed.verdict)}.` : "",
+        followed ? unbroken(` ${capital(followed.verdict)}.`) : "",
         away && followed?.advice ? h("span", { class: "advice" }, ` ${capital(followed.advice)}.`) : "",
         done
           ? hard.length
             ? `${still ? ` Nothing moves: ${still}.` : ""} It leaves the permitted range:`
             : still
             ? ` Nothing moves: ${still}.`
-            : " Within all limits."
+            : " No permitted limit is exceeded."
           : ` It ended at ${lapse(end)}. ${r.message ?? ""}`,
       ),
     ),
-    ...hard.map((f) => h("p", { class: "flag bad" }, icon("warn"), h("span", null, f.message))),
+    ...hard.map((f) => h("p", { class: "flag bad" }, icon("warn"), h("span", null, unbroken(f.message)))),
     keyFigures(r),
     doubts.length
       ? h(

@@ -2,7 +2,7 @@
 // The figures the paper prints for a scenario beside those of the run, and why some are not compared.
 import { h, icon } from "../../../dom.js";
 import { units } from "../../../state.js";
-import { brief, scaleOf, toShown } from "../../../format.js";
+import { brief, changeText, scaleOf, toShown } from "../../../format.js";
 import { run, scenario, untouched } from "../model.js";
 import { figureName, figureOf, TIMING } from "./timing.js";
 import { siNumber } from "../../../quantities.js";
@@ -10,10 +10,6 @@ import { misprintList } from "../../../ui/misprints.js";
 
 /** @typedef {{figure?: string, figures?: Record<string, {value: number, unit: string}>,
  *   excluded?: Record<string, string>}} Paper */
-
-/** @param {number} percent */
-const signed = (percent) =>
-  `${percent < 0 ? "−" : "+"}${Math.abs(percent).toFixed(Math.abs(percent) < 10 ? 1 : 0)} %`;
 
 /** @returns {Paper | null} */
 const paper = () => /** @type {any} */ (scenario.value)?.paper ?? null;
@@ -30,7 +26,7 @@ function rows() {
     const s = scaleOf(/** @type {import("../../../format.js").Quantity} */ (figure.quantity), system);
     const asText = (/** @type {number | null} */ si) => si == null ? "–" : brief(toShown(si, s));
     const why = printed.excluded?.[path] ?? null;
-    const off = runValue == null ? null : 100 * (runValue / printedValue - 1);
+    const off = runValue == null ? null : changeText(printedValue, runValue);
     return [
       h(
         "tr",
@@ -47,7 +43,7 @@ function rows() {
         h(
           "td",
           null,
-          off === null ? "" : signed(off),
+          off ?? "",
         ),
       ),
     ];

@@ -3,7 +3,7 @@
 import { h } from "../../../dom.js";
 import { figuresOf, inSentence, UNITS } from "../../../facts.js";
 import { units } from "../../../state.js";
-import { brief, capitalized, scaleOf, toShown } from "../../../format.js";
+import { brief, capitalized, scaleOf, toShown, unbroken } from "../../../format.js";
 import { run } from "../model.js";
 
 /** @typedef {import("../../../format.js").Quantity} Quantity */
@@ -48,7 +48,7 @@ export function motions() {
       "ul",
       { class: "plain motions" },
       ...said.map(([phase, name]) =>
-        h("li", null, `${capitalized(name)}: the load ${r.timing[phase].motion}.`)
+        h("li", null, unbroken(`${capitalized(name)}: the load ${r.timing[phase].motion}.`))
       ),
     )
     : null;
@@ -81,7 +81,7 @@ export function timingTable() {
           h(
             "tr",
             null,
-            h("th", { scope: "row", title: figure.definition }, figure.label),
+            h("th", { scope: "row", title: figure.definition }, unbroken(figure.label)),
             ...PHASES.map(([phase]) => cell(r, phase, figure)),
             h("td", { class: "text" }, scaleOfFigure(figure).unit),
           )

@@ -4,7 +4,6 @@ import { h } from "../../../dom.js";
 import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
 import { brief, scaleOf, toShown, withUnit } from "../../../format.js";
-import { extent } from "../../../plots/axes.js";
 import { run, timeWindow } from "../model.js";
 import { overTime, pinLines } from "./specs.js";
 
@@ -61,8 +60,8 @@ export const jointCells = (joint, cell) => [
 
 /** The value of a column with the largest magnitude; null without a joint. @param {Run} r @param {Column} key */
 export function greatestOf(r, key) {
-  const values = (r.joint?.[key] ?? []).filter((x) => x != null);
-  return values.length ? values.reduce((most, x) => Math.abs(x) > Math.abs(most) ? x : most) : null;
+  const [low, high] = r.joint?.[`${key}_range`] ?? [null, null];
+  return low === null || high === null ? null : Math.abs(high) >= Math.abs(low) ? high : low;
 }
 
 /** Smallest and largest values in the time shown. */
@@ -84,7 +83,7 @@ export function jointCard() {
       null,
       .../** @type {Column[]} */ (Object.keys(JOINT)).flatMap((key) => {
         const { title, quantity } = JOINT[key], s = scaleOf(quantity, units.value);
-        const [low, high] = extent([joint[key]]).map((si) => brief(toShown(si, s)));
+        const [low, high] = joint[`${key}_range`].map((si) => si === null ? "–" : brief(toShown(si, s)));
         return [h("dt", null, title), h("dd", null, `${low} to ${high} ${s.unit}`)];
       }),
     ),

@@ -1,0 +1,90 @@
+"""Corrections in the words of a door: an option, a field of a request, an argument of Python.
+
+Messages are made below the doors. There a correction is written as the option that states it,
+``--ignore "force_N"``; the other doors say the same in their own words (`in_words_of`).
+"""
+
+from __future__ import annotations
+
+import json
+import re
+from enum import Enum, auto
+from typing import Literal
+
+from mckibben.physics.errors import InputError
+
+#: Doors with words of their own beside the command line.
+Door = Literal["http", "python"]
+
+
+class _Kind(Enum):
+    TEXT = auto()
+    LIST = auto()
+    COLUMN = auto()  # "force=-Kraft [kN]"
+    PAIR = auto()  # "force_zero=2 N"
+
+
+#: Corrections by the option of the command line -> how their value is written.
+CORRECTIONS: dict[str, _Kind] = {
+    "column": _Kind.COLUMN,
+    "experiment": _Kind.PAIR,
+    **dict.fromkeys(("ignore", "effect", "free", "use", "keep"), _Kind.LIST),
+    **dict.fromkeys(
+        ("rest-length", "load", "supply", "accuracy", "sheet", "head", "noise", "muscle", "drive", "strict"),
+        _Kind.TEXT,
+    ),
+}
+_NAMES = {"effect": "effects"}  # where a field is not called as its option
+_ARGUMENTS = _NAMES | {"column": "columns"}
+#: Options of commands alone: no other door gives the messages that name them, or they start the server.
+COMMANDS_ALONE = frozenset({
+    "out", "resume", "scheduler", "effects", "data", "quota", "host", "json", "save", "report", "proposal",
+    "as", "help", "presets", "stiffness",
+})  # fmt: skip
+
+_VALUE = r""" ("[^"]*"|'[^']*'|[A-Z_]{3,}(?:\.json)?|[a-z]+(?:_[a-z]+)+)"""
+_OPTION = re.compile(rf"--([a-z]+(?:-[a-z]+)*)(?:{_VALUE})?")
+
+
+def in_words_of(door: Door, text: str) -> str:
+    """A message with its corrections in the words of a door.
+
+    >>> in_words_of("http", 'leave it out: --ignore "force_N"')
+    'leave it out: "ignore": ["force_N"]'
+    >>> in_words_of("python", 'leave it out: --ignore "force_N", or state --rest-length')
+    'leave it out: ignore=["force_N"], or state rest_length'
+    """
+
+    def worded(found: re.Match[str]) -> str:
+        if (kind := CORRECTIONS.get(found[1])) is None:
+            return found[0]
+        names = _NAMES if door == "http" else _ARGUMENTS
+        name = names.get(found[1], found[1].replace("-", "_"))
+        value = None if found[2] is None else found[2].strip("\"'")
+        if value is None or value.isupper() or value.endswith(".json"):
+            return name
+        if door == "http":
+            return f'"{name}": {json.dumps(_http(value, kind), ensure_ascii=False)}'
+        return f"{name}={json.dumps(_python(value, kind), ensure_ascii=False)}"
+
+    return _OPTION.sub(worded, text)
+
+
+def error_in_words_of(door: Door, error: InputError) -> InputError:
+    """The error with message and hint in the words of a door."""
+    hint = None if error.hint is None else in_words_of(door, error.hint)
+    return InputError(in_words_of(door, error.message), field=error.field, hint=hint, code=error.code)
+
+
+def _http(value: str, kind: _Kind) -> object:
+    if kind is _Kind.PAIR:
+        name, _, said = value.partition("=")
+        return {name: said}
+    return value if kind is _Kind.TEXT else [value]
+
+
+def _python(value: str, kind: _Kind) -> object:
+    if kind in (_Kind.PAIR, _Kind.COLUMN):
+        name, _, said = value.partition("=")
+        return {name: said}
+    return value if kind is _Kind.TEXT else [value]

@@ -1,0 +1,66 @@
+"""Corrections in the words of each door, and that every option which a message names is known."""
+
+from __future__ import annotations
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+import mckibben
+from mckibben.documents.doors import COMMANDS_ALONE, CORRECTIONS, in_words_of
+
+PACKAGE = Path(mckibben.__file__).parent
+NAMED = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
+SAID = {
+    '--ignore "force_N"': ('"ignore": ["force_N"]', 'ignore=["force_N"]'),
+    '--column "force=-Kraft [kN]"': (
+        '"column": ["force=-Kraft [kN]"]', 'columns={"force": "-Kraft [kN]"}'
+    ),
+    '--experiment "force_zero=2 N"': (
+        '"experiment": {"force_zero": "2 N"}', 'experiment={"force_zero": "2 N"}'
+    ),
+    "--load '6 kg'": ('"load": "6 kg"', 'load="6 kg"'),
+    "--rest-length decides": ("rest_length decides", "rest_length decides"),
+    "'--keep rest_length' takes it": (
+        """'"keep": ["rest_length"]' takes it""", """'keep=["rest_length"]' takes it"""
+    ),
+    "a drive document (--drive DRIVE.json)": ("a drive document (drive)", "a drive document (drive)"),
+    "start it with --host and that name": ("start it with --host and that name",) * 2,
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("text", SAID)
+def test_a_correction_is_said_in_the_words_of_the_door(text: str) -> None:
+    assert (in_words_of("http", text), in_words_of("python", text)) == SAID[text]
+
+
+def options_of(code: str) -> set[str]:
+    """The options in the texts of a module, without its docstrings."""
+    tree = ast.parse(code)
+    told = {
+        id(node.body[0].value)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Module | ast.ClassDef | ast.FunctionDef | ast.AsyncFunctionDef)
+        and node.body
+        and isinstance(node.body[0], ast.Expr)
+    }
+    texts = [
+        node.value
+        for node in ast.walk(tree)
+        if isinstance(node, ast.Constant) and isinstance(node.value, str) and id(node) not in told
+    ]
+    return {name for text in texts for name in NAMED.findall(text)}
+
+
+def test_every_option_that_a_message_names_has_words_in_each_door() -> None:
+    """A report's commands and styles are no messages, and the command line speaks its own words."""
+    assert options_of('hint = "--colour decides"') == {"colour"}, "a planted one is found"
+    known = {*CORRECTIONS, *COMMANDS_ALONE}
+    found = {
+        str(path.relative_to(PACKAGE)): options_of(path.read_text("utf-8")) - known
+        for path in PACKAGE.rglob("*.py")
+        if path.relative_to(PACKAGE).parts[0] not in ("cli", "report")
+    }
+    assert {path: names for path, names in found.items() if names} == {}
