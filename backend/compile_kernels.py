@@ -30,4 +30,5 @@ class CompileKernels(BuildHookInterface):
         done = subprocess.run([sys.executable, "-c", _CALL], env=environment, capture_output=True, text=True)
         if done.returncode:
             self.app.display_warning(f"the integrators are compiled at their first use: {done.stderr}")
-        build_data["artifacts"].append("backend/mckibben/_data/compiled")
+        if version == "standard" and _COMPILED.is_dir():  # an editable installation has it in its place
+            build_data["force_include"][str(_COMPILED)] = "mckibben/_data/compiled"

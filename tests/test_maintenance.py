@@ -3,10 +3,14 @@
 from __future__ import annotations
 
 import re
+import subprocess
+import sys
 import tomllib
+import zipfile
 from importlib.metadata import PackageNotFoundError, requires, version
 from pathlib import Path
 
+import pytest
 from packaging.requirements import Requirement
 from packaging.utils import canonicalize_name
 
@@ -105,3 +109,16 @@ def test_files_and_commands_that_are_named_exist() -> None:
         roots = (ROOT, ROOT / "backend" / "mckibben", ROOT / "tests")
         absent = [path for path in paths if not any((root / path).exists() for root in roots)]
         assert not absent, f"{document}: {absent}"
+
+
+@pytest.mark.examination(
+    "tests/simulation/integrate/test_first_use.py::test_the_first_answer_compiles_no_integrator"
+)
+def test_a_wheel_brings_the_compiled_integrators(tmp_path: Path) -> None:
+    """An editable installation has them in its place: only a wheel can lose them on the way."""
+    where = ["--wheel-dir", str(tmp_path), str(ROOT)]
+    subprocess.run([sys.executable, "-m", "pip", "wheel", "--quiet", "--no-deps", *where], check=True)
+    (wheel,) = tmp_path.glob("mckibben-*.whl")
+    names = zipfile.ZipFile(wheel).namelist()
+    code = [name for name in names if name.startswith("mckibben/_data/compiled/code/")]
+    assert len([name for name in code if not name.endswith(".lock")]) >= 4
