@@ -242,6 +242,23 @@ def test_default_model_follows_the_measured_map(library: PresetLibrary, preset_i
     assert percentages(preset)[4] == pytest.approx(100.0 * error, abs=0.011)
 
 
+@pytest.mark.parametrize("size", [10, 20, 40])
+def test_what_a_preset_says_of_its_stretched_side_is_what_the_curves_of_the_maker_say(
+    library: PresetLibrary, size: int
+) -> None:
+    preset, points = muscle(library, f"DMSP-{size}"), curve(library, size)
+    columns = points.si_columns()
+    rows = points.used & (columns["contraction"] < 0.0)
+    pressure, contraction, given = (columns[name][rows] for name in ("pressure", "contraction", "force"))
+    off = force(preset, pressure, contraction) - given
+    stated = re.search(r"−([\d.]+) % its force is (\d+) N below to (\d+) N above", preset.stretched or "")
+    assert stated
+    least, below, above = (float(number) for number in stated.groups())
+    assert -100.0 * contraction.min() == pytest.approx(least, abs=0.05)
+    assert (-off.min(), off.max()) == (pytest.approx(below, abs=1.0), pytest.approx(above, abs=1.0))
+    assert muscle(library, f"MAS-{size}").stretched == preset.stretched
+
+
 def test_material_is_the_same_in_all_sizes(library: PresetLibrary) -> None:
     for size in (10, 20, 40):
         preset = muscle(library, f"DMSP-{size}")

@@ -70,6 +70,7 @@ class PresetFacts:
         suspended_mass: largest mass that may hang freely on the muscle, None where not known [kg].
         coldest, hottest: ambient temperatures it is made for, None where not known [K].
         fit: how its values were fitted to measurements, None where they were not.
+        stretched: how far the force is off its source where the muscle is stretched, None if it is fitted.
     """
 
     id: str
@@ -84,6 +85,7 @@ class PresetFacts:
     coldest: float | None = None
     hottest: float | None = None
     fit: FitRecord | None = None
+    stretched: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -177,6 +179,7 @@ def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFact
         coldest=_optional(preset.data.get("min_temperature"), "K"),
         hottest=_optional(preset.data.get("max_temperature"), "K"),
         fit=preset.fit,
+        stretched=preset.stretched,
     )
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import ClassVar, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 
@@ -17,6 +17,8 @@ from mckibben.application.muscle_summary import (
     geometry_of,
     limit_notices,
     start_notices,
+    stretch_notices,
+    why_not_stretched,
 )
 from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
 from mckibben.application.prediction_interval import ForceInterval, force_interval
@@ -100,6 +102,8 @@ class CurveLimits(MakerLimits):
 
     ideal_max_contraction: float
     braid_lock_force: Series
+    stretched: str | None
+    """Why the curves do not hold where the muscle is longer than at rest; None where they may."""
 
 
 @result_class
@@ -290,6 +294,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
             max_pretension=model.limits.max_pretension,
             ideal_max_contraction=ideal_contraction(model),
             braid_lock_force=lock_forces(model, pressures),
+            stretched=why_not_stretched(start),
         ),
         characteristics=characteristics(model, pressures, under_load.free, conditions),
         geometry=geometry_of(start),
@@ -303,6 +308,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
             *limit_notices(crossed),
             *pressure_notices({f"pressures.{i}": p for i, p in enumerate(question.pressures)}),
             *load_notices(start, question.load),
+            *stretch_notices(start, min((point.contraction for point in points), default=0.0), "load"),
             *temperature_notices(start, conditions.temperature, "temperature"),
             *use_notices(start.fit, _use(question, model, contraction)),
         ],

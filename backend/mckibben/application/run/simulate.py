@@ -20,6 +20,7 @@ from mckibben.application.muscle_summary import (
     geometry_of,
     limit_notices,
     start_notices,
+    stretch_notices,
     unverified_notice,
 )
 from mckibben.application.operating_limits import (
@@ -355,6 +356,7 @@ def result_of(
             *limit_notices(_crossed(run)),
             *pressure_notices(_stated_pressures(annotated)),
             *suspended_notices(annotated.start, drive.load),
+            *stretch_notices(annotated.start, float(np.min(contraction, initial=0.0)), "stops"),
             *temperature_notices(annotated.start, drive.temperature, "gas.temperature"),
             *valve_notices(annotated),
             *use_notices(annotated.start.fit, use_of_run(run)),

@@ -13,10 +13,10 @@ import { ACROSS, acrossAt, pressureName, shareOf, xAxis, xColumn } from "./curve
 /** @typedef {import("../format.js").Quantity} Quantity */
 /** @typedef {import("./curve-axes.js").View} View */
 
-/** Contractions outside the limits of the maker. @param {View} v @param {[number, number]} range
+/** Contractions outside the limits of the maker, and those for which the model was not fitted. @param {View} v @param {[number, number]} range
  * @returns {Zone[]} */
 export function limitZones(v, range) {
-  const { max_contraction, max_pretension } = v.curves.limits;
+  const { max_contraction, max_pretension, stretched } = v.curves.limits;
   const s = scaleOf(ACROSS[v.across].quantity, v.system);
   const { contraction } = v.curves;
   const first = contraction[0], last = contraction[contraction.length - 1];
@@ -36,6 +36,7 @@ export function limitZones(v, range) {
   };
   if (max_contraction != null) add(at(Math.max(max_contraction, first)), rising, "contraction limit");
   if (max_pretension != null) add(at(Math.min(-max_pretension, last)), !rising, "pretension limit");
+  if (stretched && first < 0) add(at(0), !rising, "not fitted");
   return zones;
 }
 
