@@ -268,6 +268,18 @@ def test_material_is_the_same_in_all_sizes(library: PresetLibrary) -> None:
         assert effects["prestress"]["force"] / area == pytest.approx(0.20e6, rel=0.01)
 
 
+def test_a_prestress_without_a_value_is_that_of_the_measured_muscles() -> None:
+    """110 N of 20 mm and 40 N of 10 mm, fitted to the maps of Martens & Boblan."""
+    studio = Studio(presets=PRESETS)
+    found = {}
+    for size in (10, 20):
+        start = studio.start_model(StatedMuscle(preset=f"DMSP-{size}"), {"prestress": {}})
+        found[size] = start.effects["prestress"]["force"]
+        assert studio.static_model(start).values["prestress"] == start.effects["prestress"]
+    assert found[20] == 110.0
+    assert found[10] == pytest.approx(40.0, rel=0.2)
+
+
 def test_smallest_muscle_reaches_its_catalogue_force(library: PresetLibrary) -> None:
     preset = muscle(library, "DMSP-5")
     assert preset.limits.max_force is not None

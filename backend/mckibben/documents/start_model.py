@@ -217,7 +217,8 @@ def start_model(
         effect, term = typed_effect(effects[CUSTOM])
         known = {**catalogue, CUSTOM: effect}
         effects = {name: values if name != CUSTOM else effect.defaults for name, values in effects.items()}
-    chosen = {name: _effect_values(name, values, known) for name, values in effects.items()}
+    force = muscle.blocked_force()
+    chosen = {name: _effect_values(name, values, known, force) for name, values in effects.items()}
     return _complete_model(StartModel(muscle, chosen, preset, stated.rhombus, known, term), stated)
 
 
@@ -312,9 +313,9 @@ def _by_thread(stated: StatedMuscle, base: Muscle | None, length: float) -> Musc
 
 
 def _effect_values(
-    effect_id: str, stated: Mapping[str, float | str], catalogue: Mapping[str, Effect]
+    effect_id: str, stated: Mapping[str, float | str], catalogue: Mapping[str, Effect], blocked_force: float
 ) -> dict[str, float]:
-    """Every parameter of an effect in SI: the stated ones, defaults for the rest."""
+    """Every parameter of an effect in SI: the stated ones, defaults for this muscle for the rest."""
     path = f"effects.{effect_id}"
     if effect_id not in catalogue:
         raise InputError(
@@ -325,7 +326,7 @@ def _effect_values(
         )
     effect = catalogue[effect_id]
     units = {parameter.name: parameter.unit for parameter in effect.parameters}
-    values = dict(effect.defaults)
+    values = effect.defaults_of(blocked_force)
     for name, value in stated.items():
         field = f"{path}.{name}"
         if name not in units:

@@ -164,6 +164,18 @@ class EffectSettings:
 
     effects: Mapping[str, Mapping[str, float]]
     """Effect id -> parameter -> value in SI."""
+    defaults: Mapping[str, Mapping[str, float]]
+    """Effect id -> parameter -> default of this muscle in SI, where it depends on the size of a muscle."""
+
+
+def settings_of(model: StaticModel, start: StartModel) -> EffectSettings:
+    """The effects of a model, and the defaults that its muscle has by its size."""
+    force = model.muscle.blocked_force()
+    scaled = {
+        effect.id: {p.name: p.default_of(force) for p in effect.parameters if p.default_at is not None}
+        for effect in start.catalogue.values()
+    }
+    return EffectSettings(model.values, {name: values for name, values in scaled.items() if values})
 
 
 @result_class
@@ -298,7 +310,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
         ),
         characteristics=characteristics(model, pressures, under_load.free, conditions),
         geometry=geometry_of(start),
-        model=EffectSettings(model.values),
+        model=settings_of(model, start),
         over_pressure=_over_pressure(question, model, grid, under_load),
         operating_points=points,
         holds=_holding(points),

@@ -10,7 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from mckibben.application.curves.curves import EffectSettings
+from mckibben.application.curves.curves import EffectSettings, settings_of
 from mckibben.application.envelope import use_notices
 from mckibben.application.muscle_summary import (
     GeometrySummary,
@@ -364,7 +364,7 @@ def result_of(
         notes=notes,
         limits=_bounds(annotated),
         geometry=geometry_of(annotated.start),
-        model=EffectSettings(drive.model.values),
+        model=settings_of(drive.model, annotated.start),
         weight=drive.load.mass * GRAVITY * float(np.sin(drive.load.inclination)),
         duration=drive.duration,
         supplied_volume_anr=None if trace is None else float(np.ptp(trace.supplied)) / ANR_DENSITY,
