@@ -23,8 +23,7 @@ import { openPopover } from "../ui/dialog.js";
 
 /** The value of the preset, else the default of the effect for this muscle.
  * @param {Panel} c @param {Effect} e @param {Parameter} p */
-const usual = (c, e, p) =>
-  c.preset.value[e.id]?.[p.name] ?? c.defaults()?.[e.id]?.[p.name] ?? p.default;
+const usual = (c, e, p) => c.preset.value[e.id]?.[p.name] ?? c.defaults()?.[e.id]?.[p.name] ?? p.default;
 /** @param {Panel} c @param {Effect} e @param {Parameter} p */
 const valueOf = (c, e, p) => c.active.value[e.id]?.[p.name] ?? usual(c, e, p);
 
