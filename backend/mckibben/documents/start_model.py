@@ -147,16 +147,21 @@ def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFact
     """The preset in SI, with the defaults of its effects filled in."""
     geometry, limits = preset.geometry, preset.limits
     wall = geometry.wall_thickness
+    muscle = Muscle(
+        nominal_length=geometry.nominal_length.si("m"),
+        braid_diameter=geometry.braid_diameter.si("m"),
+        braid_angle=geometry.braid_angle.si("rad"),
+        wall_thickness=0.0 if wall is None else wall.si("m"),
+        inside_diameter=geometry.inside_diameter.si("m"),
+    )
+    force = muscle.blocked_force()
     return PresetFacts(
         id=preset.id,
-        muscle=Muscle(
-            nominal_length=geometry.nominal_length.si("m"),
-            braid_diameter=geometry.braid_diameter.si("m"),
-            braid_angle=geometry.braid_angle.si("rad"),
-            wall_thickness=0.0 if wall is None else wall.si("m"),
-            inside_diameter=geometry.inside_diameter.si("m"),
-        ),
-        effects={name: catalogue[name].defaults | values for name, values in preset.effect_values().items()},
+        muscle=muscle,
+        effects={
+            name: catalogue[name].defaults_of(force) | values
+            for name, values in preset.effect_values().items()
+        },
         limits=MuscleLimits(
             max_pressure=_optional(limits.max_pressure, "Pa"),
             max_force=_optional(limits.max_force, "N"),

@@ -320,7 +320,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
             *limit_notices(crossed),
             *pressure_notices({f"pressures.{i}": p for i, p in enumerate(question.pressures)}),
             *load_notices(start, question.load),
-            *stretch_notices(start, min((point.contraction for point in points), default=0.0), "load"),
+            *stretch_notices(start, min([0.0, *_reached(points)]), "load"),
             *temperature_notices(start, conditions.temperature, "temperature"),
             *use_notices(start.fit, _use(question, model, contraction)),
         ],
@@ -333,11 +333,15 @@ def _holding(points: Sequence[OperatingPoint]) -> OperatingPoint | None:
     return max(at_rest, key=lambda point: (not point.flags, point.pressure), default=None)
 
 
+def _reached(points: Sequence[OperatingPoint]) -> list[float]:
+    """Contractions at which the load is held."""
+    return [point.contraction for point in points if math.isfinite(point.contraction)]
+
+
 def _limits_used(
     model: StaticModel, question: CurvesQuestion, points: Sequence[OperatingPoint]
 ) -> list[LimitUse]:
-    reached = [point.contraction for point in points if math.isfinite(point.contraction)]
-    limits = model.limits
+    reached, limits = _reached(points), model.limits
     return [
         LimitUse(name, used, limit, used / limit)
         for name, used, limit in (

@@ -356,7 +356,7 @@ def result_of(
             *limit_notices(_crossed(run)),
             *pressure_notices(_stated_pressures(annotated)),
             *suspended_notices(annotated.start, drive.load),
-            *stretch_notices(annotated.start, float(np.min(contraction, initial=0.0)), "stops"),
+            *stretch_notices(annotated.start, float(np.nanmin(contraction, initial=0.0)), "stops"),
             *temperature_notices(annotated.start, drive.temperature, "gas.temperature"),
             *valve_notices(annotated),
             *use_notices(annotated.start.fit, use_of_run(run)),
