@@ -169,6 +169,14 @@ def test_a_limit_of_the_muscle_is_checked(studio: Studio, name: str, place: str)
     assert MUSCLE_LIMITS[name][place](studio)
 
 
+def test_a_stretched_muscle_is_flagged_where_its_model_was_not_fitted(studio: Studio) -> None:
+    assert "stretched" in curve_codes(studio, pressures=(0.1e5,), load=100.0)
+    assert "stretched" not in curve_codes(studio, pressures=(4e5,), load=100.0)
+    assert "stretched" in run_codes(studio, stops={"min_contraction": -0.02}, duration="0.5 s")
+    own = {"muscle": {"preset": "DMSP-10"}, "effects": {}, "stops": {"min_contraction": -0.02}}
+    assert "stretched" not in run_codes(studio, **own, duration="0.5 s")  # words of the preset's model
+
+
 def test_a_usual_use_crosses_no_limit(studio: Studio) -> None:
     notes = {"unverified", "assumed"}
     assert curve_codes(studio, load=200.0, pressures=(3e5,)) <= notes

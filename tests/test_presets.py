@@ -242,6 +242,23 @@ def test_default_model_follows_the_measured_map(library: PresetLibrary, preset_i
     assert percentages(preset)[4] == pytest.approx(100.0 * error, abs=0.011)
 
 
+@pytest.mark.parametrize("size", [10, 20, 40])
+def test_what_a_preset_says_of_its_stretched_side_is_what_the_curves_of_the_maker_say(
+    library: PresetLibrary, size: int
+) -> None:
+    preset, points = muscle(library, f"DMSP-{size}"), curve(library, size)
+    columns = points.si_columns()
+    rows = points.used & (columns["contraction"] < 0.0)
+    pressure, contraction, given = (columns[name][rows] for name in ("pressure", "contraction", "force"))
+    off = force(preset, pressure, contraction) - given
+    stated = re.search(r"−([\d.]+) % its force is (\d+) N below to (\d+) N above", preset.stretched or "")
+    assert stated
+    least, below, above = (float(number) for number in stated.groups())
+    assert -100.0 * contraction.min() == pytest.approx(least, abs=0.05)
+    assert (-off.min(), off.max()) == (pytest.approx(below, abs=1.0), pytest.approx(above, abs=1.0))
+    assert muscle(library, f"MAS-{size}").stretched == preset.stretched
+
+
 def test_material_is_the_same_in_all_sizes(library: PresetLibrary) -> None:
     for size in (10, 20, 40):
         preset = muscle(library, f"DMSP-{size}")
@@ -249,6 +266,18 @@ def test_material_is_the_same_in_all_sizes(library: PresetLibrary) -> None:
         assert effects["bladder_elasticity"]["shear_modulus"] == pytest.approx(0.468e6)
         area = math.pi * preset.geometry.braid_diameter.si("m") * 1.8e-3
         assert effects["prestress"]["force"] / area == pytest.approx(0.20e6, rel=0.01)
+
+
+def test_a_prestress_without_a_value_is_that_of_the_measured_muscles() -> None:
+    """110 N of 20 mm and 40 N of 10 mm, fitted to the maps of Martens & Boblan."""
+    studio = Studio(presets=PRESETS)
+    found = {}
+    for size in (10, 20):
+        start = studio.start_model(StatedMuscle(preset=f"DMSP-{size}"), {"prestress": {}})
+        found[size] = start.effects["prestress"]["force"]
+        assert studio.static_model(start).values["prestress"] == start.effects["prestress"]
+    assert found[20] == 110.0
+    assert found[10] == pytest.approx(40.0, rel=0.2)
 
 
 def test_smallest_muscle_reaches_its_catalogue_force(library: PresetLibrary) -> None:

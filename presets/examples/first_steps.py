@@ -11,7 +11,7 @@ curves = model.curves("1 bar, 3 bar, 6 bar")
 print(curves.to_frame().head())
 print(model.force(pressure="6 bar", contraction=["0 %", "10 %", "20 %"]))
 
-run = mk.Drive.preset("propneu-20").run()
+run = mk.Drive.preset("propneu-20-physical").run()
 print(run.timing.extend.rise_time, run.timing.retract.positioning_time)
 run.plot()
 

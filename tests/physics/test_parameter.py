@@ -43,6 +43,13 @@ def test_bounds_of_a_strong_muscle_are_the_same_share_of_its_force() -> None:
     assert parameter().bounds(4900.0) == (0.0, 200.0)
 
 
+def test_a_default_of_one_muscle_is_the_same_share_of_the_force_of_another() -> None:
+    stated = parameter(default_at=4000.0)
+    assert [stated.default_of(force) for force in (0.0, 4000.0, 1000.0)] == [10.0, 10.0, 2.5]
+    assert parameter(default_at=10.0).default_of(4000.0) == 200.0, "within the bounds"
+    assert parameter().default_of(1000.0) == 10.0
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [

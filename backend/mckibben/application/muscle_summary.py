@@ -14,6 +14,8 @@ from mckibben.facts.run import curve_fit_of
 from mckibben.physics.muscle import Muscle, assumption
 from mckibben.simulation.statics.limits import LimitFlag
 
+_STRETCH = 1e-3  # share of the rest length beyond which a muscle is called stretched
+
 
 @result_class
 class Notice:
@@ -108,6 +110,22 @@ def curve_fit_notices(what: str) -> list[Notice]:
         return []
     message = f"{curve_fit_of(what)}: its volumes and conductances are those of no parts"
     return [Notice("curve_fit", message)]
+
+
+def why_not_stretched(start: StartModel) -> str | None:
+    """Why the model does not hold where the muscle is stretched; None of a model that is not the preset's."""
+    preset = start.preset
+    if preset is None or start.fit is not None:
+        return None
+    # Effects beside them, as of a valve, change nothing of its force.
+    is_of_preset = all(start.effects.get(name) == values for name, values in preset.effects.items())
+    return preset.stretched if is_of_preset else None
+
+
+def stretch_notices(start: StartModel, contraction: float, field: str) -> list[Notice]:
+    """Notice that a muscle of this least contraction is stretched, where its model was not fitted."""
+    why = why_not_stretched(start)
+    return [Notice("stretched", why, field)] if why is not None and contraction < -_STRETCH else []
 
 
 def start_notices(start: StartModel) -> list[Notice]:

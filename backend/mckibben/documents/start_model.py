@@ -70,6 +70,7 @@ class PresetFacts:
         suspended_mass: largest mass that may hang freely on the muscle, None where not known [kg].
         coldest, hottest: ambient temperatures it is made for, None where not known [K].
         fit: how its values were fitted to measurements, None where they were not.
+        stretched: how far the force is off its source where the muscle is stretched, None if it is fitted.
     """
 
     id: str
@@ -84,6 +85,7 @@ class PresetFacts:
     coldest: float | None = None
     hottest: float | None = None
     fit: FitRecord | None = None
+    stretched: str | None = None
 
 
 @dataclass(frozen=True, slots=True)
@@ -145,16 +147,21 @@ def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFact
     """The preset in SI, with the defaults of its effects filled in."""
     geometry, limits = preset.geometry, preset.limits
     wall = geometry.wall_thickness
+    muscle = Muscle(
+        nominal_length=geometry.nominal_length.si("m"),
+        braid_diameter=geometry.braid_diameter.si("m"),
+        braid_angle=geometry.braid_angle.si("rad"),
+        wall_thickness=0.0 if wall is None else wall.si("m"),
+        inside_diameter=geometry.inside_diameter.si("m"),
+    )
+    force = muscle.blocked_force()
     return PresetFacts(
         id=preset.id,
-        muscle=Muscle(
-            nominal_length=geometry.nominal_length.si("m"),
-            braid_diameter=geometry.braid_diameter.si("m"),
-            braid_angle=geometry.braid_angle.si("rad"),
-            wall_thickness=0.0 if wall is None else wall.si("m"),
-            inside_diameter=geometry.inside_diameter.si("m"),
-        ),
-        effects={name: catalogue[name].defaults | values for name, values in preset.effect_values().items()},
+        muscle=muscle,
+        effects={
+            name: catalogue[name].defaults_of(force) | values
+            for name, values in preset.effect_values().items()
+        },
         limits=MuscleLimits(
             max_pressure=_optional(limits.max_pressure, "Pa"),
             max_force=_optional(limits.max_force, "N"),
@@ -177,6 +184,7 @@ def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFact
         coldest=_optional(preset.data.get("min_temperature"), "K"),
         hottest=_optional(preset.data.get("max_temperature"), "K"),
         fit=preset.fit,
+        stretched=preset.stretched,
     )
 
 
@@ -214,7 +222,8 @@ def start_model(
         effect, term = typed_effect(effects[CUSTOM])
         known = {**catalogue, CUSTOM: effect}
         effects = {name: values if name != CUSTOM else effect.defaults for name, values in effects.items()}
-    chosen = {name: _effect_values(name, values, known) for name, values in effects.items()}
+    force = muscle.blocked_force()
+    chosen = {name: _effect_values(name, values, known, force) for name, values in effects.items()}
     return _complete_model(StartModel(muscle, chosen, preset, stated.rhombus, known, term), stated)
 
 
@@ -309,9 +318,9 @@ def _by_thread(stated: StatedMuscle, base: Muscle | None, length: float) -> Musc
 
 
 def _effect_values(
-    effect_id: str, stated: Mapping[str, float | str], catalogue: Mapping[str, Effect]
+    effect_id: str, stated: Mapping[str, float | str], catalogue: Mapping[str, Effect], blocked_force: float
 ) -> dict[str, float]:
-    """Every parameter of an effect in SI: the stated ones, defaults for the rest."""
+    """Every parameter of an effect in SI: the stated ones, defaults for this muscle for the rest."""
     path = f"effects.{effect_id}"
     if effect_id not in catalogue:
         raise InputError(
@@ -322,7 +331,7 @@ def _effect_values(
         )
     effect = catalogue[effect_id]
     units = {parameter.name: parameter.unit for parameter in effect.parameters}
-    values = dict(effect.defaults)
+    values = effect.defaults_of(blocked_force)
     for name, value in stated.items():
         field = f"{path}.{name}"
         if name not in units:

@@ -263,7 +263,7 @@ class Subject(Strict):
 _EXAMPLES: list[JsonValue] = [
     {
         "title": "Tolerance of a lift",
-        "subject": {"drive": "propneu-20"},
+        "subject": {"drive": "propneu-20-physical"},
         "quantities": [
             {
                 "path": "load.mass",

@@ -122,7 +122,7 @@ class Drive(Exportable):
     @classmethod
     @reported
     def preset(cls, id: str) -> Drive:
-        """A drive preset, "propneu-20"; ``mckibben.presets("drives")`` lists them.
+        """A drive preset, "propneu-20-physical"; ``mckibben.presets("drives")`` lists them.
 
         Raises:
             Problem: an unknown preset, with the nearest match.

@@ -252,6 +252,10 @@ class Effect:
         """Parameter name -> default, SI."""
         return {parameter.name: parameter.default for parameter in self.parameters}
 
+    def defaults_of(self, blocked_force: float) -> dict[str, float]:
+        """The defaults for a muscle; see `mckibben.physics.parameter.Parameter.default_of`."""
+        return {parameter.name: parameter.default_of(blocked_force) for parameter in self.parameters}
+
     @property
     def off(self) -> dict[str, float]:
         """Values at which the effect vanishes (parameters without an off value keep their default)."""

@@ -67,6 +67,9 @@ class Parameter:
             physics never frees it.
         grows: whether the bounds are those of muscles of up to `USUAL_BLOCKED_FORCE`, and of a stronger one
             the same share of its blocked force (`bounds`).
+        default_at: blocked force at `mckibben.physics.muscle.HIGHEST_PRESSURE` of the muscle for which the
+            default is stated [N]; that of another muscle is the same share of its own (`default_of`). None =
+            the default is the same for all muscles.
     """
 
     name: str
@@ -83,6 +86,18 @@ class Parameter:
     reference: bool = False
     usual: float | None = None
     grows: bool = False
+    default_at: float | None = None
+
+    def default_of(self, blocked_force: float) -> float:
+        """Default for a muscle of this blocked force at the highest pressure [N], to three digits.
+
+        0 = the force is not known: the default as it is declared.
+        """
+        if self.default_at is None or not blocked_force > 0.0:
+            return self.default
+        lower, upper = self.bounds(blocked_force)
+        scaled = float(f"{self.default * blocked_force / self.default_at:.3g}")
+        return min(max(scaled, lower), upper)
 
     def bounds(self, blocked_force: float) -> tuple[float, float]:
         """Bounds for a muscle of this blocked force at its highest pressure [N]; 0 = not known.

@@ -204,6 +204,11 @@ class MusclePreset(_WithEffects):
     extrapolated: Text | None = Field(
         default=None, description="Why its force is not known from a curve or a measurement; null when it is."
     )
+    stretched: Text | None = Field(
+        default=None,
+        description="How far its force is off its source where the muscle is longer than at rest; null where "
+        "it was fitted there, or nothing is known.",
+    )
     fit: FitRecord | None = Field(
         default=None,
         description="How its values were fitted to measurements; null where they were not. With it, answers "

@@ -17,6 +17,8 @@ from mckibben.application.muscle_summary import (
     geometry_of,
     limit_notices,
     start_notices,
+    stretch_notices,
+    why_not_stretched,
 )
 from mckibben.application.operating_limits import load_notices, pressure_notices, temperature_notices
 from mckibben.application.prediction_interval import ForceInterval, force_interval
@@ -100,6 +102,8 @@ class CurveLimits(MakerLimits):
 
     ideal_max_contraction: float
     braid_lock_force: Series
+    stretched: str | None
+    """Why the curves do not hold where the muscle is longer than at rest; None where they may."""
 
 
 @result_class
@@ -160,6 +164,18 @@ class EffectSettings:
 
     effects: Mapping[str, Mapping[str, float]]
     """Effect id -> parameter -> value in SI."""
+    defaults: Mapping[str, Mapping[str, float]]
+    """Effect id -> parameter -> default of this muscle in SI, where it depends on the size of a muscle."""
+
+
+def settings_of(model: StaticModel, start: StartModel) -> EffectSettings:
+    """The effects of a model, and the defaults that its muscle has by its size."""
+    force = model.muscle.blocked_force()
+    scaled = {
+        effect.id: {p.name: p.default_of(force) for p in effect.parameters if p.default_at is not None}
+        for effect in start.catalogue.values()
+    }
+    return EffectSettings(model.values, {name: values for name, values in scaled.items() if values})
 
 
 @result_class
@@ -290,10 +306,11 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
             max_pretension=model.limits.max_pretension,
             ideal_max_contraction=ideal_contraction(model),
             braid_lock_force=lock_forces(model, pressures),
+            stretched=why_not_stretched(start),
         ),
         characteristics=characteristics(model, pressures, under_load.free, conditions),
         geometry=geometry_of(start),
-        model=EffectSettings(model.values),
+        model=settings_of(model, start),
         over_pressure=_over_pressure(question, model, grid, under_load),
         operating_points=points,
         holds=_holding(points),
@@ -303,6 +320,7 @@ def curves(question: CurvesQuestion, studio: Studio) -> CurvesResult:
             *limit_notices(crossed),
             *pressure_notices({f"pressures.{i}": p for i, p in enumerate(question.pressures)}),
             *load_notices(start, question.load),
+            *stretch_notices(start, min([0.0, *_reached(points)]), "load"),
             *temperature_notices(start, conditions.temperature, "temperature"),
             *use_notices(start.fit, _use(question, model, contraction)),
         ],
@@ -315,11 +333,15 @@ def _holding(points: Sequence[OperatingPoint]) -> OperatingPoint | None:
     return max(at_rest, key=lambda point: (not point.flags, point.pressure), default=None)
 
 
+def _reached(points: Sequence[OperatingPoint]) -> list[float]:
+    """Contractions at which the load is held."""
+    return [point.contraction for point in points if math.isfinite(point.contraction)]
+
+
 def _limits_used(
     model: StaticModel, question: CurvesQuestion, points: Sequence[OperatingPoint]
 ) -> list[LimitUse]:
-    reached = [point.contraction for point in points if math.isfinite(point.contraction)]
-    limits = model.limits
+    reached, limits = _reached(points), model.limits
     return [
         LimitUse(name, used, limit, used / limit)
         for name, used, limit in (

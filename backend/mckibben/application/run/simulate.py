@@ -10,7 +10,7 @@ from typing import ClassVar
 
 import numpy as np
 
-from mckibben.application.curves.curves import EffectSettings
+from mckibben.application.curves.curves import EffectSettings, settings_of
 from mckibben.application.envelope import use_notices
 from mckibben.application.muscle_summary import (
     GeometrySummary,
@@ -20,6 +20,7 @@ from mckibben.application.muscle_summary import (
     geometry_of,
     limit_notices,
     start_notices,
+    stretch_notices,
     unverified_notice,
 )
 from mckibben.application.operating_limits import (
@@ -402,6 +403,7 @@ def result_of(
             *limit_notices(_crossed(run)),
             *pressure_notices(_stated_pressures(annotated)),
             *suspended_notices(annotated.start, drive.load),
+            *stretch_notices(annotated.start, float(np.nanmin(contraction, initial=0.0)), "stops"),
             *temperature_notices(annotated.start, drive.temperature, "gas.temperature"),
             *valve_notices(annotated),
             *use_notices(annotated.start.fit, use_of_run(run)),
@@ -409,7 +411,7 @@ def result_of(
         notes=notes,
         limits=_bounds(annotated),
         geometry=geometry_of(annotated.start),
-        model=EffectSettings(drive.model.values),
+        model=settings_of(drive.model, annotated.start),
         weight=drive.load.mass * GRAVITY * float(np.sin(drive.load.inclination)),
         duration=drive.duration,
         supplied_volume_anr=None if trace is None else float(np.ptp(trace.supplied)) / ANR_DENSITY,

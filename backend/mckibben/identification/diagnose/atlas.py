@@ -281,6 +281,7 @@ def _record(model: FitModel, pressure: float) -> tuple[np.ndarray, dict[str, np.
         min_contraction=-0.05,
         max_contraction=1.2 * _reach(model),
         temperature=TEMPERATURE,
+        wall_heat_transfer=0.0,  # what the wall does to the air is an effect
     )
     run = simulate(drive, points=_POINTS)
     if len(run.time) < _POINTS:

@@ -36,6 +36,7 @@ EFFECT = Effect(
             description="Constant loss of tension; negative when the bladder pulls.",
             off=0.0,
             grows=True,
+            default_at=4195.0,  # the size 20 of the map
         ),
     ),
     slots={"elastomer": elastomer},

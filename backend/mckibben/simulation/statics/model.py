@@ -173,7 +173,7 @@ def checked_values(
     Args:
         effects: effect id -> parameter -> value [SI].
         catalogue: the known effects.
-        blocked_force: see `mckibben.physics.parameter.Parameter.bounds`.
+        blocked_force: see `mckibben.physics.parameter.Parameter.bounds` and ``default_of``.
 
     Raises:
         InputError: an unknown parameter, or a value outside its bounds.
@@ -198,9 +198,9 @@ def checked_values(
                     f"{name.replace('_', ' ')} of '{effect_id}' is {value:g}{unit}, outside "
                     f"{lower:g} to {upper:g}{unit}",
                     field=field,
-                    hint=f"a typical value is {parameter.default:g}{unit}",
+                    hint=f"a typical value is {parameter.default_of(blocked_force):g}{unit}",
                 )
-        values[effect_id] = {**effect.defaults, **stated}
+        values[effect_id] = {**effect.defaults_of(blocked_force), **stated}
     return values
 
 

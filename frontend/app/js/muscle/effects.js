@@ -13,15 +13,17 @@ import { openPopover } from "../ui/dialog.js";
 /** @typedef {import("../types.js").Parameter} Parameter */
 /** @typedef {Record<string, Record<string, number>>} Chosen */
 /** The card of one view. `preset`: the effects that come with muscle, valve and tube; `active`: those that are on;
- * `search`: what is typed into the search field; `count`: how many are on; `families`: the effects by heading.
+ * `search`: what is typed into the search field; `count`: how many are on; `families`: the effects by heading;
+ * `defaults`: those that depend on the size of the muscle, as the server answered them.
  * @typedef {{preset: Signal<Chosen>, active: Signal<Chosen>, search: Signal<string>, count: () => number,
+ *   defaults: () => Chosen | undefined,
  *   message: (key: string) => string | null, families: (all: Effect[]) => Map<string, Effect[]>,
  *   hints?: Record<string, string>}} Panel */
 /** @template T @typedef {import("../reactive.js").Signal<T>} Signal */
 
-/** The value of the preset, else the default of the effect.
+/** The value of the preset, else the default of the effect for this muscle.
  * @param {Panel} c @param {Effect} e @param {Parameter} p */
-const usual = (c, e, p) => c.preset.value[e.id]?.[p.name] ?? p.default;
+const usual = (c, e, p) => c.preset.value[e.id]?.[p.name] ?? c.defaults()?.[e.id]?.[p.name] ?? p.default;
 /** @param {Panel} c @param {Effect} e @param {Parameter} p */
 const valueOf = (c, e, p) => c.active.value[e.id]?.[p.name] ?? usual(c, e, p);
 

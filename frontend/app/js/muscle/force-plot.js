@@ -14,9 +14,10 @@ import { ACROSS, acrossAt, pressureName, shareOf, xAxis, xColumn } from "./curve
 /** @typedef {import("./curve-axes.js").View} View */
 
 /** Contractions outside the limits of the maker. @param {View} v @param {[number, number]} range
+ * @param {boolean} [fitted] whether the plot shows what the model was fitted to: then also those where it was not
  * @returns {Zone[]} */
-export function limitZones(v, range) {
-  const { max_contraction, max_pretension } = v.curves.limits;
+export function limitZones(v, range, fitted = false) {
+  const { max_contraction, max_pretension, stretched } = v.curves.limits;
   const s = scaleOf(ACROSS[v.across].quantity, v.system);
   const { contraction } = v.curves;
   const first = contraction[0], last = contraction[contraction.length - 1];
@@ -36,6 +37,7 @@ export function limitZones(v, range) {
   };
   if (max_contraction != null) add(at(Math.max(max_contraction, first)), rising, "contraction limit");
   if (max_pretension != null) add(at(Math.min(-max_pretension, last)), !rising, "pretension limit");
+  if (fitted && stretched && first < 0) add(at(0), !rising, "not fitted");
   return zones;
 }
 
@@ -146,7 +148,7 @@ export function forceSpec(v, p) {
     range: steadyRange(`${v.place}force${system}`, low, Math.max(high, 1e-3)),
   };
   const dots = curves.operating_points.map((o) => o.contraction);
-  const zones = limitZones(v, x.range);
+  const zones = limitZones(v, x.range, true);
   const most = curves.limits.max_force;
   const top = most == null ? Infinity : toShown(most, scaleOf("force", system));
   if (top < y.range[1]) zones.push({ x: null, y: [top, y.range[1]], text: "force limit" });

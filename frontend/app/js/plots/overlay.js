@@ -250,8 +250,9 @@ function zoneLabel(zone, axes, all, points) {
   if (!zone.x) return [];
   const [from, to] = zone.x.map((v) => Math.min(axes.xaxis._length, Math.max(0, axes.xaxis.c2p(v))));
   if (Math.abs(to - from) < 15 || axes.yaxis._length < 150) return [];
-  const middle = (from + to) / 2;
-  return [place(span, axes, middle, 8, "rotate(90deg) translateY(-50%)")];
+  // The names of the lines stand at the start of the axis.
+  const at = from < 1 ? to - 8 : (from + to) / 2;
+  return [place(span, axes, at, 8, "rotate(90deg) translateY(-50%)")];
 }
 
 /** @param {HTMLElement} el @param {any} axes @param {number} x @param {number} y @param {string} [more] */

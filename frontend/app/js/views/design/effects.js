@@ -24,6 +24,7 @@ const PANEL = {
   preset: presetEffects,
   active: activeEffects,
   count: () => Object.keys(curves.value?.model.effects ?? activeEffects.value).length,
+  defaults: () => curves.value?.model.defaults,
   message: messageFor,
   families: byFamily,
   hints: {

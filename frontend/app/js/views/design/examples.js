@@ -1,7 +1,7 @@
 // @ts-check
 // Example designs of the server (presets/designs): one click replaces the design, in one undo step; while it is
 // unchanged, the view says what it shows and what its source misprints.
-import { h, icon } from "../../dom.js";
+import { h } from "../../dom.js";
 import { computed } from "../../reactive.js";
 import { muscleParts } from "../../drive/document.js";
 import { defaultDesign, design, openDesign, readDesign } from "../../muscle/document.js";
@@ -56,7 +56,7 @@ export function exampleNote() {
     "section",
     { class: "card", "aria-label": "Example" },
     h("div", { class: "card-head" }, h("h2", null, shown.title)),
-    h("p", { class: "flag note" }, icon("info"), h("span", null, shown.description ?? "")),
+    h("p", null, shown.description ?? ""),
     misprintList(shown),
   );
 }

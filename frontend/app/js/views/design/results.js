@@ -95,7 +95,7 @@ function characteristics() {
 }
 
 /** Remarks that are no limits of the muscle. */
-const NOTES = ["unverified", "outside_measured_range"];
+const NOTES = ["unverified", "outside_measured_range", "stretched"];
 
 /** Whether the muscle holds the load within its limits, and which limits it crosses. */
 function verdict() {

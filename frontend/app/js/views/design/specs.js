@@ -34,7 +34,7 @@ export function stiffnessSpec(v, p) {
       title: axisTitle("Stiffness", "stiffness", v.system),
       range: steadyRange(`${v.place}stiffness${other ?? ""}${v.system}`, Math.min(0, low), high),
     },
-    zones: limitZones(v, x.range),
+    zones: limitZones(v, x.range, true),
     traces,
     revision: `${v.across}${other ?? ""}${v.system}`,
   };

@@ -64,7 +64,9 @@ const OUTCOMES = {
   timed_out: "The run took too long.",
   cancelled: "The run was cancelled.",
 };
-const NOTE = "unverified", FIT = "curve_fit";
+const NOTE = "unverified";
+/** Remarks on what the figures are worth, which are no limits. */
+const REMARKS = new Set(["curve_fit", "stretched"]);
 /** How a controlled run ends that does what its reference asks. */
 const FOLLOWED = new Set(["tracks", "settles"]);
 
@@ -77,8 +79,8 @@ function verdict() {
     return h("p", { class: "muted" }, fault.value ? "No valid drive yet." : "Waiting for the first run…");
   }
   const done = r.outcome === "completed";
-  const fits = r.flags.filter((f) => f.code === FIT);
-  const hard = r.flags.filter((f) => f.code !== NOTE && f.code !== FIT),
+  const beside = r.flags.filter((f) => REMARKS.has(f.code));
+  const hard = r.flags.filter((f) => f.code !== NOTE && !REMARKS.has(f.code)),
     doubts = r.flags.filter((f) => f.code === NOTE);
   // A complete run in which nothing moves is a warning.
   const still = r.timing.extend.max_speed == null && !r.tracking
@@ -89,7 +91,7 @@ function verdict() {
   const grade = !done ? "bad" : hard.length || still || away ? "warn" : "good";
   const end = r.time.at(-1) ?? 0;
   return [
-    ...fits.map((f) =>
+    ...beside.map((f) =>
       h("p", { class: "flag note" }, icon("info"), h("span", null, `${capital(f.message)}.`))
     ),
     h(

@@ -191,6 +191,7 @@ export function inputCards() {
       preset: presetEffects,
       active: computed(() => design.value.effects ?? presetEffects.value),
       count: () => Object.keys(run.value?.model.effects ?? presetEffects.value).length,
+      defaults: () => run.value?.model.defaults,
       message: messageWithin,
       families,
     }),
