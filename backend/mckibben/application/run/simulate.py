@@ -230,9 +230,7 @@ class SimulationResult:
     load_force: Series
     temperature: Series
     contact: Booleans
-    """Whether the load rests on an end stop."""
     slack: Booleans
-    """Whether the muscle hangs slack: it is then longer than its fittings are apart."""
     start: StartPosition
     """Where the load is at t = 0, and why there."""
     gas: str
@@ -459,7 +457,7 @@ def trace_columns(result: SimulationResult) -> dict[str, np.ndarray]:
     """
     parts: list[tuple[Group, object]] = [(RUN, result), (JOINT, result.joint)]
     return {
-        _head(figure): values
+        _head(figure): np.asarray(values, dtype=float)
         for group, part in parts
         for figure in group.values()
         if figure.column and (values := getattr(part, figure.name, None)) is not None
