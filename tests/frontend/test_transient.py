@@ -638,7 +638,7 @@ def test_a_joint_follows_angle_and_stiffness(page: Page) -> None:
     assert stiffness[-1] == pytest.approx(22.0, rel=0.03)
     expect(page.locator(".run-lower .legend")).to_contain_text("muscle 2")
     table = list(csv.DictReader(rows_of(download(page, "Run as CSV"))))
-    assert {"counter_mass_flow [g/s]", "counter_diameter [mm]", "stiffness_reference [N·m/rad]"} <= set(
+    assert {"counter_air_flow [g/s]", "counter_diameter [mm]", "stiffness_reference [N·m/rad]"} <= set(
         table[0]
     )
     rerun(page, lambda: page.get_by_label("Set points").select_option("angle"))
