@@ -14,7 +14,7 @@ import { at } from "../../../paths.js";
 import { followTime, row, span } from "../cursor.js";
 import { angleSpec, jointCells, stiffnessSpec, torqueSpec } from "./joint.js";
 import { measured } from "../measured.js";
-import { drive, duration, lookTransient, mode, numberAt, run, timeWindow, transient } from "../model.js";
+import { drive, duration, lookTransient, mode, run, timeWindow, transient } from "../model.js";
 import { drawPhase, phase, phaseItems, phaseLegend, phaseNote, phasePoint } from "./phase-card.js";
 import { pinKey, pinRuns, pins } from "../pinned-runs.js";
 import { plot } from "./plot.js";
@@ -83,7 +83,7 @@ function viewNow() {
     zoomed: timeWindow.value !== null,
     lower: lowerKind.value,
     supply: siNumber(at(drive.peek(), "supply.pressure")),
-    lever: numberAt("load.lever_ratio") ?? 1,
+    lever: siNumber(at(drive.peek(), "load.lever_ratio")) ?? 1,
     pinned: pins.value.flatMap((pin, index) => {
       const pinnedRun = runs.get(pinKey(pin.drive));
       return pinnedRun && "time" in pinnedRun ? [{ name: pin.name, run: pinnedRun, index }] : [];
