@@ -9,9 +9,14 @@ from pathlib import Path
 import pytest
 
 import mckibben
-from mckibben.documents.doors import COMMANDS_ALONE, CORRECTIONS, in_words_of
+from mckibben.documents.doors import CORRECTIONS, in_words_of
 
 PACKAGE = Path(mckibben.__file__).parent
+#: Options of commands alone: no other door gives the messages that name them, or they start the server.
+COMMANDS_ALONE = frozenset({
+    "out", "resume", "scheduler", "effects", "data", "quota", "host", "json", "save", "report", "proposal",
+    "as", "help", "presets", "stiffness",
+})  # fmt: skip
 NAMED = re.compile(r"(?<![\w-])--([a-z]+(?:-[a-z]+)*)")
 SAID = {
     '--ignore "force_N"': ('"ignore": ["force_N"]', 'ignore=["force_N"]'),

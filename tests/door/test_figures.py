@@ -61,5 +61,5 @@ def test_a_run_and_a_measurement_over_time() -> None:
     assert np.asarray(figure.data[0].y) == pytest.approx(1e3 * run.position)
     run.save("trace.csv")
     shown = mk.read("trace.csv").plot()
-    assert {trace.name for trace in shown.data} >= {"pressure", "displacement", "force"}
+    assert {trace.name for trace in shown.data} >= {"pressure", "length", "force"}
     assert mk.read("martens-dmsp-10-250").plot().layout.yaxis.title.text == "Force (N)"

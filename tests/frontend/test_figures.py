@@ -8,7 +8,7 @@ from pathlib import Path
 
 APP = Path(__file__).parents[2] / "frontend" / "app" / "js"
 
-#: What makes a figure of numbers: roots, sums, means, percentages of a quotient. A percentage is a unit.
+#: What makes a figure of numbers: roots, sums, means, percentages of a quotient; a share in percent is none.
 MAKES = re.compile(
     r"Math\.(?:sqrt|hypot)\("
     r"|\.reduce\([^;]{0,60}?=> *\w+ \+"

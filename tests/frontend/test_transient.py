@@ -66,6 +66,11 @@ def download(page: Page, item: str) -> Path:
     return Path(saved.value.path())
 
 
+def rows_of(saved: Path) -> list[str]:
+    """The head and the rows of a file, without what it states above them."""
+    return [line for line in saved.read_text().splitlines() if not line.startswith("#")]
+
+
 def load_scenario(page: Page, scenario: str) -> None:
     """Choose a scenario and wait for its run."""
     rerun(page, lambda: page.locator("#scenario").select_option(scenario))
@@ -410,7 +415,7 @@ def test_a_slack_muscle_is_marked_and_saved(page: Page) -> None:
     expect(body).to_have_class("body slack")
     page.get_by_label("Time of the cursor").fill("500")
     expect(body).to_have_class("body")
-    table = list(csv.DictReader(download(page, "Run as CSV").read_text().splitlines()))
+    table = list(csv.DictReader(rows_of(download(page, "Run as CSV"))))
     for name in ("contact", "slack"):
         share = sum(float(row[name]) for row in table) / len(table)
         assert share == pytest.approx(sum(answer[name]) / len(answer[name]), abs=0.01)
@@ -529,11 +534,11 @@ def test_dragging_chooses_a_window_for_all_plots(page: Page) -> None:
 @pytest.mark.examination("test_the_first_run_is_complete_and_has_figures")
 def test_exports(page: Page, tmp_path: Path) -> None:
     open_transient(page)
-    table = list(csv.DictReader(download(page, "Run as CSV").read_text().splitlines()))
+    table = list(csv.DictReader(rows_of(download(page, "Run as CSV"))))
     assert len(table) == 2001
-    assert {"time [s]", "displacement [mm]", "pressure [bar]", "force [N]", "diameter [mm]"} <= set(table[0])
+    assert {"time [s]", "load_position [mm]", "pressure [bar]", "force [N]", "diameter [mm]"} <= set(table[0])
     assert float(table[-1]["time [s]"]) == pytest.approx(2.0)
-    assert max(float(row["displacement [mm]"]) for row in table) == pytest.approx(36, abs=0.5)
+    assert max(float(row["load_position [mm]"]) for row in table) == pytest.approx(36, abs=0.5)
     assert "Velocity (m/s)" in download(page, "Plots as SVG").read_text()
     page.get_by_role("button", name="Export").click()
     page.get_by_role("menuitem").filter(has_text="Take it along").click()
@@ -653,7 +658,7 @@ def test_an_antagonist_pair_turns_a_pulley(page: Page, page_guard: PageGuard) ->
     expect(page.locator("[data-field='load.precontraction'] .error")).to_contain_text("30 %")
     page.get_by_role("button", name="Undo").click()
     expect(page.locator(".transient .notice")).to_be_hidden()
-    table = list(csv.DictReader(download(page, "Run as CSV").read_text().splitlines()))
+    table = list(csv.DictReader(rows_of(download(page, "Run as CSV"))))
     assert {"joint_angle [°]", "joint_torque [N·m]", "counter_pressure [bar]"} <= set(table[0])
     arrange(page, "hanging")
     expect(joint).to_be_hidden()
@@ -674,8 +679,8 @@ def test_a_joint_follows_angle_and_stiffness(page: Page) -> None:
     stiffness = run(page, PLOTTED, ["stiffness", "stiffness"])["y"]
     assert stiffness[-1] == pytest.approx(22.0, rel=0.03)
     expect(page.locator(".run-lower .legend")).to_contain_text("muscle 2")
-    table = list(csv.DictReader(download(page, "Run as CSV").read_text().splitlines()))
-    assert {"counter_mass_flow [g/s]", "counter_diameter [mm]", "stiffness_reference [N·m/rad]"} <= set(
+    table = list(csv.DictReader(rows_of(download(page, "Run as CSV"))))
+    assert {"counter_air_flow [g/s]", "counter_diameter [mm]", "stiffness_reference [N·m/rad]"} <= set(
         table[0]
     )
     rerun(page, lambda: page.get_by_label("Set points").select_option("angle"))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from collections.abc import Callable
 
 import numpy as np
@@ -86,3 +87,14 @@ def test_a_bad_answer_names_its_key(client: TestClient, mapping: str, field: str
     query = {"name": file.name, "mapping": mapping}
     error = assert_error(client.post("/api/measurements/preview", params=query, content=file.data), 422)
     assert error["field"] == field
+
+
+def test_a_hint_is_in_the_words_of_requests(client: TestClient) -> None:
+    """The correction that a refusal names is the field of the mapping, which then reads the file."""
+    data = b"time_s,pressure_bar,force_N,force_N\n0,1,2,3\n1,2,3,4\n2,3,4,5\n"
+    query = {"name": "twice.csv"}
+    refused = assert_error(client.put("/api/measurements", params=query, content=data), 422)
+    found = re.search(r"\"ignore\": \[.*?\]", refused["hint"])
+    assert found is not None, refused["hint"]
+    query["mapping"] = f"{{{found[0]}}}"
+    assert client.put("/api/measurements", params=query, content=data).status_code == 200

@@ -36,12 +36,6 @@ CORRECTIONS: dict[str, _Kind] = {
 }
 _NAMES = {"effect": "effects"}  # where a field is not called as its option
 _ARGUMENTS = _NAMES | {"column": "columns"}
-#: Options of commands alone: no other door gives the messages that name them, or they start the server.
-COMMANDS_ALONE = frozenset({
-    "out", "resume", "scheduler", "effects", "data", "quota", "host", "json", "save", "report", "proposal",
-    "as", "help", "presets", "stiffness",
-})  # fmt: skip
-
 _VALUE = r""" ("[^"]*"|'[^']*'|[A-Z_]{3,}(?:\.json)?|[a-z]+(?:_[a-z]+)+)"""
 _OPTION = re.compile(rf"--([a-z]+(?:-[a-z]+)*)(?:{_VALUE})?")
 

@@ -161,7 +161,7 @@ class Drive(Exportable):
 
     @property
     def model(self) -> Model:
-        """Muscle and effects."""
+        """The muscle with all effects of the drive, those of its valve, tube and fittings too."""
         return model_of_document(self.document, self._studio)
 
     @reported

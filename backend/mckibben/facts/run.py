@@ -116,6 +116,15 @@ RUN = Group(
         "Temperature of the air in the muscle.", column="gas_temperature",
     ),
     Figure(
+        "contact", "", "1", "On an end stop", "Whether the load rests on an end stop.", quantity="number",
+        column="contact",
+    ),
+    Figure(
+        "slack", "", "1", "Muscle slack",
+        "Whether the muscle hangs slack: it is then longer than its fittings are apart.", quantity="number",
+        column="slack",
+    ),
+    Figure(
         "weight", "", "N", "Weight along the motion",
         "m g sin(inclination) of the mass of the load, positive against the contraction.",
     ),

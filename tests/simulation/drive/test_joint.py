@@ -98,6 +98,7 @@ def test_angle_and_stiffness_reach_their_set_points_and_leave_each_other_alone(d
     assert joint is not None
     assert joint.stiffness_reference is not None
     angle, stiffness = np.degrees(joint.angle), np.asarray(joint.stiffness)
+    assert joint.stiffness_range == (stiffness.min(), stiffness.max())
     for at, expected, wanted in ((0.99, 0.0, 18.0), (2.99, 12.0, 18.0), (5.0, 12.0, 24.0)):
         row = int(np.argmin(np.abs(time - at)))
         assert angle[row] == pytest.approx(expected, abs=0.5)

@@ -238,9 +238,7 @@ class SimulationResult:
     load_force: Series
     temperature: Series
     contact: Booleans
-    """Whether the load rests on an end stop."""
     slack: Booleans
-    """Whether the muscle hangs slack: it is then longer than its fittings are apart."""
     stuck: Booleans
     """Whether dry friction holds the load."""
     friction: Series
@@ -498,7 +496,7 @@ def trace_columns(result: SimulationResult) -> dict[str, np.ndarray]:
     """
     parts: list[tuple[Group, object]] = [(RUN, result), (JOINT, result.joint)]
     return {
-        _head(figure): values
+        _head(figure): np.asarray(values, dtype=float)
         for group, part in parts
         for figure in group.values()
         if figure.column and (values := getattr(part, figure.name, None)) is not None

@@ -86,7 +86,9 @@ def grid_of(*, duration: float, begin: float, end: float, points: int, jumps: Se
 
 def _with_times(grid: Array, times: Array, near: float) -> Array:
     """An ascending grid with these times, in the place of what is so near to one of them."""
-    beside = np.min(np.abs(grid[:, np.newaxis] - times), axis=1) <= near
+    after = np.searchsorted(times, grid)
+    neighbours = times[np.maximum(after - 1, 0)], times[np.minimum(after, len(times) - 1)]
+    beside = np.minimum(*(np.abs(grid - each) for each in neighbours)) <= near
     return np.union1d(grid[~beside], times)
 
 

@@ -234,7 +234,7 @@ class _Motion:
             size = f"{swing.frequency:.3g} Hz by ±{1e3 * swing.amplitude:.3g} mm"
             return "swings", f"swings until the end of the phase at {size}{dies}"
         most = float(np.abs(self.travel).max())
-        reached = f"{1e3 * self.reached:.4g} mm".replace("-", "−")
+        reached, wanted = (f"{1e3 * x:.4g} mm".replace("-", "−") for x in (self.reached, self.stroke))
         if abs(self.reached) <= _RETURNED * most:
             return (
                 "returned",
@@ -243,7 +243,7 @@ class _Motion:
         if self.demanded and (self.settled is None or not self.stroke >= SMALLEST_STROKE):
             return (
                 "never_arrived",
-                f"is at {reached} of the demanded {1e3 * self.stroke:.4g} mm at the end of the phase",
+                f"is at {reached} of the demanded {wanted} at the end of the phase",
             )
         if self.reached < 0.0:
             return "never_arrived", f"goes the other way: it ends {reached} from its start"

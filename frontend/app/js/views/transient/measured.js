@@ -11,7 +11,7 @@ import { untilLoaded } from "../../server/patience.js";
 import { Question } from "../../server/question.js";
 import { editTransient, transient } from "./model.js";
 
-const OVERLAID = ["pressure", "displacement", "force", "velocity", "command"];
+const OVERLAID = ["pressure", "displacement", "length", "force", "velocity", "command"];
 
 const chosen = computed(() => transient.value.measurement);
 const columns = new Question(measurement);

@@ -42,8 +42,9 @@ export function withoutImpacts({ contact }, values) {
 
 /** The points of a measured channel in a time range, thinned out for drawing.
  * @param {Measured | null} measured @param {[number, number]} span
- * @param {string[]} names of channels; the first one present is taken */
-export function measuredColumn(measured, [from, to], names) {
+ * @param {string[]} names of channels; the first one present is taken
+ * @param {(value: number, name: string) => number} [shown] what is drawn of a value */
+export function measuredColumn(measured, [from, to], names, shown = (value) => value) {
   const time = /** @type {number[] | undefined} */ (measured?.columns.time);
   const name = names.find((one) => measured?.columns[one]);
   if (!measured || !time || !name) return null;
@@ -51,7 +52,19 @@ export function measuredColumn(measured, [from, to], names) {
   const inside = [...time.keys()].filter((i) => time[i] >= from && time[i] <= to);
   const step = Math.max(1, Math.ceil(inside.length / MOST_DOTS));
   const kept = inside.filter((_, k) => k % step === 0);
-  return { x: kept.map((i) => time[i]), y: kept.map((i) => y[i]) };
+  return { x: kept.map((i) => time[i]), y: kept.map((i) => shown(y[i], name)) };
+}
+
+/** Measured positions of the load: a file has the stroke or the length of the muscle.
+ * @param {Run} run @param {Measured | null} measured @param {[number, number]} span @param {number} lever */
+export function measuredPosition(run, measured, span, lever) {
+  const rest = run.geometry.nominal_length, middle = rest * middleOf(run);
+  return measuredColumn(
+    measured,
+    span,
+    ["displacement", "length"],
+    (value, name) => ((name === "length" ? rest - value : value) - middle) / lever,
+  );
 }
 
 /** The row of a run nearest to a time. @param {number[]} time @param {number} t */

@@ -3,7 +3,7 @@
 import { h, icon } from "../../../dom.js";
 import { figure } from "../../../facts.js";
 import { units } from "../../../state.js";
-import { brief, readable, unbroken, withUnit } from "../../../format.js";
+import { brief, readable, scaleOf, toShown, unbroken, withUnit } from "../../../format.js";
 import { jointCard } from "../plots/joint.js";
 import { fault, roundTrip, run } from "../model.js";
 import { paperCard } from "./paper.js";
@@ -155,36 +155,48 @@ function named(key) {
 
 const MOST_STEPS = 12;
 const OF_STEP = /** @type {const} */ (
-  ["time", "size", "overshoot", "settling_time", "steady_error", "swing_frequency", "swing_amplitude"]
+  ["size", "overshoot", "settling_time", "steady_error", "swing_frequency", "swing_amplitude"]
 );
 
-/** How each step of the reference is answered. @param {NonNullable<Run["tracking"]>["steps"]} steps */
-const stepsTable = (steps) =>
-  h(
+/** How each step of the reference is answered, a column for each. @param {NonNullable<Run["tracking"]>["steps"]} steps */
+function stepsTable(steps) {
+  /** @param {"time" | typeof OF_STEP[number]} name */
+  const row = (name) => {
+    const { label, definition, quantity } = figure(`step.${name}`), s = scaleOf(quantity, units.value);
+    const cells = steps.map((step) => step[name] == null ? "–" : brief(toShown(step[name], s)));
+    return { head: { title: definition }, label: unbroken(label), unit: s.unit, cells };
+  };
+  const time = row("time");
+  return h(
     "div",
     { class: "scroll", tabindex: 0, role: "region", "aria-label": "Steps of the reference" },
     h(
       "table",
-      null,
-      h("thead", null, h("tr", null, ...OF_STEP.map((name) => headOf(`step.${name}`)))),
+      { class: "data timing steps" },
+      h(
+        "thead",
+        null,
+        h(
+          "tr",
+          null,
+          h("th", { scope: "row", ...time.head }, `${time.label} `, h("small", null, time.unit)),
+          ...time.cells.map((text) => h("th", { scope: "col" }, text)),
+        ),
+      ),
       h(
         "tbody",
         null,
-        ...steps.map((step) =>
+        ...OF_STEP.filter((name) => steps.some((step) => step[name] != null)).map(row).map((one) =>
           h(
             "tr",
             null,
-            ...OF_STEP.map((name) => h("td", { class: "num" }, shownAs(`step.${name}`, step[name]))),
+            h("th", { scope: "row", ...one.head }, `${one.label} `, h("small", null, one.unit)),
+            ...one.cells.map((text) => h("td", null, text)),
           )
         ),
       ),
     ),
   );
-
-/** @param {string} key */
-function headOf(key) {
-  const { label, definition } = figure(key);
-  return h("th", { scope: "col", title: definition }, label);
 }
 
 function tracking() {

@@ -83,6 +83,7 @@ function viewNow() {
     zoomed: timeWindow.value !== null,
     lower: lowerKind.value,
     supply: siNumber(at(drive.peek(), "supply.pressure")),
+    lever: siNumber(at(drive.peek(), "load.lever_ratio")) ?? 1,
     pinned: pins.value.flatMap((pin, index) => {
       const pinnedRun = runs.get(pinKey(pin.drive));
       return pinnedRun && "time" in pinnedRun ? [{ name: pin.name, run: pinnedRun, index }] : [];

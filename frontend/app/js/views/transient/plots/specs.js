@@ -3,7 +3,7 @@
 import { figure } from "../../../facts.js";
 import { axisTitle, extent, shown, steadyRange } from "../../../plots/axes.js";
 import { scaleOf } from "../../../format.js";
-import { intervals, measuredColumn, resampled, withoutImpacts } from "../series.js";
+import { intervals, measuredColumn, measuredPosition, resampled, withoutImpacts } from "../series.js";
 
 /** @typedef {import("../../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../../plots/chart.js").Trace} Trace */
@@ -14,7 +14,7 @@ import { intervals, measuredColumn, resampled, withoutImpacts } from "../series.
 /** @typedef {import("../../../types.js").Measured} Measured */
 /** @typedef {import("../../../types.js").Lower} Lower */
 /** @typedef {{name: string, run: Run, index: number}} Pinned */
-/** @typedef {{run: Run, system: System, window: [number, number], lower: Lower, supply: number | null,
+/** @typedef {{run: Run, system: System, window: [number, number], lower: Lower, supply: number | null, lever: number,
  *   pinned: Pinned[], measured: Measured | null, switches: number[], zoomed: boolean,
  *   brush: (range: [number, number] | null) => void}} View */
 /** A column of a run as one line of a plot.
@@ -150,7 +150,7 @@ export function positionSpec(v, p) {
     title: figure("run.position").label,
     quantity: "length",
     lines,
-    dots: measuredColumn(v.measured, v.window, ["displacement", "position"]),
+    dots: measuredPosition(v.run, v.measured, v.window, v.lever),
   });
 }
 
@@ -216,7 +216,7 @@ export const speedSpec = (v, p) =>
     title: figure("run.velocity").label,
     quantity: "speed",
     lines: [{ id: "velocity", name: "speed", values: v.run.velocity, color: p.accent }],
-    dots: measuredColumn(v.measured, v.window, ["velocity"]),
+    dots: measuredColumn(v.measured, v.window, ["velocity"], (lengthening) => -lengthening / v.lever),
     zero: true,
     least: 0.01,
   });
