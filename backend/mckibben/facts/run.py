@@ -125,6 +125,10 @@ RUN = Group(
         column="slack",
     ),
     Figure(
+        "stuck", "", "1", "Held by friction", "Whether dry friction holds the load.", quantity="number",
+        column="stuck",
+    ),
+    Figure(
         "weight", "", "N", "Weight along the motion",
         "m g sin(inclination) of the mass of the load, positive against the contraction.",
     ),

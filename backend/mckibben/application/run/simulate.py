@@ -240,7 +240,6 @@ class SimulationResult:
     contact: Booleans
     slack: Booleans
     stuck: Booleans
-    """Whether dry friction holds the load."""
     friction: Series
     friction_share: Series
     events: list[RunEvent]
