@@ -113,7 +113,7 @@ def test_random_drives_end_with_a_name() -> None:
         assert time.monotonic() - began < SLOWEST, f"drive {number}: {document}"
         outcomes[result.outcome] += 1
         if result.outcome == "completed":
-            assert len(result.time) == POINTS
+            assert len(result.time) >= POINTS  # a jump of the command has a row of its own
             for name in ("position", "velocity", "acceleration", "pressure", "force", "mass_flow", "volume"):
                 assert np.isfinite(getattr(result, name)).all(), f"drive {number}, {name}: {document}"
     assert sum(outcomes.values()) == DRIVES

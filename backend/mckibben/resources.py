@@ -66,10 +66,10 @@ def user_folder() -> Path:
 
 def cache_folder() -> Path | None:
     """Where compiled code is kept that can be made again; ``MCKIBBEN_CACHE`` is another place or ``off``."""
-    from platformdirs import user_cache_path
-
     if chosen := os.environ.get("MCKIBBEN_CACHE"):
         return None if chosen == "off" else Path(chosen).expanduser()
+    from platformdirs import user_cache_path
+
     return user_cache_path("mckibben", appauthor=False)
 
 

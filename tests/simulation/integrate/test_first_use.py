@@ -29,7 +29,8 @@ print(json.dumps({"code": code, "loaded": loaded, "compiled": compiled}), file=s
 
 @pytest.fixture(scope="module")
 def _compiled_at_installation() -> None:
-    """In an editable installation the sources may have changed since."""
+    """In an editable installation the sources may have changed since; code there must be."""
+    assert list(installed_code_folder().glob("code/*/*")), "backend/compile_kernels.py has compiled nothing"
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr("mckibben.simulation.kept_code._folder", lambda: None)
         dispatcher = rodas4_lanes.dispatcher
