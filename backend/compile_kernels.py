@@ -17,7 +17,13 @@ from hatchling.builders.hooks.plugin.interface import BuildHookInterface  # type
 
 _BACKEND = Path(__file__).resolve().parent
 _COMPILED = _BACKEND / "mckibben" / "_data" / "compiled"  # `mckibben.resources.installed_code_folder`
-_CALL = "from mckibben.simulation.integrate.lane_buffers import compile_kernels; compile_kernels()"
+# The environment of the build may reach its packages by PYTHONPATH: that stays as it is.
+_CALL = """
+import sys
+sys.path.insert(0, sys.argv[1])
+from mckibben.simulation.integrate.lane_buffers import compile_kernels
+compile_kernels()
+"""
 
 
 class CompileKernels(BuildHookInterface):
@@ -26,8 +32,9 @@ class CompileKernels(BuildHookInterface):
     def initialize(self, version: str, build_data: dict[str, Any]) -> None:
         """Called before the wheel is built, for an editable installation too."""
         shutil.rmtree(_COMPILED, ignore_errors=True)
-        environment = {**os.environ, "PYTHONPATH": str(_BACKEND), "MCKIBBEN_CACHE": str(_COMPILED)}
-        done = subprocess.run([sys.executable, "-c", _CALL], env=environment, capture_output=True, text=True)
+        environment = {**os.environ, "MCKIBBEN_CACHE": str(_COMPILED)}
+        command = [sys.executable, "-c", _CALL, str(_BACKEND)]
+        done = subprocess.run(command, env=environment, capture_output=True, text=True)
         if done.returncode:
             self.app.display_warning(f"the integrators are compiled at their first use: {done.stderr}")
         if version == "standard" and _COMPILED.is_dir():  # an editable installation has it in its place
