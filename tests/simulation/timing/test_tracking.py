@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from mckibben.simulation.timing.swing import swing_of
-from mckibben.simulation.timing.tracking import Followed, Tracking, tracking
+from mckibben.simulation.timing.tracking import Followed, Tracking, _correlations, tracking
 
 T = np.linspace(0.0, 4.0, 4001)
 STEP = np.where(T < 1.0, 0.0, 0.02)
@@ -31,6 +31,14 @@ def test_lag_of_a_sine_in_spite_of_gain_and_offset(lag, count):
     assert found.steps == []
     complex_error = 0.02 - 0.015 * np.exp(-2j * np.pi * lag)
     assert found.rms == pytest.approx(np.hypot(0.002, abs(complex_error) / np.sqrt(2.0)), rel=1e-3)
+
+
+def test_the_correlations_of_all_shifts_are_those_of_each():
+    a, b = np.cumsum(np.random.default_rng(3).normal(size=(2, 300)), axis=1)
+    found = _correlations(a, b, 76)
+    each = [np.corrcoef(a[: 300 - k], b[k:])[0, 1] for k in range(76)]
+    assert found == pytest.approx(each, abs=1e-12)
+    assert not _correlations(np.zeros(20), b[:20], 6).any()
 
 
 def test_a_short_period_does_not_make_a_later_lag():

@@ -100,9 +100,10 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
     radius = drive.pulley_radius
     counter = run.outputs[f"force{COUNTER}"][rows]
     wanted = None if drive.stiffness is None else np.asarray(drive.stiffness.reference.value(run.time))
-    error = None
+    error, whole = None, None
     if wanted is not None and len(run.time) > 1:
-        square = (_stiffness(run, slice(None)) - wanted) ** 2
+        whole = _stiffness(run, slice(None))
+        square = (whole - wanted) ** 2
         error = float(np.sqrt(np.trapezoid(square, run.time) / np.ptp(run.time)))
     flows = (run.outputs[f"{name}_flow{COUNTER}"][rows] for name in ("mass", "supply", "exhaust"))
     if run.counter_command is not None:
@@ -111,7 +112,8 @@ def joint_of(run: Run, rows: Array) -> JointMotion | None:
         own = drive.command if drive.reference is None else run.command
         command = 2.0 * drive.common_command - np.asarray(own.value(run.time))[rows]
     inflow, supplied, vented = flows
-    angle, stiffness = run.states["stroke"][rows] / radius, _stiffness(run, rows)
+    angle = run.states["stroke"][rows] / radius
+    stiffness = _stiffness(run, rows) if whole is None else whole[rows]
     torque = radius * (run.outputs["force"][rows] - counter)
     return JointMotion(
         angle=angle,

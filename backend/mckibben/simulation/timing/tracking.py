@@ -241,7 +241,7 @@ def _lag(t: Array, r: Array, y: Array) -> float | None:
     step = float(even[1] - even[0])
     a, b = np.interp(even, t, r), np.interp(even, t, y)
     shifts = np.arange(len(even) // 4 + 1)
-    score = np.array([_correlation(a[: len(a) - k], b[k:]) for k in shifts])
+    score = _correlations(a, b, len(shifts))
     if not score.max() > 0.1:
         return None
     tops = _tops(score)
@@ -270,6 +270,18 @@ def _tops(score: Array) -> Array:
     tops[0] = score[0] if score[0] >= score[1] else -np.inf
     tops[-1] = score[-1] if score[-1] > score[-2] else -np.inf
     return tops
+
+
+def _correlations(a: Array, b: Array, count: int) -> Array:
+    """`_correlation` of ``a[: n - k]`` and ``b[k:]`` for k below a count, from running sums."""
+    a, b = a - a.mean(), b - b.mean()
+    shifts = np.arange(count)
+    left = len(a) - shifts
+    products = np.correlate(b, a, mode="full")[len(a) - 1 : len(a) - 1 + count]
+    sum_a, square_a = (np.cumsum(each)[left - 1] for each in (a, a * a))
+    sum_b, square_b = (np.cumsum(each[::-1])[left - 1] for each in (b, b * b))
+    scale = np.sqrt(np.maximum(square_a - sum_a**2 / left, 0.0) * np.maximum(square_b - sum_b**2 / left, 0.0))
+    return np.divide(products - sum_a * sum_b / left, scale, out=np.zeros(count), where=scale > 1e-18)
 
 
 def _correlation(a: Array, b: Array) -> float:
