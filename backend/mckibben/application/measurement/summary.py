@@ -11,6 +11,7 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement, 
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.left_out import UNWANTED
 from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
+from mckibben.measurement.read.questions import columns_said
 
 #: Units offered by a form for each channel.
 _SHOWN_UNREAD = 8  # columns in one sentence
@@ -126,6 +127,20 @@ class StatedCondition:
 
 
 @result_class
+class ColumnAnswer:
+    """What an answer to a question says of a column."""
+
+    column: str
+    """The column, by its header with or without its unit."""
+    channel: str | None
+    """What it is; None: it is left out."""
+    unit: str | None
+    """The unit of its readings; None: as in the file."""
+    turned: bool
+    """Its readings have the other sign."""
+
+
+@result_class
 class OpenQuestion:
     """What a file leaves open: see :class:`mckibben.measurement.question.Question`."""
 
@@ -141,6 +156,8 @@ class OpenQuestion:
     """The likeliest answer."""
     choices: list[str]
     """Possible answers."""
+    answers: list[ColumnAnswer]
+    """Answers that say what a column is, as a mapping takes them."""
     stops: bool
     """Without an answer the file is not read."""
 
@@ -404,7 +421,8 @@ def _questions(questions: Iterable[Question]) -> list[OpenQuestion]:
     return [
         OpenQuestion(
             question.about, question.text, question.option, question.column, question.proposed,
-            list(question.choices), question.stops,
+            list(question.choices), [ColumnAnswer(*said) for said in columns_said(question.option)],
+            question.stops,
         )
         for question in questions
     ]  # fmt: skip
