@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import field, fields
+from typing import ClassVar
 
 from mckibben.facts.result import Column, Number, Series, result_class
 from mckibben.measurement.experiment import Origin
@@ -26,6 +27,8 @@ _USUAL_UNITS = {
 @result_class
 class FormField:
     """A field of a form; see `mckibben.measurement.experiment.ExperimentField` and ``ExperimentValue``."""
+
+    CORRECTING: ClassVar = ("option",)
 
     field: str
     """Name: the key of 'experiment' in a request. 'accuracy_length' and the like are parts of its 'accuracy'.
@@ -65,7 +68,7 @@ class FormField:
     example: str
     """A valid value, as a text."""
     option: str
-    """What says it on the command line."""
+    """What says it, in the words of the door."""
 
 
 @result_class
@@ -144,12 +147,14 @@ class ColumnAnswer:
 class OpenQuestion:
     """What a file leaves open: see :class:`mckibben.measurement.question.Question`."""
 
+    CORRECTING: ClassVar = ("option",)
+
     about: str
     """What it is about."""
     text: str
     """The question."""
     option: str
-    """What answers it, in the words of the command line and of a mapping."""
+    """What answers it, in the words of the door."""
     column: str | None
     """The column concerned."""
     proposed: str | None
@@ -165,6 +170,8 @@ class OpenQuestion:
 @result_class
 class MeasurementSummary:
     """A measurement as it was read."""
+
+    CORRECTING: ClassVar = ("messages",)
 
     id: str
     """SHA-256 of the file's content (and of the mapping, if there is one)."""
@@ -271,6 +278,8 @@ class SkippedSummary:
 class UnreadableFile:
     """Why a file cannot be read as a measurement."""
 
+    CORRECTING: ClassVar = ("message", "hint")
+
     code: str
     """Machine-readable kind."""
     message: str
@@ -296,6 +305,8 @@ class ChannelOption:
 @result_class
 class PreviewResult:
     """Preview of a file."""
+
+    CORRECTING: ClassVar = ("messages",)
 
     name: str
     """Name of the file."""
