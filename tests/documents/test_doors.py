@@ -35,6 +35,10 @@ SAID = {
         """'"keep": ["rest_length"]' takes it""", """'keep=["rest_length"]' takes it"""
     ),
     "a drive document (--drive DRIVE.json)": ("a drive document (drive)", "a drive document (drive)"),
+    "the file of: mckibben diagnose DATA --save MODEL.json": (
+        "the file of: mckibben diagnose DATA --save MODEL.json",
+        'the file of: model.diagnose(data).model.save("model.json")',
+    ),
     "start it with --host and that name": ("start it with --host and that name",) * 2,
 }  # fmt: skip
 

@@ -39,6 +39,11 @@ CORRECTIONS: dict[str, _Kind] = {
 }
 _NAMES = {"effect": "effects"}  # where a field is not called as its option
 _ARGUMENTS = _NAMES | {"column": "columns"}
+#: Whole commands -> what does the same at a door. A saved model is written by the other two doors, not by HTTP.
+_COMMANDS: dict[Door, dict[str, str]] = {
+    "http": {},
+    "python": {"mckibben diagnose DATA --save MODEL.json": 'model.diagnose(data).model.save("model.json")'},
+}
 _VALUE = r""" ("[^"]*"|'[^']*'|[A-Z_]{3,}(?:\.json)?|[a-z]+(?:_[a-z]+)+)"""
 _OPTION = re.compile(rf"--([a-z]+(?:-[a-z]+)*)(?:{_VALUE})?")
 
@@ -64,6 +69,8 @@ def in_words_of(door: Door, text: str) -> str:
             return f'"{name}": {json.dumps(_http(value, kind), ensure_ascii=False)}'
         return f"{name}={json.dumps(_python(value, kind), ensure_ascii=False)}"
 
+    for command, said in _COMMANDS[door].items():
+        text = text.replace(command, said)
     return _OPTION.sub(worded, text)
 
 
