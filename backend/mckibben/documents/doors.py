@@ -39,7 +39,7 @@ CORRECTIONS: dict[str, _Kind] = {
 }
 _NAMES = {"effect": "effects"}  # where a field is not called as its option
 _ARGUMENTS = _NAMES | {"column": "columns"}
-#: Whole commands -> what does the same at a door. A saved model is written by the other two doors, not by HTTP.
+#: Whole commands -> what does the same at a door. HTTP has no saved models to write.
 _COMMANDS: dict[Door, dict[str, str]] = {
     "http": {},
     "python": {"mckibben diagnose DATA --save MODEL.json": 'model.diagnose(data).model.save("model.json")'},
