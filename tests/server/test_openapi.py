@@ -122,7 +122,7 @@ def test_figures_of_answers_have_units(document: dict[str, Any]) -> None:
     schemas = document["components"]["schemas"]
     for name in ("CurveLimits", "Characteristics", "GeometrySummary", "OperatingPoint", "PressureBranch"):
         for field, schema in properties(schemas[name]):
-            texts = {"flags", "free_contraction_note", "rhombus"}
+            texts = {"flags", "free_contraction_note", "rhombus", "stretched"}
             assert field in texts or "unit" in schema, f"{name}.{field}"
 
 
