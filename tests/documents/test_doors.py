@@ -5,11 +5,14 @@ from __future__ import annotations
 import ast
 import re
 from pathlib import Path
+from typing import ClassVar
 
+import numpy as np
 import pytest
 
 import mckibben
-from mckibben.documents.doors import CORRECTIONS, in_words_of
+from mckibben.documents.doors import CORRECTIONS, in_words_of, result_in_words_of
+from mckibben.facts.result import result_class
 
 PACKAGE = Path(mckibben.__file__).parent
 #: Options of commands alone: no other door gives the messages that name them, or they start the server.
@@ -32,6 +35,10 @@ SAID = {
         """'"keep": ["rest_length"]' takes it""", """'keep=["rest_length"]' takes it"""
     ),
     "a drive document (--drive DRIVE.json)": ("a drive document (drive)", "a drive document (drive)"),
+    "the file of: mckibben diagnose DATA --save MODEL.json": (
+        "the file of: mckibben diagnose DATA --save MODEL.json",
+        'the file of: model.diagnose(data).model.save("model.json")',
+    ),
     "start it with --host and that name": ("start it with --host and that name",) * 2,
 }  # fmt: skip
 
@@ -39,6 +46,46 @@ SAID = {
 @pytest.mark.parametrize("text", SAID)
 def test_a_correction_is_said_in_the_words_of_the_door(text: str) -> None:
     assert (in_words_of("http", text), in_words_of("python", text)) == SAID[text]
+
+
+@result_class
+class Entry:
+    """A result inside of another."""
+
+    CORRECTING: ClassVar = ("where",)
+
+    where: str
+    """A place."""
+    name: str
+    """A name that is no correction."""
+
+
+@result_class
+class Answer:
+    """A result with corrections at every depth."""
+
+    CORRECTING: ClassVar = ("messages",)
+
+    messages: list[str]
+    """Remarks."""
+    entries: dict[str, Entry]
+    """By name."""
+    more: list[Entry]
+    """Others."""
+    column: np.ndarray
+    """Numbers."""
+
+
+def test_a_result_says_its_corrections_in_the_words_of_the_door() -> None:
+    text, column = '--ignore "F2"', np.zeros(3)
+    plain = Entry("row 3", text)
+    answer = Answer([f"leave it out: {text}", "read"], {"a": Entry(text, text)}, [plain], column)
+    said = result_in_words_of("http", answer)
+    assert said.messages == ['leave it out: "ignore": ["F2"]', "read"]
+    assert said.entries == {"a": Entry('"ignore": ["F2"]', text)}, "a name stays as it is"
+    assert said.more is answer.more
+    assert np.shares_memory(said.column, column)
+    assert result_in_words_of("python", said) is said
 
 
 def options_of(code: str) -> set[str]:

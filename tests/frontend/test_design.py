@@ -167,6 +167,10 @@ def test_three_forms_of_one_geometry(page: Page) -> None:
     page.get_by_role("radio", name="Rhombus").click()
     along, side = (float(field(page, name).input_value()) for name in ("Rhombi along", "Rhombus side"))
     assert 2 * along * side == pytest.approx(thread, rel=1e-3)
+    # A changed number goes back to that of the preset's braid.
+    redrawn(page, lambda: enter(page, "Rhombi along", "90"))
+    redrawn(page, lambda: page.get_by_role("button", name="Reset Rhombi along").click())
+    expect(field(page, "Rhombi along")).to_have_value(f"{along:g}")
     page.get_by_role("radio", name="Angle").click()
     expect(field(page, "Braid angle")).to_have_value("26.53")
     assert rmse(page) == pytest.approx(start, abs=0.1)

@@ -897,43 +897,6 @@ def test_a_window_never_outlasts_the_run(page: Page) -> None:
     expect(page.get_by_label("Window to, in seconds")).to_have_value("0.400")
 
 
-RESTING = """
-const { resting } = await import("/js/views/transient/plots/phase.js");
-// F = p A (1 - k / k_max): straight, so that the balance has a closed form.
-const contraction = [...Array(51).keys()].map((i) => 0.005 * i), pressure = [0, 2e5, 4e5, 6e5];
-const force = pressure.map((p) => contraction.map((k) => p * argument.area * (1 - k / 0.25)));
-const map = { contraction, pressure, force };
-const middle = argument.middle ?? 0, rest = 0.3;
-const run = { contraction: [middle], position: [0], geometry: { nominal_length: rest },
-  limits: { position_min: -0.06, position_max: 0.06 }, joint: argument.counter ? {} : null };
-return resting(run, argument.load, map, map, argument);
-"""
-
-
-def test_the_static_line_is_the_balance_of_forces(page: Page) -> None:
-    open_transient(page)
-    area, greatest, rest = 2.5e-3, 0.25, 0.3
-    pressures, forces = [2e5, 3e5, 5e5], [100.0, 150.0, 50.0]
-    weight, spring, ratio = 200.0, 900.0, 2.0
-    load = {"weight": weight, "spring": spring, "ratio": ratio}
-    case = {"area": area, "load": load, "pressure": pressures, "force": forces, "counter": None}
-    # i^2 p A (1 - k / k_max) = i (W + F) + c k L
-    wanted = [
-        (ratio**2 * p * area - ratio * (weight + f)) / (ratio**2 * p * area / greatest + spring * rest)
-        for p, f in zip(pressures, forces, strict=True)
-    ]
-    assert run(page, RESTING, case) == pytest.approx(wanted, abs=1e-6)
-    # p A (1 - (m + u) / k_max) - q A (1 - (m - u) / k_max) = F, with the stroke u L from the middle m
-    counter, middle = [2e5, 2e5, 4e5], 0.1
-    load = {"weight": 0.0, "spring": 0.0, "ratio": 1.0}
-    case = {**case, "load": load, "counter": counter, "middle": middle}
-    wanted = [
-        middle + ((p - q) * area * (1 - middle / greatest) - f) / ((p + q) * area / greatest)
-        for p, q, f in zip(pressures, counter, forces, strict=True)
-    ]
-    assert run(page, RESTING, case) == pytest.approx(wanted, abs=1e-6)
-
-
 @pytest.mark.examination("tests/frontend/test_accessibility.py::test_axe_finds_nothing_in_a_view_as_it_opens")
 def test_axe_finds_nothing(page: Page) -> None:
     open_transient(page)

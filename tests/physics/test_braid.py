@@ -17,6 +17,7 @@ from mckibben.physics.braid import (
     braid_from_rhombus,
     diameter,
     rest_diameter_and_angle,
+    rhombus_of,
     volume,
 )
 from mckibben.physics.errors import InputError
@@ -51,8 +52,8 @@ def test_thread_is_the_hypotenuse_of_the_unrolled_cylinder(geometry: tuple[float
 def test_three_forms_round_trip(geometry: tuple[float, float, float], side: float) -> None:
     d, theta, length = geometry
     braid = braid_from_diameter(diameter=d, braid_angle=theta, length=length)
-    along = braid.thread_length / (2.0 * side)
-    lattice = Rhombus(side, along, along / braid.turns)
+    lattice = rhombus_of(braid=braid, side=side)
+    assert lattice.side == side
     again = braid_from_rhombus(side=lattice.side, along=lattice.along, around=lattice.around)
     assert again.thread_length == pytest.approx(braid.thread_length, rel=1e-13)
     assert again.turns == pytest.approx(braid.turns, rel=1e-13)

@@ -76,6 +76,9 @@ def test_the_three_forms_of_geometry_agree(shared_client: TestClient) -> None:
     thread = {name: geometry[name] for name in ("thread_length", "turns", "nominal_length")}
     lattice = {"side": "1 mm", "along": geometry["thread_length"] / 2e-3}
     lattice["around"] = lattice["along"] / geometry["turns"]
+    assert geometry["rhombus"] == pytest.approx(
+        {"side": 2e-3, "along": lattice["along"] / 2, "around": lattice["around"] / 2}
+    )
     for muscle in (thread, {"rhombus": lattice, "nominal_length": "100 mm"}):
         other = curves(shared_client, muscle, pressures=["6 bar"])
         assert other["force"][0] == pytest.approx(first["force"][0], rel=1e-9, abs=1e-6)

@@ -661,7 +661,7 @@ def test_an_accepted_entry_is_fitted_and_its_origin_is_a_suggestion(client: Test
     assert set(used["verdict"]["effects"]) == {"bladder_elasticity", "coulomb_friction"}
     assert used["model"]["muscle"]["nominal_length"] == pytest.approx(0.3, abs=2e-3)
     said = used["experiment"]["rest_length"]
-    assert (said["origin"], said["where"]) == ("suggested", "--use rest_length")
+    assert (said["origin"], said["where"]) == ("suggested", '"use": ["rest_length"]')
     assert said["value"] == pytest.approx(0.3, abs=2e-3)
     assert not any(entry["asked"] for entry in used["context"])
 

@@ -119,10 +119,10 @@ def test_the_table_of_a_study_moves_too(client: TestClient, tmp_path: Path) -> N
     packed = client.get(f"/api/projects/{project['project']['id']}/file").content
     with TestClient(create_app(Settings(data=tmp_path / "other")), base_url=URL) as other:
         moved = other.post("/api/projects/import", content=packed).json()
-        assert other.post("/api/studies/kept", json=study).json() == {"runs": 0}
+        assert other.post("/api/studies/kept", json=study).json() == {"runs": 0, "planned": 4}
         opened = other.get(f"/api/projects/{moved['project']['id']}").json()
         assert (opened["studies"], opened["remarks"]) == (1, [])
-        assert other.post("/api/studies/kept", json=study).json() == {"runs": 4}
+        assert other.post("/api/studies/kept", json=study).json() == {"runs": 4, "planned": 4}
         answer = other.post("/api/studies", json=study).json()
     assert (answer["kept"], answer["runs"]) == (4, 4)
     assert answer["table"] == table

@@ -158,6 +158,16 @@ def test_a_preset_runs_by_its_id(shared_client: TestClient) -> None:
     assert answer["timing"]["extend"]["rise_time"] == pytest.approx(0.0261, rel=0.05)
 
 
+def test_a_load_at_rest_lies_between_its_static_contractions(shared_client: TestClient) -> None:
+    """Dry friction holds it anywhere between where it would come to rest from below and from above."""
+    answer = post(shared_client, PATH, {"drive": "paper-ramp", "points": 101}).json()
+    assert answer["velocity"][-1] == 0.0
+    assert answer["stuck"][-1]
+    low, high = (answer[name][-1] for name in ("static_filling", "static_venting"))
+    assert low < answer["contraction"][-1] < high
+    assert len(answer["static_filling"]) == len(answer["time"])
+
+
 def test_a_controlled_run_tells_how_it_follows(shared_client: TestClient) -> None:
     answer = post(shared_client, PATH, {"drive": CONTROLLED, "points": 201}).json()
     valid(SimulationResult, answer)

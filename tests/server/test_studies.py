@@ -40,18 +40,21 @@ def test_every_method_answers_in_the_declared_form(shared_client: TestClient) ->
     goals = [{"figure": "timing.extend.rise_time"}, {"figure": "timing.extend.impact_energy"}]
     spread = {"path": "supply.pressure", "distribution": {"type": "normal", "mean": 6e5, "deviation": 1e4}}
     limits = [{"figure": "timing.extend.rise_time", "at_most": "1 s"}]
-    for method, quantities in [
-        ({"type": "grid"}, ranges),
-        ({"type": "latin_hypercube", "runs": 4}, ranges),
-        ({"type": "sobol", "samples": 4}, ranges),
-        ({"type": "morris", "trajectories": 2}, [*ranges, spread]),
-        ({"type": "optimisation", "population": 8, "generations": 2}, ranges),
-        ({"type": "robust", "runs": 4}, [*ranges, spread]),
+    for method, quantities, planned in [
+        ({"type": "grid"}, ranges, 2),
+        ({"type": "latin_hypercube", "runs": 4}, ranges, 4),
+        ({"type": "sobol", "samples": 4}, ranges, 4 * (1 + 2)),
+        ({"type": "morris", "trajectories": 2}, [*ranges, spread], 2 * (2 + 1)),
+        ({"type": "optimisation", "population": 8, "generations": 2}, ranges, 8 * 2),
+        ({"type": "robust", "runs": 4}, [*ranges, spread], 4 * 2),
     ]:
         study = STUDY | {"method": method, "quantities": quantities, "goals": goals, "limits": limits}
+        before = post(shared_client, f"{PATH}/kept", study).json()
+        assert before["planned"] == planned
         response = post(shared_client, PATH, study)
         assert response.status_code == 200, response.text
         valid(StudyResult, response.json())
+        assert response.json()["planned"] == planned
 
 
 def test_the_runs_come_as_events(shared_client: TestClient) -> None:
@@ -69,7 +72,7 @@ def test_what_was_made_is_kept_for_the_next_server(
 ) -> None:
     """A study that was interrupted goes on in another process and gives the same table."""
     study = STUDY | {"method": {"type": "monte_carlo", "runs": 12, "seed": 9}}
-    kept = {"runs": 0}
+    kept = {"runs": 0, "planned": 12}
     assert post(shared_client, f"{PATH}/kept", study).json() == kept
     question = study_question(read_study(study), shipped_studio())
     store, made = StudyStore(tmp_path), []
@@ -79,13 +82,14 @@ def test_what_was_made_is_kept_for_the_next_server(
     assert store.result(question).table == half.table
     client = TestClient(create_app(Settings(data=tmp_path)), base_url="http://127.0.0.1")
     with client:
-        assert post(client, f"{PATH}/kept", study).json() == {"runs": half.runs}
+        assert post(client, f"{PATH}/kept", study).json() == {"runs": half.runs, "planned": 12}
         answer = post(client, PATH, study).json()
         assert (answer["kept"], answer["runs"]) == (half.runs, 12)
         assert answer["table"] == post(shared_client, PATH, study).json()["table"]
         again = post(client, PATH, study | {"title": "another title"}).json()
         assert (again["kept"], again["table"]) == (12, answer["table"])
-        assert post(client, f"{PATH}/kept", study | {"method": {"type": "grid"}}).status_code == 200
+        refused = post(client, f"{PATH}/kept", study | {"method": {"type": "monte_carlo", "runs": 20_001}})
+        assert "20000 are allowed" in assert_error(refused, 422, field="method")["message"]
         monkeypatch.setattr(study_file, "find_spec", lambda _: None)
         assert "pyarrow" in assert_error(post(client, f"{PATH}/parquet", study), 422)["message"]
         assert (
@@ -94,8 +98,8 @@ def test_what_was_made_is_kept_for_the_next_server(
     tiny = StudyStore(tmp_path, quota=1)
     other = study_question(read_study(STUDY), shipped_studio())
     prepare(other, journal=tiny.of(other))(Watch())
-    assert store.runs(question.document, question.studio) == 0
-    assert store.runs(other.document, other.studio) == 20
+    assert store.runs(question) == 0
+    assert store.runs(other) == 20
 
 
 def test_the_table_as_parquet(shared_client: TestClient) -> None:

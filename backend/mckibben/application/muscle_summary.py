@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
-from dataclasses import replace
 from typing import ClassVar
 
 from mckibben.documents.start_model import StartModel
@@ -11,9 +10,11 @@ from mckibben.documents.value_names import value_names
 from mckibben.facts.muscle import GEOMETRY, LIMITS
 from mckibben.facts.result import result_class
 from mckibben.facts.run import curve_fit_of
+from mckibben.physics.braid import rhombus_of
 from mckibben.physics.muscle import Muscle, assumption
 from mckibben.simulation.statics.limits import LimitFlag
 
+_USUAL_SIDE = 2e-3  # of the lattice of a braid that was not stated as one [m]
 _STRETCH = 1e-3  # share of the rest length beyond which a muscle is called stretched
 
 
@@ -46,7 +47,10 @@ class MakerLimits:
 
 @result_class
 class Lattice:
-    """The braid as a lattice of rhombi: side [m], number along and around the muscle."""
+    """The braid as a lattice of rhombi: side [m], number along and around the muscle.
+
+    A braid is a lattice of any side: it is the stated one, 2 mm where none was stated.
+    """
 
     FIGURES: ClassVar = GEOMETRY.name
 
@@ -68,18 +72,14 @@ class GeometrySummary:
     wall_thickness: float
     thread_length: float
     turns: float
-    rhombus: Lattice | None
-    """The lattice, when the muscle was stated in this form."""
+    rhombus: Lattice
+    """The same braid as a lattice."""
 
 
 def geometry_of(start: StartModel, muscle: Muscle | None = None) -> GeometrySummary:
-    """The geometry of a start model, or of its muscle after a fit.
-
-    The lattice is omitted if a fit changed the geometry.
-    """
-    if muscle is not None and muscle != start.muscle:
-        start = replace(start, muscle=muscle, rhombus=None)
-    of, lattice = start.muscle, start.rhombus
+    """The geometry of a start model, or of its muscle after a fit, in all forms."""
+    of = start.muscle if muscle is None else muscle
+    side = _USUAL_SIDE if start.rhombus is None else float(start.rhombus.side)
     return GeometrySummary(
         braid_diameter=of.braid_diameter,
         braid_angle=of.braid_angle,
@@ -88,7 +88,7 @@ def geometry_of(start: StartModel, muscle: Muscle | None = None) -> GeometrySumm
         wall_thickness=of.wall_thickness,
         thread_length=of.braid.thread_length,
         turns=of.braid.turns,
-        rhombus=None if lattice is None else Lattice(**lattice._asdict()),
+        rhombus=Lattice(**rhombus_of(braid=of.braid, side=side)._asdict()),
     )
 
 

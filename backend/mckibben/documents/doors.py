@@ -1,15 +1,18 @@
 """Corrections in the words of a door: an option, a field of a request, an argument of Python.
 
 Messages are made below the doors. There a correction is written as the option that states it,
-``--ignore "force_N"``; the other doors say the same in their own words (`in_words_of`).
+``--ignore "force_N"``; the other doors say the same in their own words (`in_words_of`). A result class names
+the fields whose texts hold corrections in ``CORRECTING``; `result_in_words_of` says them alike.
 """
 
 from __future__ import annotations
 
 import json
 import re
+from collections.abc import Mapping
+from dataclasses import fields, is_dataclass, replace
 from enum import Enum, auto
-from typing import Literal
+from typing import Any, Literal, TypeVar, cast
 
 from mckibben.physics.errors import InputError
 
@@ -36,6 +39,11 @@ CORRECTIONS: dict[str, _Kind] = {
 }
 _NAMES = {"effect": "effects"}  # where a field is not called as its option
 _ARGUMENTS = _NAMES | {"column": "columns"}
+#: Whole commands -> what does the same at a door. HTTP has no saved models to write.
+_COMMANDS: dict[Door, dict[str, str]] = {
+    "http": {},
+    "python": {"mckibben diagnose DATA --save MODEL.json": 'model.diagnose(data).model.save("model.json")'},
+}
 _VALUE = r""" ("[^"]*"|'[^']*'|[A-Z_]{3,}(?:\.json)?|[a-z]+(?:_[a-z]+)+)"""
 _OPTION = re.compile(rf"--([a-z]+(?:-[a-z]+)*)(?:{_VALUE})?")
 
@@ -55,12 +63,14 @@ def in_words_of(door: Door, text: str) -> str:
         names = _NAMES if door == "http" else _ARGUMENTS
         name = names.get(found[1], found[1].replace("-", "_"))
         value = None if found[2] is None else found[2].strip("\"'")
-        if value is None or value.isupper() or value.endswith(".json"):
-            return name
+        if value is None or (value == found[2] and (value.isupper() or value.endswith(".json"))):
+            return name  # a word that stands for any value, as COLUMN
         if door == "http":
             return f'"{name}": {json.dumps(_http(value, kind), ensure_ascii=False)}'
         return f"{name}={json.dumps(_python(value, kind), ensure_ascii=False)}"
 
+    for command, said in _COMMANDS[door].items():
+        text = text.replace(command, said)
     return _OPTION.sub(worded, text)
 
 
@@ -68,6 +78,36 @@ def error_in_words_of(door: Door, error: InputError) -> InputError:
     """The error with message and hint in the words of a door."""
     hint = None if error.hint is None else in_words_of(door, error.hint)
     return InputError(in_words_of(door, error.message), field=error.field, hint=hint, code=error.code)
+
+
+ResultT = TypeVar("ResultT")
+_PLAIN = (str, float, int)  # a list of these holds no results
+
+
+def result_in_words_of(door: Door, result: ResultT) -> ResultT:
+    """The result with its corrections in the words of a door; what has none is returned itself."""
+    return cast(ResultT, _reworded(door, result))
+
+
+def _reworded(door: Door, value: Any, *, corrects: bool = False) -> Any:
+    """A value inside of a result; its texts are rewritten only where the field is one that corrects."""
+    if isinstance(value, str):
+        said = in_words_of(door, value) if corrects else value
+        return value if said == value else said
+    if is_dataclass(value) and not isinstance(value, type):
+        named: tuple[str, ...] = getattr(value, "CORRECTING", ())
+        old = {field.name: getattr(value, field.name) for field in fields(value)}
+        new = {name: _reworded(door, part, corrects=name in named) for name, part in old.items()}
+        changed = {name: part for name, part in new.items() if part is not old[name]}
+        return replace(value, **changed) if changed else value
+    if isinstance(value, list | tuple) and (corrects or not isinstance(next(iter(value), 0), _PLAIN)):
+        parts = [_reworded(door, part, corrects=corrects) for part in value]
+        same = all(new is old for new, old in zip(parts, value, strict=True))
+        return value if same else parts if isinstance(value, list) else tuple(parts)
+    if isinstance(value, Mapping):
+        pairs = {key: _reworded(door, part, corrects=corrects) for key, part in value.items()}
+        return value if all(new is value[key] for key, new in pairs.items()) else pairs
+    return value
 
 
 def _http(value: str, kind: _Kind) -> object:

@@ -19,6 +19,7 @@ from mckibben.application.measurement.experiment import QuestionMeasurement, sta
 from mckibben.application.measurement.files import ARGUMENT, FileOptions, file_options, measurements_of
 from mckibben.application.measurement.summary import MeasurementSummary, details_of
 from mckibben.application.measurement.summary import summary_of as facts_of
+from mckibben.documents.doors import in_words_of, result_in_words_of
 from mckibben.door.frames import csv_of, frame_of
 from mckibben.door.problem import reported
 from mckibben.door.result import Result, unknown_ending
@@ -197,7 +198,7 @@ class Measurement(Result):
     @property
     def messages(self) -> Sequence[str]:
         """What was assumed while reading."""
-        return self._data.messages
+        return [in_words_of("python", message) for message in self._data.messages]
 
     @property
     def summary(self) -> MeasurementSummary:
@@ -229,7 +230,7 @@ class Measurement(Result):
         raise unknown_ending(path, (".csv", ".json"))
 
     def _answer(self) -> object:
-        return details_of(self._data)
+        return result_in_words_of("python", details_of(self._data))
 
     def _summary(self) -> Summary:
         return _summary_of(self._data, self.experiment)
@@ -344,6 +345,6 @@ def _summary_of(measurement: Data, experiment: Experiment) -> Summary:
     summary: Summary = [Table(title, ["channel", "column", "in", "range"], rows)]
     if experiment:
         summary.append(experiment_table(measurement.name, experiment))
-    summary += measurement.messages
+    summary += [in_words_of("python", message) for message in measurement.messages]
     summary += [f"column '{column}' is not read: {why}" for column, why in measurement.unread]
     return summary

@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING, Any, Generic, Self, TypeVar, cast
 
 from mckibben.application.json_text import answer_json
 from mckibben.application.text_file import write_text
+from mckibben.documents.doors import result_in_words_of
 from mckibben.door.frames import csv_of
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
@@ -76,6 +77,7 @@ class Holding(Frozen, Generic[ResultT]):
             result: of the use case.
             more: further attributes, and fields in another form.
         """
+        result = result_in_words_of("python", result)
         made = cls.__new__(cls)
         known = {field.name: getattr(result, field.name) for field in fields(cast(Any, result))}
         made._set(_result=result, **{**known, **more})

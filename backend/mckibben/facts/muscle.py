@@ -52,7 +52,6 @@ _RISES = Condition(
 _LOADED = Condition("a load is stated", "no load is stated")
 _FIXED = Condition("a fixed length is stated", "no fixed length is stated")
 _STATED = Condition("the maker states it", "the maker's limit is not known")
-_LATTICE = Condition("the muscle is stated as a lattice", "the muscle is not stated as a lattice")
 _REACHED = Condition(
     "a pressure up to 40 bar gives the force at the length",
     "no pressure up to 40 bar gives this force at this length",
@@ -312,13 +311,16 @@ GEOMETRY = Group(
         "Turns of one thread round the axis, L₀ tan θ₀/(π D₀).",
         quantity="number",
     ),
-    Figure("side", "ℓ", "m", "Rhombus side", "Side of one rhombus of the lattice.", _LATTICE),
     Figure(
-        "along", "n_L", "1", "Rhombi along", "Number of rhombi along the muscle.", _LATTICE,
+        "side", "ℓ", "m", "Rhombus side",
+        "Side of one rhombus of the lattice: as stated, 2 mm where the muscle was not stated as a lattice.",
+    ),
+    Figure(
+        "along", "n_L", "1", "Rhombi along", "Number of rhombi along the muscle, b/(2 ℓ).",
         quantity="number",
     ),
     Figure(
-        "around", "n_C", "1", "Rhombi around", "Number of rhombi around the muscle.", _LATTICE,
+        "around", "n_C", "1", "Rhombi around", "Number of rhombi around the muscle, n_L/n.",
         quantity="number",
     ),
 )  # fmt: skip

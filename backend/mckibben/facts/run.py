@@ -20,6 +20,9 @@ _SETTLED = Condition(
     "the position does not stay within 2 % of the step",
 )
 _SWINGS = Condition("the position has two even periods in the second half of the step", "it does not swing")
+_SOMEWHERE = Condition(
+    "the forces of the row determine a place", "nothing pulls in either direction, or both muscles are slack"
+)
 _TUBE = Condition("there is a tube", "there is no tube")
 _REGULATOR = Condition("there is a proportional pressure regulator", "there is no regulator")
 _STIFFNESS = Condition("the stiffness is controlled", "the stiffness is not controlled")
@@ -96,6 +99,16 @@ RUN = Group(
     Figure(
         "contraction", "ε", "1", "Contraction", "1 − length/rest length, by the distance of the fittings.",
         quantity="ratio",
+    ),
+    Figure(
+        "static_filling", "", "1", "Static contraction, fill",
+        "Contraction at which muscle, weight, spring and external force of the row balance at its pressure, "
+        "of a pair at both pressures, between the stops; friction against a shortening muscle.",
+        _SOMEWHERE, quantity="ratio",
+    ),
+    Figure(
+        "static_venting", "", "1", "Static contraction, vent",
+        "The same with friction against a lengthening muscle.", _SOMEWHERE, quantity="ratio",
     ),
     Figure(
         "load_force", "", "N", "External force",

@@ -18,8 +18,8 @@ NO_STEP = "the command changes all through the phase: it is no step"
 _MOVES = Condition("the command has the phase and the load moves in it", "the muscle does not move")
 _STEPS = Condition("the command is a step and the load moves", "the muscle does not move")
 _ARRIVES = Condition(
-    "the command is a step, and the load ends within 5 % of its way to the stop that it hits, or hits none "
-    "and settles",
+    "the command is a step, and the load ends within 5 % of its way to the stop that it hits, or settles at "
+    "the demanded stroke, or hits no stop and settles",
     "the load does not arrive in this phase",
 )
 _SETTLES = Condition(
@@ -74,7 +74,8 @@ _MOTION = _section(
     ),
     Figure(
         "positioning_time", "t_pos", "s", "Positioning time",
-        "Time of the first impact on the stop ahead; without an impact first time at s = 0.95 S.",
+        "Time of the first impact on the stop ahead at which the load ends; without one first time at "
+        "s = 0.95 S.",
         _ARRIVES, quantity="lapse",
     ),
     Figure(

@@ -22,7 +22,7 @@ from collections.abc import Collection, Iterable, Mapping
 from dataclasses import dataclass, replace
 from math import pi, sin
 from types import MappingProxyType
-from typing import Literal
+from typing import ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -43,6 +43,8 @@ _ZEROS = {"force_zero": "force", "pressure_zero": "pressure"}
 @result_class
 class ExperimentValue:
     """One value of an experiment."""
+
+    CORRECTING: ClassVar = ("where",)
 
     value: float | str
     """In SI, or a text."""

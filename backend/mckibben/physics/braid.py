@@ -49,6 +49,12 @@ def braid_from_rhombus(*, side: Value, along: Value, around: Value) -> Braid:
     return Braid(2.0 * along * side, along / around)
 
 
+def rhombus_of(*, braid: Braid, side: Value) -> Rhombus:
+    """n_L = b/(2 l), n_C = n_L/n: the lattice of this side; the inverse of `braid_from_rhombus`."""
+    along = braid.thread_length / (2.0 * side)
+    return Rhombus(side, along, along / braid.turns)
+
+
 def angle(*, braid: Braid, length: Value) -> Value:
     """Braid angle theta = arccos(L/b) [rad]; 0 at and beyond the braid lock L = b."""
     return ops.arccos(ops.minimum(length / braid.thread_length, 1.0))

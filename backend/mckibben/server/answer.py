@@ -15,6 +15,7 @@ from fastapi.routing import APIRoute
 from starlette.exceptions import HTTPException
 
 from mckibben.application.json_text import to_json
+from mckibben.documents.doors import result_in_words_of
 
 _LONGEST_PATH = 200  # most characters of a field's path in a message
 _LARGE_BODY = 50_000  # bytes; larger bodies are parsed in a thread, so that other requests need not wait
@@ -32,6 +33,11 @@ class JsonAnswer(Response):
     def render(self, content: object) -> bytes:
         """Bytes of the answer; bytes pass unchanged."""
         return content if isinstance(content, bytes) else to_json(content)
+
+
+def answer_of(result: object) -> bytes:
+    """A result as JSON, its corrections in the words of HTTP."""
+    return to_json(result_in_words_of("http", result))
 
 
 class _DuplicateKeyError(ValueError):

@@ -23,6 +23,7 @@ from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.report.diagnosis import gather as diagnosis_report
 from mckibben.report.sizing.gather import prepare_report
+from mckibben.server.answer import answer_of
 from mckibben.server.job import LONGEST, Job, Prepared
 from mckibben.server.questions import model_question
 from mckibben.server.schemas.drives import LinearisationRequest, LinearPointInput, SizingReportRequest
@@ -76,7 +77,7 @@ _STUDY_LIMIT = 900.0  # s
 
 def _diagnosis(body: DiagnosisRequest, studio: Studio, store: MeasurementStore) -> Prepared:
     work = diagnose.prepare(model_question(body, studio, store), studio)
-    return lambda watch: to_json(work(watch))
+    return lambda watch: answer_of(work(watch))
 
 
 def _sizing(body: SizingTask, studio: Studio, _store: MeasurementStore) -> Prepared:

@@ -19,13 +19,13 @@ from mckibben.application.measurement.summary import details_of, preview_of, sum
 from mckibben.application.model.saved import present_model
 from mckibben.application.project.projects import restore_files, unpacked
 from mckibben.application.run import simulate
-from mckibben.documents.doors import error_in_words_of
 from mckibben.documents.studio import Studio
 from mckibben.export.use_case import export
 from mckibben.measurement.read import Correction, preview
 from mckibben.measurement.read.limits import MOST_SECONDS
 from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, fields_inside
+from mckibben.server.answer import answer_of
 from mckibben.server.job import LONGEST, Job, Prepared
 from mckibben.server.questions import Body as InverseBody
 from mckibben.server.questions import (
@@ -156,25 +156,23 @@ class PackedProject:
 
 
 def _upload(body: FileRequest, _studio: Studio, store: MeasurementStore) -> Prepared:
-    return lambda _: to_json(summary_of(store.put(body.content, body.name, body.correction)))
+    return lambda _: answer_of(summary_of(store.put(body.content, body.name, body.correction)))
 
 
 def _preview(body: FileRequest, studio: Studio, _store: MeasurementStore) -> Prepared:
     def read(_: Watch) -> bytes:
         found = preview(body.content, clean_name(body.name), body.correction)
-        problem = found.problem and error_in_words_of("http", found.problem)
-        found = replace(found, problem=problem)
-        return to_json(preview_of(found, preview_form(found, studio, body.muscle)))
+        return answer_of(preview_of(found, preview_form(found, studio, body.muscle)))
 
     return read
 
 
 def _details(body: str, _studio: Studio, store: MeasurementStore) -> Prepared:
-    return lambda _: to_json(details_of(store.get(body)))
+    return lambda _: answer_of(details_of(store.get(body)))
 
 
 def _comparison(body: ComparisonRequest, studio: Studio, store: MeasurementStore) -> Prepared:
-    return lambda _: to_json(
+    return lambda _: answer_of(
         compare(model_question(body, studio, store), fit=body.fit, within=body.within, explain=body.explain)
     )
 
@@ -183,7 +181,7 @@ def _experiments(body: DiagnosisRequest, studio: Studio, store: MeasurementStore
     measurements = measurements_of_question(body, studio, store)
     ids = [item.id for item in body.chosen()]
     pairs = list(zip(ids, measurements, strict=True))
-    return lambda _: to_json(experiment_forms(pairs, lambda: model_question(body, studio, store), studio))
+    return lambda _: answer_of(experiment_forms(pairs, lambda: model_question(body, studio, store), studio))
 
 
 def _fitted_model(body: FittedMuscleRequest, studio: Studio, store: MeasurementStore) -> Prepared:

@@ -71,7 +71,7 @@ def test_a_table_of_another_version_is_not_shown(
     other = StudyStore(tmp_path)
     (words,) = give_back([study_from("0" * 64, made[1].content)], other, studio)
     assert "another version" in words
-    assert other.runs(read_study(SMALL), studio) == 0
+    assert other.runs(study_question(read_study(SMALL), studio)) == 0
 
 
 def test_a_large_table_is_not_taken_and_that_is_said(

@@ -284,6 +284,42 @@ def test_a_stroke_that_is_not_reached_has_no_arrival():
         assert "120 mm of the 200 mm" in notes[f"extend.{name}"]
 
 
+@pytest.mark.parametrize("kept", [True, False])
+def test_a_demanded_stroke_that_is_passed_and_not_kept_has_no_arrival(kept):
+    """By constant speed past the demand; then back to it in 0.1 s, or away from it to the end."""
+    t, speed, demanded = grid(1.0, 1001), 0.5, 0.2
+    turns, home = 0.44, 0.54
+    back = np.interp(t, [0.0, turns, home, 1.0], [0.0, 0.22, 0.2, 0.2] if kept else [0.0, 0.22, 0.2, 0.1])
+    run = trace(
+        t, back, np.where(t < turns, speed, np.where(t < home, -0.2, 0.0 if kept else -0.1 / 0.46)), 0 * t
+    )
+    figures, notes = extend(run, target=demanded)
+    assert figures.delay_time == pytest.approx(0.5 * demanded / speed, abs=1e-6)
+    assert figures.rise_time == pytest.approx(0.8 * demanded / speed, abs=1e-6)
+    arrivals = {
+        "positioning_time": 0.95 * demanded / speed,
+        "average_speed": speed,
+        "end_speed": speed,
+    }
+    for name, expected in arrivals.items():
+        if kept:
+            assert getattr(figures, name) == pytest.approx(expected, rel=1e-6)
+            assert f"extend.{name}" not in notes
+        else:
+            assert getattr(figures, name) is None
+            assert notes[f"extend.{name}"] == "220 mm of the 200 mm are reached, or not kept"
+    assert figures.state == ("arrived_held" if kept else "never_arrived")
+
+
+@pytest.mark.parametrize("demanded", [0.2, 0.15])
+def test_a_load_that_ends_on_its_stop_has_arrived_whatever_was_demanded(demanded):
+    a, stop = 20.0, 0.2
+    figures, _ = extend(lift(grid(0.5, 401), a=a, stop=stop), target=demanded)
+    assert figures.positioning_time == pytest.approx(np.sqrt(2.0 * stop / a), abs=1e-6)
+    assert figures.end_speed == pytest.approx(np.sqrt(2.0 * stop * a), rel=1e-5)
+    assert (figures.settling_time is None) == (demanded != stop)
+
+
 def test_still_moving_at_the_end():
     t = grid(1.0, 501)
     table = timing(trace(t, 0.1 * t, 0.1 + 0 * t, 0 * t), fill=Phase((0.0, 1.0)), vent=Phase((1.0, 2.0)))

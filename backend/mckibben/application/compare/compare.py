@@ -100,6 +100,10 @@ class ComparisonResult:
     """The model's error, where it fails, and the points; SI."""
 
     FIGURES: ClassVar = COMPARISON.name
+    CORRECTING: ClassVar = (
+        "messages",
+        "assumptions",
+    )
 
     kind: str
     """Measurement kind."""

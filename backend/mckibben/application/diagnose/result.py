@@ -196,6 +196,7 @@ class Verdict:
     """Verdict of a diagnosis."""
 
     FIGURES: ClassVar = DIAGNOSIS.name
+    CORRECTING: ClassVar = ("sentence",)
 
     status: Status
     """The verdict as a word for programs: the model is at the noise (adequate); effects bring it there
@@ -261,6 +262,11 @@ class DiagnosedModel:
 @result_class
 class DiagnosisResult:
     """The missing effects of a model, with the evidence; SI."""
+
+    CORRECTING: ClassVar = (
+        "messages",
+        "assumptions",
+    )
 
     rows: int
     """Number of rows of the measurements."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping, Sequence
 from math import pi
+from typing import ClassVar
 
 import numpy as np
 
@@ -49,6 +50,8 @@ class StatedExperiment:
 @result_class
 class ExperimentForms:
     """The forms of all measurements, what would be assumed, and what stands in the way."""
+
+    CORRECTING: ClassVar = ("assumptions",)
 
     measurements: list[StatedExperiment]
     """One entry per measurement of the request."""

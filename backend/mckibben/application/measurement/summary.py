@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
 from dataclasses import field, fields
+from typing import ClassVar
 
 from mckibben.facts.result import Column, Number, Series, result_class
 from mckibben.measurement.experiment import Origin
@@ -11,6 +12,7 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement, 
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.left_out import UNWANTED
 from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
+from mckibben.measurement.read.questions import columns_said
 
 #: Units offered by a form for each channel.
 _SHOWN_UNREAD = 8  # columns in one sentence
@@ -25,6 +27,8 @@ _USUAL_UNITS = {
 @result_class
 class FormField:
     """A field of a form; see `mckibben.measurement.experiment.ExperimentField` and ``ExperimentValue``."""
+
+    CORRECTING: ClassVar = ("option",)
 
     field: str
     """Name: the key of 'experiment' in a request. 'accuracy_length' and the like are parts of its 'accuracy'.
@@ -64,7 +68,7 @@ class FormField:
     example: str
     """A valid value, as a text."""
     option: str
-    """What says it on the command line."""
+    """What says it, in the words of the door."""
 
 
 @result_class
@@ -126,21 +130,39 @@ class StatedCondition:
 
 
 @result_class
+class ColumnAnswer:
+    """What an answer to a question says of a column."""
+
+    column: str
+    """The column, by its header with or without its unit."""
+    channel: str | None
+    """What it is; None: it is left out."""
+    unit: str | None
+    """The unit of its readings; None: as in the file."""
+    turned: bool
+    """Its readings have the other sign."""
+
+
+@result_class
 class OpenQuestion:
     """What a file leaves open: see :class:`mckibben.measurement.question.Question`."""
+
+    CORRECTING: ClassVar = ("option",)
 
     about: str
     """What it is about."""
     text: str
     """The question."""
     option: str
-    """What answers it, in the words of the command line and of a mapping."""
+    """What answers it, in the words of the door."""
     column: str | None
     """The column concerned."""
     proposed: str | None
     """The likeliest answer."""
     choices: list[str]
     """Possible answers."""
+    answers: list[ColumnAnswer]
+    """Answers that say what a column is, as a mapping takes them."""
     stops: bool
     """Without an answer the file is not read."""
 
@@ -148,6 +170,8 @@ class OpenQuestion:
 @result_class
 class MeasurementSummary:
     """A measurement as it was read."""
+
+    CORRECTING: ClassVar = ("messages",)
 
     id: str
     """SHA-256 of the file's content (and of the mapping, if there is one)."""
@@ -254,6 +278,8 @@ class SkippedSummary:
 class UnreadableFile:
     """Why a file cannot be read as a measurement."""
 
+    CORRECTING: ClassVar = ("message", "hint")
+
     code: str
     """Machine-readable kind."""
     message: str
@@ -279,6 +305,8 @@ class ChannelOption:
 @result_class
 class PreviewResult:
     """Preview of a file."""
+
+    CORRECTING: ClassVar = ("messages",)
 
     name: str
     """Name of the file."""
@@ -404,7 +432,8 @@ def _questions(questions: Iterable[Question]) -> list[OpenQuestion]:
     return [
         OpenQuestion(
             question.about, question.text, question.option, question.column, question.proposed,
-            list(question.choices), question.stops,
+            list(question.choices), [ColumnAnswer(*said) for said in columns_said(question.option)],
+            question.stops,
         )
         for question in questions
     ]  # fmt: skip

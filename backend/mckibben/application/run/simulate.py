@@ -42,9 +42,11 @@ from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY
 from mckibben.physics.model import Model
+from mckibben.simulation.drive.static_contraction import static_contraction
 from mckibben.simulation.drive.transient import GRAVITY, Run, held_interval
 from mckibben.simulation.integrate.engine import MOST_EVENTS
 from mckibben.simulation.outcome import Outcome, OutcomeName, Watch
+from mckibben.simulation.statics.characteristics import FILLING, VENTING
 from mckibben.simulation.statics.limits import FlagCode, LimitFlag
 from mckibben.simulation.timing.evaluation import (
     ChokedInterval,
@@ -237,6 +239,8 @@ class SimulationResult:
     diameter: Series
     length: Series
     contraction: Series
+    static_filling: Series
+    static_venting: Series
     load_force: Series
     temperature: Series
     contact: Booleans
@@ -342,6 +346,15 @@ def result_of(
     def gauge(name: str) -> Array | None:
         return states[name][rows] - drive.ambient_pressure if name in states else None
 
+    def at_rest(direction: float) -> Array:
+        return static_contraction(
+            drive,
+            pressure=run.pressure[rows],
+            counter_pressure=gauge(f"pressure{COUNTER}"),
+            load_force=out["external_force"][rows],
+            direction=direction,
+        )
+
     between = held_interval(drive)
     notes = dict(annotated.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
     if len(run.events) >= MOST_EVENTS:
@@ -369,6 +382,8 @@ def result_of(
         diameter=out["diameter"][rows],
         length=rest * (1.0 - contraction[rows]),
         contraction=contraction[rows],
+        static_filling=at_rest(FILLING),
+        static_venting=at_rest(VENTING),
         load_force=out["external_force"][rows],
         temperature=out["gas_temperature"][rows],
         contact=out["contact"][rows] != 0.0,

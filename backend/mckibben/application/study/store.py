@@ -52,15 +52,10 @@ class StudyStore:
         folder = self._of(question.document, question.subject, question.studio)
         return lambda: _Rows(folder, question.fingerprint, self._tidy)
 
-    def runs(self, document: StudyDocument, studio: Studio) -> int:
-        """How many runs of a study are kept.
-
-        Raises:
-            InputError: the subject cannot be used.
-        """
-        subject = subject_of(document.subject, studio)
-        folder = self._of(document, subject, studio)
-        return len(_read(folder, fingerprint_of(document, subject)))
+    def runs(self, question: StudyQuestion) -> int:
+        """How many runs of a study are kept."""
+        folder = self._of(question.document, question.subject, question.studio)
+        return len(_read(folder, question.fingerprint))
 
     def result(self, question: StudyQuestion) -> StudyResult:
         """The result of the runs that are kept; none is made."""

@@ -2,12 +2,28 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
+from typing import NamedTuple
 
 from mckibben.measurement.question import Question
 from mckibben.physics.errors import InputError
 
-__all__ = ["Question", "column_option", "ignore_option", "refusal"]
+__all__ = ["ColumnSaid", "Question", "column_option", "columns_said", "ignore_option", "refusal"]
+
+_SAID = re.compile(
+    r'--ignore "(?P<ignored>.*)"'
+    r'|--column "(?P<channel>\w+)=(?P<minus>-?)(?P<column>.*?)(?: \[(?P<unit>[^\]]*)\])?"'
+)
+
+
+class ColumnSaid(NamedTuple):
+    """What an answer says of a column: its channel (None: it is left out), unit, whether its sign turns."""
+
+    column: str
+    channel: str | None
+    unit: str | None = None
+    turned: bool = False
 
 
 def refusal(name: str, questions: Sequence[Question], *, strict: bool = False) -> InputError | None:
@@ -39,3 +55,19 @@ def column_option(channel: str, column: str, unit: str | None = None, *, sign: i
 def ignore_option(column: str) -> str:
     """``--ignore "Traverse"``."""
     return f'--ignore "{column}"'
+
+
+def columns_said(option: str) -> list[ColumnSaid]:
+    """What the alternatives of an option say of columns, each; those about something else are left out.
+
+    >>> [tuple(said) for said in columns_said('--ignore "F2" or --column "force=-Kraft [kN]"')]
+    [('F2', None, None, False), ('Kraft', 'force', 'kN', True)]
+    """
+    found = (_SAID.fullmatch(each.strip()) for each in re.split(r" or (?=--)", option))
+    return [
+        ColumnSaid(said["column"], said["channel"], said["unit"] or None, bool(said["minus"]))
+        if said["ignored"] is None
+        else ColumnSaid(said["ignored"], None)
+        for said in found
+        if said is not None
+    ]

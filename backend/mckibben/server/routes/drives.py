@@ -129,8 +129,9 @@ def list_study_options(body: StudyOptionsRequest, studio: StudioDep) -> JsonAnsw
     openapi_extra=request_examples.worked("study"),
 )
 def count_kept_runs(body: StudyDocument, studio: StudioDep, store: StoreDep) -> JsonAnswer:
-    """How many runs of a study are kept from before; asked again, it does not make them again."""
-    return JsonAnswer({"runs": StudyStore(store.data).runs(body, studio)})
+    """How many runs a study plans, and how many are kept from before, which it does not make again."""
+    question = study_question(body, studio, MOST_RUNS)
+    return JsonAnswer({"runs": StudyStore(store.data).runs(question), "planned": question.plan.runs})
 
 
 @studies_router.post(

@@ -109,6 +109,7 @@ class StudyKeptAnswer(Strict):
     """What is kept of a study."""
 
     runs: int = Field(description="Runs that are kept from before.")
+    planned: int = Field(description="Runs of the plan; of an optimisation the most.")
 
 
 StudyEvents = streamed(

@@ -291,16 +291,18 @@ class _Motion:
             settled = self.settled
             arrival, travelled = self._first((1.0 - self.band) * stroke), (1.0 - self.band) * stroke
             why = unsettled = _SETTLES
+            on_stop = stop is not None and stop - self.reached <= self.band * stop
             if self.demanded:
                 best = 1e3 * float(self.travel.max())
                 why = unsettled = f"{best:.3g} mm of the {1e3 * stroke:.3g} mm are reached, or not kept"
-            elif stop is not None and stop - self.reached > self.band * stop:
-                arrival, why = None, f"the load leaves the stop again: {notes['stroke']}"
-            elif stop is None and settled is None:
+            elif stop is not None and not on_stop:
+                why = f"the load leaves the stop again: {notes['stroke']}"
+            if not on_stop and (settled is None or (stop is not None and not self.demanded)):
                 arrival = None
-            if impact is not None and arrival is not None and abs(self.reached - stroke) < 1e-3 * stroke:
+            if impact is not None and on_stop and arrival is not None:
                 arrival, travelled = self._since(impact), self._travel_to(impact)
-                settled, unsettled = None if settled is None else max(settled, arrival), _SWINGS
+                settled = None if settled is None else max(settled, arrival)
+                unsettled = why if self.demanded else _SWINGS
             figures |= {"settling_time": settled, "positioning_time": arrival}
             if arrival:
                 figures["average_speed"] = travelled / arrival

@@ -106,8 +106,7 @@ export function answersOf(q, p) {
       answer(one, { [column.header]: { ...choiceOf(column), sign: one === "keep the sign" ? 1 : -1 } })
     );
   }
-  const alternatives = q.option.split(/ or (?=--)/).map((option) => spoken(option, p));
-  const said = alternatives.filter((one) => one !== null);
+  const said = q.answers.map((one) => spoken(one, p));
   // Both answers name the pressure; only the unit tells what it counts from.
   const named = q.about === "reference of pressure" ? q.choices : null;
   const found = said.map((one, i) => answer(named?.[i] ?? one.label, one.columns));
@@ -132,20 +131,16 @@ export function answersOf(q, p) {
   return found;
 }
 
-/** What an option of the command line says of the columns: `--column "force=-Kraft [kN]"`, `--ignore "Nr."`.
- * @param {string} option @param {Preview} p
- * @returns {{label: string, columns: Record<string, Choice | null>} | null} null: it is about something else */
-function spoken(option, p) {
-  const ignored = /^--ignore "(.*)"$/.exec(option.trim());
-  if (ignored) return { label: "ignore", columns: { [headerOf(p, ignored[1])]: null } };
-  const used = /^--column "(\w+)=(-?)(.*?)(?: \[([^\]]*)\])?"$/.exec(option.trim());
-  if (!used) return null;
-  const [, channel, minus, name, unit] = used, header = headerOf(p, name);
+/** A possible answer about a column, in the words of the page and for a mapping.
+ * @param {OpenQuestion["answers"][number]} answer @param {Preview} p
+ * @returns {{label: string, columns: Record<string, Choice | null>}} */
+function spoken({ column, channel, unit, turned }, p) {
+  const header = headerOf(p, column);
+  if (channel === null) return { label: "ignore", columns: { [header]: null } };
   const now = p.columns.find((one) => one.header === header);
-  const kept = now?.channel === channel ? choiceOf(now) : { channel };
-  const { sign: _, ...choice } = kept;
+  const { sign: _, ...choice } = now?.channel === channel ? choiceOf(now) : { channel };
   return {
-    label: minus ? "reverse the sign" : channel,
-    columns: { [header]: { ...choice, ...(minus ? { sign: -1 } : {}), ...(unit ? { unit } : {}) } },
+    label: turned ? "reverse the sign" : channel,
+    columns: { [header]: { ...choice, ...(turned ? { sign: -1 } : {}), ...(unit ? { unit } : {}) } },
   };
 }

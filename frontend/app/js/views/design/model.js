@@ -56,33 +56,33 @@ export function geometryValue(key) {
   if (set !== undefined) return set;
   const ofPreset = preset.value?.geometry?.[key];
   if (ofPreset) return siOf(ofPreset);
-  const answer = /** @type {any} */ (curves.value?.geometry);
-  return answer?.[key] ?? answer?.rhombus?.[key] ?? null;
+  return answeredValue(curves.value, key);
+}
+
+const presetQuestion = new Question(
+  (text, signal) => /** @type {Promise<Curves>} */ (post("/api/curves", JSON.parse(text), signal)),
+);
+/** Asks for the geometry of the preset at the length of the muscle, where it is shown in another form. */
+function presetText() {
+  const { preset: id, form, values: { nominal_length } } = muscle.value;
+  return id && form !== "braid"
+    ? JSON.stringify({ muscle: { preset: id, nominal_length }, effects: {}, points: 2 })
+    : null;
+}
+
+/** A value of an answer in any form of the geometry.
+ * @param {Curves | null} answer @param {string} key @returns {number | null} */
+function answeredValue(answer, key) {
+  const geometry = /** @type {any} */ (answer?.geometry);
+  return geometry?.[key] ?? geometry?.rhombus[key] ?? null;
 }
 
 /** The value of the preset in any form of the geometry, to mark and reset changed values. @param {string} key
  * @returns {number | null} */
 export function presetValue(key) {
-  const g = preset.value?.geometry;
-  if (!g) return null;
-  if (g[key]) return siOf(g[key]);
-  const { values } = muscle.value;
-  const length = values.nominal_length ?? siOf(g.nominal_length);
-  const angle = siOf(g.braid_angle), thread = length / Math.cos(angle);
-  const turns = (length * Math.tan(angle)) / (Math.PI * siOf(g.braid_diameter));
-  /** @type {Record<string, number>} */
-  const derived = {
-    thread_length: thread,
-    turns,
-    side: values.side ?? SIDE,
-    along: thread / 2 / (values.side ?? SIDE),
-    around: thread / 2 / (values.side ?? SIDE) / turns,
-  };
-  return derived[key] ?? null;
+  const stated = preset.value?.geometry?.[key];
+  return stated ? siOf(stated) : answeredValue(presetQuestion.answer.value, key);
 }
-
-/** The side of the rhombus after a conversion [m]: a braid fits a lattice of any mesh size. */
-const SIDE = 2e-3;
 
 /** The same muscle in another form of the geometry; unchanged while there is no answer of the server yet.
  * @param {Muscle} m @param {Form} form @returns {Muscle} */
@@ -92,10 +92,7 @@ export function inForm(m, form) {
   const kept = Object.entries(m.values).filter(([key]) => !FORM_KEYS[m.form].includes(key));
   const values = Object.fromEntries(kept);
   if (form === "thread") Object.assign(values, { thread_length: g.thread_length, turns: g.turns });
-  if (form === "rhombus") {
-    const along = g.thread_length / 2 / SIDE;
-    Object.assign(values, { side: SIDE, along, around: along / g.turns });
-  }
+  if (form === "rhombus") Object.assign(values, g.rhombus);
   if (form === "braid") {
     const { braid_diameter, braid_angle } = g;
     for (const [key, value] of Object.entries({ braid_diameter, braid_angle })) {
@@ -152,6 +149,7 @@ export const errorsOutdated = computed(() => errorQuestion.stage.value === "aski
 /** Starts asking; called once, when the view is built. The curves come first. */
 export function startModel() {
   curvesQuestion.follow(() => JSON.stringify(curvesRequest(design.value)));
+  presetQuestion.follow(presetText);
   errorQuestion.follow(() => errorText.value, {
     delay: COMPARE_AFTER_MS,
     active: () => curvesAreCurrent.value,

@@ -33,9 +33,6 @@ export function formsOf(method) {
 /** Whether a quantity differs between specimens, that is, has a distribution. @param {Varied} q */
 export const isSpread = (q) => DISTRIBUTIONS.includes(q.form);
 
-/** How many values a quantity has in a grid or list. @param {Varied} q */
-export const countOf = (q) => q.form === "values" ? q.values.length : q.points;
-
 /** The ends that stand for a quantity of any form. @param {Varied} q @returns {[number | null, number | null]} */
 function endsOf({ form, from, to, mean, deviation, log_deviation, values }) {
   if (form === "values") return values.length ? [Math.min(...values), Math.max(...values)] : [from, to];

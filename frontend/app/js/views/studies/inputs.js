@@ -13,7 +13,7 @@ import {
   figureOptions,
   messageWithin,
   optionsFault,
-  planned,
+  plannedText,
   quantityOptions,
   run,
   spreadText,
@@ -41,7 +41,7 @@ export const runButton = () =>
       disabled: () => stage.value !== "running" && !study.value.quantities.length,
       onclick: () => stage.peek() === "running" ? cancel() : run(),
     },
-    () => stage.value === "running" ? "Cancel the study" : `Run ${planned.value.toLocaleString("en")} runs`,
+    () => stage.value === "running" ? "Cancel the study" : `Run ${plannedText.value || "the study"}`,
   );
 
 /** @param {Study["subject"]} subject */

@@ -2,7 +2,7 @@
 // The method of a study: how its runs are chosen, how many, and the seed.
 import { h } from "../../dom.js";
 import { countField } from "./fields.js";
-import { editMethod, messageWithin, planned, study } from "./model.js";
+import { editMethod, messageWithin, plannedText, study } from "./model.js";
 
 /** @typedef {import("../../types.js").Study} Study */
 
@@ -109,7 +109,7 @@ export const methodCard = (/** @type {import("../../reactive.js").Signal<string>
     h(
       "p",
       { class: "hint" },
-      () => `${planned.value.toLocaleString("en")} runs; the page makes at most 20,000.`,
+      () => `${plannedText.value ? `${plannedText.value}; the` : "The"} page makes at most 20,000.`,
     ),
     h("p", { class: "error" }, () => messageWithin("method") ?? ""),
   );

@@ -8,7 +8,7 @@ import { Question } from "../../server/question.js";
 import { waitingWords } from "../../server/waiting.js";
 import { doc, edit, view } from "../../state.js";
 import { status } from "../../store.js";
-import { countOf, forMethod, isSpread, quantityRequest } from "./forms.js";
+import { forMethod, isSpread, quantityRequest } from "./forms.js";
 
 /** @typedef {import("../../types.js").Doc} Doc */
 /** @typedef {import("../../types.js").Study} Study */
@@ -101,18 +101,6 @@ export function studyRequest(d) {
     method: methodRequest(method),
   };
 }
-
-/** How many runs the study asks for. */
-export const planned = computed(() => {
-  const { method: m, quantities } = study.value, count = quantities.length;
-  const product = (/** @type {Varied[]} */ list) => list.reduce((all, q) => all * countOf(q), 1);
-  if (m.type === "grid") return product(quantities);
-  if (m.type === "list") return Math.max(0, ...quantities.map(countOf));
-  if (m.type === "sobol") return m.samples * (count + 2);
-  if (m.type === "morris") return m.trajectories * (count + 1);
-  if (m.type === "optimisation") return m.population * m.generations;
-  return m.type === "robust" ? m.runs * product(quantities.filter((q) => !isSpread(q))) : m.runs;
-});
 
 // ---- the runs
 
@@ -230,15 +218,27 @@ export function cancel() {
   question.cancel();
 }
 
-// ---- what the server kept
+// ---- what the server plans and kept
 
 const keptQuestion = new Question((
   text,
   signal,
-) => /** @type {Promise<{runs: number}>} */ (post("/api/studies/kept", JSON.parse(text), signal)));
+) => /** @type {Promise<import("../../types.js").S["StudyKeptAnswer"]>} */ (
+  post("/api/studies/kept", JSON.parse(text), signal)
+));
+const keptAnswer = computed(() =>
+  keptQuestion.answered.value === studyText.value ? keptQuestion.answer.value : null
+);
 /** How many runs of the study as it is now are kept from before; 0 as long as that is not known. */
-export const keptRuns = computed(() =>
-  keptQuestion.answered.value === studyText.value ? keptQuestion.answer.value?.runs ?? 0 : 0
+export const keptRuns = computed(() => keptAnswer.value?.runs ?? 0);
+/** How many runs the study as it is now has; null as long as that is not known. */
+export const planned = computed(() =>
+  keptAnswer.value?.planned ??
+    (question.asked.value === studyText.value ? shown.value?.planned ?? null : null)
+);
+/** How many runs that is, in words; "" as long as that is not known. */
+export const plannedText = computed(() =>
+  planned.value === null ? "" : `${planned.value.toLocaleString("en")} runs`
 );
 
 /** A study that was finished before, or left while it ran, is shown without being asked for. */
@@ -250,9 +250,11 @@ function followKept() {
       study.value.quantities.length > 0,
   });
   effect(() => {
-    const kept = keptRuns.value;
-    if (!kept || stage.peek() === "running" || question.asked.peek() === studyText.peek()) return;
-    if (kept >= planned.peek() || wasUnderWay() === studyText.peek()) run();
+    const kept = keptRuns.value, all = planned.value;
+    if (!kept || all === null || stage.peek() === "running" || question.asked.peek() === studyText.peek()) {
+      return;
+    }
+    if (kept >= all || wasUnderWay() === studyText.peek()) run();
   });
 }
 

@@ -14,6 +14,7 @@ import {
   keptRuns,
   pace,
   planned,
+  plannedText,
   remaining,
   run,
   shown,
@@ -34,7 +35,7 @@ const notice = (...body) => h("div", { class: "notice", role: "status" }, icon("
 /** Runs of this study that were made before it was interrupted. */
 const goOn = () =>
   notice(
-    h("span", null, () => `${keptRuns.value} of ${planned.value} runs of this study are kept from before.`),
+    h("span", null, () => `${keptRuns.value} of ${plannedText.value} of this study are kept from before.`),
     h("button", { type: "button", onclick: run }, "Continue"),
   );
 
@@ -47,7 +48,7 @@ function notices() {
       retry: run,
     });
   }
-  const isPartlyKept = keptRuns.value > 0 && keptRuns.value < planned.value;
+  const isPartlyKept = keptRuns.value > 0 && keptRuns.value < (planned.value ?? 0);
   if (isPartlyKept && (stale.value || !shown.value)) return goOn();
   if (stale.value) {
     return notice(

@@ -13,7 +13,6 @@ import { fault, faultField, retry, run, stale, startRuns } from "./model.js";
 import { inputCards } from "./inputs/panel.js";
 import { startPins } from "./pinned-runs.js";
 import { compareCard } from "./pinned/card.js";
-import { startStatics } from "./statics.js";
 
 function notice() {
   const error = fault.value, field = faultField();
@@ -48,7 +47,6 @@ export function transientPage() {
     results,
   );
   startRuns();
-  startStatics();
   startPins();
   return page;
 }

@@ -14,9 +14,6 @@ import { row, span } from "../cursor.js";
 import { lookTransient, numberAt, run, transient } from "../model.js";
 import { isSteady, phaseSpec, phaseTable } from "./phase.js";
 import { plot } from "./plot.js";
-import { statics } from "../statics.js";
-
-/** @typedef {import("./phase.js").Load} Load */
 
 export const phase = plot(
   "phase",
@@ -25,7 +22,7 @@ export const phase = plot(
 );
 
 /** The static load without the external force, which is a column of the run.
- * @type {import("../../../reactive.js").Signal<Load>} */
+ * @type {import("../../../reactive.js").Signal<{weight: number, spring: number, ratio: number}>} */
 const load = computed(() => ({
   weight: run.value?.weight ?? 0,
   spring: numberAt("load.spring") ?? 0,
@@ -33,13 +30,11 @@ const load = computed(() => ({
 }));
 const zoom = computed(() => transient.value.phase);
 
-/** Drawn when the run, the display or the static curves change. */
+/** Drawn when the run or the display changes. */
 export function drawPhase() {
   const answer = run.value;
   palette.value;
   const o = {
-    statics: statics.value,
-    load: load.peek(),
     system: units.value,
     zoom: zoom.value,
     zoomed: (/** @type {import("../../../types.js").Zoom | null} */ to) => lookTransient({ phase: to }),
@@ -50,7 +45,7 @@ export function drawPhase() {
 /** The meaning of the dashed lines. */
 export function phaseNote() {
   const answer = run.value, system = units.value;
-  if (!answer || !statics.value) return null;
+  if (!answer) return null;
   const { weight, spring, ratio } = load.peek();
   const [least, most] = extent([answer.load_force]), steady = isSteady(answer);
   const force = (/** @type {number} */ si) => withUnit(si, "force", system);
