@@ -160,7 +160,9 @@ def test_a_preset_runs_by_its_id(shared_client: TestClient) -> None:
 
 def test_a_load_at_rest_lies_between_its_static_contractions(shared_client: TestClient) -> None:
     """Dry friction holds it anywhere between where it would come to rest from below and from above."""
-    answer = post(shared_client, PATH, {"drive": "paper-ramp", "points": 101}).json()
+    body = {"drive": "paper-ramp", "points": 101, "static": True}
+    answer = post(shared_client, PATH, body).json()
+    assert post(shared_client, PATH, {**body, "static": False}).json()["static_filling"] is None
     assert answer["velocity"][-1] == 0.0
     assert answer["stuck"][-1]
     low, high = (answer[name][-1] for name in ("static_filling", "static_venting"))

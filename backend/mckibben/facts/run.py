@@ -21,7 +21,8 @@ _SETTLED = Condition(
 )
 _SWINGS = Condition("the position has two even periods in the second half of the step", "it does not swing")
 _SOMEWHERE = Condition(
-    "the forces of the row determine a place", "nothing pulls in either direction, or both muscles are slack"
+    "it is asked for and the forces of the row determine a place",
+    "not asked for, or nothing pulls in either direction, or both muscles are slack",
 )
 _TUBE = Condition("there is a tube", "there is no tube")
 _REGULATOR = Condition("there is a proportional pressure regulator", "there is no regulator")

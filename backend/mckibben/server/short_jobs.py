@@ -62,7 +62,9 @@ def simulation_question(body: SimulationRequest, studio: Studio) -> SimulationQu
     with fields_inside("drive"):
         document = body.drive if not isinstance(body.drive, str) else preset_document(body.drive, studio)
         annotated = drive_of(document, studio)
-    return SimulationQuestion(annotated, points=body.points, begin=body.begin, end=body.end)
+    return SimulationQuestion(
+        annotated, points=body.points, begin=body.begin, end=body.end, static=body.static
+    )
 
 
 def export_question(body: ExportRequest, studio: Studio) -> ExportQuestion:

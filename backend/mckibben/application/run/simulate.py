@@ -169,12 +169,14 @@ class SimulationQuestion:
         annotated: the drive with notes on its parts.
         points: rows of the result, at least two.
         begin, end: times of the first and last row [s]; None = the whole run.
+        static: whether the static contractions of each row are asked for, which take as long as the run.
     """
 
     annotated: AnnotatedDrive
     points: int = POINTS
     begin: float | None = None
     end: float | None = None
+    static: bool = False
 
 
 @result_class
@@ -239,8 +241,8 @@ class SimulationResult:
     diameter: Series
     length: Series
     contraction: Series
-    static_filling: Series
-    static_venting: Series
+    static_filling: Series | None
+    static_venting: Series | None
     load_force: Series
     temperature: Series
     contact: Booleans
@@ -314,9 +316,8 @@ def prepare(question: SimulationQuestion) -> Callable[[Watch], SimulationResult]
 
     def work(watch: Watch) -> SimulationResult:
         run = run_drive(question.annotated, grid, watch)
-        return result_of(
-            question.annotated, grid, run, measured_interval(question.annotated, grid, run, watch)
-        )
+        interval = measured_interval(question.annotated, grid, run, watch)
+        return result_of(question.annotated, grid, run, interval, static=question.static)
 
     return work
 
@@ -331,7 +332,12 @@ def simulate(question: SimulationQuestion, watch: Watch | None = None) -> Simula
 
 
 def result_of(
-    annotated: AnnotatedDrive, grid: Grid, run: Run, interval: PositionInterval | None = None
+    annotated: AnnotatedDrive,
+    grid: Grid,
+    run: Run,
+    interval: PositionInterval | None = None,
+    *,
+    static: bool = False,
 ) -> SimulationResult:
     """The complete result of a run."""
     drive, out, states = run.drive, run.outputs, run.states
@@ -346,7 +352,9 @@ def result_of(
     def gauge(name: str) -> Array | None:
         return states[name][rows] - drive.ambient_pressure if name in states else None
 
-    def at_rest(direction: float) -> Array:
+    def at_rest(direction: float) -> Array | None:
+        if not static:
+            return None
         return static_contraction(
             drive,
             pressure=run.pressure[rows],

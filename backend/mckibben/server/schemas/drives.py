@@ -30,6 +30,7 @@ class SimulationRequest(Strict):
     points: Annotated[int, Field(ge=2, le=20_001)] = Field(2001, description="Rows of the answer.")
     begin: Instant | None = Field(None, alias="from", description="First row; 0 when left out.")
     end: Instant | None = Field(None, alias="to", description="Last row; the end of the run when left out.")
+    static: bool = Field(False, description="Whether the static contractions of each row are asked for.")
 
 
 SimulationEvents = streamed()

@@ -176,6 +176,7 @@ export const documentNow = () =>
 export const runRequest = (document, rows) => ({
   drive: document,
   points: POINTS,
+  static: true,
   ...(rows ? { from: rows[0], to: rows[1] } : {}),
 });
 

@@ -24,7 +24,7 @@ export function isSteady({ load_force: force }) {
 function restLine(run, contraction) {
   const rows = [...run.pressure.keys()].filter((i) => run.pressure[i] !== null);
   if (!run.joint && isSteady(run)) rows.sort((a, b) => Number(run.pressure[a]) - Number(run.pressure[b]));
-  return { pressure: rows.map((i) => run.pressure[i]), contraction: rows.map((i) => contraction[i]) };
+  return { pressure: rows.map((i) => run.pressure[i]), contraction: rows.map((i) => contraction[i] ?? null) };
 }
 
 /** @param {Phase} o @param {Palette} p @returns {import("../../../plots/chart.js").Spec} */
@@ -37,7 +37,7 @@ export function phaseSpec(o, p) {
     const [id, color]
       of /** @type {["filling" | "venting", string][]} */ ([["filling", p.soft], ["venting", p.second]])
   ) {
-    const line = restLine(run, run[`static_${id}`]);
+    const line = restLine(run, run[`static_${id}`] ?? []);
     traces.push({
       id,
       x: shown(line.pressure, "pressure", system),
