@@ -32,9 +32,8 @@ DRAWS = {
     "views/compare/strip/number.js": 3,  # height of a point on a logarithmic scale
     "views/compare/where/heat.js": 1,  # height of a row
     "views/compare/where/leftover.js": 2,  # a normal curve beside a histogram
-    # Shares of the server as whole percents that add up to 100. The word for the rest, "noise" or not,
-    # compares the share with the noise floor and would better be the server's.
-    "views/compare/where/parts.js": 4,
+    # Shares of the server as whole percents that add up to 100.
+    "views/compare/where/parts.js": 3,
     "views/compare/where/residual-spec.js": 1,  # points of one direction beside each other
     "views/compare/where/specs.js": 1,  # whether there are many points
     "views/design/errors.js": 1,  # width of a bar

@@ -15,7 +15,7 @@ VARIABLES = {"contraction": KAPPA, "pressure": PRESSURE, "direction": DIRECTION}
 
 
 def shares(residual: np.ndarray, variables: dict[str, np.ndarray] = VARIABLES) -> dict[str, float]:
-    return {part.of: part.share for part in residual_parts(residual, variables)}
+    return {part.of: part.share for part in residual_parts(residual, variables, None)}
 
 
 def test_orthogonal_parts_have_the_shares_of_their_variances() -> None:
@@ -68,8 +68,17 @@ def test_the_shares_add_up_to_one(names: tuple[str, ...]) -> None:
 
 
 def test_a_zero_residual_has_no_parts() -> None:
-    assert residual_parts(np.zeros(6), {"pressure": np.arange(6.0)}) == []
+    assert residual_parts(np.zeros(6), {"pressure": np.arange(6.0)}, 1.0) == []
 
 
 def test_a_variable_the_order_does_not_know_is_left_out() -> None:
     assert set(shares(KAPPA + 1.0, {"temperature": KAPPA})) == {"offset", "rest"}
+
+
+def test_a_rest_of_the_size_of_the_noise_is_noise() -> None:
+    noise = np.random.default_rng(4).normal(size=4000)
+    pressure = np.repeat(np.arange(4.0), 1000)
+    for known, name in ((1.0, "noise"), (0.5, "rest"), (None, "rest")):
+        found = residual_parts(noise + pressure, {"pressure": pressure}, known)
+        assert found[-1].of == name
+        assert sum(part.share for part in found) == pytest.approx(1.0)

@@ -14,6 +14,7 @@ from mckibben.facts.result import result_class
 Array = NDArray[np.float64]
 
 _BINS = 10
+_NOISE = 1.3  # times the noise that a rest may be
 _MOST_LEVELS = 12  # different values of a variable that are levels rather than a range
 #: Variables in the order in which they take their part.
 ORDER = ("contraction", "displacement", "pressure", "command", "direction")
@@ -26,11 +27,13 @@ class ResidualPart:
     FIGURES: ClassVar = RESIDUAL.name
 
     of: str
-    """'offset', a variable, 'together' (several variables) or 'rest': what follows none."""
+    """'offset', a variable, 'together' (several variables), or what follows none: 'noise' or 'rest'."""
     share: float
 
 
-def residual_parts(residual: Array, variables: Mapping[str, Array]) -> list[ResidualPart]:
+def residual_parts(
+    residual: Array, variables: Mapping[str, Array], noise: float | None
+) -> list[ResidualPart]:
     r"""The parts of :math:`\sum r^2`: offset, each variable, several together, rest; their sum is 1.
 
     One after the other takes what the ones before left: the offset its mean, a variable the means of its
@@ -42,6 +45,8 @@ def residual_parts(residual: Array, variables: Mapping[str, Array]) -> list[Resi
     Args:
         residual: shape (rows,).
         variables: name -> values, shape (rows,); those not in `ORDER` are left out.
+        noise: standard deviation of the noise in the unit of the residual, None where it is not known. A rest
+            of at most 1.3 times it is noise.
 
     Returns:
         Empty where the residual is zero everywhere.
@@ -60,7 +65,9 @@ def residual_parts(residual: Array, variables: Mapping[str, Array]) -> list[Resi
         before = float(np.sum(left**2))
         left = left - _means(left, place)
         parts[name] = max(before - float(np.sum(left**2)) - int(np.max(place)) * chance, 0.0)
-    parts["rest"] = max(whole - sum(parts.values()), 0.0)
+    rest = max(whole - sum(parts.values()), 0.0)
+    alone = noise is not None and np.sqrt(rest / len(residual)) <= _NOISE * noise
+    parts["noise" if alone else "rest"] = rest
     return [ResidualPart(name, value / whole) for name, value in parts.items()]
 
 

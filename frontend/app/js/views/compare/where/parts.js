@@ -12,17 +12,17 @@ import { channelWords, errorText, VARIABLES } from "../words.js";
 /** A part smaller than this share is not named. */
 const LEAST = 0.005;
 
-/** More than this many times the noise is not noise alone. */
-const NOISE = 1.3;
+/** @type {Record<string, string>} */
+const NAMES = {
+  offset: "the same everywhere",
+  noise: "noise",
+  rest: "follows none of these",
+  together: "follows several together",
+};
 
-/** @param {string} of @param {number} share @param {Comparison} a */
-function nameOf(of, share, a) {
-  if (of === "offset") return "the same everywhere";
-  const noise = a.unit === "1" ? 1 : a.noise_floor;
-  if (of === "rest") {
-    return noise && Math.sqrt(share) * (a.rmse ?? 0) <= NOISE * noise ? "noise" : "follows none of these";
-  }
-  if (of === "together") return "follows several together";
+/** @param {string} of */
+function nameOf(of) {
+  if (of in NAMES) return NAMES[of];
   return `follows ${VARIABLES[of]?.short ?? channelWords(of)}`;
 }
 
@@ -62,7 +62,7 @@ function bar(a) {
             null,
             h("i", { "data-part": part.of }),
             h("b", null, `${texts[i]} %`),
-            ` ${nameOf(part.of, part.share, a)}`,
+            ` ${nameOf(part.of)}`,
           )]
           : []
       ),
