@@ -285,7 +285,9 @@ def compared_whole(
         heat_map=residual_map(comparison),
         inside=rows_inside(comparison, within) if within else [],
         explains=explained_inside(comparison, within) if within and explain else [],
-        parts=residual_parts(residual, variables, 1.0 if comparison.predictor.unit == "1" else comparison.noise),
+        parts=residual_parts(
+            residual, variables, 1.0 if comparison.predictor.unit == "1" else comparison.noise
+        ),
         whiteness=white,
         cross=_cross(comparison, residual, variables),
         loops=closed[:MAX_SERIES],
