@@ -152,8 +152,12 @@ def test_what_lies_outside_of_the_range_at_a_reversal_is_told(wrong: float) -> N
     predictor = QuasistaticPredictor(comparable_rows(measurement, MUSCLE))
     friction = default_catalogue()["coulomb_friction"]
     fit_model = FitModel(MUSCLE, (friction,), {"coulomb_friction": {**friction.defaults, "force": 25.0}})
-    (told,) = predictor.at_reversals(fit_model, 0.01)
-    rows = np.count_nonzero(predictor.task.reversing)
+    found = predictor.at_reversals(fit_model)
+    assert found is not None
+    told, rows = found.sentence(0.01), np.count_nonzero(predictor.task.reversing)
+    assert found.outside(0.01) == (1 if wrong else 0)
+    assert np.max(found.distance) == pytest.approx(wrong, abs=1e-3)
+    assert found.high - found.low == pytest.approx(np.full(rows, 50.0))
     assert told.startswith(f"{rows} rows at reversals are counted apart")
     assert told.endswith("1 lie outside of it, by up to 30 N" if wrong else "all lie within it")
-    assert predictor.at_reversals(FitModel(MUSCLE), 0.01) == ()
+    assert predictor.at_reversals(FitModel(MUSCLE)) is None

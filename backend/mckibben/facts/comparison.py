@@ -141,6 +141,33 @@ COMPARISON = Group(
     ),
 )  # fmt: skip
 
+_REVERSALS = Condition(
+    "the model has dry friction, and readings of force lie where the motion turns",
+    "no readings of force where the motion turns, or no dry friction in the model",
+)
+
+#: Readings where the motion turns, which are in none of the errors.
+REVERSALS = Group(
+    "reversals",
+    "Readings at reversals",
+    Figure(
+        "rows", "", "1", "Readings at reversals",
+        "Rows at which the motion turns: dry friction may have any value of its range there.",
+        _REVERSALS, quantity="number",
+    ),
+    Figure("low", "F₁", "N", "Least force at a reversal", "Force of the shortening muscle.", _REVERSALS),
+    Figure("high", "F₂", "N", "Greatest force at a reversal", "Force of the lengthening muscle.", _REVERSALS),
+    Figure(
+        "distance", "", "N", "Distance from the range of friction",
+        "max(F₁ − F, F − F₂, 0); the largest one of all readings.", _REVERSALS,
+    ),
+    Figure(
+        "outside", "", "1", "Readings outside of the range",
+        "Readings with a distance of more than three standard deviations of the noise.",
+        _REVERSALS, quantity="number",
+    ),
+)  # fmt: skip
+
 #: The error on files that are compared but not fitted.
 CHECK = Group(
     "check",

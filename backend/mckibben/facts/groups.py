@@ -14,6 +14,7 @@ from mckibben.facts.comparison import (
     PARAMETER,
     READING_ERROR,
     RESIDUAL,
+    REVERSALS,
     SPECIMEN,
 )
 from mckibben.facts.diagnosis import DIAGNOSIS
@@ -69,7 +70,18 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
                 SUMMARY,
                 INFLUENCE,
             ),
-            *(STUDY, CHANNELS, COMPARISON, CHECK, SPECIMEN, PARAMETER, RESIDUAL, READING_ERROR, MEASURED),
+            *(
+                STUDY,
+                CHANNELS,
+                COMPARISON,
+                REVERSALS,
+                CHECK,
+                SPECIMEN,
+                PARAMETER,
+                RESIDUAL,
+                READING_ERROR,
+                MEASURED,
+            ),
             *(NOISE, DIAGNOSIS),
             *(CURVES, FORCE_INTERVAL, CHARACTERISTICS, OPERATING_POINT, LOOP, OVER_PRESSURE),
             *(MUSCLE_LIMITS, GEOMETRY, INVERSE, INVERSE_DETAILS),

@@ -22,7 +22,9 @@ from mckibben.application.compare.residual_map import (
 from mckibben.application.compare.series import (
     MAX_POINTS_PER_SERIES,
     MAX_SERIES,
+    ComparedReversals,
     ComparedSeries,
+    reversals_of,
     series_of,
 )
 from mckibben.application.compare.specimens import Specimens
@@ -157,6 +159,8 @@ class ComparisonResult:
     """Where the model fails, as sentences."""
     series: list[ComparedSeries]
     """The points, curve by curve."""
+    reversals: ComparedReversals | None
+    """Readings where the motion turns, which are in none of the errors; None without dry friction."""
     validation: ValidationResult | None
     """The error on measurements not used for the fit; None without them."""
     model: ModelDocument
@@ -250,7 +254,8 @@ def compared_whole(
         stopped += others
         thinned = thinned or thin
         messages += [remark] if remark else []
-    if thinned:
+    reversals, fewer = reversals_of(comparison)
+    if thinned or fewer:
         messages.append(f"curves show at most {MAX_POINTS_PER_SERIES} points each; the figures use all rows")
     # A quantity that is accepted as wrong has another value only after a fit.
     accepted = [entry for entry in question.accepted if fit or entry.reading is not None]
@@ -294,6 +299,7 @@ def compared_whole(
         mean_loop=mean_loop(closed),
         sentences=[*(run.sentence for run in stopped), *_sentences(where, white, predictor.unit)],
         series=series,
+        reversals=reversals,
         validation=validation,
         model=ModelDocument(question.effect_document(comparison.fit_model)),
         messages=messages,

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.facts.result import Series, result_class
+from mckibben.facts.comparison import REVERSALS
+from mckibben.facts.result import Number, Series, result_class
 from mckibben.identification.fit.comparison import Comparison
 
 MAX_POINTS_PER_SERIES = 400
@@ -50,6 +51,33 @@ class ComparedSeries:
     """Predicted."""
     residual: Series
     """Measured minus predicted."""
+
+
+@result_class
+class ComparedReversals:
+    """Readings of force where the motion turns, each with the range of friction; SI, shape (points,)."""
+
+    FIGURES: ClassVar = REVERSALS.name
+
+    rows: int
+    outside: int
+    distance: Number
+    time: Series | None
+    """Time of each point [s]."""
+    contraction: Series
+    """Contraction of each point [-]."""
+    length: Series
+    """Length of each point [m]."""
+    x_pressure: Series
+    """Pressure of each point [Pa]."""
+    velocity: Series
+    """dL/dt of each point [m/s]."""
+    measured: Series
+    """Measured."""
+    low: Series
+    """The least force that the model allows."""
+    high: Series
+    """The greatest one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -147,6 +175,33 @@ def series_of(comparison: Comparison, use: Literal["fit", "validation"]) -> tupl
                 )
             )
     return series, thinned
+
+
+def reversals_of(comparison: Comparison) -> tuple[ComparedReversals | None, bool]:
+    """The readings where the motion turns, thinned for the screen; and whether any was left out."""
+    found = comparison.reversals
+    if found is None:
+        return None, False
+    rows = np.arange(len(found.measured))
+    thinned = len(rows) > MAX_POINTS_PER_SERIES
+    if thinned:
+        rows = np.linspace(0, len(rows) - 1, MAX_POINTS_PER_SERIES).astype(int)
+    time = found.inputs.get("time")
+    length = found.inputs["length"]
+    result = ComparedReversals(
+        rows=len(found.measured),
+        outside=found.outside(comparison.noise),
+        distance=float(np.max(found.distance)),
+        time=None if time is None else time[rows],
+        contraction=(1.0 - length / found.muscle_length)[rows],
+        length=length[rows],
+        x_pressure=found.inputs["pressure"][rows],
+        velocity=found.inputs["velocity"][rows],
+        measured=found.measured[rows],
+        low=found.low[rows],
+        high=found.high[rows],
+    )
+    return result, thinned
 
 
 def constant_level(values: Array) -> float | None:

@@ -455,6 +455,7 @@ def _search(
     designer = Designer.of(predictor, lean, level) if exchangeable else Designer((), level)
     pairs, designs = next_measurements(designer, lean, exchangeable, catalogue)
     progress.share = 0.95
+    reversals = predictor.at_reversals(best.fit_model)
     return Diagnosis(
         predictor=predictor,
         start=start,
@@ -480,7 +481,7 @@ def _search(
         messages=(
             *([] if gauge_zero is None else [gauge_zero.message]),
             *messages(fitter, best, fit, added),
-            *predictor.at_reversals(best.fit_model, fitter.noise),
+            *([] if reversals is None else [reversals.sentence(fitter.noise)]),
             *predictor.assumed_history(best.fit_model),
             *sign_changes(fitter, fit_model, best),
         ),

@@ -16,7 +16,7 @@ from mckibben.identification.fit.least_squares import FitResult
 from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel, Free, free_numbers
-from mckibben.identification.predict.predictor import PredictedChannel, StoppedRun
+from mckibben.identification.predict.predictor import PredictedChannel, Reversals, StoppedRun
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
 from mckibben.physics.custom import CUSTOM, TERM
@@ -45,6 +45,7 @@ class Comparison:
         messages: notes for the user.
         absorbed: reading errors within the stated accuracy that explain a part of the residual.
         stopped: runs of the model that ended early; the rest is of the rows that they reached.
+        reversals: readings at which the motion turns, which are in none of the errors; None without any.
     """
 
     predictor: Predictor
@@ -60,6 +61,7 @@ class Comparison:
     messages: tuple[str, ...] = field(default_factory=tuple)
     absorbed: tuple[AbsorbedError, ...] = ()
     stopped: tuple[StoppedRun, ...] = ()
+    reversals: Reversals | None = None
 
     @property
     def residual(self) -> np.ndarray:
@@ -274,6 +276,7 @@ def compared(
     floor, how = noise_of(predictor, (predictor.measured - predicted) / predictor.scale, noise)
     if floor is None:
         messages.append("sweeps are too short to estimate the noise")
+    reversals = predictor.at_reversals(fit_model)
     return Comparison(
         predictor=predictor,
         fit_model=fit_model,
@@ -287,12 +290,13 @@ def compared(
         excluded=predictor.excluded,
         messages=(
             *messages,
-            *predictor.at_reversals(fit_model, floor),
+            *([] if reversals is None else [reversals.sentence(floor)]),
             *predictor.assumed_history(fit_model),
             *(result.messages if result else ()),
         ),
         absorbed=absorbed_by(predictor, fit_model),
         stopped=stopped,
+        reversals=reversals,
     )
 
 

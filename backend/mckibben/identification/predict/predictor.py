@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from copy import copy
 from dataclasses import dataclass
 from types import MappingProxyType
@@ -82,6 +82,69 @@ class StoppedRun:
         percent = 100.0 * self.share
         lost = f"{percent:.{0 if percent >= 10.0 else 1}f} % of {'its' if self.run else 'the'} rows"
         return f"{self.event}. The figures are of the rows before; {lost} were not reached"
+
+
+_BEYOND_CHANCE = 3.0  # standard deviations of the noise from which a reading lies outside of a range
+
+
+@dataclass(frozen=True, eq=False)
+class Reversals:
+    """Readings of force at which the motion turns.
+
+    Dry friction holds or slides there, in either direction: the model allows every force between those of its
+    two branches. Such rows are counted apart, each by its distance from that range.
+
+    Attributes:
+        measured: shape (rows,), SI.
+        low: the least force that the model allows, of the same shape.
+        high: the greatest one.
+        inputs: of the same rows, as those of `Predictor`, which may hold fewer.
+        muscle_length: rest length of the muscle of each row [m].
+    """
+
+    measured: np.ndarray
+    low: np.ndarray
+    high: np.ndarray
+    inputs: Mapping[str, np.ndarray]
+    muscle_length: np.ndarray
+
+    @property
+    def distance(self) -> np.ndarray:
+        """How far each reading lies outside of its range; 0 within."""
+        return np.maximum(np.maximum(self.low - self.measured, self.measured - self.high), 0.0)
+
+    def outside(self, noise: float | None) -> int:
+        """Number of readings farther outside than three standard deviations of the noise."""
+        return int(np.count_nonzero(self.distance > _BEYOND_CHANCE * (noise or 0.0)))
+
+    def sentence(self, noise: float | None) -> str:
+        """What they say of the model."""
+        outside, rows = self.outside(noise), len(self.measured)
+        told = "all lie within it"
+        if outside:
+            told = f"{outside} lie outside of it, by up to {np.max(self.distance):.3g} N"
+        return (
+            f"{rows} rows at reversals are counted apart: dry friction may have any value of its range there; "
+            f"{told}"
+        )
+
+    @staticmethod
+    def together(parts: Sequence[Reversals]) -> Reversals | None:
+        """Those of several measurements; inputs that not all of them have are left out. None of none."""
+        if not parts:
+            return None
+        names = [name for name in parts[0].inputs if all(name in part.inputs for part in parts)]
+
+        def joined(of: Callable[[Reversals], np.ndarray]) -> np.ndarray:
+            return np.concatenate([of(part) for part in parts])
+
+        return Reversals(
+            joined(lambda part: part.measured),
+            joined(lambda part: part.low),
+            joined(lambda part: part.high),
+            {name: joined(lambda part, name=name: part.inputs[name]) for name in names},
+            joined(lambda part: part.muscle_length),
+        )
 
 
 class Predictor(ABC):
@@ -190,15 +253,10 @@ class Predictor(ABC):
         ]
         return (*(_ASSUMED[name] for name in names), *lasting)
 
-    def at_reversals(self, fit_model: FitModel, noise: float | None) -> tuple[str, ...]:
-        """A sentence on rows that are not scored because the motion turns there; () without any.
-
-        Args:
-            fit_model: the model.
-            noise: of the predicted channel; None = unknown.
-        """
-        del fit_model, noise
-        return ()
+    def at_reversals(self, fit_model: FitModel) -> Reversals | None:
+        """Readings of force at which the motion turns, where the model has dry friction; None without any."""
+        del fit_model
+        return None
 
     def reading(self, values: np.ndarray) -> Predictor:
         """This predictor of other readings, shape (values,), at the same inputs."""

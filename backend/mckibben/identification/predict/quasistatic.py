@@ -25,7 +25,7 @@ from mckibben.identification.predict.folds import folds_of, ranges_of, sweeps_of
 from mckibben.identification.predict.free_runs import acting_of, followed_lengths, remembered
 from mckibben.identification.predict.input_noise import with_smooth_pressure
 from mckibben.identification.predict.memory import HISTORIES, remembers
-from mckibben.identification.predict.predictor import PredictedChannel, Predictor
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor, Reversals
 from mckibben.identification.predict.sensor_dynamics import as_read, late
 from mckibben.physics.effect import Effect
 from mckibben.physics.model import Model
@@ -42,7 +42,6 @@ _FEWEST_READINGS = 8  # that show no trend
 _TREND = (
     0.3  # of the variance; readings that follow pressure or length less are those of no muscle that pulls
 )
-_BEYOND_CHANCE = 3.0  # standard deviations of the noise from which a row lies outside of a range
 _SLACK_BAND = 0.02  # scatter of the readings of a slack muscle, share of the range of the force
 
 _NEWTON_STEPS = 40
@@ -228,26 +227,24 @@ class QuasistaticPredictor(Predictor):
         slope = (ends[1] - ends[0]) / (2.0 * step) if step > 0.0 else np.zeros(len(self.measured))
         return np.where(np.isfinite(slope), slope, 0.0)
 
-    def at_reversals(self, fit_model: FitModel, noise: float | None) -> tuple[str, ...]:
-        """As of the base class: dry friction may have any value there between those of both directions."""
+    def at_reversals(self, fit_model: FitModel) -> Reversals | None:
+        """As of the base class: the range lies between the forces of both directions of motion."""
         rows, task = self.task.reversing, self.task
         if rows is None or task.channel != "force" or not any(map(rubs, fit_model.effects)):
-            return ()
+            return None
         at_once = _at_once(fit_model)
         state = self._evaluation.state(at_once)
         ends = [
             clip_slack(self._evaluation.at(at_once, (), {**state, "direction": np.full(len(rows), way)})[0])
             for way in (-1.0, 1.0)
         ]
-        low, high, measured = np.minimum(*ends)[rows], np.maximum(*ends)[rows], task.measured[rows]
-        beyond = np.maximum(np.maximum(low - measured, measured - high), 0.0)
-        outside = beyond > _BEYOND_CHANCE * (noise or 0.0)
-        told = "all lie within it"
-        if np.any(outside):
-            told = f"{np.count_nonzero(outside)} lie outside of it, by up to {np.max(beyond):.3g} N"
-        return (
-            f"{len(beyond)} rows at reversals are counted apart: dry friction may have any value of its "
-            f"range there; {told}",
+        time = {} if task.time is None else {"time": task.time}
+        return Reversals(
+            measured=task.measured[rows],
+            low=np.minimum(*ends)[rows],
+            high=np.maximum(*ends)[rows],
+            inputs={name: values[rows] for name, values in {**task.state, **time}.items()},
+            muscle_length=np.full(int(np.count_nonzero(rows)), float(fit_model.muscle.nominal_length)),
         )
 
     def lost(self, fit_model: FitModel) -> tuple[int, int]:

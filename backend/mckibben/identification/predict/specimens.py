@@ -15,7 +15,7 @@ import numpy as np
 
 from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.folds import folds_of
-from mckibben.identification.predict.predictor import PredictedChannel, Predictor, StoppedRun
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor, Reversals, StoppedRun
 from mckibben.identification.predict.reading_errors import ReadingError
 from mckibben.measurement.kind import common_kind
 from mckibben.physics.effect import Effect
@@ -188,6 +188,11 @@ class SpecimensPredictor(Predictor):
         return self._each(
             lambda part, own: np.full(len(part.measured), float(own.muscle.nominal_length)), fit_model
         )
+
+    def at_reversals(self, fit_model: FitModel) -> Reversals | None:
+        """Those of every specimen with its own muscle."""
+        found = (each.predictor.at_reversals(self._own(fit_model, each)) for each in self._specimens)
+        return Reversals.together([part for part in found if part is not None])
 
     def predict(self, fit_model: FitModel, *, clipped: bool = True) -> np.ndarray:
         """The prediction of every specimen with its own muscle."""

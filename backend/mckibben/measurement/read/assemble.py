@@ -203,8 +203,10 @@ def assemble(
     for reason, left_out in skipped.items():
         rows = "1 row" if left_out.rows == 1 else f"{left_out.rows} rows"
         messages.append(f"{rows} left out: {reason} (first: {left_out.first})")
-    questions = questions_of(_evidence(source, meaning, reading, by_use, columns, correction))
     weights = weights_of_runs(columns)
+    questions = questions_of(
+        _evidence(source, meaning, reading, by_use, columns, correction, weighed=weights is not None)
+    )
     if weights is not None and np.ptp(weights) > 0.0 and not _LOADS & set(correction.conditions):
         for key in _LOADS & set(conditions):  # of the first run, in its title
             del conditions[key]
@@ -379,7 +381,7 @@ def stated_values(
 
 def _evidence(
     source: RawTable, meaning: Meaning, reading: ChannelReading, by_use: Mapping[str, HeaderColumn],
-    channels: Mapping[str, NDArray], correction: Correction,
+    channels: Mapping[str, NDArray], correction: Correction, *, weighed: bool,
 ) -> Evidence:  # fmt: skip
     def numeric(index: int) -> bool:
         return is_numeric(source.sample, index)
@@ -402,4 +404,5 @@ def _evidence(
         channels=thinned, numeric=numeric, pair=pair, labels=reading.table.labels,
         conditions=reading.conditions, choices=source.choices if correction.sheet is None else (),
         noun=source.noun, by_clock="time" in by_use and by_use["time"].place in source.clocks,
+        weighed=weighed,
     )  # fmt: skip

@@ -24,13 +24,14 @@ class Evidence(NamedTuple):
         headers: of all columns; ``apart``: their units in a row of their own.
         meaning: which columns are used.
         used: channel -> its column.
-        channels: channel -> values [SI].
+        channels: channel -> values [SI]; of long tests every so manieth one, but times that follow each other.
         numeric: whether a column that is not used holds numbers.
         pair: the numbers of two columns, row by row, None where they have none.
         labels: index of a column of words -> its words.
         conditions: of the test.
         choices: other tables of the file (option, columns).
         by_clock: the times are times of the day, whose unit nobody has to ask for.
+        weighed: the force is that of stated weights, and was not read.
     """
 
     headers: Sequence[str]
@@ -45,6 +46,7 @@ class Evidence(NamedTuple):
     choices: Sequence[tuple[str, str]]
     noun: str = "column"
     by_clock: bool = False
+    weighed: bool = False
 
 
 def bare_name(column: HeaderColumn) -> str:

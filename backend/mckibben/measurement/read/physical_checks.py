@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.kind import weights_of_runs
 from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.evidence import Array, Evidence, bare_name
@@ -180,8 +179,8 @@ def _tare(evidence: Evidence) -> list[Question]:
     stroke = evidence.channels.get("displacement")
     if force is None or pressure is None or stroke is None or column is None or np.ptp(force) == 0.0:
         return []
-    if weights_of_runs(evidence.channels) is not None:
-        return []  # stated, not read
+    if evidence.weighed:
+        return []
     rows = (np.abs(pressure) < 0.03e5) & (np.abs(stroke) < 0.01 * max(float(np.max(np.abs(stroke))), 1e-9))
     if np.count_nonzero(rows) < ENOUGH:
         return []

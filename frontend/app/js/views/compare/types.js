@@ -8,6 +8,7 @@
 /** @typedef {S["ParameterValue"]} Fitted */
 /** @typedef {S["ComparisonResult"]} Comparison */
 /** @typedef {S["ComparedSeries"]} Series */
+/** @typedef {S["ComparedReversals"]} Reversals */
 /** @typedef {S["ResidualMap"]} Grid */
 /** @typedef {S["MapRow"]} Row */
 /** @typedef {S["MapCell"]} Cell */

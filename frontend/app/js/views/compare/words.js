@@ -103,6 +103,13 @@ export const VARIABLES = Object.fromEntries(
 /** @param {Series} s @param {string} name @returns {(number | null)[]} */
 export const column = (s, name) => VARIABLES[name]?.of(s) ?? [];
 
+/** A variable at the readings where the motion turns. @param {import("./types.js").Reversals} r
+ * @param {string} name @returns {(number | null)[]} */
+export const atReversals = (r, name) =>
+  ({ contraction: r.contraction, pressure: r.x_pressure, velocity: r.velocity, time: r.time, length: r.length })[
+    name
+  ] ?? [];
+
 /** Whether a variable changes within the series. @param {Series[]} all @param {string} name */
 export function varies(all, name) {
   let low = Infinity, high = -Infinity;

@@ -93,6 +93,14 @@ function legend() {
     h("li", null, h("i", { class: "dot" }), turns ? "lengthening" : "measured"),
     turns ? h("li", null, h("i", { class: "square" }), "shortening") : null,
     h("li", null, h("i"), "model", fitOf(a)),
+    a.reversals
+      ? h(
+        "li",
+        { title: figure("reversals.rows").definition },
+        h("i", { class: "reversal" }),
+        "reversal, range of friction",
+      )
+      : null,
     previous.value
       ? toggle(
         [h("span", { class: "wider" }, "one step\u00a0"), "before"],

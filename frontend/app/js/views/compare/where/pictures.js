@@ -82,6 +82,7 @@ export function viewOf(name, x) {
     system: units.value,
     brush: brush.value,
     noise: noiseOf(a, name),
+    reversals: a.reversals,
     picture: picture.value,
   };
 }

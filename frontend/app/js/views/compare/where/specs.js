@@ -4,7 +4,7 @@ import { inSentence } from "../../../facts.js";
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../../../plots/axes.js";
 import { capitalized, number, scaleOf, toShown } from "../../../format.js";
 import { pressureColour } from "../../../plots/theme.js";
-import { channelScale, channelWords, column, isInside, VARIABLES } from "../words.js";
+import { channelScale, atReversals, channelScale, channelWords, column, isInside, VARIABLES } from "../words.js";
 
 /** @typedef {import("../../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../../plots/chart.js").Trace} Trace */
@@ -16,7 +16,7 @@ import { channelScale, channelWords, column, isInside, VARIABLES } from "../word
  * with the data.
  * @typedef {{series: Series[], ghost: Series[], pinned: {name: string, series: Series[]}[], channel: string,
  *   unit: string, over: string, system: System, brush: Brush | null, noise: number | null,
- *   picture: string}} View */
+ *   reversals: import("../types.js").Reversals | null, picture: string}} View */
 
 /** A single series without a pressure: data and model then have different colours.
  * @param {Series[]} series */
@@ -100,7 +100,7 @@ export function overlaySpec(v, p) {
       column: name,
     });
   });
-  traces.push(points(v, p, tints, x, y));
+  traces.push(...ranges(v, p, x, y), points(v, p, tints, x, y));
   v.series.forEach((one, i) => {
     if (isScattered(one, v.over)) {
       traces.push({
@@ -129,7 +129,11 @@ export function overlaySpec(v, p) {
     }
   });
   const [xLow, xHigh] = extent(v.series.map((one) => x(column(one, v.over))));
-  const [low, high] = extent([...v.series.flatMap((one) => [y(one.measured), y(one.predicted)]), [0]]);
+  const [low, high] = extent([
+    ...v.series.flatMap((one) => [y(one.measured), y(one.predicted)]),
+    y(v.reversals?.measured ?? []),
+    [0],
+  ]);
   const name = capitalized(channelWords(v.channel));
   return {
     x: {
@@ -228,6 +232,32 @@ function points(v, p, tints, x, y) {
     },
     column: "measured",
   };
+}
+
+/** The range of friction at each reading where the motion turns, and the reading.
+ * @param {View} v @param {Palette} p
+ * @param {(values: (number | null)[]) => (number | null)[]} x
+ * @param {(values: (number | null)[]) => (number | null)[]} y @returns {Trace[]} */
+function ranges(v, p, x, y) {
+  const r = v.reversals;
+  if (!r) return [];
+  const at = x(atReversals(r, v.over)), low = y(r.low), high = y(r.high);
+  return [
+    {
+      id: "ranges",
+      x: at.flatMap((one) => [one, one, null]),
+      y: at.flatMap((_one, i) => [low[i], high[i], null]),
+      line: { color: p.line, width: 4 },
+      column: "range of friction",
+    },
+    {
+      id: "reversals",
+      x: at,
+      y: y(r.measured),
+      marker: { size: 7, symbol: "diamond-open", color: p.ink },
+      column: "at a reversal",
+    },
+  ];
 }
 
 /** @param {View} v the brush as a shaded zone, if its variable is the x axis */
