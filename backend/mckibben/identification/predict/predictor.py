@@ -124,8 +124,8 @@ class Reversals:
         if outside:
             told = f"{outside} lie outside of it, by up to {np.max(self.distance):.3g} N"
         return (
-            f"{rows} rows at reversals are counted apart: dry friction may have any value of its range there; "
-            f"{told}"
+            f"{rows} rows at reversals are counted apart: dry friction may have any value of its range "
+            f"there; {told}"
         )
 
     @staticmethod

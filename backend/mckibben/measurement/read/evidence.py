@@ -24,7 +24,8 @@ class Evidence(NamedTuple):
         headers: of all columns; ``apart``: their units in a row of their own.
         meaning: which columns are used.
         used: channel -> its column.
-        channels: channel -> values [SI]; of long tests every so manieth one, but times that follow each other.
+        channels: channel -> values [SI]; of long tests a choice, for time rows that follow each
+            other.
         numeric: whether a column that is not used holds numbers.
         pair: the numbers of two columns, row by row, None where they have none.
         labels: index of a column of words -> its words.
