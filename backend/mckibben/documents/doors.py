@@ -10,9 +10,11 @@ from __future__ import annotations
 import json
 import re
 from collections.abc import Mapping
-from dataclasses import fields, is_dataclass, replace
+from dataclasses import is_dataclass, replace
 from enum import Enum, auto
 from typing import Any, Literal, TypeVar, cast
+
+import numpy as np
 
 from mckibben.physics.errors import InputError
 
@@ -82,6 +84,7 @@ def error_in_words_of(door: Door, error: InputError) -> InputError:
 
 ResultT = TypeVar("ResultT")
 _PLAIN = (str, float, int)  # a list of these holds no results
+_NO_TEXT = frozenset({float, int, bool, type(None), np.ndarray})
 
 
 def result_in_words_of(door: Door, result: ResultT) -> ResultT:
@@ -91,14 +94,20 @@ def result_in_words_of(door: Door, result: ResultT) -> ResultT:
 
 def _reworded(door: Door, value: Any, *, corrects: bool = False) -> Any:
     """A value inside of a result; its texts are rewritten only where the field is one that corrects."""
+    if type(value) in _NO_TEXT:
+        return value
     if isinstance(value, str):
         said = in_words_of(door, value) if corrects else value
         return value if said == value else said
     if is_dataclass(value) and not isinstance(value, type):
         named: tuple[str, ...] = getattr(value, "CORRECTING", ())
-        old = {field.name: getattr(value, field.name) for field in fields(value)}
-        new = {name: _reworded(door, part, corrects=name in named) for name, part in old.items()}
-        changed = {name: part for name, part in new.items() if part is not old[name]}
+        changed = {}
+        for name in value.__dataclass_fields__:
+            old = getattr(value, name)
+            if type(old) not in _NO_TEXT:
+                new = _reworded(door, old, corrects=name in named)
+                if new is not old:
+                    changed[name] = new
         return replace(value, **changed) if changed else value
     if isinstance(value, list | tuple) and (corrects or not isinstance(next(iter(value), 0), _PLAIN)):
         parts = [_reworded(door, part, corrects=corrects) for part in value]

@@ -79,11 +79,13 @@ class Drive(Exportable):
         Problem: an unknown part, preset or effect (with the nearest match), or impossible values.
     """
 
-    __slots__ = ("_document", "_name", "_studio")
+    __slots__ = ("_checked", "_document", "_measured", "_name", "_studio")
 
     _document: DriveDocument
     _name: str
     _studio: Studio
+    _measured: bool
+    _checked: AnnotatedDrive
 
     @reported
     def __init__(
@@ -109,8 +111,11 @@ class Drive(Exportable):
         self._make(read_document(document, "the drive"), title or "the drive", studio())
 
     def _make(self, document: DriveDocument, name: str, of: Studio) -> None:
-        self._set(_document=document, _name=name, _studio=of)
-        drive_of(document, of, measured=document.command is None and document.controller is None)
+        measured = document.command is None and document.controller is None
+        self._set(
+            _document=document, _name=name, _studio=of, _measured=measured,
+            _checked=drive_of(document, of, measured=measured),
+        )  # fmt: skip
 
     @classmethod
     def of(cls, document: DriveDocument, name: str, of: Studio) -> Drive:
@@ -251,7 +256,7 @@ class Drive(Exportable):
         return LinearView.of(linear_view(question, Watch()), _name=self._title)
 
     def _annotated(self) -> AnnotatedDrive:
-        return drive_of(self._document, self._studio)
+        return drive_of(self._document, self._studio) if self._measured else self._checked
 
     def plot(self) -> Figure:
         """Position, pressure and force of a run; a Plotly figure."""

@@ -350,8 +350,7 @@ def test_sets_that_run_together_do_not_depend_on_their_group():
     for index in range(1, len(many.rows)):
         assert np.array_equal(many.rows[index], few.rows[1 + (index - 1) % len(free)])
     alone = changed(case, (), 0.0, 1e-5)
-    # To the last digits, which an impact enlarges, by how much depends on the processor (1e-7 with AVX-512,
-    # 2.4e-6 with AVX2): below the tolerance of 1e-5.
+    # To the last digits, which an impact enlarges (to 2.4e-6 with AVX2): below the tolerance of 1e-5.
     assert few.rows[0] == pytest.approx(alone.rows[0], rel=1e-5, abs=2e-7), "it runs as it does alone"
 
 
@@ -359,4 +358,4 @@ def test_no_sets():
     case = case_of("lift")
     found = case.many(np.zeros(0, int))
     assert found.rows.shape[0] == 0
-    assert lane_kernels.awaited().lanes in (2, 4, 8)
+    assert lane_kernels.awaited().lanes in (2, 4)

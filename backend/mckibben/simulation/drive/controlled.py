@@ -10,7 +10,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from mckibben.physics.drive_terms import COUNTER, INPUTS, OUTPUTS
+from mckibben.physics.drive_terms import COUNTER, INPUTS
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.segments import Segments
 from mckibben.simulation.drive.control_loop import ControlLoop, measured_position
@@ -32,7 +32,6 @@ from mckibben.simulation.outcome import MAX_STEPS, Watch
 # The kernel returns this often, to check whether the run is to continue.
 _SAMPLES_AT_ONCE = 1000
 _STEPS_A_SAMPLE = 4  # steps of a run for each of its samples, besides those of any run
-_MEASURED = OUTPUTS.index("stroke_reading")
 _PLACES = ("opening", "counter_opening", "external_force", "external_force_slope", "begin")
 
 
@@ -115,7 +114,7 @@ def _in_kernel(loop: ControlLoop) -> tuple[Solution, np.ndarray]:
     ], float)  # fmt: skip
     states = [state.name for state in compiled.model.states]
     pressures = (states.index("pressure"), states.index(f"pressure{COUNTER}" if drive.pair else "pressure"))
-    places = np.array([_MEASURED, *(INPUTS.index(name) for name in _PLACES), *pressures])
+    places = np.array([*(INPUTS.index(name) for name in _PLACES), *pressures])
     signals = (
         np.ascontiguousarray(loop.set_points, dtype=float),
         *(np.ascontiguousarray(column, dtype=float) for column in external),
@@ -134,7 +133,8 @@ def _in_kernel(loop: ControlLoop) -> tuple[Solution, np.ndarray]:
     alone = Alone(
         compiled, parameters=loop.parameters, tolerance=loop.tolerance, restitution=drive.restitution
     )
-    packed, values = np.zeros(compiled.codes.outputs.size), np.zeros(compiled.codes.outputs.width)
+    reading = compiled.codes.reading
+    packed, values = np.zeros(reading.size), np.zeros(reading.width)
     packed[compiled.size : compiled.size + len(alone.constants)] = alone.constants
     arguments = figures, loop.controller.constants, places, signals, memory, marks, queue, commands
     others = packed, values, _joint_of(loop), carrier
@@ -166,7 +166,7 @@ def _in_kernel(loop: ControlLoop) -> tuple[Solution, np.ndarray]:
             inputs=np.zeros((room, len(INPUTS))),
             grid=grid[written:upper],
             first_step=first_step,
-            measured=compiled.codes.outputs.address,
+            measured=reading.address,
             loop=(*arguments, *others),
             max_steps=MAX_STEPS + _STEPS_A_SAMPLE * samples - steps - rejected,
         )

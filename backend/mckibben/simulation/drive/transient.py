@@ -193,6 +193,8 @@ def before_of(drive: Drive, inputs: np.ndarray) -> np.ndarray:
 def held_interval(drive: Drive) -> tuple[float, float] | None:
     """Strokes [m] between which dry friction holds the load at the start; None where it holds it nowhere."""
     compiled = compiled_drive(drive.structure)
+    if not any(switch.slides for switch in compiled.model.switches):
+        return None
     inputs = np.zeros(len(INPUTS))
     inputs[INPUTS.index("external_force")] = float(external_force(drive).value(0.0))
     return held_between(drive, compiled, parameters_of(drive, compiled), inputs)

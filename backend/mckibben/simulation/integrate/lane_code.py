@@ -19,8 +19,6 @@ from mckibben.simulation.integrate.machine_code import engine_of, texts_of
 
 _LEVEL, _QUICK_LEVEL = 2, 0  # of LLVM's code generator
 _ALIGNED = 64  # bytes
-# Rows of 8 lanes are meant to be one register.
-_FEATURES = "-prefer-256-bit"
 
 Functions = Mapping[str, tuple[Sequence[Any], Sequence[Any]]]
 
@@ -83,7 +81,7 @@ def lane_code(
     texts = texts_of(functions, lane_writer(lanes), quick=quick)
     if plan is not None:
         texts = list(dict.fromkeys([*texts, *algebra_texts(plan, lanes)]))
-    engine = engine_of(texts, _QUICK_LEVEL if quick else _LEVEL, _FEATURES if lanes_of_machine() == 8 else "")
+    engine = engine_of(texts, _QUICK_LEVEL if quick else _LEVEL)
     sizes = {name: (len(arguments), len(results)) for name, (arguments, results) in functions.items()}
     if plan is not None:
         sizes |= {"factorise": (len(plan.places), plan.size), "solve": (plan.size, len(plan.places))}

@@ -80,23 +80,23 @@ def _issue_pulses(
 
 @njit(error_model="numpy")
 def next_segment(
-    outputs: int, t: float, segment: int, first: int, times: np.ndarray, inputs: np.ndarray, loop: Any
+    reading: int, t: float, segment: int, first: int, times: np.ndarray, inputs: np.ndarray, loop: Any
 ) -> bool:
     """Write the segment that begins at t; False if the last sample is over.
 
     Args:
-        outputs: address of the outputs of one set.
+        reading: address of what the position sensor reads of one set.
         segment: its number.
         first: number of states and constants.
         times, inputs: of the segments, shapes (1, segments + 1) and (1, segments, inputs).
         loop: duration, dead times of opening and closing, lever ratio, the second muscle's command at command
             0 and its change with the command, and the number of muscles; the constants of
-            `mckibben.simulation.command.pid.PidController`; places of the measured output, of the inputs
+            `mckibben.simulation.command.pid.PidController`; places of the inputs
             opening, counter_opening, external_force, its slope and begin, and of the pressures of both
             muscles among the states; set point of every sample, and times, start values and slopes of the
             external force; ``memory``; ``marks``; pending openings of each muscle, rows (instant, opening);
             openings that became active, rows (instant, first, second); arguments of one set (states and
-            constants are given); room for the outputs; of the stiffness controller of a joint (`NO_JOINT`
+            constants are given); room for the reading; of the stiffness controller of a joint (`NO_JOINT`
             without one) the set point of every sample, ambient pressure, first and step of the strokes of the
             table and the arguments of `mckibben.simulation.command.joint.common_command` from ``radius`` on,
             and the table; constants of the carrier, none without one.
@@ -114,8 +114,8 @@ def next_segment(
         now = sample * period
         memory[SAMPLE_END] = min((sample + 1) * period, duration)
         packed[first:] = 0.0
-        call(outputs, values.ctypes.data, packed.ctypes.data)
-        measured = values[places[0]] / lever
+        call(reading, values.ctypes.data, packed.ctypes.data)
+        measured = values[0] / lever
         command, memory[INTEGRAL], memory[RATE] = _pid_step(
             set_points[sample], measured, memory[INTEGRAL], memory[RATE], memory[MEASURED], *gains
         )
@@ -125,7 +125,7 @@ def next_segment(
             ambient, low, step, radius, full, room, kp, grown, regulated = law
             stroke = measured * lever
             common, memory[STIFFNESS] = _common_command(
-                command, wanted[sample], packed[places[6]] - ambient, packed[places[7]] - ambient,
+                command, wanted[sample], packed[places[5]] - ambient, packed[places[6]] - ambient,
                 _interpolated(stroke, low, step, table[0]), _interpolated(stroke, low, step, table[1]),
                 _interpolated(stroke, low, step, table[2]), memory[STIFFNESS], radius, full, room, kp, grown,
                 regulated,
@@ -158,9 +158,9 @@ def next_segment(
     times[0, segment], times[0, segment + 1] = now, limit
     for i in range(inputs.shape[2]):
         inputs[0, segment, i] = 0.0
-    inputs[0, segment, places[1]] = memory[ACTIVE]
-    inputs[0, segment, places[2]] = memory[ACTIVE + 1]
-    inputs[0, segment, places[3]] = forces[piece] + force_slopes[piece] * (now - force_times[piece])
-    inputs[0, segment, places[4]] = force_slopes[piece]
-    inputs[0, segment, places[5]] = now
+    inputs[0, segment, places[0]] = memory[ACTIVE]
+    inputs[0, segment, places[1]] = memory[ACTIVE + 1]
+    inputs[0, segment, places[2]] = forces[piece] + force_slopes[piece] * (now - force_times[piece])
+    inputs[0, segment, places[3]] = force_slopes[piece]
+    inputs[0, segment, places[4]] = now
     return True

@@ -221,7 +221,7 @@ def rodas4_lanes(
         statuses: of each set a `Status`.
         max_steps: of a set.
         together: the sets run in groups of LANES; those of a group take the steps of its first.
-        measured: address of the outputs of one set under a sampled controller, which writes times and inputs
+        measured: address of the reading of one set under a sampled controller, which writes times and inputs
             as it goes; 0 without one.
         loop: see `mckibben.simulation.integrate.lane_controller.next_segment`.
         arrays: room of `attempt`, twice the Jacobian, arguments, arguments of rows, dense output, arguments

@@ -132,13 +132,13 @@ def _nested() -> Iterator[None]:
         sys.setrecursionlimit(usual)
 
 
-def engine_of(texts: Sequence[str], level: int, features: str = "") -> Any:
-    """The compiled code of texts, for this machine; ``features`` are added to those of its processor."""
+def engine_of(texts: Sequence[str], level: int) -> Any:
+    """The compiled code of texts, for this machine."""
     import llvmlite
     import llvmlite.binding as llvm
 
-    text, target = "\n".join(texts), _host(level, features)
-    key = f"{llvmlite.__version__} {target.triple} {level} {features}\n{text}".encode()
+    text, target = "\n".join(texts), _host(level)
+    key = f"{llvmlite.__version__} {target.triple} {level}\n{text}".encode()
     code = kept(key)
     if code is not None:
         engine = llvm.create_mcjit_compiler(llvm.parse_assembly(""), target)
@@ -163,12 +163,12 @@ def _ready() -> Any:
     return llvm.Target.from_default_triple()
 
 
-def _host(level: int, more: str) -> Any:
+def _host(level: int) -> Any:
     """A target machine; each compilation needs a new one."""
     import llvmlite.binding as llvm
 
     target = _ready()
-    features = ",".join(filter(None, (llvm.get_host_cpu_features().flatten(), more)))
+    features = llvm.get_host_cpu_features().flatten()
     return target.create_target_machine(cpu=llvm.get_host_cpu_name(), features=features, opt=level)
 
 

@@ -22,6 +22,8 @@ from mckibben.simulation.integrate.machine_code import Function, machine_code
 
 # The state that is time.
 _CLOCK = "clock"
+# The output that a sampled controller measures.
+_READING = "stroke_reading"
 
 
 @dataclass(frozen=True)
@@ -61,8 +63,19 @@ class Codes:
         Raises:
             InputError: a typed term among the effects cannot be compiled.
         """
+        return self._compiled("jacobian")
+
+    @cached_property
+    def reading(self) -> Function:
+        """-> what the position sensor reads, alone: a sampled controller asks for it in every sample.
+
+        Compiled when first used.
+        """
+        return self._compiled("reading")
+
+    def _compiled(self, name: str) -> Function:
         with COMPILING, blamed_on_the_term(self.effects):
-            return machine_code(self._wanted, level=self._level)["jacobian"]
+            return machine_code({name: self._wanted[name]}, level=self._level)[name]
 
 
 @dataclass(frozen=True)
@@ -254,8 +267,10 @@ def compile_system(
         "guards": (arguments, guards),
         "jacobian": (arguments, [*rates, *derivatives, *guards]),
     }
+    codes = machine_code({n: each for n, each in functions.items() if n != "jacobian"}, level=level)
     wanted = {"jacobian": functions["jacobian"]}
-    codes = machine_code({n: each for n, each in functions.items() if n not in wanted}, level=level)
+    if _READING in model.output_names:
+        wanted["reading"] = (arguments, [outputs[model.output_names.index(_READING)]])
     return CompiledDrive(
         model,
         Codes(

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from math import ceil
 from typing import ClassVar, Literal
 
@@ -71,6 +72,12 @@ def grid_of(*, duration: float, begin: float, end: float, points: int, jumps: Se
         jumps: times that get a row as well, where they lie within and are few beside the others, so that a
             command that is held between rows is the command of the run.
     """
+    return _grid_of(duration, begin, end, points, tuple(jumps))
+
+
+@lru_cache(maxsize=32)
+def _grid_of(duration: float, begin: float, end: float, points: int, jumps: tuple[float, ...]) -> Grid:
+    """`grid_of`: a drive that is run again, or with other values, has the grid that it had."""
     step = time_step(duration)
     finer = max(1, ceil((end - begin) / (points - 1) / step - 1e-9))
     inner = np.linspace(begin, end, finer * (points - 1) + 1)
@@ -81,7 +88,9 @@ def grid_of(*, duration: float, begin: float, end: float, points: int, jumps: Se
     more = np.array([t for t in jumps if begin < t < end])
     if 0 < len(more) <= _JUMPS * points:
         shown, time = (_with_times(grid, more, _SAME_TIME * duration) for grid in (shown, time))
-    return Grid(time, np.searchsorted(time, shown))
+    rows = np.searchsorted(time, shown)
+    time.flags.writeable = rows.flags.writeable = False
+    return Grid(time, rows)
 
 
 def _with_times(grid: Array, times: Array, near: float) -> Array:
@@ -177,8 +186,9 @@ def _with_events(columns: dict[str, Array], events: list[Event], run: Run) -> di
     if not events:
         return columns
     # A row of the instant of an event is that before it: the new rows replace it.
-    keep = ~np.isin(columns["time"], instants)
-    columns = {name: column[keep] for name, column in columns.items()}
+    at = np.searchsorted(columns["time"], instants)
+    if (there := columns["time"][at] == instants).any():
+        columns = {name: np.delete(column, at[there]) for name, column in columns.items()}
     time, lever = columns["time"], run.drive.load.lever_ratio
     after = np.searchsorted(time, instants)
     before = after - 1

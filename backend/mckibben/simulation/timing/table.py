@@ -427,11 +427,9 @@ class _Motion:
                 high = u
             slope = 6.0 * u * w * (s1 - s0) + width * (w * (1.0 - 3.0 * u) * v0 + u * (1.0 - 3.0 * w) * v1)
             following = u + (level - here) / slope if slope != 0.0 else low
-            if not low < following < high:
-                following = 0.5 * (low + high)
             if abs(following - u) < 1e-15:
                 break
-            u = following
+            u = following if low < following < high else 0.5 * (low + high)
         return t0 + u * width
 
     def _linear_first(self, passed: Array, level: float) -> float:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import Field, dataclass, fields, replace
+from copy import copy
+from dataclasses import Field, dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -93,14 +94,17 @@ class Trace:
             return None
         ends = np.array([start, end])
         before = np.searchsorted(self.time, ends, side="right") - 1
-        columns = {}
+        columns: dict[str, Any] = {}
         for item in _columns(self):
             column = getattr(self, item.name)
             whole = column.dtype != np.float64
             outer = column[before] if whole else np.interp(ends, self.time, column)
             columns[item.name] = np.concatenate([outer[:1], column[first:last], outer[1:]])
-        impacts = tuple(impact for impact in self.impacts if start < impact.time < end)
-        return replace(self, **columns, impacts=impacts)
+        columns["impacts"] = tuple(impact for impact in self.impacts if start < impact.time < end)
+        part = copy(self)  # rows of a sound trace are sound
+        for name, column in columns.items():
+            object.__setattr__(part, name, column)
+        return part
 
 
 def _columns(trace: Trace) -> list[Field[Any]]:
