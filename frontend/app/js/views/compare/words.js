@@ -106,7 +106,13 @@ export const column = (s, name) => VARIABLES[name]?.of(s) ?? [];
 /** A variable at the readings where the motion turns. @param {import("./types.js").Reversals} r
  * @param {string} name @returns {(number | null)[]} */
 export const atReversals = (r, name) =>
-  ({ contraction: r.contraction, pressure: r.x_pressure, velocity: r.velocity, time: r.time, length: r.length })[
+  ({
+    contraction: r.contraction,
+    pressure: r.x_pressure,
+    velocity: r.velocity,
+    time: r.time,
+    length: r.length,
+  })[
     name
   ] ?? [];
 

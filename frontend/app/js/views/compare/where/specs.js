@@ -4,7 +4,7 @@ import { inSentence } from "../../../facts.js";
 import { axisTitle, extent, shown, steadyRange, steadyX } from "../../../plots/axes.js";
 import { capitalized, number, scaleOf, toShown } from "../../../format.js";
 import { pressureColour } from "../../../plots/theme.js";
-import { channelScale, atReversals, channelScale, channelWords, column, isInside, VARIABLES } from "../words.js";
+import { atReversals, channelScale, channelWords, column, isInside, VARIABLES } from "../words.js";
 
 /** @typedef {import("../../../plots/chart.js").Spec} Spec */
 /** @typedef {import("../../../plots/chart.js").Trace} Trace */
