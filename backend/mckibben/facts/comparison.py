@@ -156,7 +156,7 @@ REVERSALS = Group(
         _REVERSALS, quantity="number",
     ),
     Figure("low", "F₁", "N", "Least force at a reversal", "Force of the shortening muscle.", _REVERSALS),
-    Figure("high", "F₂", "N", "Greatest force at a reversal", "Force of the lengthening muscle.", _REVERSALS),
+    Figure("high", "F₂", "N", "Larger force at a reversal", "Force of the lengthening muscle.", _REVERSALS),
     Figure(
         "distance", "", "N", "Distance from the range of friction",
         "max(F₁ − F, F − F₂, 0); the largest one of all readings.", _REVERSALS,

@@ -77,7 +77,7 @@ class ComparedReversals:
     low: Series
     """The least force that the model allows."""
     high: Series
-    """The greatest one."""
+    """The most that it allows."""
 
 
 @dataclass(frozen=True, slots=True)
