@@ -57,3 +57,20 @@ def test_what_settles_stays_within_its_band() -> None:
         rows = (found.time >= step.time + step.settling_time + 2e-3) & (found.time < step.time + 0.999)
         level = found.reference[np.searchsorted(found.time, step.time)]
         assert np.all(np.abs(found.position[rows] - level) <= 0.0201 * abs(step.size))
+
+
+def test_a_limit_cycle_about_a_moving_reference_is_no_lack_of_gain() -> None:
+    """A regulator's delay and an integral part: the loop swings by itself, much faster than the reference."""
+    found = mk.Drive(
+        muscle="DMSP-20:300mm", valve="VPPM-6", supply="6 bar", load={"mass": "20 kg"}, duration="10 s",
+        controller={"kp": 1.0, "ki": 20.0, "reference": {"shape": "sine", "offset": "20 mm",
+                    "amplitude": "8 mm", "period": "10 s"}},
+    ).run()  # fmt: skip
+    late = found.time > 5.0
+    error = (found.reference - found.position)[late]
+    power = np.abs(np.fft.rfft((error - error.mean()) * np.hanning(len(error)), 16 * len(error)))
+    frequency = np.fft.rfftfreq(16 * len(error), found.time[1] - found.time[0])[np.argmax(power)]
+    assert frequency > 1.0
+    assert found.tracking.state in ("swings", "unstable")
+    assert float(found.tracking.verdict.split(" at ")[1].split(" Hz")[0]) == pytest.approx(frequency, rel=0.05)
+    assert "lower the gains" in (found.tracking.advice or "")

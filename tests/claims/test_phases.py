@@ -52,3 +52,18 @@ def test_no_air_is_negative() -> None:
         for phase in (timing.extend, timing.retract):
             for mass in (phase.supplied_mass, phase.vented_mass):
                 assert mass is None or mass >= 0.0
+
+
+def test_a_stop_beyond_the_demanded_stroke_is_no_arrival() -> None:
+    """Demanded are 30 mm; the load goes on to its stop at 60 mm and stays there."""
+    found = mk.Drive(
+        muscle="DMSP-20:300mm", valve="MPYE-5-1/4", supply="6 bar", load={"mass": "10 kg"}, duration="2 s",
+        stops={"max_contraction": "20 %"},
+        controller={"kp": 50.0, "ki": 0.0, "output_min": 0.9, "output_max": 1.0,
+                    "reference": {"shape": "step", "at": "0 s", "level": "30 mm"}},
+    ).run()  # fmt: skip
+    fill = found.timing.extend
+    assert found.position[-1] == pytest.approx(0.06, abs=1e-4)
+    assert fill.positioning_time is None
+    assert fill.settling_time is None
+    assert fill.state == "never_arrived"

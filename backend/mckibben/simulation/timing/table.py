@@ -291,7 +291,11 @@ class _Motion:
             settled = self.settled
             arrival, travelled = self._first((1.0 - self.band) * stroke), (1.0 - self.band) * stroke
             why = unsettled = _SETTLES
-            on_stop = stop is not None and stop - self.reached <= self.band * stop
+            on_stop = (
+                stop is not None
+                and stop - self.reached <= self.band * stop
+                and not (self.demanded and abs(stop - stroke) > self.band * stroke)
+            )
             if self.demanded:
                 best = 1e3 * float(self.travel.max())
                 why = unsettled = f"{best:.3g} mm of the {1e3 * stroke:.3g} mm are reached, or not kept"

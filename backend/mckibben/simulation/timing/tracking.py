@@ -6,9 +6,10 @@ last tenth of its time on. Else it *swings* (two even periods in the second half
 where they grow), or the load rests: *beside* the level, with the command at its limit or the muscle at full
 pressure (*saturates*), on an end stop (*on the stop*), or beyond the level with a muscle that is vented and
 cannot push it back (*cannot return*); or it still *moves*. A run under steps is as good as its worst one.
-Where the reference moves all the time the run *tracks* if the RMS error is at most 5 % of the range of the
-reference, *saturates* if it is not and the command is at its limits for a fifth of the time or more, and
-*deviates* otherwise.
+Where the reference moves all the time the run *swings* about it (*unstable* where that grows) if the error
+of its second half has even periods, at least twice as many as the reference turns there and back, and more
+than 1 % of its range; it *tracks* if the RMS error is at most 5 % of the range of the reference, *saturates*
+if it is not and the command is at its limits for a fifth of the time or more, and *deviates* otherwise.
 """
 
 from __future__ import annotations
@@ -23,7 +24,7 @@ from mckibben.facts.linear import SETTLING_BAND
 from mckibben.facts.result import result_class
 from mckibben.facts.run import STEP, TRACKING
 from mckibben.facts.timing import SETTLED_BEFORE
-from mckibben.simulation.timing.swing import swing_of
+from mckibben.simulation.timing.swing import Swing, swing_of
 
 Array = NDArray[np.float64]
 
@@ -43,6 +44,7 @@ _TRACKS = 0.05  # of the range of the reference
 _SATURATED, _LIMITED = 0.2, 0.9  # shares of the time with the command at its limits
 _VENTED = 0.01  # of the largest pressure
 _GROWS = 1.02  # of the amplitude from period to period
+_OWN = 2.0  # frequency of a swing about a moving reference, in that of the reference
 _SMALLEST = 1e-5  # m; a smaller step is none
 _SEEN = 5e-4  # least swing, as a share of the step; the settling band is 40 times as wide
 
@@ -202,6 +204,11 @@ def _of_motion(followed: Followed, rms: float, largest: float, lag: float | None
             state,
             f"the reference does not change; the load is at most {largest * 1e3:.3g} mm away from it",
         )
+    if (swing := _about(followed, size)) is not None:
+        said = f"±{swing.amplitude * 1e3:.3g} mm at {swing.frequency:.3g} Hz, RMS error {rms * 1e3:.3g} mm of "
+        more = "unstable" if swing.growth > _GROWS else "swings"
+        words = "swings more and more about the reference" if more == "unstable" else "swings about the reference"
+        return more, f"the load {words} to the end: {said}{size * 1e3:.4g} mm"
     limited = followed.at_limits(slice(None))
     state = "tracks" if rms <= _TRACKS * size else "saturates" if limited >= _SATURATED else "deviates"
     words = {"tracks": "follows", "saturates": "does not follow", "deviates": "does not follow"}[state]
@@ -210,10 +217,23 @@ def _of_motion(followed: Followed, rms: float, largest: float, lag: float | None
         f"{size * 1e3:.4g} mm ({100.0 * rms / size:.3g} %), at most {largest * 1e3:.3g} mm"
     )
     if lag is not None:
-        text += f", {lag * 1e3:.3g} ms late"
+        text += f", {lag * 1e3:.4g} ms late"
     if state == "saturates":
         text += f"; the command is at its limits for {100.0 * limited:.3g} % of the time"
     return state, text
+
+
+def _about(followed: Followed, size: float) -> Swing | None:
+    """The swing of the error of the second half that is the loop's own and not the reference's."""
+    t, r = followed.time, followed.reference
+    half = t >= 0.5 * (t[0] + t[-1])
+    swing = swing_of(t[half], (r - followed.position)[half])
+    if swing is None or swing.amplitude <= 0.5 * SETTLING_BAND * size:
+        return None
+    pace = np.diff(r[half])
+    signs = np.sign(pace[np.abs(pace) > 1e-9 * size])
+    turns = np.count_nonzero(np.diff(signs)) / (t[-1] - t[half][0])
+    return swing if swing.frequency >= _OWN * 0.5 * turns else None
 
 
 def _advice(state: FollowState, followed: Followed) -> str | None:
