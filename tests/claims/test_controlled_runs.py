@@ -72,5 +72,7 @@ def test_a_limit_cycle_about_a_moving_reference_is_no_lack_of_gain() -> None:
     frequency = np.fft.rfftfreq(16 * len(error), found.time[1] - found.time[0])[np.argmax(power)]
     assert frequency > 1.0
     assert found.tracking.state in ("swings", "unstable")
-    assert float(found.tracking.verdict.split(" at ")[1].split(" Hz")[0]) == pytest.approx(frequency, rel=0.05)
+    assert float(found.tracking.verdict.split(" at ")[1].split(" Hz")[0]) == pytest.approx(
+        frequency, rel=0.05
+    )
     assert "lower the gains" in (found.tracking.advice or "")

@@ -227,3 +227,16 @@ def test_every_property_is_explained(http: Reading, document: dict[str, Any]) ->
             assert field["description"] in shown, f"{name}.{key}"
             if "unit" in field:
                 assert field["unit"] in shown
+
+
+def test_the_help_lists_the_misprints_that_presets_state(client: TestClient) -> None:
+    """Each word for word, under the title of its preset."""
+    text = " ".join(Reading(client.get("/help").text).text)
+    stated = 0
+    for kind in ("designs", "drives", "muscles", "valves"):
+        for preset in client.get(f"/api/presets/{kind}").json()["presets"]:
+            for misprint in preset["misprints"]:
+                stated += 1
+                assert preset["title"] in text
+                assert misprint in text
+    assert stated > 5

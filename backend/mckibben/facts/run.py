@@ -146,6 +146,11 @@ RUN = Group(
         "weight", "", "N", "Weight along the motion",
         "m g sin(inclination) of the mass of the load, positive against the contraction.",
     ),
+    Figure("spring", "", "N/m", "Spring at the load", "Stiffness of the spring against the contraction."),
+    Figure(
+        "lever_ratio", "", "1", "Lever ratio", "Stroke of the muscle per stroke of the load.",
+        quantity="number",
+    ),
     Figure("duration", "", "s", "Duration", "Duration of the whole run."),
     Figure(
         "supplied_volume_anr", "V_ANR", "m^3", "Air taken from the supply (ANR)",

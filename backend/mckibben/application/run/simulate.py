@@ -289,6 +289,8 @@ class SimulationResult:
     model: EffectSettings
     """The effects used, with all their values."""
     weight: float
+    spring: float
+    lever_ratio: float
     duration: float
     supplied_volume_anr: float | None
     conditions: dict[str, str]
@@ -435,6 +437,8 @@ def result_of(
         geometry=geometry_of(annotated.start),
         model=settings_of(drive.model, annotated.start),
         weight=drive.load.mass * GRAVITY * float(np.sin(drive.load.inclination)),
+        spring=drive.load.spring,
+        lever_ratio=drive.load.lever_ratio,
         duration=drive.duration,
         supplied_volume_anr=None if trace is None else float(np.ptp(trace.supplied)) / ANR_DENSITY,
         conditions=_conditions(annotated),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Mapping, Sequence
 
 from mckibben.report.html import Child, Html, html, tag
 
@@ -75,11 +75,28 @@ def entry(anchor: str, name: str, *below: Child) -> Html:
     return tag("li", inner, tag("ul", *below) if below else None)
 
 
-def overview(version: str) -> str:
-    """The page that leads to the others."""
+def overview(version: str, misprints: Mapping[str, Sequence[str]]) -> str:
+    """The page that leads to the others.
+
+    Args:
+        version: of the program.
+        misprints: title of a preset -> what its source prints there and cannot be right, with what is.
+    """
+    sources = (
+        tag("h2", "Misprints of the sources"),
+        tag("p", "Where a source prints what cannot be right, the presets that follow it say what is:"),
+        tag(
+            "dl",
+            *(
+                html(tag("dt", title), *(tag("dd", words) for words in found))
+                for title, found in misprints.items()
+            ),
+        ),
+    )
     return page(
         "Help",
         tag("p", f"mckibben {version} can be used in four ways. All give the same answers."),
         tag("dl", *(html(tag("dt", name), tag("dd", words)) for name, words in _WAYS)),
+        *(sources if misprints else ()),
         path="/help",
     )

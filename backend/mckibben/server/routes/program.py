@@ -20,6 +20,7 @@ from mckibben.report.reference.http import http_reference
 from mckibben.report.reference.page import overview
 from mckibben.report.reference.python import python_reference, start_of
 from mckibben.server.answer import JsonAnswer, StrictRoute
+from mckibben.server.context import StudioDep
 from mckibben.server.schemas.common import errors
 from mckibben.simulation.integrate.background import is_compiling
 from mckibben.version import __version__
@@ -147,9 +148,12 @@ def describe(request: Request) -> JsonAnswer:
 
 # In worker threads: the first request of each page writes it.
 @help_router.get("")
-def read_help() -> HTMLResponse:
-    """Where the references are."""
-    return HTMLResponse(overview(__version__), headers=_REVALIDATE)
+def read_help(studio: StudioDep) -> HTMLResponse:
+    """Where the references are, and the misprints of the sources that presets follow."""
+    library = studio.library
+    presets = [each for kind in library.kinds for each in library.list(kind)]
+    misprints = {each.heading: each.misprints for each in presets if each.misprints}
+    return HTMLResponse(overview(__version__, misprints), headers=_REVALIDATE)
 
 
 @help_router.get("/python")

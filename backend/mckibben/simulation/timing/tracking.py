@@ -205,9 +205,13 @@ def _of_motion(followed: Followed, rms: float, largest: float, lag: float | None
             f"the reference does not change; the load is at most {largest * 1e3:.3g} mm away from it",
         )
     if (swing := _about(followed, size)) is not None:
-        said = f"±{swing.amplitude * 1e3:.3g} mm at {swing.frequency:.3g} Hz, RMS error {rms * 1e3:.3g} mm of "
+        said = (
+            f"±{swing.amplitude * 1e3:.3g} mm at {swing.frequency:.3g} Hz, RMS error {rms * 1e3:.3g} mm of "
+        )
         more = "unstable" if swing.growth > _GROWS else "swings"
-        words = "swings more and more about the reference" if more == "unstable" else "swings about the reference"
+        words = (
+            "swings more and more about the reference" if more == "unstable" else "swings about the reference"
+        )
         return more, f"the load {words} to the end: {said}{size * 1e3:.4g} mm"
     limited = followed.at_limits(slice(None))
     state = "tracks" if rms <= _TRACKS * size else "saturates" if limited >= _SATURATED else "deviates"

@@ -11,7 +11,7 @@ import { openDialog } from "../../../ui/dialog.js";
 import { dataTable, downloadText, toCsv } from "../../../ui/table.js";
 import { extent } from "../../../plots/axes.js";
 import { row, span } from "../cursor.js";
-import { lookTransient, numberAt, run, transient } from "../model.js";
+import { lookTransient, run, transient } from "../model.js";
 import { isSteady, phaseSpec, phaseTable } from "./phase.js";
 import { plot } from "./plot.js";
 
@@ -21,13 +21,6 @@ export const phase = plot(
   "Contraction over pressure, with the static equilibrium",
 );
 
-/** The static load without the external force, which is a column of the run.
- * @type {import("../../../reactive.js").Signal<{weight: number, spring: number, ratio: number}>} */
-const load = computed(() => ({
-  weight: run.value?.weight ?? 0,
-  spring: numberAt("load.spring") ?? 0,
-  ratio: numberAt("load.lever_ratio") ?? 1,
-}));
 const zoom = computed(() => transient.value.phase);
 
 /** Drawn when the run or the display changes. */
@@ -46,7 +39,7 @@ export function drawPhase() {
 export function phaseNote() {
   const answer = run.value, system = units.value;
   if (!answer) return null;
-  const { weight, spring, ratio } = load.peek();
+  const { weight, spring, lever_ratio: ratio } = answer;
   const [least, most] = extent([answer.load_force]), steady = isSteady(answer);
   const force = (/** @type {number} */ si) => withUnit(si, "force", system);
   const loads = [
