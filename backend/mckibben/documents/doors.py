@@ -83,7 +83,7 @@ def error_in_words_of(door: Door, error: InputError) -> InputError:
 
 
 ResultT = TypeVar("ResultT")
-_PLAIN = (str, float, int)  # a list of these holds no results
+_PLAIN = (str, float, int)  # a list or mapping of these holds no results
 _NO_TEXT = frozenset({float, int, bool, type(None), np.ndarray})
 
 
@@ -109,7 +109,10 @@ def _reworded(door: Door, value: Any, *, corrects: bool = False) -> Any:
                 if new is not old:
                     changed[name] = new
         return replace(value, **changed) if changed else value
-    if isinstance(value, list | tuple) and (corrects or not isinstance(next(iter(value), 0), _PLAIN)):
+    inside = value.values() if isinstance(value, Mapping) else value if isinstance(value, list | tuple) else ()
+    if not corrects and isinstance(next(iter(inside), 0), _PLAIN):
+        return value
+    if isinstance(value, list | tuple):
         parts = [_reworded(door, part, corrects=corrects) for part in value]
         same = all(new is old for new, old in zip(parts, value, strict=True))
         return value if same else parts if isinstance(value, list) else tuple(parts)

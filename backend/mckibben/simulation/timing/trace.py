@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from copy import copy
-from dataclasses import Field, dataclass, fields
+from dataclasses import dataclass, fields
 from typing import Any
 
 import numpy as np
@@ -72,17 +72,17 @@ class Trace:
             "tube_charge": np.zeros(len(self.time)),
         }
         kinds = {"contact": np.bool_, "choked": np.int_}
-        for item in _columns(self):
-            stated = getattr(self, item.name)
-            if stated is None and item.name in ("supplied", "vented"):
-                rate = self.supply_mass_flow if item.name == "supplied" else self.exhaust_mass_flow
+        for name in _COLUMNS:
+            stated = getattr(self, name)
+            if stated is None and name in ("supplied", "vented"):
+                rate = self.supply_mass_flow if name == "supplied" else self.exhaust_mass_flow
                 steps = 0.5 * np.diff(self.time) * (rate[1:] + rate[:-1])
                 stated = np.concatenate([[0.0], np.cumsum(steps)])
-            column = np.asarray(absent[item.name] if stated is None else stated)
-            column = column.astype(kinds.get(item.name, np.float64), copy=False)
+            column = np.asarray(absent[name] if stated is None else stated)
+            column = column.astype(kinds.get(name, np.float64), copy=False)
             if column.shape != (len(self.time),) or not np.isfinite(column).all():
-                raise ValueError(f"{item.name}: {len(self.time)} finite values are needed")
-            object.__setattr__(self, item.name, column)
+                raise ValueError(f"{name}: {len(self.time)} finite values are needed")
+            object.__setattr__(self, name, column)
         if len(self.time) < 2 or not (np.diff(self.time) > 0.0).all():
             raise ValueError("time: two or more ascending values are needed")
 
@@ -93,20 +93,25 @@ class Trace:
         if not end > start or last <= first:
             return None
         ends = np.array([start, end])
-        before = np.searchsorted(self.time, ends, side="right") - 1
+        at = np.searchsorted(self.time, ends, side="right") - 1
+        before = np.minimum(at, len(self.time) - 2)
+        share = (ends - self.time[before]) / (self.time[before + 1] - self.time[before])
         columns: dict[str, Any] = {}
-        for item in _columns(self):
-            column = getattr(self, item.name)
-            whole = column.dtype != np.float64
-            outer = column[before] if whole else np.interp(ends, self.time, column)
-            columns[item.name] = np.concatenate([outer[:1], column[first:last], outer[1:]])
+        for name in _COLUMNS:
+            column = getattr(self, name)
+            part = np.empty(last - first + 2, column.dtype)
+            part[1:-1] = column[first:last]
+            if column.dtype == np.float64:
+                part[[0, -1]] = column[before] * (1.0 - share) + column[before + 1] * share
+            else:
+                part[[0, -1]] = column[at]
+            columns[name] = part
+        columns["time"][[0, -1]] = ends
         columns["impacts"] = tuple(impact for impact in self.impacts if start < impact.time < end)
-        part = copy(self)  # rows of a sound trace are sound
-        for name, column in columns.items():
-            object.__setattr__(part, name, column)
-        return part
+        window = copy(self)  # rows of a sound trace are sound
+        window.__dict__.update(columns)
+        return window
 
 
-def _columns(trace: Trace) -> list[Field[Any]]:
-    """The fields that are columns of this trace."""
-    return [item for item in fields(trace) if item.name not in ("impacts", "from_states")]
+#: The fields that are columns.
+_COLUMNS = tuple(each.name for each in fields(Trace) if each.name not in ("impacts", "from_states"))
