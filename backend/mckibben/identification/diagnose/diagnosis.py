@@ -556,4 +556,4 @@ def _final_fit(best: FittedModel) -> FitResult | None:
         return None
     # The numbers are those of the model, which is at its minimum: what is reported and what is saved agree.
     numbers = np.array([p.start for p in best.free])
-    return fit_report(numbers, best.jacobian, -best.residual, best.free)
+    return fit_report(numbers, best.jacobian, -best.residual, best.free, noise_lines=best.noise_lines)
