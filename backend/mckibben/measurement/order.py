@@ -127,7 +127,9 @@ def _ways(moved: Array, span: float) -> Array:
     ends = [0, *np.flatnonzero(turning_points(moved, threshold=threshold)).tolist(), len(moved) - 1]
     for begin, end in pairwise(ends):
         ways[begin + 1 : end + 1] = np.sign(moved[end] - moved[begin])
-    return ways
+    # A reading that is taken twice has the way of the first.
+    changes = np.concatenate([[True], np.diff(moved) != 0.0])
+    return ways[np.maximum.accumulate(np.where(changes, np.arange(len(moved)), 0))]
 
 
 def _agree(stated: Array, found: Array) -> bool:
