@@ -57,6 +57,7 @@ from mckibben.identification.diagnose.words import (
     left_out_sentence,
     repeats,
     sentence_of,
+    superfluous_sentence,
     title_of,
     where_to_look,
 )
@@ -287,6 +288,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
             CorrectionResult(item.effect, item.before, item.after, item.probability, item.kept)
             for item in diagnosis.corrections
         ],
+        superfluous=[item.effect for item in diagnosis.superfluous],
         unexplained_share=unexplained_share(
             diagnosis.status, diagnosis.best, diagnosis.noise, diagnosis.structure
         ),
@@ -306,6 +308,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
                 sentence_of(diagnosis, catalogue),
                 bounds,
                 corrections_sentence(diagnosis, titles),
+                superfluous_sentence(diagnosis, titles),
                 left_out_sentence(diagnosis),
             )
             if text

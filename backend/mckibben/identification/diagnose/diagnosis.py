@@ -37,6 +37,7 @@ from mckibben.identification.diagnose.steps import (
     path_to,
     single_addition,
 )
+from mckibben.identification.diagnose.superfluous import Superfluous, superfluous
 from mckibben.identification.diagnose.supported import supported
 from mckibben.identification.diagnose.twins import Alternative, likeliest, same, same_predictions
 from mckibben.identification.diagnose.verdict import (
@@ -134,6 +135,7 @@ class Diagnosis:
         context: entries that may be wrong instead, the most convincing first.
         absorbed: reading errors within the stated accuracy that explain a part of the residual.
         corrections: effects that lower the error but are not called missing.
+        superfluous: effects of the start model that the data do not need.
         evidence: of each effect of the best model.
         weights: of the models that the search visited.
         left_out: of several specimens, each predicted by the best model fitted to the others.
@@ -169,6 +171,7 @@ class Diagnosis:
     context: tuple[WrongEntry, ...] = ()
     absorbed: tuple[AbsorbedError, ...] = ()
     corrections: tuple[Correction, ...] = ()
+    superfluous: tuple[Superfluous, ...] = ()
     evidence: tuple[Evidence, ...] = ()
     weights: ModelWeights | None = None
     left_out: tuple[LeftOutSpecimen, ...] = ()
@@ -489,6 +492,7 @@ def _search(
         context=context,
         absorbed=absorbed_by(predictor, best.fit_model),
         corrections=corrections,
+        superfluous=superfluous(fitter, best, root),
         evidence=beside(support, context, unknown=left),
         weights=likely.weights,
         left_out=left_out_specimens(predictor, best) if isinstance(predictor, SpecimensPredictor) else (),
