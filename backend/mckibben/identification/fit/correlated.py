@@ -22,7 +22,6 @@ from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
 import numpy as np
-from scipy.linalg import cho_solve_banded, cholesky_banded
 
 #: Ways in which the rows of a channel may be lines of correlated noise: of each the indices of its lines.
 Ways = Sequence[Sequence[np.ndarray]]
@@ -83,6 +82,8 @@ def _pairs(
     jacobian: np.ndarray, residual: np.ndarray, lengths: Sequence[int], *, white: bool
 ) -> Iterator[_Pair]:
     """The hypotheses of lines that follow each other; ``white``: with that of white noise."""
+    from scipy.linalg import cho_solve_banded, cholesky_banded
+
     left, sizes, _ = np.linalg.svd(jacobian, full_matrices=False)
     basis = left[:, sizes > _INDEPENDENT * float(np.max(sizes, initial=0.0))]
     determined = basis.shape[1]
