@@ -25,7 +25,7 @@ from itertools import product
 import numpy as np
 
 from mckibben.identification.fit.fitted_model import FittedModel
-from mckibben.identification.predict.predictor import PredictedChannel, Predictor
+from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.profiles import variables_of
 
 FEWEST_ROWS = 20  # below, a surface says nothing: 17 rows of a joint gave no gain whatever was hidden
@@ -70,6 +70,8 @@ class Surface:
         gain_low, gain_high: its 90 % interval, by a bootstrap of whole groups.
         inside: for each way, share of the rows that lie within the range of the rows of other groups; a
             surface corrects no other row.
+        independent: for each way, whether no sweep has rows in two of its groups. Otherwise correlated noise
+            goes on from the rows of one group to those of the next one, and a gain proves nothing by itself.
         values: the surface at each value of the predictor, shape (values,).
         deviations: its standard deviation, shape (values,), if the noise were white.
         variables: the blocks that matter, the largest first, each with its share of the surface.
@@ -81,6 +83,7 @@ class Surface:
     gain_low: tuple[float, ...]
     gain_high: tuple[float, ...]
     inside: tuple[float, ...]
+    independent: tuple[bool, ...]
     values: np.ndarray
     deviations: np.ndarray
     variables: tuple[tuple[str, float], ...]
@@ -515,6 +518,10 @@ def surface_of(fitted: FittedModel, predictor: Predictor) -> Surface | None:
         gain_low=tuple(way.interval[0] for way in ways),
         gain_high=tuple(way.interval[1] for way in ways),
         inside=tuple(float(np.mean(way.inside)) for way in ways),
+        independent=tuple(
+            all(np.ptp(labels[sweep]) == 0 for sweep in predictor.sweeps if len(sweep))
+            for labels in predictor.folds
+        ),
         values=values,
         deviations=deviations,
         variables=tuple((name, share / whole) for name, share in order if share > _MATTERS * whole),
@@ -635,3 +642,147 @@ def _shrunk(left: np.ndarray, correction: np.ndarray, labels: np.ndarray) -> np.
         share = np.clip(float(np.sum(products[~out])) / size, 0.0, 1.0) if size > 0.0 else 0.0
         shrunk[out] = share * correction[out]
     return shrunk
+
+
+_RHOS = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.975, 0.99, 0.997)  # autocorrelation of neighbouring rows
+_WHITE_SHARES = (0.0, 0.15, 0.4, 0.7)  # w: share of white noise in the variance of the noise
+_LEAST_WHITE = 1e-6  # instead of a share of 0, so that equal rows do not make the matrix singular
+_AMPLITUDES = np.geomspace(1e-6, 1e4, 31)  # variance of the effect over that of the noise
+_ROUGHNESSES = (0.2, 0.7)  # lengths of the processes whose columns are tried, of variables in -1 ... 1
+_WEIGHTY = 1e-3  # prior standard deviation of a column over the largest one, below which it is left out
+_MOST_LINE_ROWS = 6000  # for the likelihood ratio; of more rows every second, third ... of each line is taken
+_PROJECTED = 1e-10  # of a sum of squares, below which a column lies among the others
+
+
+def likelihood_ratio(fitted: FittedModel, predictor: Predictor) -> float:
+    r"""Twice the gain in log likelihood by a free surface beside correlated noise; 0 where there is none.
+
+    Of each channel, with its blocks as random effects of one common amplitude, see `ratio_of`; the largest
+    one counts. The lines are the sweeps of the predictor.
+    """
+    largest = 0.0
+    for channel in predictor.channels:
+        rows = np.arange(len(fitted.residual))[channel.rows]
+        if len(rows) < FEWEST_ROWS or fitted.lost or not np.any(fitted.residual[rows]):
+            continue
+        blocks, _ = _blocks_of(fitted, predictor, rows)
+        if not blocks:
+            continue
+        lines = _lines_of(predictor, rows)
+        jacobian, residual = fitted.jacobian[rows], fitted.residual[rows]
+        for length in _ROUGHNESSES:
+            columns = _smooth_columns(blocks, length)
+            largest = max(largest, ratio_of(jacobian, residual, columns, lines))
+    return largest
+
+
+def ratio_of(
+    jacobian: np.ndarray, residual: np.ndarray, columns: np.ndarray, lines: Sequence[np.ndarray]
+) -> float:
+    r"""Twice the gain in log likelihood by a random effect, beside white noise and noise that is correlated.
+
+    Without and with the effect the residual is :math:`r \sim N(K\beta, s^2(R + \lambda BB^T))`. Within each line
+
+    .. math:: R = (1-w)A + wI = A\,((1-w)I + wT),\quad A_{ij} = \rho^{|i-j|},\quad T = A^{-1}
+
+    where T is tridiagonal, so that all products with :math:`R^{-1} = T((1-w)I + wT)^{-1}` are banded and cost
+    :math:`O(n k)`. Both hypotheses choose :math:`\rho` and w of a grid for themselves, by restricted likelihood.
+
+    Args:
+        jacobian: K, shape (rows, constants).
+        residual: r, shape (rows,).
+        columns: B, shape (rows, columns).
+        lines: indices of the rows of each uninterrupted line, in order; rows in none are left out.
+    """
+    constants = jacobian[:, np.any(jacobian != 0.0, axis=0)]
+    constants = constants / np.linalg.norm(constants, axis=0)
+    rows = np.concatenate(lines)
+    first = np.zeros(len(rows), bool)
+    first[np.cumsum([0, *(len(line) for line in lines[:-1])])] = True
+    scale = np.sqrt(np.mean(columns**2)) or 1.0
+    own = constants.shape[1]
+    table = np.column_stack([constants, residual[:, None], columns / scale])[rows]
+    if len(rows) - own < 2 or not np.any(residual):
+        return 0.0
+    without, beside = -np.inf, -np.inf
+    for rho in _RHOS:
+        for white in _WHITE_SHARES if rho > 0.0 else _WHITE_SHARES[:1]:
+            product_, log_det = _whitened(table, first, rho, max(white, _LEAST_WHITE))
+            plain, most = _log_likelihoods(product_, own, len(rows) - own)
+            without = max(without, plain - 0.5 * log_det)
+            beside = max(beside, most - 0.5 * log_det)
+    return 2.0 * max(beside - without, 0.0)
+
+
+def _whitened(
+    table: np.ndarray, first: np.ndarray, rho: float, white: float
+) -> tuple[np.ndarray, float]:
+    """The products of columns with the inverse of R between them, and log det R; R = I for a rho of 0.
+
+    Args:
+        table: rows of one line after the other, shape (rows, columns).
+        first: whether a row begins a line, shape (rows,).
+        rho: autocorrelation of neighbouring rows.
+        white: share of white noise.
+    """
+    from scipy.linalg import cho_solve_banded, cholesky_banded
+
+    if rho == 0.0:
+        return table.T @ table, 0.0
+    last = np.append(first[1:], True)
+    size = 1.0 / (1.0 - rho**2)
+    diagonal = size * np.where(first & last, 1.0 - rho**2, np.where(first | last, 1.0, 1.0 + rho**2))
+    beside = np.where(first, 0.0, -rho * size)  # between a row and the one before
+    banded = np.array([white * beside, (1.0 - white) + white * diagonal])
+    factor = cholesky_banded(banded, check_finite=False)
+    solved = cho_solve_banded((factor, False), table, check_finite=False)
+    inverse = diagonal[:, None] * solved
+    inverse[1:] += beside[1:, None] * solved[:-1]
+    inverse[:-1] += beside[1:, None] * solved[1:]
+    log_det = np.count_nonzero(~first) * np.log1p(-(rho**2)) + 2.0 * float(np.sum(np.log(factor[1])))
+    return table.T @ inverse, log_det
+
+
+def _log_likelihoods(products: np.ndarray, own: int, freedom: int) -> tuple[float, float]:
+    """Restricted log likelihood without the effect, and the largest one with it, from products of columns.
+
+    Args:
+        products: of constants, residual and columns of the effect with each other.
+        own: number of constants.
+        freedom: rows less constants.
+    """
+    values, vectors = np.linalg.eigh(products[:own, :own]) if own else (np.ones(0), np.zeros((0, 0)))
+    kept = values > _PROJECTED * np.max(values, initial=0.0)
+    basis = vectors[:, kept] / np.sqrt(values[kept])
+    shared = basis.T @ products[:own, own:]
+    rest = products[own:, own:] - shared.T @ shared
+    log_det = float(np.sum(np.log(values[kept])))
+    square = max(float(rest[0, 0]), 1e-300)
+    without = -0.5 * (freedom * np.log(square / freedom) + log_det)
+    sizes, turned = np.linalg.eigh(rest[1:, 1:])
+    sizes = np.maximum(sizes, 0.0)
+    moments = (turned.T @ rest[1:, 0]) ** 2
+    widened = 1.0 + _AMPLITUDES[:, None] * sizes
+    squares = np.maximum(square - np.sum(_AMPLITUDES[:, None] * moments / widened, axis=1), 1e-12 * square)
+    each = -0.5 * (freedom * np.log(squares / freedom) + np.sum(np.log(widened), axis=1) + log_det)
+    return without, max(float(np.max(each)), without)
+
+
+def _smooth_columns(blocks: Sequence[Block], length: float) -> np.ndarray:
+    """Columns of the blocks, weighted as those of processes of one length and one variance."""
+    parts = []
+    for block in blocks:
+        roots = np.sqrt(block.variances(1.0, np.maximum(np.full(len(block.orders), length), block.shortest)))
+        kept = roots > _WEIGHTY * np.max(roots)
+        parts.append(block.at_rows()[:, kept] * roots[kept])
+    return np.hstack(parts)
+
+
+def _lines_of(predictor: Predictor, rows: np.ndarray) -> list[np.ndarray]:
+    """The sweeps within some values, thinned where there are many rows; places within ``rows``."""
+    place = np.full(len(predictor.measured), -1)
+    place[rows] = np.arange(len(rows))
+    step = -(-len(rows) // _MOST_LINE_ROWS)
+    lines = [place[np.asarray(sweep)] for sweep in predictor.sweeps]
+    lines = [line[line >= 0][::step] for line in lines]
+    return [line for line in lines if len(line)]
