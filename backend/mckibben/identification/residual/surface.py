@@ -51,7 +51,7 @@ _LAGS = (0.02, 0.06, 0.2, 0.6, 2.0)  # s; times of the lagged variables of a tra
 
 _MAIN = ("pressure", "contraction", "stroke", "load", "temperature", "command")  # no surface beyond their range
 _BESIDE = 1e-3  # of the range; so far beyond the other rows is still within
-_FEWEST_FOLDS = 3  # with less the gain has no interval
+_FEWEST_FOLDS = 3  # groups with rows inside; with less the gain has no interval
 _DRAWS, _SEED = 2000, 0  # of the bootstrap over groups
 _INTERVAL = (0.05, 0.95)
 _MATTERS = 0.02  # share of the surface below which a block is not named
@@ -65,11 +65,10 @@ class Surface:
         left: rms that model and surface would leave, in the units of the scaled residual:
             :math:`\\sqrt{RSS/(n - k)}` with k effective degrees of freedom.
         numbers: effective degrees of freedom, rounded up.
-        gain: for each way of folding, 1 - MSE(model + surface)/MSE(model) over left-out groups; NaN for less
-            than three groups.
+        gain: for each way of folding, 1 - MSE(model + surface)/MSE(model) of left-out groups, over the rows
+            within the range of the other groups; NaN where less than three groups have such rows.
         gain_low, gain_high: its 90 % interval, by a bootstrap of whole groups.
-        inside: for each way, share of the rows that lie within the range of the rows of other groups; a
-            surface corrects no other row.
+        inside: for each way, share of these rows; a surface corrects no other row and is not judged by it.
         independent: for each way, whether no sweep has rows in two of its groups. Otherwise correlated noise
             goes on from the rows of one group to those of the next one, and a gain proves nothing by itself.
         values: the surface at each value of the predictor, shape (values,).
@@ -589,22 +588,32 @@ class _Way:
         left = self.model[rows]
         self.rival[rows] = left - _shrunk(left, correction, labels)
 
+    @cached_property
+    def _squares(self) -> tuple[np.ndarray, np.ndarray]:
+        """Sums of squares of each group that has rows inside, without and with the surface."""
+        place = np.searchsorted(self.folds, self.labels)[self.inside]
+        before, after = (
+            np.bincount(place, each[self.inside] ** 2, len(self.folds)) for each in (self.model, self.rival)
+        )
+        some = np.bincount(place, minlength=len(self.folds)) > 0
+        return before[some], after[some]
+
     @property
     def gain(self) -> float:
-        """1 - MSE(model + surface)/MSE(model)."""
-        if len(self.folds) < _FEWEST_FOLDS:
+        """1 - MSE(model + surface)/MSE(model) over the rows inside."""
+        before, after = self._squares
+        if len(before) < _FEWEST_FOLDS:
             return float("nan")
-        return 1.0 - float(np.sum(self.rival**2)) / max(float(np.sum(self.model**2)), 1e-300)
+        return 1.0 - float(np.sum(after)) / max(float(np.sum(before)), 1e-300)
 
     @cached_property
     def interval(self) -> tuple[float, float]:
         """90 % interval of the gain."""
-        folds = len(self.folds)
-        if folds < _FEWEST_FOLDS:
+        before, after = self._squares
+        groups = len(before)
+        if groups < _FEWEST_FOLDS:
             return float("nan"), float("nan")
-        place = np.searchsorted(self.folds, self.labels)
-        before, after = (np.bincount(place, each**2, folds) for each in (self.model, self.rival))
-        drawn = np.random.default_rng(_SEED).integers(0, folds, (_DRAWS, folds))
+        drawn = np.random.default_rng(_SEED).integers(0, groups, (_DRAWS, groups))
         gains = 1.0 - after[drawn].sum(axis=1) / np.maximum(before[drawn].sum(axis=1), 1e-300)
         low, high = np.quantile(gains, _INTERVAL)
         return float(low), float(high)
