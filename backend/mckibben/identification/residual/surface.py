@@ -340,18 +340,21 @@ def _pair(name: str, first: np.ndarray, second: np.ndarray, orders: tuple[int, i
     return Block(name, np.column_stack([_unit(first), _unit(second)]), orders)
 
 
-def still_blocks(variables: Mapping[str, np.ndarray], records: np.ndarray | None) -> list[Block]:
+def still_blocks(
+    variables: Mapping[str, np.ndarray], records: np.ndarray | None = None, *, pair: int = _PAIR
+) -> list[Block]:
     """Blocks of rows that are measured step by step.
 
     Args:
         variables: name -> shape (rows,).
-        records: label of each row where the rows are in the order of the test; None where they are not.
+        records: label of each row where the rows are in the order of the test; None for no plays.
+        pair: functions of each variable of a pair.
     """
     main = {name: variables[name] for name in _MAIN if name in variables}
     blocks = []
     if len(main) > 1:
         first, second = list(main)[:2]
-        blocks.append(_pair(f"{first} and {second}", main[first], main[second], (_PAIR, _PAIR)))
+        blocks.append(_pair(f"{first} and {second}", main[first], main[second], (pair, pair)))
     for name, values in main.items():
         blocks.append(_single(name, values, _FINE if levels_of(values) > _LEVELS else _LEVEL))
     sign = ways_of(variables)
@@ -384,8 +387,17 @@ def _plays(main: Mapping[str, np.ndarray], records: np.ndarray) -> list[Block]:
     return blocks
 
 
-def moving_blocks(variables: Mapping[str, np.ndarray], time: np.ndarray, records: np.ndarray) -> list[Block]:
-    """Blocks of a run: its predicted stroke and speed, its inputs, and all of them late."""
+def moving_blocks(
+    variables: Mapping[str, np.ndarray], time: np.ndarray, records: np.ndarray, *, late: bool = True
+) -> list[Block]:
+    """Blocks of a run: its predicted stroke and speed, its inputs, and all of them late.
+
+    Args:
+        variables: name -> shape (rows,).
+        time: of each row [s].
+        records: label of each row.
+        late: whether lags and plays are among them.
+    """
     blocks = []
     names = [name for name in ("stroke", "speed", "pressure", "command") if name in variables]
     for name in names:
@@ -399,6 +411,8 @@ def moving_blocks(variables: Mapping[str, np.ndarray], time: np.ndarray, records
         for name in ("stroke", "pressure"):
             if name in variables:
                 blocks.append(_single(f"direction and {name}", variables[name], _SIGNED_LEVEL, sign))
+    if not late:
+        return blocks
     duration = max(float(np.ptp(time[records == label])) for label in np.unique(records))
     steps = np.diff(time)[np.diff(records) == 0]
     step = float(np.median(steps)) if len(steps) else duration
@@ -445,7 +459,8 @@ def _moving_variables(
     return {
         name: values
         for name, values in variables.items()
-        if np.all(np.isfinite(values)) and np.ptp(values) > 1e-9 * np.max(np.abs(values))
+        if len(values) == len(rows)
+        and np.all(np.isfinite(values)) and np.ptp(values) > 1e-9 * np.max(np.abs(values))
     }, time
 
 
@@ -455,18 +470,32 @@ def in_order(predictor: Predictor) -> bool:
     return ordered and ("time" in predictor.inputs or np.ptp(predictor.inputs.get("direction", [0.0])) > 0.0)
 
 
+def surface_variables(
+    fitted: FittedModel, predictor: Predictor, rows: np.ndarray
+) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
+    """Variables of a surface at the values of a channel, and the times of a run.
+
+    Args:
+        fitted: the model, whose own stroke and speed are variables of a run.
+        predictor: the data.
+        rows: indices of the values of the channel.
+    """
+    if predictor.kind == "transient" and "time" in predictor.inputs:
+        return _moving_variables(fitted, predictor, rows)
+    known = {name: values[rows] for name, values in variables_of(predictor, fitted.fit_model).items()}
+    return {name: values for name, values in known.items() if np.ptp(values) > 0.0}, None
+
+
 def _blocks_of(
     fitted: FittedModel, predictor: Predictor, rows: np.ndarray
 ) -> tuple[list[Block], list[np.ndarray]]:
     """Blocks of the values of a channel, and the variables beyond whose range nothing is corrected."""
-    if predictor.kind == "transient" and "time" in predictor.inputs:
-        variables, time = _moving_variables(fitted, predictor, rows)
-        blocks = moving_blocks(variables, time, predictor.records[rows])
+    variables, time = surface_variables(fitted, predictor, rows)
+    records = predictor.records[rows]
+    if time is None:
+        blocks = still_blocks(variables, records if in_order(predictor) else None)
     else:
-        known = variables_of(predictor, fitted.fit_model)
-        variables = {name: values[rows] for name, values in known.items()}
-        variables = {name: values for name, values in variables.items() if np.ptp(values) > 0.0}
-        blocks = still_blocks(variables, predictor.records[rows] if in_order(predictor) else None)
+        blocks = moving_blocks(variables, time, records)
     return blocks, [_unit(variables[name]) for name in _MAIN if name in variables]
 
 
