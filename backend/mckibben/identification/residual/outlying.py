@@ -41,10 +41,17 @@ _LEVERAGE = 0.999  # of a row that determines a constant alone, so that it fits 
 _ALIKE = 1e-7  # singular value of the normalised Jacobian below which a direction is no constant
 _ROUNDING = 1e-9  # of the range; smaller residuals are rounding errors
 _PAIR = 5  # functions of each variable of a pair, with which a surface costs little
-_CHANCE = 0.05  # probability that rows anywhere lie at one place all the same, below which the place tells
+_CHANCE = 0.05  # probability that rows anywhere lie at any of the places, below which the place tells
+# Noise that grows with the reading: its logarithm over that of the size of the prediction, from the logarithms
+# of the residual, whose standard deviation is 1.11 for normal noise. A few rows that do not fit change it little.
+_LOG_SCATTER = 1.11
+_GROWS = 3.0  # standard errors of the slope from which the noise grows
+_STEEPEST = 1.0  # slope of noise in proportion to the reading
+_LEAST_SIZE = 0.05  # of the largest prediction; the noise of smaller ones is that of this one
+_STRETCH = 2  # rows between the first and the last of them, over their number, up to which they lie in a row
 _MANY_LEVELS = 0.5  # of the rows; with more levels a variable has no places that rows share
 
-Kind = Literal["after a turn", "before a turn", "first of a sweep", "last of a sweep", "sweep", "level"]
+Kind = Literal["after a turn", "before a turn", "first of a sweep", "last of a sweep", "in a row", "sweep", "level"]
 
 
 @dataclass(frozen=True)
@@ -54,10 +61,10 @@ class Place:
     Attributes:
         kind: of the place; a "level" is one value of a variable.
         variable: of a level, else empty.
-        value: of a level [SI]; the number of a sweep from 0; else NaN.
+        value: of a level [SI]; the number of a sweep from 0, also of rows in a row; else NaN.
         named: number of rows that do not fit, all at this place.
         rows: number of rows at it.
-        chance: probability that as many rows anywhere lie at one place of this kind.
+        chance: bound of the probability that as many rows anywhere lie at one place of any kind.
     """
 
     kind: Kind
@@ -75,6 +82,7 @@ class Place:
             "before a turn": "the last rows before a turn of the motion",
             "first of a sweep": "the first rows of a sweep",
             "last of a sweep": "the last rows of a sweep",
+            "in a row": f"neighbouring rows of sweep {self.value + 1.0:.0f}",
             "sweep": f"the rows of sweep {self.value + 1.0:.0f}",
             "level": f"the rows at {self.variable} {self.value:.4g}",
         }[self.kind]
@@ -124,7 +132,9 @@ def outlying_of(fitted: FittedModel, predictor: Predictor) -> Outlying:
             blocks = moving_blocks(variables, time, predictor.records[rows], late=False)
         readings = (predictor.measured / predictor.scale)[rows]
         span = float(np.ptp(readings))
-        found = outlying_rows(fitted.jacobian[rows], fitted.residual[rows], blocks, span=span)
+        residual = fitted.residual[rows]
+        noise = growing_noise(fitted.jacobian[rows], residual, blocks, readings - residual, span=span)
+        found = outlying_rows(fitted.jacobian[rows], residual, blocks, span=span, noise=noise)
         if not found.rows and best is not _NONE:
             continue
         place = np.full(len(predictor.measured), -1)
@@ -145,8 +155,43 @@ def outlying_of(fitted: FittedModel, predictor: Predictor) -> Outlying:
     return best
 
 
+def growing_noise(
+    jacobian: np.ndarray,
+    residual: np.ndarray,
+    blocks: Sequence[Block],
+    predicted: np.ndarray,
+    *,
+    span: float,
+) -> np.ndarray | None:
+    """Noise of each row where it grows with the prediction, with the geometric mean 1; None where it does not.
+
+    Args:
+        jacobian, residual, blocks, span: as of `outlying_rows`.
+        predicted: prediction of each row, shape (rows,).
+    """
+    table = _Table(jacobian, residual, blocks, span, None)
+    rest = table.rest()
+    size = np.abs(predicted)
+    size = np.log(np.maximum(size, _LEAST_SIZE * float(np.max(size, initial=0.0))) + 1e-300)
+    size = size - np.mean(size)
+    spread = float(np.sqrt(np.sum(size**2)))
+    rest = np.log(np.maximum(np.abs(rest), _ROUNDING * span) + 1e-300)
+    if not spread > 0.0 or len(residual) < _FEWEST_ROWS:
+        return None
+    slope = float(size @ (rest - np.mean(rest))) / spread**2
+    scatter = max(_LOG_SCATTER, float(np.std(rest - slope * size)))
+    if slope * spread < _GROWS * scatter:
+        return None
+    return np.exp(min(slope, _STEEPEST) * size)
+
+
 def outlying_rows(
-    jacobian: np.ndarray, residual: np.ndarray, blocks: Sequence[Block], *, span: float
+    jacobian: np.ndarray,
+    residual: np.ndarray,
+    blocks: Sequence[Block],
+    *,
+    span: float,
+    noise: np.ndarray | None = None,
 ) -> Outlying:
     """Rows that do not fit, of one channel.
 
@@ -155,8 +200,9 @@ def outlying_rows(
         residual: of the fitted model, shape (rows,).
         blocks: of the free surface; none for the model alone.
         span: range of the readings, in the unit of the residual.
+        noise: of each row over its geometric mean, shape (rows,); None where it is the same.
     """
-    table = _Table(jacobian, residual, blocks, span)
+    table = _Table(jacobian, residual, blocks, span, noise)
     most = table.most_candidates
     if most < 1 or not np.any(residual):
         return _NONE
@@ -214,8 +260,16 @@ class _Table:
     """
 
     def __init__(
-        self, jacobian: np.ndarray, residual: np.ndarray, blocks: Sequence[Block], span: float
+        self,
+        jacobian: np.ndarray,
+        residual: np.ndarray,
+        blocks: Sequence[Block],
+        span: float,
+        noise: np.ndarray | None,
     ) -> None:
+        noise = np.ones(len(residual)) if noise is None else noise
+        self.log_noise = np.log(noise)
+        jacobian, residual = jacobian / noise[:, None], residual / noise
         scale = np.linalg.norm(jacobian, axis=0)
         used = jacobian[:, scale > 0.0] / scale[scale > 0.0]
         if used.shape[1]:
@@ -226,7 +280,7 @@ class _Table:
         self.rows, self.constants = used.shape
         self.leverage = np.sum(used**2, axis=1)
         if blocks:
-            self.columns = np.hstack([block.at_rows() for block in blocks])
+            self.columns = np.hstack([block.at_rows() for block in blocks]) / noise[:, None]
             self.gram, self.moment = self.columns.T @ self.columns, self.columns.T @ self.residual
             self.shared = used.T @ self.columns
         self.square = float(self.residual @ self.residual)
@@ -238,6 +292,20 @@ class _Table:
         if self.rows < _FEWEST_ROWS:
             return 0
         return max(min(most, self.rows // _PART, self.rows - self.constants - 2), 0)
+
+    def rest(self) -> np.ndarray:
+        """Residual over its deviation by constants and surface that are fitted to it, shape (rows,)."""
+        found = self.evidence((), None)
+        columns, penalty = self.basis, np.zeros(self.constants)
+        if found.pays and found.likeliest is not None:
+            columns = np.hstack([self.basis, self.columns * found.likeliest.roots])
+            penalty = np.append(
+                penalty, np.full(columns.shape[1] - self.constants, found.likeliest.noise)
+            )
+        inverse = np.linalg.pinv(columns.T @ columns + np.diag(penalty), hermitian=True)
+        leverage = np.minimum(np.sum((columns @ inverse) * columns, axis=1), _LEVERAGE)
+        rest = self.residual - columns @ (inverse @ (columns.T @ self.residual))
+        return rest / np.sqrt(1.0 - leverage)
 
     def order(self, most: int, surface: Likeliest | None) -> list[int]:
         """Rows in the order of their deleted studentised residuals, each without those before it."""
@@ -276,6 +344,7 @@ class _Table:
         square = self.square - float(gone @ gone) - float(moved @ inverse @ moved)
         square = max(square, count * (_ROUNDING * self.span) ** 2)
         odds = len(out) * np.log(_SHARE / (2.0 * self.span)) + (self.rows - len(out)) * np.log1p(-_SHARE)
+        odds += float(np.sum(self.log_noise[out]))
         fixed = odds - 0.5 * float(np.linalg.slogdet(kept)[1])
         without = fixed - 0.5 * count * (np.log(2.0 * np.pi * square / count) + 1.0)
         if not self.blocks:
@@ -334,14 +403,20 @@ def common_place(
         places.append(("last of a sweep", "", np.nan, {int(sweep[-1]) for sweep in long}, 1))
         for number, sweep in enumerate(sweeps):
             places.append(("sweep", "", float(number), set(sweep.tolist()), len(sweeps)))
+    for number, sweep in enumerate(long):
+        inside = np.flatnonzero(np.isin(sweep, list(named)))
+        if len(inside) == len(wanted) and (stretch := np.ptp(inside) + 1) <= _STRETCH * len(inside):
+            between = set(sweep[inside[0] : inside[0] + stretch].tolist())
+            places.append(("in a row", "", float(number), between, rows))
     for name, values in variables.items():
         count = levels_of(values)
         if name == "direction" or not 1 < count <= _MANY_LEVELS * len(values):
             continue
         near = np.abs(values - values[named[0]]) <= 1e-3 * float(np.ptp(values))
         places.append(("level", name, float(values[named[0]]), set(np.flatnonzero(near).tolist()), count))
+    kinds = len({(kind, name) for kind, name, *_ in places})
     found = [
-        Place(kind, name, value, len(wanted), len(inside), min(ways * _odds(len(wanted), len(inside), rows), 1.0))
+        Place(kind, name, value, len(wanted), len(inside), min(kinds * ways * _odds(len(wanted), len(inside), rows), 1.0))
         for kind, name, value, inside, ways in places
         if wanted <= inside
     ]

@@ -35,7 +35,7 @@ _EDGE = 1.5  # c: the basis ends half a half-width beyond the rows, where it wou
 _RESOLVED = 3.0  # largest frequency times the shortest length: S falls to 1 % of its value at 0
 _LONGEST = 6.0  # length beyond which a process is a straight line over the rows
 _LEAST, _GREATEST = np.exp(-8.0), np.exp(3.0)  # amplitude over the rms of the residual
-_LEAST_NOISE, _GREATEST_NOISE = 1e-4, 2.0  # the same of the noise
+_LEAST_NOISE, _GREATEST_NOISE = 1e-3, 2.0  # the same of the noise
 _START, _START_LENGTH, _START_NOISE = 0.3, 0.7, 0.5  # where the search for them begins
 _FLOOR = 1e-14  # of the squared amplitude; below, a column has no weight
 _STEPS = 60  # of the search
@@ -220,14 +220,13 @@ class _Likelihood:
         if failed:
             return 1e12, np.zeros_like(logs)
         log_det = 2.0 * float(np.sum(np.log(np.diag(factor))))
-        inverse = lapack.dpotri(factor, lower=1)[0]
-        diagonal = np.diag(inverse).copy()
-        inverse = np.tril(inverse, -1)
-        inverse = inverse + inverse.T
-        inverse[np.diag_indices(columns)] = diagonal
-        weights = roots * (inverse @ (roots * self.moment)) / noise
+        weights = roots * lapack.dpotrs(factor, roots * self.moment, lower=1)[0] / noise
+        diagonal = np.diag(lapack.dpotri(factor, lower=1)[0])
+        # At the best weights, so that their rounding errors count by their squares only.
         fit = float(weights @ self.moment)
-        value = 0.5 * (self.count * np.log(2.0 * np.pi * noise) + log_det + (self.square - fit) / noise)
+        rest = max(self.square - 2.0 * fit + float(weights @ self.gram @ weights), 0.0)
+        penalty = float(np.sum(weights**2 / variances))
+        value = 0.5 * (self.count * np.log(2.0 * np.pi * noise) + log_det + rest / noise + penalty)
         slope = np.zeros_like(logs)
         # By the logarithm of each variance, then by amplitude and lengths.
         by_variance = 0.5 * ((1.0 - diagonal) - weights**2 / variances)
@@ -237,7 +236,6 @@ class _Likelihood:
             floor = _FLOOR * float(np.exp(2.0 * logs[number]))
             free = own * (1.0 - floor / variances[part])
             slope[where] = free @ (1.0 - (np.exp(logs[where]) * block.waves) ** 2)
-        rest = self.square - 2.0 * fit + float(weights @ self.gram @ weights)
         slope[-1] = (self.count - columns + np.sum(diagonal)) - rest / noise
         return value, slope
 
