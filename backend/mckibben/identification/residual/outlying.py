@@ -1,0 +1,430 @@
+r"""Rows that do not fit: told from a local effect by the evidence of both.
+
+A robust loss takes a narrow effect for bad rows. Neighbours and other pressures that share a deviation tell
+them apart, as they make a free surface cheaper than rows that are set aside one by one. Of n readings of range
+R, m rows M are set aside as readings that may be anything, each a share :math:`\varepsilon` of all rows:
+
+.. math:: E_m = \ln p(r_{\setminus M} \mid K, f) + m\ln\frac{\varepsilon}{2R} + (n-m)\ln(1-\varepsilon)
+
+The evidence p of the other rows has the constants of the model (columns K) integrated out, and has a free
+surface f (`mckibben.identification.residual.surface`) or none, whichever is likelier. Rows are candidates in the
+order of their deleted studentised residuals (Rosner, Technometrics 25 (1983) 165), beside the model alone and,
+where a surface pays, beside model and surface.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+import numpy as np
+
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.residual.surface import (
+    Block,
+    Likeliest,
+    levels_of,
+    most_likely,
+    moving_blocks,
+    still_blocks,
+    surface_variables,
+)
+
+_SHARE = 0.05  # of rows that may be anything, before any is seen
+_PER_ROW = 1.0  # log evidence that each row set aside has to gain: e times likelier than with it
+_SURFACE_PAYS = 3.0  # log evidence from which a surface is there: 20 times likelier than none
+_FEWEST_ROWS = 8  # below, nothing can be said
+_PART, _MOST, _MOST_OF_MANY, _MANY = 4, 12, 20, 1000  # candidates: n/4, at most 12, of 1000 rows and more 20
+_LEVERAGE = 0.999  # of a row that determines a constant alone, so that it fits by itself
+_ALIKE = 1e-7  # singular value of the normalised Jacobian below which a direction is no constant
+_ROUNDING = 1e-9  # of the range; smaller residuals are rounding errors
+_PAIR = 5  # functions of each variable of a pair, with which a surface costs little
+_CHANCE = 0.05  # probability that rows anywhere lie at any of the places, below which the place tells
+# Noise that grows with the reading: its logarithm over that of the size of the prediction, from the logarithms
+# of the residual, whose standard deviation is 1.11 for normal noise. A few rows that do not fit change it little.
+_LOG_SCATTER = 1.11
+_GROWS = 3.0  # standard errors of the slope from which the noise grows
+_STEEPEST = 1.0  # slope of noise in proportion to the reading
+_LEAST_SIZE = 0.05  # of the largest prediction; the noise of smaller ones is that of this one
+_STRETCH = 2  # rows between the first and the last of them, over their number, up to which they lie in a row
+_MANY_LEVELS = 0.5  # of the rows; with more levels a variable has no places that rows share
+
+Kind = Literal["after a turn", "before a turn", "first of a sweep", "last of a sweep", "in a row", "sweep", "level"]
+
+
+@dataclass(frozen=True)
+class Place:
+    """What all rows that do not fit have in common.
+
+    Attributes:
+        kind: of the place; a "level" is one value of a variable.
+        variable: of a level, else empty.
+        value: of a level [SI]; the number of a sweep from 0, also of rows in a row; else NaN.
+        named: number of rows that do not fit, all at this place.
+        rows: number of rows at it.
+        chance: bound of the probability that as many rows anywhere lie at one place of any kind.
+    """
+
+    kind: Kind
+    variable: str
+    value: float
+    named: int
+    rows: int
+    chance: float
+
+    @property
+    def sentence(self) -> str:
+        """It in words; the value of a level in SI."""
+        where = {
+            "after a turn": "the first rows after a turn of the motion",
+            "before a turn": "the last rows before a turn of the motion",
+            "first of a sweep": "the first rows of a sweep",
+            "last of a sweep": "the last rows of a sweep",
+            "in a row": f"neighbouring rows of sweep {self.value + 1.0:.0f}",
+            "sweep": f"the rows of sweep {self.value + 1.0:.0f}",
+            "level": f"the rows at {self.variable} {self.value:.4g}",
+        }[self.kind]
+        return f"{self.named} of {self.rows} of {where}"
+
+
+@dataclass(frozen=True)
+class Outlying:
+    """Rows that do not fit.
+
+    Attributes:
+        rows: their indices, in the order in which they were set aside.
+        gain: log evidence gained by setting them aside.
+        steps: log evidence gained by each further candidate, in the order of `candidates`.
+        candidates: indices of all rows that were tried, of the order that was taken.
+        surface: whether the other rows show a surface on the residual.
+        place: what all of them have in common; None where that is chance, or of a single row.
+    """
+
+    rows: tuple[int, ...]
+    gain: float
+    steps: tuple[float, ...]
+    candidates: tuple[int, ...]
+    surface: bool
+    place: Place | None = None
+
+
+_NONE = Outlying((), 0.0, (), (), surface=False)
+
+
+def outlying_of(fitted: FittedModel, predictor: Predictor) -> Outlying:
+    """Rows of a fitted model that do not fit, of the channel that gains most by setting them aside.
+
+    Args:
+        fitted: the model.
+        predictor: the data.
+    """
+    best = _NONE
+    for channel in predictor.channels:
+        rows = np.arange(len(fitted.residual))[channel.rows]
+        if fitted.lost or len(rows) < _FEWEST_ROWS:
+            continue
+        variables, time = surface_variables(fitted, predictor, rows)
+        if time is None:
+            blocks = still_blocks(variables, pair=_PAIR)
+        else:
+            blocks = moving_blocks(variables, time, predictor.records[rows], late=False)
+        readings = (predictor.measured / predictor.scale)[rows]
+        span = float(np.ptp(readings))
+        residual = fitted.residual[rows]
+        noise = growing_noise(fitted.jacobian[rows], residual, blocks, readings - residual, span=span)
+        found = outlying_rows(fitted.jacobian[rows], residual, blocks, span=span, noise=noise)
+        if not found.rows and best is not _NONE:
+            continue
+        place = np.full(len(predictor.measured), -1)
+        place[rows] = np.arange(len(rows))
+        sweeps = [own[own >= 0] for own in (place[np.asarray(sweep)] for sweep in predictor.sweeps)]
+        direction = predictor.inputs.get("direction")
+        way = None if direction is None else direction[rows]
+        told = Outlying(
+            tuple(int(rows[row]) for row in found.rows),
+            found.gain,
+            found.steps,
+            tuple(int(rows[row]) for row in found.candidates),
+            surface=found.surface,
+            place=common_place(found.rows, variables, sweeps, way),
+        )
+        if best is _NONE or told.gain > best.gain:
+            best = told
+    return best
+
+
+def growing_noise(
+    jacobian: np.ndarray,
+    residual: np.ndarray,
+    blocks: Sequence[Block],
+    predicted: np.ndarray,
+    *,
+    span: float,
+) -> np.ndarray | None:
+    """Noise of each row where it grows with the prediction, with the geometric mean 1; None where it does not.
+
+    Args:
+        jacobian, residual, blocks, span: as of `outlying_rows`.
+        predicted: prediction of each row, shape (rows,).
+    """
+    table = _Table(jacobian, residual, blocks, span, None)
+    rest = table.rest()
+    size = np.abs(predicted)
+    size = np.log(np.maximum(size, _LEAST_SIZE * float(np.max(size, initial=0.0))) + 1e-300)
+    size = size - np.mean(size)
+    spread = float(np.sqrt(np.sum(size**2)))
+    rest = np.log(np.maximum(np.abs(rest), _ROUNDING * span) + 1e-300)
+    if not spread > 0.0 or len(residual) < _FEWEST_ROWS:
+        return None
+    slope = float(size @ (rest - np.mean(rest))) / spread**2
+    scatter = max(_LOG_SCATTER, float(np.std(rest - slope * size)))
+    if slope * spread < _GROWS * scatter:
+        return None
+    return np.exp(min(slope, _STEEPEST) * size)
+
+
+def outlying_rows(
+    jacobian: np.ndarray,
+    residual: np.ndarray,
+    blocks: Sequence[Block],
+    *,
+    span: float,
+    noise: np.ndarray | None = None,
+) -> Outlying:
+    """Rows that do not fit, of one channel.
+
+    Args:
+        jacobian: derivatives of the prediction by the constants, shape (rows, constants).
+        residual: of the fitted model, shape (rows,).
+        blocks: of the free surface; none for the model alone.
+        span: range of the readings, in the unit of the residual.
+        noise: of each row over its geometric mean, shape (rows,); None where it is the same.
+    """
+    table = _Table(jacobian, residual, blocks, span, noise)
+    most = table.most_candidates
+    if most < 1 or not np.any(residual):
+        return _NONE
+    first = table.evidence((), None)
+    orders = [table.order(most, None)]
+    if blocks and first.pays:
+        orders.append(table.order(most, first.likeliest))
+    paths = [table.path(order, first) for order in orders if order]
+    if not paths:
+        return Outlying((), 0.0, (), (), surface=first.pays)
+    best = max(paths, key=lambda path: path.gain)
+    count = best.count
+    return Outlying(
+        tuple(best.order[:count]),
+        best.gain,
+        tuple(float(step) for step in np.diff(best.evidences)),
+        tuple(best.order),
+        surface=best.pays,
+    )
+
+
+@dataclass(frozen=True, eq=False)
+class _Evidence:
+    """Log evidence with rows set aside: with and without a surface."""
+
+    beside: float
+    without: float
+    likeliest: Likeliest | None
+
+    @property
+    def best(self) -> float:
+        return max(self.beside, self.without)
+
+    @property
+    def pays(self) -> bool:
+        return self.beside > self.without + _SURFACE_PAYS
+
+
+@dataclass(frozen=True, eq=False)
+class _Path:
+    """Candidates of one order: how many are set aside, what that gains, evidence after each."""
+
+    order: list[int]
+    evidences: list[float]
+    count: int
+    gain: float
+    pays: bool
+
+
+class _Table:
+    """Residual and columns with the constants projected out, and the same with a few rows less.
+
+    With an orthonormal basis U of the constants, the products of the other rows are those of all rows less
+    those of the rows set aside; :math:`M = I - U_M^TU_M` is what is left of the basis.
+    """
+
+    def __init__(
+        self,
+        jacobian: np.ndarray,
+        residual: np.ndarray,
+        blocks: Sequence[Block],
+        span: float,
+        noise: np.ndarray | None,
+    ) -> None:
+        noise = np.ones(len(residual)) if noise is None else noise
+        self.log_noise = np.log(noise)
+        jacobian, residual = jacobian / noise[:, None], residual / noise
+        scale = np.linalg.norm(jacobian, axis=0)
+        used = jacobian[:, scale > 0.0] / scale[scale > 0.0]
+        if used.shape[1]:
+            basis, sizes, _ = np.linalg.svd(used, full_matrices=False)
+            used = basis[:, sizes > _ALIKE * sizes[0]]
+        self.basis, self.blocks, self.span = used, blocks, max(span, 1e-300)
+        self.residual = residual - used @ (used.T @ residual)
+        self.rows, self.constants = used.shape
+        self.leverage = np.sum(used**2, axis=1)
+        if blocks:
+            self.columns = np.hstack([block.at_rows() for block in blocks]) / noise[:, None]
+            self.gram, self.moment = self.columns.T @ self.columns, self.columns.T @ self.residual
+            self.shared = used.T @ self.columns
+        self.square = float(self.residual @ self.residual)
+
+    @property
+    def most_candidates(self) -> int:
+        """At most a quarter of the rows, and as many as leave two degrees of freedom."""
+        most = _MOST if self.rows < _MANY else _MOST_OF_MANY
+        if self.rows < _FEWEST_ROWS:
+            return 0
+        return max(min(most, self.rows // _PART, self.rows - self.constants - 2), 0)
+
+    def rest(self) -> np.ndarray:
+        """Residual over its deviation by constants and surface that are fitted to it, shape (rows,)."""
+        found = self.evidence((), None)
+        columns, penalty = self.basis, np.zeros(self.constants)
+        if found.pays and found.likeliest is not None:
+            columns = np.hstack([self.basis, self.columns * found.likeliest.roots])
+            penalty = np.append(
+                penalty, np.full(columns.shape[1] - self.constants, found.likeliest.noise)
+            )
+        inverse = np.linalg.pinv(columns.T @ columns + np.diag(penalty), hermitian=True)
+        leverage = np.minimum(np.sum((columns @ inverse) * columns, axis=1), _LEVERAGE)
+        rest = self.residual - columns @ (inverse @ (columns.T @ self.residual))
+        return rest / np.sqrt(1.0 - leverage)
+
+    def order(self, most: int, surface: Likeliest | None) -> list[int]:
+        """Rows in the order of their deleted studentised residuals, each without those before it."""
+        columns = self.basis
+        penalty = np.zeros(self.constants)
+        if surface is not None:
+            columns = np.hstack([self.basis, self.columns * surface.roots])
+            penalty = np.append(penalty, np.full(columns.shape[1] - self.constants, surface.noise))
+        normal, moment = columns.T @ columns + np.diag(penalty), columns.T @ self.residual
+        left, chosen = np.ones(self.rows, bool), []
+        leverage = np.zeros(self.rows)
+        for step in range(most):
+            inverse = np.linalg.pinv(normal, hermitian=True) if len(normal) else normal
+            if step == 0 or self.rows < _MANY:
+                leverage = np.sum((columns @ inverse) * columns, axis=1)
+            rest = self.residual - columns @ (inverse @ moment)
+            free = left & (leverage < _LEVERAGE)
+            if not np.any(free):
+                break
+            size = np.abs(rest) / np.sqrt(np.maximum(1.0 - leverage, 1e-9))
+            row = int(np.argmax(np.where(free, size, -1.0)))
+            chosen.append(row)
+            left[row] = False
+            normal = normal - np.outer(columns[row], columns[row])
+            moment = moment - columns[row] * self.residual[row]
+        return chosen
+
+    def evidence(self, aside: Sequence[int], before: np.ndarray | None) -> _Evidence:
+        """Log evidence with some rows set aside; ``before``: where the search of the surface begins."""
+        out = np.asarray(aside, dtype=int)
+        gone, basis = self.residual[out], self.basis[out]
+        count = self.rows - len(out) - self.constants
+        kept = np.eye(self.constants) - basis.T @ basis
+        inverse = np.linalg.inv(kept) if self.constants else kept
+        moved = -basis.T @ gone
+        square = self.square - float(gone @ gone) - float(moved @ inverse @ moved)
+        square = max(square, count * (_ROUNDING * self.span) ** 2)
+        odds = len(out) * np.log(_SHARE / (2.0 * self.span)) + (self.rows - len(out)) * np.log1p(-_SHARE)
+        odds += float(np.sum(self.log_noise[out]))
+        fixed = odds - 0.5 * float(np.linalg.slogdet(kept)[1])
+        without = fixed - 0.5 * count * (np.log(2.0 * np.pi * square / count) + 1.0)
+        if not self.blocks:
+            return _Evidence(-np.inf, float(without), None)
+        columns = self.columns[out]
+        shared = self.shared - basis.T @ columns
+        gram = self.gram - columns.T @ columns - shared.T @ inverse @ shared
+        moment = self.moment - columns.T @ gone - shared.T @ inverse @ moved
+        found = most_likely(self.blocks, gram, moment, square, count, before=before)
+        return _Evidence(fixed + found.log_evidence, float(without), found)
+
+    def path(self, order: list[int], first: _Evidence) -> _Path:
+        """The evidence along an order, and how many rows of it are worth setting aside."""
+        found = [first]
+        for count in range(1, len(order) + 1):
+            before = found[-1].likeliest
+            found.append(self.evidence(order[:count], None if before is None else before.logs))
+        best = 0
+        for count in range(1, len(found)):
+            if found[count].best > found[best].best + _PER_ROW * (count - best):
+                best = count
+        gain = found[best].best - first.best
+        return _Path(order, [each.best for each in found], best, float(gain), found[best].pays)
+
+
+def common_place(
+    named: Sequence[int],
+    variables: Mapping[str, np.ndarray],
+    sweeps: Sequence[np.ndarray],
+    direction: np.ndarray | None = None,
+) -> Place | None:
+    """What all named rows have in common, if two rows or more anywhere would hardly have it.
+
+    Args:
+        named: rows that do not fit.
+        variables: name -> shape (rows,); those with levels that rows share have places.
+        sweeps: indices of the rows of each sweep, in order.
+        direction: sign of motion of each row; None where it is not known.
+    """
+    if len(named) < 2:
+        return None
+    rows, wanted = sum(len(sweep) for sweep in sweeps), set(named)
+    places: list[tuple[Kind, str, float, set[int], int]] = []
+    long = [sweep for sweep in sweeps if len(sweep) > 2]
+    if direction is not None:
+        turns = [
+            (int(before), int(after))
+            for sweep in long
+            for before, after in zip(sweep[:-1], sweep[1:], strict=True)
+            if direction[before] * direction[after] < 0.0
+        ]
+        places.append(("after a turn", "", np.nan, {after for _, after in turns}, 1))
+        places.append(("before a turn", "", np.nan, {before for before, _ in turns}, 1))
+    if len(long) > 1:
+        places.append(("first of a sweep", "", np.nan, {int(sweep[0]) for sweep in long}, 1))
+        places.append(("last of a sweep", "", np.nan, {int(sweep[-1]) for sweep in long}, 1))
+        for number, sweep in enumerate(sweeps):
+            places.append(("sweep", "", float(number), set(sweep.tolist()), len(sweeps)))
+    for number, sweep in enumerate(long):
+        inside = np.flatnonzero(np.isin(sweep, list(named)))
+        if len(inside) == len(wanted) and (stretch := np.ptp(inside) + 1) <= _STRETCH * len(inside):
+            between = set(sweep[inside[0] : inside[0] + stretch].tolist())
+            places.append(("in a row", "", float(number), between, rows))
+    for name, values in variables.items():
+        count = levels_of(values)
+        if name == "direction" or not 1 < count <= _MANY_LEVELS * len(values):
+            continue
+        near = np.abs(values - values[named[0]]) <= 1e-3 * float(np.ptp(values))
+        places.append(("level", name, float(values[named[0]]), set(np.flatnonzero(near).tolist()), count))
+    kinds = len({(kind, name) for kind, name, *_ in places})
+    found = [
+        Place(kind, name, value, len(wanted), len(inside), min(kinds * ways * _odds(len(wanted), len(inside), rows), 1.0))
+        for kind, name, value, inside, ways in places
+        if wanted <= inside
+    ]
+    found = [place for place in found if place.chance < _CHANCE]
+    return min(found, key=lambda place: place.chance, default=None)
+
+
+def _odds(named: int, inside: int, rows: int) -> float:
+    """Probability that so many rows of all lie among those inside."""
+    taken = np.arange(named)
+    return float(np.prod((inside - taken) / (rows - taken)))

@@ -1,0 +1,824 @@
+r"""A free surface on the residual of a fitted model: what any further formula of the same variables could take.
+
+The residual is followed by a sum of Gaussian processes, one for each block of one or two variables, in a sine
+basis (Solin & Särkkä, Statistics and Computing 30 (2020) 419). With x in -1 ... 1, :math:`c = 1.5` and
+
+.. math:: \phi_j(x) = c^{-1/2}\sin(\omega_j(x + c)),\quad \omega_j = \frac{\pi j}{2c},\qquad
+   f(x) = \sum_j w_j\phi_j(x),\quad w_j \sim N(0, S(\omega_j)),\quad
+   S(\omega) = a^2\sqrt{2\pi}\,\ell\,e^{-(\ell\omega)^2/2}
+
+the n rows enter by their products with the k columns alone: :math:`O(n k^2)` once, and :math:`O(k^3)` for each
+trial of the amplitudes a, lengths :math:`\ell` and the noise, which have the largest marginal likelihood
+(Kennedy & O'Hagan, J. R. Statist. Soc. B 63 (2001) 425, for a surface on the residual of a physical model).
+
+What the surface takes in sample is no proof: correlated noise is a surface as well. `Surface.gain` says what it
+takes of rows that were left out, `likelihood_ratio` what it explains that correlated noise does not.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from itertools import product
+
+import numpy as np
+
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.residual.profiles import variables_of
+
+FEWEST_ROWS = 20  # below, a surface says nothing: 17 rows of a joint gave no gain whatever was hidden
+_MOST_ROWS = 2000  # for amplitudes, lengths and noise; more rows are thinned evenly
+
+_EDGE = 1.5  # c: the basis ends half a half-width beyond the rows, where it would be 0
+_RESOLVED = 3.0  # largest frequency times the shortest length: S falls to 1 % of its value at 0
+_LONGEST = 6.0  # length beyond which a process is a straight line over the rows
+_LEAST, _GREATEST = np.exp(-8.0), np.exp(3.0)  # amplitude over the rms of the residual
+_LEAST_NOISE, _GREATEST_NOISE = 1e-3, 2.0  # the same of the noise
+_START, _START_LENGTH, _START_NOISE = 0.3, 0.7, 0.5  # where the search for them begins
+_FLOOR = 1e-14  # of the squared amplitude; below, a column has no weight
+_STEPS = 60  # of the search
+
+# Functions of a block: of a pair, of what is swept finely, of a level, beside the sign of motion, of a play.
+_PAIR, _FINE, _LEVEL, _SIGNED, _SIGNED_LEVEL, _PLAY = 8, 30, 12, 20, 8, 5
+_WITH_PLAY = 3  # functions of the level that a play goes with
+_MOVING_PAIR = 6  # functions of a pair in a transient
+_LEVELS = 12  # levels of a swept variable from which a fine block pays
+_FEWEST_OF_A_WAY = 4  # rows of either direction of motion, from which its sign is a variable
+_PLAYS = (0.03, 0.1, 0.25)  # half widths of the plays, share of the range of their variable
+_LAGS = (0.02, 0.06, 0.2, 0.6, 2.0)  # s; times of the lagged variables of a transient
+
+_MAIN = ("pressure", "contraction", "stroke", "load", "temperature", "command")  # no surface beyond their range
+_BESIDE = 1e-3  # of the range; so far beyond the other rows is still within
+_FEWEST_FOLDS = 3  # groups with rows inside; with less the gain has no interval
+_DRAWS, _SEED = 2000, 0  # of the bootstrap over groups
+_INTERVAL = (0.05, 0.95)
+_MATTERS = 0.02  # share of the surface below which a block is not named
+
+
+@dataclass(frozen=True, eq=False)
+class Surface:
+    """A free surface on the residual of a model.
+
+    Attributes:
+        left: rms that model and surface would leave, in the units of the scaled residual:
+            :math:`\\sqrt{RSS/(n - k)}` with k effective degrees of freedom.
+        numbers: effective degrees of freedom, rounded up.
+        gain: for each way of folding, 1 - MSE(model + surface)/MSE(model) of left-out groups, over the rows
+            within the range of the other groups; NaN where less than three groups have such rows.
+        gain_low, gain_high: its 90 % interval, by a bootstrap of whole groups.
+        inside: for each way, share of these rows; a surface corrects no other row and is not judged by it.
+        independent: for each way, whether no sweep has rows in two of its groups. Otherwise correlated noise
+            goes on from the rows of one group to those of the next one, and a gain proves nothing by itself.
+        values: the surface at each value of the predictor, shape (values,).
+        deviations: its standard deviation, shape (values,), if the noise were white.
+        variables: the blocks that matter, the largest first, each with its share of the surface.
+    """
+
+    left: float
+    numbers: int
+    gain: tuple[float, ...]
+    gain_low: tuple[float, ...]
+    gain_high: tuple[float, ...]
+    inside: tuple[float, ...]
+    independent: tuple[bool, ...]
+    values: np.ndarray
+    deviations: np.ndarray
+    variables: tuple[tuple[str, float], ...]
+
+
+@dataclass(frozen=True, eq=False)
+class Block:
+    """A Gaussian process of one or two variables.
+
+    Attributes:
+        name: in words.
+        places: the variables, each from -1 to 1, shape (rows, variables).
+        orders: functions of each variable.
+        factor: that multiplies it, such as the sign of motion, shape (rows,).
+    """
+
+    name: str
+    places: np.ndarray
+    orders: tuple[int, ...]
+    factor: np.ndarray | None = None
+
+    @cached_property
+    def waves(self) -> np.ndarray:
+        """Frequencies, shape (columns, variables)."""
+        numbers = product(*(range(1, order + 1) for order in self.orders))
+        return np.array(list(numbers), dtype=float) * (np.pi / (2.0 * _EDGE))
+
+    @property
+    def shortest(self) -> np.ndarray:
+        """Shortest length of each variable that the functions resolve."""
+        return _RESOLVED * 2.0 * _EDGE / (np.pi * np.array(self.orders))
+
+    def columns(self, places: np.ndarray, factor: np.ndarray | None) -> np.ndarray:
+        """The functions at some places, shape (places, columns)."""
+        first, *others = (
+            np.sin(np.outer(place + _EDGE, np.arange(1, order + 1) * (np.pi / (2.0 * _EDGE)))) / np.sqrt(_EDGE)
+            for place, order in zip(places.T, self.orders, strict=True)
+        )
+        for other in others:
+            first = (first[:, :, None] * other[:, None, :]).reshape(len(first), -1)
+        return first if factor is None else first * factor[:, None]
+
+    def at_rows(self) -> np.ndarray:
+        """The functions at the rows, shape (rows, columns)."""
+        return self.columns(self.places, self.factor)
+
+    def clipped(self, rows: np.ndarray, others: np.ndarray) -> np.ndarray:
+        """The functions at some rows (a mask), whose variables go to the range of the others."""
+        low, high = np.min(self.places[others], axis=0), np.max(self.places[others], axis=0)
+        factor = None if self.factor is None else self.factor[rows]
+        return self.columns(np.clip(self.places[rows], low, high), factor)
+
+    def variances(self, amplitude: float, lengths: np.ndarray) -> np.ndarray:
+        """Prior variances of the weights, shape (columns,)."""
+        exponent = -0.5 * np.sum((lengths * self.waves) ** 2, axis=1)
+        size = amplitude**2
+        return size * np.prod(np.sqrt(2.0 * np.pi) * lengths) * np.exp(exponent) + _FLOOR * size
+
+
+@dataclass(frozen=True, eq=False)
+class Likeliest:
+    """Amplitudes, lengths and noise with the largest marginal likelihood.
+
+    Attributes:
+        logs: logarithms of amplitudes (over the rms), of lengths and of the noise (over the rms).
+        log_evidence: log marginal likelihood.
+        variances: prior variances of the weights, shape (columns,).
+        noise: variance of the noise.
+    """
+
+    logs: np.ndarray
+    log_evidence: float
+    variances: np.ndarray
+    noise: float
+
+    @property
+    def roots(self) -> np.ndarray:
+        """Prior standard deviations of the weights."""
+        return np.sqrt(self.variances)
+
+    def weights(self, gram: np.ndarray, moment: np.ndarray) -> np.ndarray:
+        """Mean of the weights from the products of the columns with themselves and with the residual."""
+        roots = self.roots
+        whole = roots[:, None] * gram * roots + self.noise * np.eye(len(roots))
+        return roots * np.linalg.solve(whole, roots * moment)
+
+
+class _Likelihood:
+    """Negative log marginal likelihood of a residual, and its gradient, from products of columns.
+
+    Args:
+        blocks: in the order of the columns.
+        gram, moment: products of the columns with themselves and with the residual.
+        square: sum of squares of the residual.
+        count: rows less the constants that were projected out of residual and columns.
+    """
+
+    def __init__(
+        self, blocks: Sequence[Block], gram: np.ndarray, moment: np.ndarray, square: float, count: int
+    ) -> None:
+        self.blocks, self.count = blocks, count
+        self.size = float(np.sqrt(max(square / max(count, 1), 1e-300)))
+        self.gram, self.moment, self.square = gram, moment / self.size, square / self.size**2
+        edges = np.cumsum([0, *(len(block.waves) for block in blocks)])
+        self.parts = [slice(*ends) for ends in zip(edges[:-1], edges[1:], strict=True)]
+        amplitudes, dimensions = len(blocks), [len(block.orders) for block in blocks]
+        ends = amplitudes + np.cumsum([0, *dimensions])
+        self.lengths = [slice(*pair) for pair in zip(ends[:-1], ends[1:], strict=True)]
+        shortest = np.concatenate([np.minimum(block.shortest, 0.5 * _LONGEST) for block in blocks])
+        self.low = np.log([*[_LEAST] * amplitudes, *shortest, _LEAST_NOISE])
+        self.high = np.log([*[_GREATEST] * amplitudes, *[_LONGEST] * len(shortest), _GREATEST_NOISE])
+
+    def start(self, before: np.ndarray | None) -> np.ndarray:
+        """Where the search begins; after another one no amplitude begins at 0, where nothing changes it."""
+        blocks, lengths = len(self.blocks), self.lengths[-1].stop - len(self.blocks)
+        usual = np.log([_START] * blocks + [_START_LENGTH] * lengths + [_START_NOISE])
+        if before is not None:
+            usual = np.concatenate([np.maximum(before[:blocks], np.log(0.1)), before[blocks:]])
+        return np.clip(usual, self.low, self.high)
+
+    def variances(self, logs: np.ndarray) -> np.ndarray:
+        return np.concatenate([
+            block.variances(np.exp(logs[number]), np.exp(logs[part]))
+            for number, (block, part) in enumerate(zip(self.blocks, self.lengths, strict=True))
+        ])
+
+    def __call__(self, logs: np.ndarray) -> tuple[float, np.ndarray]:
+        from scipy.linalg import lapack
+
+        variances, noise = self.variances(logs), float(np.exp(2.0 * logs[-1]))
+        roots, columns = np.sqrt(variances), len(variances)
+        whole = (roots[:, None] * self.gram * roots) / noise
+        whole[np.diag_indices(columns)] += 1.0
+        factor, failed = lapack.dpotrf(whole, lower=1, clean=0)
+        if failed:
+            return 1e12, np.zeros_like(logs)
+        log_det = 2.0 * float(np.sum(np.log(np.diag(factor))))
+        weights = roots * lapack.dpotrs(factor, roots * self.moment, lower=1)[0] / noise
+        diagonal = np.diag(lapack.dpotri(factor, lower=1)[0])
+        # At the best weights, so that their rounding errors count by their squares only.
+        fit = float(weights @ self.moment)
+        rest = max(self.square - 2.0 * fit + float(weights @ self.gram @ weights), 0.0)
+        penalty = float(np.sum(weights**2 / variances))
+        value = 0.5 * (self.count * np.log(2.0 * np.pi * noise) + log_det + rest / noise + penalty)
+        slope = np.zeros_like(logs)
+        # By the logarithm of each variance, then by amplitude and lengths.
+        by_variance = 0.5 * ((1.0 - diagonal) - weights**2 / variances)
+        for number, (block, part, where) in enumerate(zip(self.blocks, self.parts, self.lengths, strict=True)):
+            own = by_variance[part]
+            slope[number] = 2.0 * np.sum(own)
+            floor = _FLOOR * float(np.exp(2.0 * logs[number]))
+            free = own * (1.0 - floor / variances[part])
+            slope[where] = free @ (1.0 - (np.exp(logs[where]) * block.waves) ** 2)
+        slope[-1] = (self.count - columns + np.sum(diagonal)) - rest / noise
+        return value, slope
+
+
+def most_likely(
+    blocks: Sequence[Block],
+    gram: np.ndarray,
+    moment: np.ndarray,
+    square: float,
+    count: int,
+    *,
+    before: np.ndarray | None = None,
+) -> Likeliest:
+    """Amplitudes, lengths and noise with the largest marginal likelihood.
+
+    Args:
+        blocks: in the order of the columns.
+        gram: products of the columns with each other, shape (columns, columns).
+        moment: products of the columns with the residual, shape (columns,).
+        square: sum of squares of the residual.
+        count: rows less the constants that were projected out of residual and columns.
+        before: ``logs`` of a like problem, where the search begins.
+    """
+    from scipy.optimize import minimize
+
+    likelihood = _Likelihood(blocks, gram, moment, square, count)
+    bounds = list(zip(likelihood.low, likelihood.high, strict=True))
+    start = likelihood.start(before)
+    found = minimize(
+        likelihood, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": _STEPS, "ftol": 1e-7}
+    )
+    size = likelihood.size**2
+    log_evidence = -float(found.fun) - 0.5 * count * np.log(size)
+    variances, noise = likelihood.variances(found.x) * size, float(np.exp(2.0 * found.x[-1])) * size
+    return Likeliest(found.x, float(log_evidence), variances, noise)
+
+
+def play(values: np.ndarray, half_width: float, records: np.ndarray) -> np.ndarray:
+    """What a part that is dragged along within a play does, row after row of each record.
+
+    Args:
+        values: of what drags it, shape (rows,).
+        half_width: of the play, in the same unit.
+        records: label of each row; each record begins in the middle of the play.
+    """
+    dragged = np.empty(len(values))
+    for label in np.unique(records):
+        rows = np.flatnonzero(records == label)
+        place = float(values[rows[0]])
+        course = []
+        for value in values[rows].tolist():
+            place = min(max(place, value - half_width), value + half_width)
+            course.append(place)
+        dragged[rows] = course
+    return dragged
+
+
+def lagged(values: np.ndarray, time: np.ndarray, lag: float, records: np.ndarray) -> np.ndarray:
+    """The values after a lag of first order, from rest at the first row of each record."""
+    behind = np.empty(len(values))
+    for label in np.unique(records):
+        rows = np.flatnonzero(records == label)
+        shares = -np.expm1(-np.maximum(np.diff(time[rows], prepend=time[rows[0]]), 0.0) / lag)
+        place = float(values[rows[0]])
+        course = []
+        for value, share in zip(values[rows].tolist(), shares.tolist(), strict=True):
+            place += share * (value - place)
+            course.append(place)
+        behind[rows] = course
+    return behind
+
+
+def _unit(values: np.ndarray) -> np.ndarray:
+    span = float(np.ptp(values))
+    return 2.0 * (values - float(np.min(values))) / (span if span > 0.0 else 1.0) - 1.0
+
+
+def levels_of(values: np.ndarray) -> int:
+    """Number of different values, to a thousandth of their range."""
+    span = float(np.ptp(values))
+    return len(np.unique(np.round((values - float(np.min(values))) / span, 3))) if span > 0.0 else 1
+
+
+def ways_of(variables: Mapping[str, np.ndarray]) -> np.ndarray | None:
+    """Sign of motion of each row, shape (rows,); None where the rows do not have both directions."""
+    direction = variables.get("direction", variables.get("speed"))
+    if direction is None:
+        return None
+    sign = np.sign(direction)
+    both = min(np.count_nonzero(sign > 0.0), np.count_nonzero(sign < 0.0)) >= _FEWEST_OF_A_WAY
+    return sign if both else None
+
+
+def _single(name: str, values: np.ndarray, order: int, factor: np.ndarray | None = None) -> Block:
+    order = min(order, max(2 * levels_of(values), 3))
+    return Block(name, _unit(values)[:, None], (order,), factor)
+
+
+def _pair(name: str, first: np.ndarray, second: np.ndarray, orders: tuple[int, int]) -> Block:
+    return Block(name, np.column_stack([_unit(first), _unit(second)]), orders)
+
+
+def still_blocks(
+    variables: Mapping[str, np.ndarray], records: np.ndarray | None = None, *, pair: int = _PAIR
+) -> list[Block]:
+    """Blocks of rows that are measured step by step.
+
+    Args:
+        variables: name -> shape (rows,).
+        records: label of each row where the rows are in the order of the test; None for no plays.
+        pair: functions of each variable of a pair.
+    """
+    main = {name: variables[name] for name in _MAIN if name in variables}
+    blocks = []
+    if len(main) > 1:
+        first, second = list(main)[:2]
+        blocks.append(_pair(f"{first} and {second}", main[first], main[second], (pair, pair)))
+    for name, values in main.items():
+        blocks.append(_single(name, values, _FINE if levels_of(values) > _LEVELS else _LEVEL))
+    sign = ways_of(variables)
+    if sign is not None:
+        for name, values in list(main.items())[:2]:
+            order = _SIGNED if levels_of(values) > _LEVELS else _SIGNED_LEVEL
+            blocks.append(_single(f"direction and {name}", values, order, sign))
+    if records is not None:
+        blocks += _plays(main, records)
+    return blocks
+
+
+def _plays(main: Mapping[str, np.ndarray], records: np.ndarray) -> list[Block]:
+    """Plays of contraction and pressure where these move within the records, beside the other of both."""
+    blocks = []
+    for name, beside in (("contraction", "pressure"), ("pressure", "contraction")):
+        if name not in main:
+            continue
+        values, span = main[name], float(np.ptp(main[name]))
+        for share in _PLAYS:
+            ahead = values - play(values, share * span, records)
+            if np.ptp(ahead) < share * span:
+                continue
+            words = f"play of {name}"
+            if beside in main:
+                order = min(_WITH_PLAY, levels_of(main[beside]))
+                blocks.append(_pair(words, ahead, main[beside], (_PLAY, order)))
+            else:
+                blocks.append(_single(words, ahead, _PLAY))
+    return blocks
+
+
+def moving_blocks(
+    variables: Mapping[str, np.ndarray], time: np.ndarray, records: np.ndarray, *, late: bool = True
+) -> list[Block]:
+    """Blocks of a run: its predicted stroke and speed, its inputs, and all of them late.
+
+    Args:
+        variables: name -> shape (rows,).
+        time: of each row [s].
+        records: label of each row.
+        late: whether lags and plays are among them.
+    """
+    blocks = []
+    names = [name for name in ("stroke", "speed", "pressure", "command") if name in variables]
+    for name in names:
+        blocks.append(_single(name, variables[name], _LEVEL))
+    for first, second in (("stroke", "speed"), ("pressure", "stroke"), ("command", "pressure")):
+        if first in variables and second in variables:
+            pair = variables[first], variables[second]
+            blocks.append(_pair(f"{first} and {second}", *pair, (_MOVING_PAIR, _MOVING_PAIR)))
+    sign = ways_of(variables)
+    if sign is not None:
+        for name in ("stroke", "pressure"):
+            if name in variables:
+                blocks.append(_single(f"direction and {name}", variables[name], _SIGNED_LEVEL, sign))
+    if not late:
+        return blocks
+    duration = max(float(np.ptp(time[records == label])) for label in np.unique(records))
+    steps = np.diff(time)[np.diff(records) == 0]
+    step = float(np.median(steps)) if len(steps) else duration
+    for name in ("stroke", "pressure", "command"):
+        if name not in variables:
+            continue
+        values = variables[name]
+        for lag in _LAGS:
+            if not step < lag < 0.5 * duration:
+                continue
+            behind = values - lagged(values, time, lag, records)
+            if np.ptp(behind) > 1e-6 * np.ptp(values):
+                blocks.append(_single(f"late {name}", behind, _PLAY))
+    if "stroke" in variables:
+        values = variables["stroke"]
+        for share in _PLAYS[1:]:
+            ahead = values - play(values, share * float(np.ptp(values)), records)
+            blocks.append(_single("play of stroke", ahead, _PLAY))
+    return blocks
+
+
+def _moving_variables(
+    fitted: FittedModel, predictor: Predictor, rows: np.ndarray
+) -> tuple[dict[str, np.ndarray], np.ndarray]:
+    """Variables of a run at some values, with what the model itself predicts, and their times."""
+    inputs = {name: values[rows] for name, values in predictor.inputs.items()}
+    predicted = predictor.predict(fitted.fit_model)
+    of = {channel.name: predicted[channel.rows] for channel in predictor.channels}
+    time, variables = inputs["time"], {}
+    stroke = of.get("displacement", inputs.get("displacement"))
+    if stroke is not None and len(stroke) == len(rows):
+        records = predictor.records[rows]
+        speed = np.zeros(len(rows))
+        for label in np.unique(records):
+            own = np.flatnonzero(records == label)
+            if len(own) > 2:
+                speed[own] = np.gradient(stroke[own], time[own])
+        variables |= {"stroke": stroke, "speed": speed}
+    pressure = of.get("pressure", inputs.get("pressure"))
+    if pressure is not None:
+        variables["pressure"] = pressure
+    if "command" in inputs:
+        variables["command"] = inputs["command"]
+    return {
+        name: values
+        for name, values in variables.items()
+        if len(values) == len(rows)
+        and np.all(np.isfinite(values)) and np.ptp(values) > 1e-9 * np.max(np.abs(values))
+    }, time
+
+
+def in_order(predictor: Predictor) -> bool:
+    """Whether the rows are in the order of the test: they have a time, or directions that come of it."""
+    ordered = all(np.all(np.diff(sweep) == 1) for sweep in predictor.sweeps)
+    return ordered and ("time" in predictor.inputs or np.ptp(predictor.inputs.get("direction", [0.0])) > 0.0)
+
+
+def surface_variables(
+    fitted: FittedModel, predictor: Predictor, rows: np.ndarray
+) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
+    """Variables of a surface at the values of a channel, and the times of a run.
+
+    Args:
+        fitted: the model, whose own stroke and speed are variables of a run.
+        predictor: the data.
+        rows: indices of the values of the channel.
+    """
+    if predictor.kind == "transient" and "time" in predictor.inputs:
+        return _moving_variables(fitted, predictor, rows)
+    known = {name: values[rows] for name, values in variables_of(predictor, fitted.fit_model).items()}
+    return {name: values for name, values in known.items() if np.ptp(values) > 0.0}, None
+
+
+def _blocks_of(
+    fitted: FittedModel, predictor: Predictor, rows: np.ndarray
+) -> tuple[list[Block], list[np.ndarray]]:
+    """Blocks of the values of a channel, and the variables beyond whose range nothing is corrected."""
+    variables, time = surface_variables(fitted, predictor, rows)
+    records = predictor.records[rows]
+    if time is None:
+        blocks = still_blocks(variables, records if in_order(predictor) else None)
+    else:
+        blocks = moving_blocks(variables, time, records)
+    return blocks, [_unit(variables[name]) for name in _MAIN if name in variables]
+
+
+def surface_of(fitted: FittedModel, predictor: Predictor) -> Surface | None:
+    """The free surface on the residual of a fitted model; None below twenty rows and after a stopped run.
+
+    Left-out groups are predicted by the physical model with its constants refitted without them to first order,
+    and by a surface that is fitted to the residual of the others. Three guards keep the surface from doing
+    harm there: it corrects nothing beyond the range of the other rows, its variables go to that range, and it
+    is multiplied by :math:`\\alpha = \\sum e c / \\sum c^2` of the other groups, within 0 ... 1.
+
+    Args:
+        fitted: the model.
+        predictor: the data.
+    """
+    count = len(fitted.residual)
+    values, deviations = np.zeros(count), np.zeros(count)
+    square, numbers, shares = 0.0, 0, {}
+    ways = [_Way(fitted, labels) for labels in predictor.folds]
+    found = False
+    for channel in predictor.channels:
+        rows = np.arange(count)[channel.rows]
+        if len(rows) < FEWEST_ROWS or fitted.lost or not np.any(fitted.residual[rows]):
+            square += float(np.sum(fitted.residual[rows] ** 2))
+            continue
+        blocks, edges = _blocks_of(fitted, predictor, rows)
+        if not blocks:
+            square += float(np.sum(fitted.residual[rows] ** 2))
+            continue
+        found = True
+        part = _Part(blocks, fitted.residual[rows])
+        values[rows], deviations[rows] = part.values, part.deviations
+        rest = float(np.sum((fitted.residual[rows] - part.values) ** 2))
+        square += rest * len(rows) / max(len(rows) - part.freedom, 1.0)
+        numbers += int(np.ceil(part.freedom))
+        for name, share in part.shares.items():
+            shares[name] = shares.get(name, 0.0) + share
+        for way in ways:
+            way.correct(part, rows, edges)
+    if not found:
+        return None
+    whole = sum(shares.values()) or 1.0
+    order = sorted(shares.items(), key=lambda pair: -pair[1])
+    return Surface(
+        left=float(np.sqrt(square / count)),
+        numbers=numbers,
+        gain=tuple(way.gain for way in ways),
+        gain_low=tuple(way.interval[0] for way in ways),
+        gain_high=tuple(way.interval[1] for way in ways),
+        inside=tuple(float(np.mean(way.inside)) for way in ways),
+        independent=tuple(
+            all(np.ptp(labels[sweep]) == 0 for sweep in predictor.sweeps if len(sweep))
+            for labels in predictor.folds
+        ),
+        values=values,
+        deviations=deviations,
+        variables=tuple((name, share / whole) for name, share in order if share > _MATTERS * whole),
+    )
+
+
+class _Part:
+    """The surface of one channel, fitted to all of its rows."""
+
+    def __init__(self, blocks: Sequence[Block], residual: np.ndarray) -> None:
+        self.blocks, self.residual = blocks, residual
+        self.columns = np.hstack([block.at_rows() for block in blocks])
+        self.gram, self.moment = self.columns.T @ self.columns, self.columns.T @ residual
+        gram, moment, some = self.gram, self.moment, residual
+        if len(residual) > _MOST_ROWS:
+            thin = np.unique(np.linspace(0, len(residual) - 1, _MOST_ROWS).astype(int))
+            columns, some = self.columns[thin], residual[thin]
+            gram, moment = columns.T @ columns, columns.T @ some
+        self.found = most_likely(blocks, gram, moment, float(some @ some), len(some))
+        roots, noise = self.found.roots, self.found.noise
+        inner = roots[:, None] * self.gram * roots
+        inverse = np.linalg.inv(inner + noise * np.eye(len(roots)))
+        self.freedom = float(np.sum(inverse * inner))
+        weights = roots * (inverse @ (roots * self.moment))
+        self.values = self.columns @ weights
+        scaled = self.columns * roots
+        self.deviations = np.sqrt(np.maximum(noise * np.sum((scaled @ inverse) * scaled, axis=1), 0.0))
+        self.shares: dict[str, float] = {}
+        place = 0
+        for block in blocks:
+            own = slice(place, place + len(block.waves))
+            place = own.stop
+            share = max(float(self.columns[:, own] @ weights[own] @ self.values), 0.0)
+            self.shares[block.name] = self.shares.get(block.name, 0.0) + share
+
+
+class _Way:
+    """A way of leaving out: the residual of each row with its group left out, without and with a surface."""
+
+    def __init__(self, fitted: FittedModel, labels: np.ndarray) -> None:
+        self.labels, self.folds = labels, np.unique(labels)
+        self.refitted = {label: _without(fitted, labels == label) for label in self.folds}
+        self.model = np.zeros(len(labels))
+        for label, residual in self.refitted.items():
+            self.model[labels == label] = residual[labels == label]
+        self.rival, self.inside = self.model.copy(), np.zeros(len(labels), bool)
+
+    def correct(self, part: _Part, rows: np.ndarray, edges: Sequence[np.ndarray]) -> None:
+        """Take the surface of a channel from its left-out residuals."""
+        labels, correction = self.labels[rows], np.zeros(len(rows))
+        for label in np.unique(labels):
+            out = labels == label
+            if np.all(out):
+                continue
+            inside = out & np.all([_within(edge, out) for edge in edges], axis=0) if edges else out
+            inside &= _same_ways(part.blocks, out)
+            self.inside[rows[inside]] = True
+            if not np.any(inside):
+                continue
+            gone = part.columns[out]
+            moment = part.columns[~out].T @ self.refitted[label][rows][~out]
+            weights = part.found.weights(part.gram - gone.T @ gone, moment)
+            columns = np.hstack([block.clipped(inside, ~out) for block in part.blocks])
+            correction[inside] = columns @ weights
+        left = self.model[rows]
+        self.rival[rows] = left - _shrunk(left, correction, labels)
+
+    @cached_property
+    def _squares(self) -> tuple[np.ndarray, np.ndarray]:
+        """Sums of squares of each group that has rows inside, without and with the surface."""
+        place = np.searchsorted(self.folds, self.labels)[self.inside]
+        before, after = (
+            np.bincount(place, each[self.inside] ** 2, len(self.folds)) for each in (self.model, self.rival)
+        )
+        some = np.bincount(place, minlength=len(self.folds)) > 0
+        return before[some], after[some]
+
+    @property
+    def gain(self) -> float:
+        """1 - MSE(model + surface)/MSE(model) over the rows inside."""
+        before, after = self._squares
+        if len(before) < _FEWEST_FOLDS:
+            return float("nan")
+        return 1.0 - float(np.sum(after)) / max(float(np.sum(before)), 1e-300)
+
+    @cached_property
+    def interval(self) -> tuple[float, float]:
+        """90 % interval of the gain."""
+        before, after = self._squares
+        groups = len(before)
+        if groups < _FEWEST_FOLDS:
+            return float("nan"), float("nan")
+        drawn = np.random.default_rng(_SEED).integers(0, groups, (_DRAWS, groups))
+        gains = 1.0 - after[drawn].sum(axis=1) / np.maximum(before[drawn].sum(axis=1), 1e-300)
+        low, high = np.quantile(gains, _INTERVAL)
+        return float(low), float(high)
+
+
+def _without(fitted: FittedModel, rows: np.ndarray) -> np.ndarray:
+    """Residual of all rows with the constants refitted without some (a mask), as `FittedModel.square_without`."""
+    jacobian, normal, low, high, prior, pull = fitted._linear
+    if not jacobian.shape[1]:
+        return fitted.residual
+    out = jacobian[rows]
+    inverse = np.linalg.pinv(normal - out.T @ out + np.diag(prior), rcond=1e-13, hermitian=True)
+    return fitted.residual - jacobian @ np.clip(-inverse @ (out.T @ fitted.residual[rows] + pull), low, high)
+
+
+def _within(values: np.ndarray, out: np.ndarray) -> np.ndarray:
+    """Mask of the rows within the range that a variable has outside of ``out``."""
+    low, high = np.min(values[~out]), np.max(values[~out])
+    return (values >= low - 2.0 * _BESIDE) & (values <= high + 2.0 * _BESIDE)
+
+
+def _same_ways(blocks: Sequence[Block], out: np.ndarray) -> np.ndarray:
+    """Mask of the rows whose sign of motion other rows have as well."""
+    sign = next((block.factor for block in blocks if block.factor is not None), None)
+    return np.ones(len(out), bool) if sign is None else np.isin(sign, np.unique(sign[~out]))
+
+
+def _shrunk(left: np.ndarray, correction: np.ndarray, labels: np.ndarray) -> np.ndarray:
+    """The correction of each group times what the other groups show of it, from 0 to 1."""
+    shrunk = np.zeros(len(left))
+    products, squares = left * correction, correction**2
+    for label in np.unique(labels):
+        out = labels == label
+        size = float(np.sum(squares[~out]))
+        share = np.clip(float(np.sum(products[~out])) / size, 0.0, 1.0) if size > 0.0 else 0.0
+        shrunk[out] = share * correction[out]
+    return shrunk
+
+
+_RHOS = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.975, 0.99, 0.997)  # autocorrelation of neighbouring rows
+_WHITE_SHARES = (0.0, 0.15, 0.4, 0.7)  # w: share of white noise in the variance of the noise
+_LEAST_WHITE = 1e-6  # instead of a share of 0, so that equal rows do not make the matrix singular
+_AMPLITUDES = np.geomspace(1e-6, 1e4, 31)  # variance of the effect over that of the noise
+_ROUGHNESSES = (0.2, 0.7)  # lengths of the processes whose columns are tried, of variables in -1 ... 1
+_WEIGHTY = 1e-3  # prior standard deviation of a column over the largest one, below which it is left out
+_MOST_LINE_ROWS = 6000  # for the likelihood ratio; of more rows every second, third ... of each line is taken
+_PROJECTED = 1e-10  # of a sum of squares, below which a column lies among the others
+
+
+def likelihood_ratio(fitted: FittedModel, predictor: Predictor) -> float:
+    r"""Twice the gain in log likelihood by a free surface beside correlated noise; 0 where there is none.
+
+    Of each channel, with its blocks as random effects of one common amplitude, see `ratio_of`; the largest
+    one counts. The lines are the sweeps of the predictor.
+    """
+    largest = 0.0
+    for channel in predictor.channels:
+        rows = np.arange(len(fitted.residual))[channel.rows]
+        if len(rows) < FEWEST_ROWS or fitted.lost or not np.any(fitted.residual[rows]):
+            continue
+        blocks, _ = _blocks_of(fitted, predictor, rows)
+        if not blocks:
+            continue
+        lines = _lines_of(predictor, rows)
+        jacobian, residual = fitted.jacobian[rows], fitted.residual[rows]
+        for length in _ROUGHNESSES:
+            columns = _smooth_columns(blocks, length)
+            largest = max(largest, ratio_of(jacobian, residual, columns, lines))
+    return largest
+
+
+def ratio_of(
+    jacobian: np.ndarray, residual: np.ndarray, columns: np.ndarray, lines: Sequence[np.ndarray]
+) -> float:
+    r"""Twice the gain in log likelihood by a random effect, beside white noise and noise that is correlated.
+
+    Without and with the effect the residual is :math:`r \sim N(K\beta, s^2(R + \lambda BB^T))`. Within each line
+
+    .. math:: R = (1-w)A + wI = A\,((1-w)I + wT),\quad A_{ij} = \rho^{|i-j|},\quad T = A^{-1}
+
+    where T is tridiagonal, so that all products with :math:`R^{-1} = T((1-w)I + wT)^{-1}` are banded and cost
+    :math:`O(n k)`. Both hypotheses choose :math:`\rho` and w of a grid for themselves, by restricted likelihood.
+
+    Args:
+        jacobian: K, shape (rows, constants).
+        residual: r, shape (rows,).
+        columns: B, shape (rows, columns).
+        lines: indices of the rows of each uninterrupted line, in order; rows in none are left out.
+    """
+    constants = jacobian[:, np.any(jacobian != 0.0, axis=0)]
+    constants = constants / np.linalg.norm(constants, axis=0)
+    rows = np.concatenate(lines)
+    first = np.zeros(len(rows), bool)
+    first[np.cumsum([0, *(len(line) for line in lines[:-1])])] = True
+    scale = np.sqrt(np.mean(columns**2)) or 1.0
+    own = constants.shape[1]
+    table = np.column_stack([constants, residual[:, None], columns / scale])[rows]
+    if len(rows) - own < 2 or not np.any(residual):
+        return 0.0
+    without, beside = -np.inf, -np.inf
+    for rho in _RHOS:
+        for white in _WHITE_SHARES if rho > 0.0 else _WHITE_SHARES[:1]:
+            product_, log_det = _whitened(table, first, rho, max(white, _LEAST_WHITE))
+            plain, most = _log_likelihoods(product_, own, len(rows) - own)
+            without = max(without, plain - 0.5 * log_det)
+            beside = max(beside, most - 0.5 * log_det)
+    return 2.0 * max(beside - without, 0.0)
+
+
+def _whitened(
+    table: np.ndarray, first: np.ndarray, rho: float, white: float
+) -> tuple[np.ndarray, float]:
+    """The products of columns with the inverse of R between them, and log det R; R = I for a rho of 0.
+
+    Args:
+        table: rows of one line after the other, shape (rows, columns).
+        first: whether a row begins a line, shape (rows,).
+        rho: autocorrelation of neighbouring rows.
+        white: share of white noise.
+    """
+    from scipy.linalg import cho_solve_banded, cholesky_banded
+
+    if rho == 0.0:
+        return table.T @ table, 0.0
+    last = np.append(first[1:], True)
+    size = 1.0 / (1.0 - rho**2)
+    diagonal = size * np.where(first & last, 1.0 - rho**2, np.where(first | last, 1.0, 1.0 + rho**2))
+    beside = np.where(first, 0.0, -rho * size)  # between a row and the one before
+    banded = np.array([white * beside, (1.0 - white) + white * diagonal])
+    factor = cholesky_banded(banded, check_finite=False)
+    solved = cho_solve_banded((factor, False), table, check_finite=False)
+    inverse = diagonal[:, None] * solved
+    inverse[1:] += beside[1:, None] * solved[:-1]
+    inverse[:-1] += beside[1:, None] * solved[1:]
+    log_det = np.count_nonzero(~first) * np.log1p(-(rho**2)) + 2.0 * float(np.sum(np.log(factor[1])))
+    return table.T @ inverse, log_det
+
+
+def _log_likelihoods(products: np.ndarray, own: int, freedom: int) -> tuple[float, float]:
+    """Restricted log likelihood without the effect, and the largest one with it, from products of columns.
+
+    Args:
+        products: of constants, residual and columns of the effect with each other.
+        own: number of constants.
+        freedom: rows less constants.
+    """
+    values, vectors = np.linalg.eigh(products[:own, :own]) if own else (np.ones(0), np.zeros((0, 0)))
+    kept = values > _PROJECTED * np.max(values, initial=0.0)
+    basis = vectors[:, kept] / np.sqrt(values[kept])
+    shared = basis.T @ products[:own, own:]
+    rest = products[own:, own:] - shared.T @ shared
+    log_det = float(np.sum(np.log(values[kept])))
+    square = max(float(rest[0, 0]), 1e-300)
+    without = -0.5 * (freedom * np.log(square / freedom) + log_det)
+    sizes, turned = np.linalg.eigh(rest[1:, 1:])
+    sizes = np.maximum(sizes, 0.0)
+    moments = (turned.T @ rest[1:, 0]) ** 2
+    widened = 1.0 + _AMPLITUDES[:, None] * sizes
+    squares = np.maximum(square - np.sum(_AMPLITUDES[:, None] * moments / widened, axis=1), 1e-12 * square)
+    each = -0.5 * (freedom * np.log(squares / freedom) + np.sum(np.log(widened), axis=1) + log_det)
+    return without, max(float(np.max(each)), without)
+
+
+def _smooth_columns(blocks: Sequence[Block], length: float) -> np.ndarray:
+    """Columns of the blocks, weighted as those of processes of one length and one variance."""
+    parts = []
+    for block in blocks:
+        roots = np.sqrt(block.variances(1.0, np.maximum(np.full(len(block.orders), length), block.shortest)))
+        kept = roots > _WEIGHTY * np.max(roots)
+        parts.append(block.at_rows()[:, kept] * roots[kept])
+    return np.hstack(parts)
+
+
+def _lines_of(predictor: Predictor, rows: np.ndarray) -> list[np.ndarray]:
+    """The sweeps within some values, thinned where there are many rows; places within ``rows``."""
+    place = np.full(len(predictor.measured), -1)
+    place[rows] = np.arange(len(rows))
+    step = -(-len(rows) // _MOST_LINE_ROWS)
+    lines = [place[np.asarray(sweep)] for sweep in predictor.sweeps]
+    lines = [line[line >= 0][::step] for line in lines]
+    return [line for line in lines if len(line)]
