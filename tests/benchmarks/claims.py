@@ -6,7 +6,8 @@ The files come from `tests.claims.cases_diagnosis`; they are asked as a user of 
 a part of a name, such as ``null/``, ``effect/Coulomb`` or ``interval/``. A line shows what was said, what is
 true, and why the answer is wrong where it is. A table by kind ends it. *noise figure*: of the files with
 nothing hidden, whether the stated noise, from its lower to its upper end, holds the true one within a
-quarter. Intervals are the share of fitted
+quarter. *comparison*: whether the error of the start model is the noise where it should be, and whether the
+residual is rightly said to look like noise. Intervals are the share of fitted
 constants whose truth lies within value +- 1.96 standard errors, wanted 0.90 to 0.98; constants without a
 standard error are counted apart. Thirty seeds of each noise, whatever ``--seeds`` says.
 """
@@ -27,11 +28,13 @@ import numpy as np
 
 from tests.claims.cases_diagnosis import (
     NOISES,
+    Compared,
     Said,
     Sample,
     Situation,
     sample,
     situations,
+    the_comparison,
     transient_sample,
 )
 
@@ -96,6 +99,17 @@ def answers(situation: Situation, folder: Path) -> list[Said]:
     return said
 
 
+def compared(situation: Situation, folder: Path) -> Compared:
+    """What the comparison of the first file with the start model says."""
+    import mckibben as mk
+
+    path = folder / "measured.csv"
+    path.write_text(situation.files[0])
+    data = mk.read(path, **situation.options)
+    found = mk.Model(**situation.muscle, effects=situation.effects).compare(data)
+    return Compared(float(found.rmse), bool(found.whiteness.white), str(found))
+
+
 def examined(situation: Situation) -> list[Line]:
     """Ask and judge one situation."""
     began = time.process_time()
@@ -114,23 +128,34 @@ def examined(situation: Situation) -> list[Line]:
         asked = f"; asks about {', '.join(one.asked)}" if one.asked else ""
         say(f"      said  {mark}[{one.status}{asked}] {' '.join(one.sentence.split())}")
     say(f"      true  {situation.truth}; noise {situation.rms:.3g}. Owed: {situation.owes}")
-    if situation.kind != "null":
-        return [line]
-    figure = noise_line(situation, said[0])
-    if not figure.right:
-        say(f"      --    {figure.why}")
-    return [line, figure]
+    more = []
+    if situation.kind in ("null", "true model"):
+        more.append(noise_line(situation, said[0]))
+    if situation.kind in ("null", "true model", "effect", "unknown"):
+        more.append(comparison_line(situation))
+    for other in more:
+        if not other.right:
+            say(f"      --    {other.kind}: {other.why}")
+    return [line, *more]
 
 
 def noise_line(situation: Situation, said: Said) -> Line:
     """Whether the stated noise holds the true one within a quarter, where nothing is hidden."""
-    name = situation.name.replace("null/", "noise figure/", 1)
+    name = f"noise figure/{situation.name}"
     if said.noise is None:
         return Line(name, True, "", 0.0)
     low, high = said.noise
     right = 0.75 * low <= situation.rms <= 1.25 * high
     why = f"noise {low:.3g} to {high:.3g} stated, {situation.rms:.3g} true"
     return Line(name, right, why, 0.0)
+
+
+def comparison_line(situation: Situation) -> Line:
+    """Whether the comparison with the start model is right."""
+    began = time.process_time()
+    with tempfile.TemporaryDirectory() as folder:
+        right, why = the_comparison(situation, compared(situation, Path(folder)))
+    return Line(f"comparison/{situation.name}", right, why, _since(began))
 
 
 def _head(situation: Situation) -> str:

@@ -360,6 +360,15 @@ class Said:
     text: str
 
 
+@dataclass(frozen=True)
+class Compared:
+    """What a comparison with the start model says; ``white``: that the residual looks like noise."""
+
+    rmse: float
+    white: bool
+    text: str
+
+
 Judgement = tuple[bool, str]  # right, and why not
 Rule = Callable[["Situation", list[Said]], Judgement]
 
@@ -438,6 +447,15 @@ def the_effect(situation: Situation, said: list[Said]) -> Judgement:
     return True, ""
 
 
+def the_comparison(situation: Situation, compared: Compared) -> Judgement:
+    """Where nothing is hidden the error is the noise and looks like it; elsewhere it does not."""
+    if situation.kind not in ("null", "true model"):
+        return (False, "says that the residual looks like noise") if compared.white else (True, "")
+    if not 0.85 * situation.rms <= compared.rmse <= 1.15 * situation.rms:
+        return False, f"error {compared.rmse:.4g}, noise {situation.rms:.4g}"
+    return (True, "") if compared.white else (False, "says that noise has structure")
+
+
 def unknown(situation: Situation, said: list[Said]) -> Judgement:
     """An unknown effect, or a period; no false name, and never that nothing is missing."""
     (one,) = said
@@ -465,6 +483,38 @@ def repeats_at(period: float) -> Rule:
         return False, f"the period of {period:g} s is not told: {said[0].period!r}"
 
     return rule
+
+
+def no_false_cause(situation: Situation, said: list[Said]) -> Judgement:
+    """Unknown; a period over the length is not told as a pitch, unless that over time is told beside it."""
+    right, why = unknown(situation, said)
+    if (
+        right
+        and re.search(r"thread, rack|pitch", said[0].text)
+        and not re.search(r"\ds\b", said[0].period or "")
+    ):
+        return False, f"tells a cause that is not there: {said[0].period}"
+    return right, why
+
+
+def one_family(situation: Situation, said: list[Said]) -> Judgement:
+    """The same file with and without its clock: the same names up to their groups, the same status."""
+    first, other = said
+    if (first.status == "unknown_effect") != (other.status == "unknown_effect"):
+        return False, f"with time: {first.status}, without: {other.status}"
+    for one, two, how in ((first, other, "with"), (other, first, "without")):
+        for name in one.groups:
+            if not any(name in group for group in two.groups.values()):
+                return False, f"{name} is named {how} time and is in no group otherwise"
+    return True, ""
+
+
+def head_is_believed(situation: Situation, said: list[Said]) -> Judgement:
+    """What the head states in words is not asked about; the effect is named."""
+    (one,) = said
+    if any("absolute" in entry for entry in one.asked) or "pressure is wrong" in " ".join(one.text.split()):
+        return False, "doubts the word gauge in the head"
+    return the_effect(situation, said)
 
 
 def proposed_is_added(situation: Situation, said: list[Said]) -> Judgement:
@@ -583,6 +633,9 @@ OWES = {
     names_the_rows: "these rows are named, no false effect",
     tells_of_pushing: "the negative forces are told, nothing else is missing",
     asks_first: "this entry is asked about first",
+    no_false_cause: "unknown, and no cause that is not there",
+    one_family: "the same names up to groups, with time and without",
+    head_is_believed: "the effect, and no doubt of the word gauge in the head",
 }
 
 # --- the situations
@@ -1041,6 +1094,103 @@ for _size in (20, 80):
            absolute=True, timed=_size == 20)  # fmt: skip
 _entry("rest length 3 % too short beside a Gent wall", 20, "rest_length nominal_length", _walled,
        lambda m: replace(m, rest=0.97 * m.rest))  # fmt: skip
+
+
+# --- second round: written after the first answers were seen, and before their own
+
+
+def _with_dry_and_wall(muscle: Muscle) -> tuple[Table, dict[str, dict[str, Any]]]:
+    """Loops of the laws of a model with its numbers, and these."""
+    wall, friction = neo_hookean(muscle, 0.3e6), 0.025 * muscle.blocked
+    table = loops(muscle, lambda p, x: muscle.ideal(p, x) + wall(p, x), reserve=0.07)
+    effects = {
+        "bladder_elasticity": {"shear_modulus": 0.3e6},
+        "coulomb_friction": {"force": friction},
+    }
+    return table.adding(friction * table.side), effects
+
+
+def _true_model(size: int, noise: str, timed: bool) -> None:
+    muscle = MUSCLES[size]
+
+    def make(name: str, rng: np.random.Generator, seed: int) -> Situation:
+        table, effects = _with_dry_and_wall(muscle)
+        table, rms = _measured(muscle, table, rng, noise)
+        truth = f"the model with its true numbers, {noise} noise"
+        text = text_of(table, timed=timed)
+        return _situation(name, seed, muscle, (text,), truth, nothing, rms=rms, effects=effects)
+
+    _register(f"true model/{noise}/{size} mm/{'time' if timed else 'no time'}", make)
+
+
+for _size, _noise, _timed in (
+    (5, "white", True), (20, "white", False), (80, "white", False), (12, "ar09", True), (40, "ar09", False),
+    (20, "quantised", False),
+):  # fmt: skip
+    _true_model(_size, _noise, _timed)
+
+_NOISY = {"kind": "effect in noise"}
+_effect("Coulomb friction of 4 %, ar098", 12, _RUBS, _with_dry(0.04), noise="ar098", **_NOISY)
+_effect("Coulomb friction of 6 %, swinging", 80, _RUBS, _with_dry(0.06), noise="swinging", **_NOISY)
+_effect("prestress of 3 %, ar09", 5, "prestress force_offset", _prestressed, noise="ar09", timed=False,
+        **_NOISY)  # fmt: skip
+_effect("Gent wall, ar098", 80, "bladder_elasticity linear_elasticity", _walled, noise="ar098", timed=False,
+        **_NOISY)  # fmt: skip
+_effect("Gent wall, quantised", 5, "bladder_elasticity linear_elasticity", _walled, noise="quantised",
+        **_NOISY)  # fmt: skip
+_effect("viscous damping, heteroscedastic", 40, "viscous_damping", _viscous, noise="heteroscedastic",
+        **_NOISY)  # fmt: skip
+_effect("frame rings, its cause", 12, "", _ringing, kind="unknown", rule=no_false_cause)
+_effect("frame rings, its cause", 80, "", _ringing, kind="unknown", rule=no_false_cause, timed=False)
+
+
+def _without_clock(what: str, size: int, build: Callable[[Muscle], Table], noise: str = "white") -> None:
+    muscle = MUSCLES[size]
+
+    def make(name: str, rng: np.random.Generator, seed: int) -> Situation:
+        table, rms = _measured(muscle, build(muscle), rng, noise)
+        texts = (text_of(table), text_of(table, timed=False))
+        return _situation(name, seed, muscle, texts, what, one_family, rms=rms)
+
+    _register(f"same clock/{what}/{size} mm", make)
+
+
+_without_clock("Coulomb friction of 6 %", 40, _with_dry(0.06))
+_without_clock("Coulomb friction of 3 %", 12, _with_dry(0.03))
+_without_clock("wall and dry friction", 20, _walled_and_dry)
+_without_clock("friction of crossing threads", 80, _crossing)
+_without_clock("prestress of 3 %", 5, _prestressed)
+
+
+def _spike(muscle: Muscle, rng: np.random.Generator) -> tuple[Table, tuple[int, ...]]:
+    """A prestress, and one reading that is 60 sigma too high."""
+    table, _ = _measured(muscle, _prestressed(muscle), rng)
+    row = int(rng.integers(70, 230))
+    force = table.force.copy()
+    force[row] += 60.0 * NOISE * muscle.blocked
+    return replace(table, force=force), (row + 1,)
+
+
+_bad("prestress and one spike of 60 sigma in 300", _spike, 20, accepted="prestress force_offset")
+_bad("prestress and one spike of 60 sigma in 300", _spike, 80, accepted="prestress force_offset")
+
+
+def _gauge_head(size: int, shift: float) -> None:
+    muscle = MUSCLES[size]
+
+    def make(name: str, rng: np.random.Generator, seed: int) -> Situation:
+        table, rms = _measured(muscle, _ideal_loops(muscle), rng)
+        text = text_of(replace(table, pressure=table.pressure + shift))
+        text = text.replace("pressure [bar]", "gauge pressure [bar]", 1)
+        names = frozenset({"pressure_offset", "threshold_pressure"})
+        truth = f"the gauge reads {shift / BAR:g} bar too much"
+        return _situation(name, seed, muscle, (text,), truth, head_is_believed, rms=rms, accepted=names)
+
+    _register(f"entry/a head that says gauge, zero of {shift / BAR:g} bar/{size} mm", make)
+
+
+_gauge_head(20, 1.0 * BAR)
+_gauge_head(80, 0.3 * BAR)
 
 
 # transients: a mass that hangs on the muscle, its pressure and length are read
