@@ -10,6 +10,21 @@ quarter. *comparison*: whether the error of the start model is the noise where i
 residual is rightly said to look like noise. Intervals are the share of fitted
 constants whose truth lies within value +- 1.96 standard errors, wanted 0.90 to 0.98; constants without a
 standard error are counted apart. Thirty seeds of each noise, whatever ``--seeds`` says.
+
+First scores, 27 November 2026, seed 0, 303 s of processor time; the kinds after the line were written when
+those before it had been seen, and so were two each of *unknown*, *bad rows* and *entry*:
+
+| kind | right | of | kind | right | of |
+|---|---|---|---|---|---|
+| null | 11 | 18 | superfluous | 0 | 5 |
+| noise figure | 10 | 18 | bad rows | 0 | 8 |
+| effect | 18 | 20 | entry | 3 | 9 |
+| unknown | 6 | 11 | transient | 4 | 6 |
+| add | 5 | 6 | interval | 4 | 18 |
+| same order | 5 | 5 | same units | 5 | 5 |
+|---|---|---|---|---|---|
+| comparison | 36 | 55 | true model | 3 | 6 |
+| effect in noise | 3 | 6 | same clock | 1 | 5 |
 """
 
 from __future__ import annotations
