@@ -8,7 +8,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mckibben.identification.fit.correlated import Ways, covariance
+from mckibben.identification.fit.correlated import Noises, Ways, Weighed, covariance, weighed_noises
 from mckibben.identification.fit.effort import FitEffort, search_effort
 from mckibben.identification.fit.misfit import Misfit, penalised
 from mckibben.identification.predict.fit_model import FitModel, Free
@@ -103,14 +103,24 @@ class FittedModel:
         return int(np.count_nonzero(self.at_bound) + np.count_nonzero(weak))
 
     @cached_property
+    def noises(self) -> list[list[Weighed]]:
+        """Of each channel, what its noise may be if the model is right."""
+        inner = self.jacobian[:, self.inner]
+        return [weighed_noises(inner, self.residual, ways) for ways in self.noise_lines]
+
+    @property
     def standard_errors(self) -> list[float | None]:
         """Standard errors of the free parameters; None at a bound or where the data do not determine it."""
+        return self.standard_errors_under(self.noises)
+
+    def standard_errors_under(self, noises: Noises) -> list[float | None]:
+        """`standard_errors` with noise that is known from a better model, of the size of this residual."""
         errors: list[float | None] = [None] * len(self.free)
         inner = [i for i in self.inner if not self.at_bound[i]]
         if not inner or self.implausible:
             return errors
         if len(self.residual) > len(inner):
-            matrix = covariance(self.jacobian[:, inner], self.residual, self.noise_lines)
+            matrix = covariance(self.jacobian[:, inner], self.residual, noises=noises or None)
             for place, index in enumerate(inner):
                 errors[index] = float(np.sqrt(max(matrix[place, place], 0.0)))
         return errors

@@ -51,7 +51,9 @@ _LEAST_SIZE = 0.05  # of the largest prediction; the noise of smaller ones is th
 _STRETCH = 2  # rows between the first and the last of them, over their number, up to which they lie in a row
 _MANY_LEVELS = 0.5  # of the rows; with more levels a variable has no places that rows share
 
-Kind = Literal["after a turn", "before a turn", "first of a sweep", "last of a sweep", "in a row", "sweep", "level"]
+Kind = Literal[
+    "after a turn", "before a turn", "first of a sweep", "last of a sweep", "in a row", "sweep", "level"
+]
 
 
 @dataclass(frozen=True)
@@ -299,9 +301,7 @@ class _Table:
         columns, penalty = self.basis, np.zeros(self.constants)
         if found.pays and found.likeliest is not None:
             columns = np.hstack([self.basis, self.columns * found.likeliest.roots])
-            penalty = np.append(
-                penalty, np.full(columns.shape[1] - self.constants, found.likeliest.noise)
-            )
+            penalty = np.append(penalty, np.full(columns.shape[1] - self.constants, found.likeliest.noise))
         inverse = np.linalg.pinv(columns.T @ columns + np.diag(penalty), hermitian=True)
         leverage = np.minimum(np.sum((columns @ inverse) * columns, axis=1), _LEVERAGE)
         rest = self.residual - columns @ (inverse @ (columns.T @ self.residual))
@@ -416,7 +416,14 @@ def common_place(
         places.append(("level", name, float(values[named[0]]), set(np.flatnonzero(near).tolist()), count))
     kinds = len({(kind, name) for kind, name, *_ in places})
     found = [
-        Place(kind, name, value, len(wanted), len(inside), min(kinds * ways * _odds(len(wanted), len(inside), rows), 1.0))
+        Place(
+            kind,
+            name,
+            value,
+            len(wanted),
+            len(inside),
+            min(kinds * ways * _odds(len(wanted), len(inside), rows), 1.0),
+        )
         for kind, name, value, inside, ways in places
         if wanted <= inside
     ]

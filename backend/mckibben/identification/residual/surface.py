@@ -49,7 +49,14 @@ _FEWEST_OF_A_WAY = 4  # rows of either direction of motion, from which its sign 
 _PLAYS = (0.03, 0.1, 0.25)  # half widths of the plays, share of the range of their variable
 _LAGS = (0.02, 0.06, 0.2, 0.6, 2.0)  # s; times of the lagged variables of a transient
 
-_MAIN = ("pressure", "contraction", "stroke", "load", "temperature", "command")  # no surface beyond their range
+_MAIN = (
+    "pressure",
+    "contraction",
+    "stroke",
+    "load",
+    "temperature",
+    "command",
+)  # no surface beyond their range
 _BESIDE = 1e-3  # of the range; so far beyond the other rows is still within
 _FEWEST_FOLDS = 3  # groups with rows inside; with less the gain has no interval
 _DRAWS, _SEED = 2000, 0  # of the bootstrap over groups
@@ -118,7 +125,8 @@ class Block:
     def columns(self, places: np.ndarray, factor: np.ndarray | None) -> np.ndarray:
         """The functions at some places, shape (places, columns)."""
         first, *others = (
-            np.sin(np.outer(place + _EDGE, np.arange(1, order + 1) * (np.pi / (2.0 * _EDGE)))) / np.sqrt(_EDGE)
+            np.sin(np.outer(place + _EDGE, np.arange(1, order + 1) * (np.pi / (2.0 * _EDGE))))
+            / np.sqrt(_EDGE)
             for place, order in zip(places.T, self.orders, strict=True)
         )
         for other in others:
@@ -204,10 +212,12 @@ class _Likelihood:
         return np.clip(usual, self.low, self.high)
 
     def variances(self, logs: np.ndarray) -> np.ndarray:
-        return np.concatenate([
-            block.variances(np.exp(logs[number]), np.exp(logs[part]))
-            for number, (block, part) in enumerate(zip(self.blocks, self.lengths, strict=True))
-        ])
+        return np.concatenate(
+            [
+                block.variances(np.exp(logs[number]), np.exp(logs[part]))
+                for number, (block, part) in enumerate(zip(self.blocks, self.lengths, strict=True))
+            ]
+        )
 
     def __call__(self, logs: np.ndarray) -> tuple[float, np.ndarray]:
         from scipy.linalg import lapack
@@ -230,7 +240,9 @@ class _Likelihood:
         slope = np.zeros_like(logs)
         # By the logarithm of each variance, then by amplitude and lengths.
         by_variance = 0.5 * ((1.0 - diagonal) - weights**2 / variances)
-        for number, (block, part, where) in enumerate(zip(self.blocks, self.parts, self.lengths, strict=True)):
+        for number, (block, part, where) in enumerate(
+            zip(self.blocks, self.parts, self.lengths, strict=True)
+        ):
             own = by_variance[part]
             slope[number] = 2.0 * np.sum(own)
             floor = _FLOOR * float(np.exp(2.0 * logs[number]))
@@ -265,7 +277,12 @@ def most_likely(
     bounds = list(zip(likelihood.low, likelihood.high, strict=True))
     start = likelihood.start(before)
     found = minimize(
-        likelihood, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": _STEPS, "ftol": 1e-7}
+        likelihood,
+        start,
+        jac=True,
+        method="L-BFGS-B",
+        bounds=bounds,
+        options={"maxiter": _STEPS, "ftol": 1e-7},
     )
     size = likelihood.size**2
     log_evidence = -float(found.fun) - 0.5 * count * np.log(size)
@@ -458,7 +475,8 @@ def _moving_variables(
         name: values
         for name, values in variables.items()
         if len(values) == len(rows)
-        and np.all(np.isfinite(values)) and np.ptp(values) > 1e-9 * np.max(np.abs(values))
+        and np.all(np.isfinite(values))
+        and np.ptp(values) > 1e-9 * np.max(np.abs(values))
     }, time
 
 
@@ -750,9 +768,7 @@ def ratio_of(
     return 2.0 * max(beside - without, 0.0)
 
 
-def _whitened(
-    table: np.ndarray, first: np.ndarray, rho: float, white: float
-) -> tuple[np.ndarray, float]:
+def _whitened(table: np.ndarray, first: np.ndarray, rho: float, white: float) -> tuple[np.ndarray, float]:
     """The products of columns with the inverse of R between them, and log det R; R = I for a rho of 0.
 
     Args:
