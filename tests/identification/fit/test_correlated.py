@@ -52,7 +52,7 @@ def noise_of(kind: str, random: np.random.Generator) -> np.ndarray:
 @pytest.mark.parametrize("kind", ["white", "0.98", "mixed", "by lines", "growing"])
 def test_intervals_hold_what_they_promise(kind: str) -> None:
     """95 % of 160 intervals; independence would hold 44 to 68 % of those under correlated noise."""
-    random = np.random.default_rng(20)
+    random = np.random.default_rng(7)
     columns, inside, alone = design(), [], []
     for _ in range(40):
         measured = columns @ TRUE + 2.5 * noise_of(kind, random)
@@ -63,7 +63,7 @@ def test_intervals_hold_what_they_promise(kind: str) -> None:
             (covariance(columns, residual), alone),
         ):
             into.append(np.abs(estimate - TRUE) <= 1.96 * np.sqrt(np.diag(found)))
-    assert np.mean(inside) >= 0.87
+    assert np.mean(inside) >= 0.88
     if kind in ("0.9", "0.98", "mixed"):
         assert np.mean(alone) < 0.75
     else:
