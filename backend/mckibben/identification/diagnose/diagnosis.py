@@ -15,6 +15,7 @@ from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
+from mckibben.identification.diagnose.needed import pruned
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
 from mckibben.identification.diagnose.probability import (
     LIKELY,
@@ -383,6 +384,7 @@ def _search(
     fitted_singles = [(effect, single) for effect, single in fitted_singles if not single.lost]
     progress.share, progress.end = 0.45, 0.85
     best = search(fitter, root, singles=[fitted_model for _, fitted_model in fitted_singles])
+    best = pruned(fitter, best, root)
     fitter.noise, how = noise_of(predictor, best.residual, noise)
     # Simulated data have no noise: differences below their numerical resolution do not count.
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))

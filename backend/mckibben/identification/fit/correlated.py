@@ -269,3 +269,32 @@ def _times(residual: np.ndarray, weighed: Sequence[Weighed]) -> float:
     """Mean square of the rows of a residual over the variance of the noise."""
     variance = sum(each.weight * each.variance for each in weighed)
     return float(np.mean(residual[weighed[0].rows] ** 2)) / max(variance, 1e-300)
+
+
+def log_likelihood(jacobian: np.ndarray, residual: np.ndarray, channels: Sequence[Ways]) -> float:
+    r"""Largest log likelihood of a residual over its noise, with the parameters at their best for that noise.
+
+    .. math:: \max_R\;-\tfrac12\big(n\ln(\hat r^TR^{-1}\hat r/n) + \ln|R|\big)
+
+    summed over the channels; constants that all models of the same values share are left out.
+
+    Args:
+        jacobian: derivatives of all values at the fit, shape (values, parameters).
+        residual: shape (values,).
+        channels: lines of the noise of each channel.
+    """
+    whole = 0.0
+    for ways in channels:
+        best = -np.inf
+        for lines in ways:
+            rows, chain = np.concatenate(lines), Chain([len(line) for line in lines])
+            left, sizes, _ = np.linalg.svd(jacobian[rows], full_matrices=False)
+            basis = left[:, sizes > _INDEPENDENT * float(np.max(sizes, initial=0.0))]
+            columns = np.column_stack([basis, residual[rows]])
+            for noise in noises_of(chain.lengths.tolist()):
+                products, log_det = chain.products(columns, noise)
+                normal, right = products[:-1, :-1], products[:-1, -1]
+                squares = float(products[-1, -1] - right @ np.linalg.solve(normal, right))
+                best = max(best, -0.5 * (len(rows) * np.log(max(squares, 1e-300) / len(rows)) + log_det))
+        whole += best
+    return whole

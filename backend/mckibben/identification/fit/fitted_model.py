@@ -8,7 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
-from mckibben.identification.fit.correlated import Noises, Ways, Weighed, covariance, weighed_noises
+from mckibben.identification.fit.correlated import (
+    Noises,
+    Ways,
+    Weighed,
+    covariance,
+    log_likelihood,
+    weighed_noises,
+)
 from mckibben.identification.fit.effort import FitEffort, search_effort
 from mckibben.identification.fit.misfit import Misfit, penalised
 from mckibben.identification.predict.fit_model import FitModel, Free
@@ -107,6 +114,11 @@ class FittedModel:
         """Of each channel, what its noise may be if the model is right."""
         inner = self.jacobian[:, self.inner]
         return [weighed_noises(inner, self.residual, ways) for ways in self.noise_lines]
+
+    @cached_property
+    def log_likelihood(self) -> float:
+        """Log likelihood of the residual under the noise that suits it best, up to a constant."""
+        return log_likelihood(self.jacobian[:, self.inner], self.residual, self.noise_lines)
 
     @property
     def standard_errors(self) -> list[float | None]:
