@@ -1,4 +1,4 @@
-r"""A free surface on the residual of a fitted model: what any further formula of the same variables could take.
+r"""A free surface on the residual of a fitted model: what further formulas of its variables could take.
 
 The residual is followed by a sum of Gaussian processes, one for each block of one or two variables, in a sine
 basis (Solin & Särkkä, Statistics and Computing 30 (2020) 419). With x in -1 ... 1, :math:`c = 1.5` and
@@ -7,12 +7,12 @@ basis (Solin & Särkkä, Statistics and Computing 30 (2020) 419). With x in -1 .
    f(x) = \sum_j w_j\phi_j(x),\quad w_j \sim N(0, S(\omega_j)),\quad
    S(\omega) = a^2\sqrt{2\pi}\,\ell\,e^{-(\ell\omega)^2/2}
 
-the n rows enter by their products with the k columns alone: :math:`O(n k^2)` once, and :math:`O(k^3)` for each
-trial of the amplitudes a, lengths :math:`\ell` and the noise, which have the largest marginal likelihood
+the n rows enter by their products with the k columns alone: :math:`O(n k^2)` once, and :math:`O(k^3)` for
+each trial of the amplitudes a, lengths :math:`\ell` and the noise, which have the largest marginal likelihood
 (Kennedy & O'Hagan, J. R. Statist. Soc. B 63 (2001) 425, for a surface on the residual of a physical model).
 
-What the surface takes in sample is no proof: correlated noise is a surface as well. `Surface.gain` says what it
-takes of rows that were left out, `likelihood_ratio` what it explains that correlated noise does not.
+What the surface takes in sample is no proof: correlated noise is a surface as well. `Surface.gain` says what
+it takes of rows that were left out, `likelihood_ratio` what it explains that correlated noise does not.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from itertools import pairwise, product
 from typing import NamedTuple
 
 import numpy as np
@@ -50,12 +50,32 @@ _FEWEST_OF_A_WAY = 4  # rows of either direction of motion, from which its sign 
 _PLAYS = (0.03, 0.1, 0.25)  # half widths of the plays, share of the range of their variable
 _LAGS = (0.02, 0.06, 0.2, 0.6, 2.0)  # s; times of the lagged variables of a transient
 
-_MAIN = ("pressure", "contraction", "stroke", "load", "temperature", "command")  # no surface beyond their range
+_MAIN = (
+    "pressure",
+    "contraction",
+    "stroke",
+    "load",
+    "temperature",
+    "command",
+)  # no surface beyond their range
 _BESIDE = 1e-3  # of the range; so far beyond the other rows is still within
 _FEWEST_FOLDS = 3  # groups with rows inside; with less the gain has no interval
 _DRAWS, _SEED = 2000, 0  # of the bootstrap over groups
 _INTERVAL = (0.05, 0.95)
 _MATTERS = 0.02  # share of the surface below which a block is not named
+
+_RHOS = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.975, 0.99, 0.997)  # autocorrelation of neighbouring rows
+_WHITE_SHARES = (0.0, 0.15, 0.4, 0.7)  # w: share of white noise in the variance of the noise
+# Noise that swings, of second order: radius of the poles, period in rows, and shares of white noise.
+_RADII, _PERIODS, _SWINGING_SHARES = (0.8, 0.9, 0.97), (6.0, 10.0, 16.0, 30.0), (0.0, 0.4)
+_FEWEST_OF_A_LINE = 4  # rows; in shorter lines noise of second order counts as white
+_LEAST_WHITE = 1e-6  # instead of a share of 0, so that equal rows do not make the matrix singular
+_AMPLITUDES = np.geomspace(1e-6, 1e4, 31)  # variance of the effect over that of the noise
+_ROUGHNESSES = (0.2, 0.7)  # lengths of the processes whose columns are tried, of variables in -1 ... 1
+_LATE = 2.0  # length of what is late alone: nearly in proportion
+_WEIGHTY = 1e-2  # prior standard deviation of a column over the largest one, below which it is left out
+_MOST_LINE_ROWS = 6000  # for the likelihood ratio; of more rows every second, third ... of each line is taken
+_PROJECTED = 1e-10  # of a sum of squares, below which a column lies among the others
 
 
 @dataclass(frozen=True, eq=False)
@@ -119,7 +139,8 @@ class Block:
     def columns(self, places: np.ndarray, factor: np.ndarray | None) -> np.ndarray:
         """The functions at some places, shape (places, columns)."""
         first, *others = (
-            np.sin(np.outer(place + _EDGE, np.arange(1, order + 1) * (np.pi / (2.0 * _EDGE)))) / np.sqrt(_EDGE)
+            np.sin(np.outer(place + _EDGE, np.arange(1, order + 1) * (np.pi / (2.0 * _EDGE))))
+            / np.sqrt(_EDGE)
             for place, order in zip(places.T, self.orders, strict=True)
         )
         for other in others:
@@ -188,10 +209,10 @@ class _Likelihood:
         self.size = float(np.sqrt(max(square / max(count, 1), 1e-300)))
         self.gram, self.moment, self.square = gram, moment / self.size, square / self.size**2
         edges = np.cumsum([0, *(len(block.waves) for block in blocks)])
-        self.parts = [slice(*ends) for ends in zip(edges[:-1], edges[1:], strict=True)]
+        self.parts = [slice(*ends) for ends in pairwise(edges)]
         amplitudes, dimensions = len(blocks), [len(block.orders) for block in blocks]
         ends = amplitudes + np.cumsum([0, *dimensions])
-        self.lengths = [slice(*pair) for pair in zip(ends[:-1], ends[1:], strict=True)]
+        self.lengths = [slice(*pair) for pair in pairwise(ends)]
         shortest = np.concatenate([np.minimum(block.shortest, 0.5 * _LONGEST) for block in blocks])
         self.low = np.log([*[_LEAST] * amplitudes, *shortest, _LEAST_NOISE])
         self.high = np.log([*[_GREATEST] * amplitudes, *[_LONGEST] * len(shortest), _GREATEST_NOISE])
@@ -205,24 +226,27 @@ class _Likelihood:
         return np.clip(usual, self.low, self.high)
 
     def variances(self, logs: np.ndarray) -> np.ndarray:
-        return np.concatenate([
-            block.variances(np.exp(logs[number]), np.exp(logs[part]))
-            for number, (block, part) in enumerate(zip(self.blocks, self.lengths, strict=True))
-        ])
+        return np.concatenate(
+            [
+                block.variances(np.exp(logs[number]), np.exp(logs[part]))
+                for number, (block, part) in enumerate(zip(self.blocks, self.lengths, strict=True))
+            ]
+        )
 
     def __call__(self, logs: np.ndarray) -> tuple[float, np.ndarray]:
-        from scipy.linalg import lapack
+        from scipy.linalg import get_lapack_funcs
 
         variances, noise = self.variances(logs), float(np.exp(2.0 * logs[-1]))
         roots, columns = np.sqrt(variances), len(variances)
         whole = (roots[:, None] * self.gram * roots) / noise
         whole[np.diag_indices(columns)] += 1.0
-        factor, failed = lapack.dpotrf(whole, lower=1, clean=0)
+        potrf, potrs, potri = get_lapack_funcs(("potrf", "potrs", "potri"), (whole,))
+        factor, failed = potrf(whole, lower=1, clean=0)
         if failed:
             return 1e12, np.zeros_like(logs)
         log_det = 2.0 * float(np.sum(np.log(np.diag(factor))))
-        weights = roots * lapack.dpotrs(factor, roots * self.moment, lower=1)[0] / noise
-        diagonal = np.diag(lapack.dpotri(factor, lower=1)[0])
+        weights = roots * potrs(factor, roots * self.moment, lower=1)[0] / noise
+        diagonal = np.diag(potri(factor, lower=1)[0])
         # At the best weights, so that their rounding errors count by their squares only.
         fit = float(weights @ self.moment)
         rest = max(self.square - 2.0 * fit + float(weights @ self.gram @ weights), 0.0)
@@ -231,7 +255,9 @@ class _Likelihood:
         slope = np.zeros_like(logs)
         # By the logarithm of each variance, then by amplitude and lengths.
         by_variance = 0.5 * ((1.0 - diagonal) - weights**2 / variances)
-        for number, (block, part, where) in enumerate(zip(self.blocks, self.parts, self.lengths, strict=True)):
+        for number, (block, part, where) in enumerate(
+            zip(self.blocks, self.parts, self.lengths, strict=True)
+        ):
             own = by_variance[part]
             slope[number] = 2.0 * np.sum(own)
             floor = _FLOOR * float(np.exp(2.0 * logs[number]))
@@ -266,7 +292,12 @@ def most_likely(
     bounds = list(zip(likelihood.low, likelihood.high, strict=True))
     start = likelihood.start(before)
     found = minimize(
-        likelihood, start, jac=True, method="L-BFGS-B", bounds=bounds, options={"maxiter": _STEPS, "ftol": 1e-7}
+        likelihood,
+        start,
+        jac=True,
+        method="L-BFGS-B",
+        bounds=bounds,
+        options={"maxiter": _STEPS, "ftol": 1e-7},
     )
     size = likelihood.size**2
     log_evidence = -float(found.fun) - 0.5 * count * np.log(size)
@@ -459,7 +490,8 @@ def _moving_variables(
         name: values
         for name, values in variables.items()
         if len(values) == len(rows)
-        and np.all(np.isfinite(values)) and np.ptp(values) > 1e-9 * np.max(np.abs(values))
+        and np.all(np.isfinite(values))
+        and np.ptp(values) > 1e-9 * np.max(np.abs(values))
     }, time
 
 
@@ -501,10 +533,10 @@ def _blocks_of(
 def surface_of(fitted: FittedModel, predictor: Predictor) -> Surface | None:
     """The free surface on the residual of a fitted model; None below twenty rows and after a stopped run.
 
-    Left-out groups are predicted by the physical model with its constants refitted without them to first order,
-    and by a surface that is fitted to the residual of the others. Three guards keep the surface from doing
-    harm there: it corrects nothing beyond the range of the other rows, its variables go to that range, and it
-    is multiplied by :math:`\\alpha = \\sum e c / \\sum c^2` of the other groups, within 0 ... 1.
+    Left-out groups are predicted by the physical model with its constants refitted without them to first
+    order, and by a surface that is fitted to the residual of the others. Three guards keep the surface from
+    doing harm there: it corrects nothing beyond the range of the other rows, its variables go to that range,
+    and it is multiplied by :math:`\\alpha = \\sum e c / \\sum c^2` of the other groups, within 0 ... 1.
 
     Args:
         fitted: the model.
@@ -648,7 +680,10 @@ class _Way:
 
 
 def _without(fitted: FittedModel, rows: np.ndarray) -> np.ndarray:
-    """Residual of all rows with the constants refitted without some (a mask), as `FittedModel.square_without`."""
+    """Residual of all rows with the constants refitted without some (a mask), to first order.
+
+    As `FittedModel.square_without`, which returns the mean square of the rows left out.
+    """
     jacobian, normal, low, high, prior, pull = fitted._linear
     if not jacobian.shape[1]:
         return fitted.residual
@@ -679,20 +714,6 @@ def _shrunk(left: np.ndarray, correction: np.ndarray, labels: np.ndarray) -> np.
         share = np.clip(float(np.sum(products[~out])) / size, 0.0, 1.0) if size > 0.0 else 0.0
         shrunk[out] = share * correction[out]
     return shrunk
-
-
-_RHOS = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.975, 0.99, 0.997)  # autocorrelation of neighbouring rows
-_WHITE_SHARES = (0.0, 0.15, 0.4, 0.7)  # w: share of white noise in the variance of the noise
-# Noise that swings, of second order: radius of the poles and period in rows, with these shares of white noise.
-_RADII, _PERIODS, _SWINGING_SHARES = (0.8, 0.9, 0.97), (6.0, 10.0, 16.0, 30.0), (0.0, 0.4)
-_FEWEST_OF_A_LINE = 4  # rows; in shorter lines noise of second order counts as white
-_LEAST_WHITE = 1e-6  # instead of a share of 0, so that equal rows do not make the matrix singular
-_AMPLITUDES = np.geomspace(1e-6, 1e4, 31)  # variance of the effect over that of the noise
-_ROUGHNESSES = (0.2, 0.7)  # lengths of the processes whose columns are tried, of variables in -1 ... 1
-_LATE = 2.0  # length of what is late alone: nearly in proportion
-_WEIGHTY = 1e-2  # prior standard deviation of a column over the largest one, below which it is left out
-_MOST_LINE_ROWS = 6000  # for the likelihood ratio; of more rows every second, third ... of each line is taken
-_PROJECTED = 1e-10  # of a sum of squares, below which a column lies among the others
 
 
 def likelihood_ratio(fitted: FittedModel, predictor: Predictor) -> float:
@@ -726,15 +747,17 @@ def ratio_of(
 ) -> float:
     r"""Twice the gain in log likelihood by a random effect, beside white noise and noise that is correlated.
 
-    Without and with the effect the residual is :math:`r \sim N(K\beta, s^2(R + \lambda BDB^T))`. Within each line
+    Without and with the effect the residual is :math:`r \sim N(K\beta, s^2(R + \lambda BDB^T))`. Within each
+    line
 
     .. math:: R = (1-w)A + wI = A\,((1-w)I + wT),\quad T = A^{-1},\quad
        e_i = \phi_1e_{i-1} + \phi_2e_{i-2} + \epsilon_i
 
-    with A the correlations of the autoregressive noise e, :math:`A_{ij} = \rho^{|i-j|}` for one of first order.
-    T has two diagonals beside the main one, so that all products with :math:`R^{-1} = T((1-w)I + wT)^{-1}` are
-    banded and cost :math:`O(n k)`. Both hypotheses choose the noise of a grid for themselves, by restricted
-    likelihood: of first order, and swinging ones of second order.
+    with A the correlations of the autoregressive noise e; :math:`A_{ij} = \rho^{|i-j|}` for one of first
+    order. T has two diagonals beside the main one, so that products with
+    :math:`R^{-1} = T((1-w)I + wT)^{-1}` are banded and cost :math:`O(n k)`. Both
+    hypotheses choose the noise of a grid for themselves, by restricted likelihood: of first order, and
+    swinging ones of second order.
 
     Args:
         jacobian: K, shape (rows, constants).
