@@ -1,21 +1,22 @@
 r"""Rows that do not fit: told from a local effect by the evidence of both.
 
 A robust loss takes a narrow effect for bad rows. Neighbours and other pressures that share a deviation tell
-them apart, as they make a free surface cheaper than rows that are set aside one by one. Of n readings of range
-R, m rows M are set aside as readings that may be anything, each a share :math:`\varepsilon` of all rows:
+them apart, as they make a free surface cheaper than rows that are set aside one by one. Of n readings of
+range R, m rows M are set aside as readings that may be anything, a share :math:`\varepsilon` of all rows:
 
 .. math:: E_m = \ln p(r_{\setminus M} \mid K, f) + m\ln\frac{\varepsilon}{2R} + (n-m)\ln(1-\varepsilon)
 
 The evidence p of the other rows has the constants of the model (columns K) integrated out, and has a free
-surface f (`mckibben.identification.residual.surface`) or none, whichever is likelier. Rows are candidates in the
-order of their deleted studentised residuals (Rosner, Technometrics 25 (1983) 165), beside the model alone and,
-where a surface pays, beside model and surface.
+surface f (`mckibben.identification.residual.surface`) or none, whichever is likelier. Rows are candidates in
+the order of their deleted studentised residuals (Rosner, Technometrics 25 (1983) 165), beside the model alone
+and, where a surface pays, beside model and surface.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from typing import Literal
 
 import numpy as np
@@ -42,8 +43,8 @@ _ALIKE = 1e-7  # singular value of the normalised Jacobian below which a directi
 _ROUNDING = 1e-9  # of the range; smaller residuals are rounding errors
 _PAIR = 5  # functions of each variable of a pair, with which a surface costs little
 _CHANCE = 0.05  # probability that rows anywhere lie at any of the places, below which the place tells
-# Noise that grows with the reading: its logarithm over that of the size of the prediction, from the logarithms
-# of the residual, whose standard deviation is 1.11 for normal noise. A few rows that do not fit change it little.
+# Noise that grows with the reading: its logarithm over that of the size of the prediction, from logarithms of
+# the residual, whose standard deviation is 1.11 for normal noise. Few rows that do not fit change it little.
 _LOG_SCATTER = 1.11
 _GROWS = 3.0  # standard errors of the slope from which the noise grows
 _STEEPEST = 1.0  # slope of noise in proportion to the reading
@@ -165,7 +166,7 @@ def growing_noise(
     *,
     span: float,
 ) -> np.ndarray | None:
-    """Noise of each row where it grows with the prediction, with the geometric mean 1; None where it does not.
+    """Noise of each row over its geometric mean, where it grows with the prediction; None where it does not.
 
     Args:
         jacobian, residual, blocks, span: as of `outlying_rows`.
@@ -393,7 +394,7 @@ def common_place(
         turns = [
             (int(before), int(after))
             for sweep in long
-            for before, after in zip(sweep[:-1], sweep[1:], strict=True)
+            for before, after in pairwise(sweep)
             if direction[before] * direction[after] < 0.0
         ]
         places.append(("after a turn", "", np.nan, {after for _, after in turns}, 1))

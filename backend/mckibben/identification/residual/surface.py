@@ -1,4 +1,4 @@
-r"""A free surface on the residual of a fitted model: what any further formula of the same variables could take.
+r"""A free surface on the residual of a fitted model: what further formulas of its variables could take.
 
 The residual is followed by a sum of Gaussian processes, one for each block of one or two variables, in a sine
 basis (Solin & Särkkä, Statistics and Computing 30 (2020) 419). With x in -1 ... 1, :math:`c = 1.5` and
@@ -7,12 +7,12 @@ basis (Solin & Särkkä, Statistics and Computing 30 (2020) 419). With x in -1 .
    f(x) = \sum_j w_j\phi_j(x),\quad w_j \sim N(0, S(\omega_j)),\quad
    S(\omega) = a^2\sqrt{2\pi}\,\ell\,e^{-(\ell\omega)^2/2}
 
-the n rows enter by their products with the k columns alone: :math:`O(n k^2)` once, and :math:`O(k^3)` for each
-trial of the amplitudes a, lengths :math:`\ell` and the noise, which have the largest marginal likelihood
+the n rows enter by their products with the k columns alone: :math:`O(n k^2)` once, and :math:`O(k^3)` for
+each trial of the amplitudes a, lengths :math:`\ell` and the noise, which have the largest marginal likelihood
 (Kennedy & O'Hagan, J. R. Statist. Soc. B 63 (2001) 425, for a surface on the residual of a physical model).
 
-What the surface takes in sample is no proof: correlated noise is a surface as well. `Surface.gain` says what it
-takes of rows that were left out, `likelihood_ratio` what it explains that correlated noise does not.
+What the surface takes in sample is no proof: correlated noise is a surface as well. `Surface.gain` says what
+it takes of rows that were left out, `likelihood_ratio` what it explains that correlated noise does not.
 """
 
 from __future__ import annotations
@@ -20,7 +20,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from itertools import product
+from itertools import pairwise, product
+from typing import NamedTuple
 
 import numpy as np
 
@@ -62,6 +63,19 @@ _FEWEST_FOLDS = 3  # groups with rows inside; with less the gain has no interval
 _DRAWS, _SEED = 2000, 0  # of the bootstrap over groups
 _INTERVAL = (0.05, 0.95)
 _MATTERS = 0.02  # share of the surface below which a block is not named
+
+_RHOS = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.975, 0.99, 0.997)  # autocorrelation of neighbouring rows
+_WHITE_SHARES = (0.0, 0.15, 0.4, 0.7)  # w: share of white noise in the variance of the noise
+# Noise that swings, of second order: radius of the poles, period in rows, and shares of white noise.
+_RADII, _PERIODS, _SWINGING_SHARES = (0.8, 0.9, 0.97), (6.0, 10.0, 16.0, 30.0), (0.0, 0.4)
+_FEWEST_OF_A_LINE = 4  # rows; in shorter lines noise of second order counts as white
+_LEAST_WHITE = 1e-6  # instead of a share of 0, so that equal rows do not make the matrix singular
+_AMPLITUDES = np.geomspace(1e-6, 1e4, 31)  # variance of the effect over that of the noise
+_ROUGHNESSES = (0.2, 0.7)  # lengths of the processes whose columns are tried, of variables in -1 ... 1
+_LATE = 2.0  # length of what is late alone: nearly in proportion
+_WEIGHTY = 1e-2  # prior standard deviation of a column over the largest one, below which it is left out
+_MOST_LINE_ROWS = 6000  # for the likelihood ratio; of more rows every second, third ... of each line is taken
+_PROJECTED = 1e-10  # of a sum of squares, below which a column lies among the others
 
 
 @dataclass(frozen=True, eq=False)
@@ -195,10 +209,10 @@ class _Likelihood:
         self.size = float(np.sqrt(max(square / max(count, 1), 1e-300)))
         self.gram, self.moment, self.square = gram, moment / self.size, square / self.size**2
         edges = np.cumsum([0, *(len(block.waves) for block in blocks)])
-        self.parts = [slice(*ends) for ends in zip(edges[:-1], edges[1:], strict=True)]
+        self.parts = [slice(*ends) for ends in pairwise(edges)]
         amplitudes, dimensions = len(blocks), [len(block.orders) for block in blocks]
         ends = amplitudes + np.cumsum([0, *dimensions])
-        self.lengths = [slice(*pair) for pair in zip(ends[:-1], ends[1:], strict=True)]
+        self.lengths = [slice(*pair) for pair in pairwise(ends)]
         shortest = np.concatenate([np.minimum(block.shortest, 0.5 * _LONGEST) for block in blocks])
         self.low = np.log([*[_LEAST] * amplitudes, *shortest, _LEAST_NOISE])
         self.high = np.log([*[_GREATEST] * amplitudes, *[_LONGEST] * len(shortest), _GREATEST_NOISE])
@@ -220,18 +234,19 @@ class _Likelihood:
         )
 
     def __call__(self, logs: np.ndarray) -> tuple[float, np.ndarray]:
-        from scipy.linalg import lapack
+        from scipy.linalg import get_lapack_funcs
 
         variances, noise = self.variances(logs), float(np.exp(2.0 * logs[-1]))
         roots, columns = np.sqrt(variances), len(variances)
         whole = (roots[:, None] * self.gram * roots) / noise
         whole[np.diag_indices(columns)] += 1.0
-        factor, failed = lapack.dpotrf(whole, lower=1, clean=0)
+        potrf, potrs, potri = get_lapack_funcs(("potrf", "potrs", "potri"), (whole,))
+        factor, failed = potrf(whole, lower=1, clean=0)
         if failed:
             return 1e12, np.zeros_like(logs)
         log_det = 2.0 * float(np.sum(np.log(np.diag(factor))))
-        weights = roots * lapack.dpotrs(factor, roots * self.moment, lower=1)[0] / noise
-        diagonal = np.diag(lapack.dpotri(factor, lower=1)[0])
+        weights = roots * potrs(factor, roots * self.moment, lower=1)[0] / noise
+        diagonal = np.diag(potri(factor, lower=1)[0])
         # At the best weights, so that their rounding errors count by their squares only.
         fit = float(weights @ self.moment)
         rest = max(self.square - 2.0 * fit + float(weights @ self.gram @ weights), 0.0)
@@ -518,10 +533,10 @@ def _blocks_of(
 def surface_of(fitted: FittedModel, predictor: Predictor) -> Surface | None:
     """The free surface on the residual of a fitted model; None below twenty rows and after a stopped run.
 
-    Left-out groups are predicted by the physical model with its constants refitted without them to first order,
-    and by a surface that is fitted to the residual of the others. Three guards keep the surface from doing
-    harm there: it corrects nothing beyond the range of the other rows, its variables go to that range, and it
-    is multiplied by :math:`\\alpha = \\sum e c / \\sum c^2` of the other groups, within 0 ... 1.
+    Left-out groups are predicted by the physical model with its constants refitted without them to first
+    order, and by a surface that is fitted to the residual of the others. Three guards keep the surface from
+    doing harm there: it corrects nothing beyond the range of the other rows, its variables go to that range,
+    and it is multiplied by :math:`\\alpha = \\sum e c / \\sum c^2` of the other groups, within 0 ... 1.
 
     Args:
         fitted: the model.
@@ -665,7 +680,10 @@ class _Way:
 
 
 def _without(fitted: FittedModel, rows: np.ndarray) -> np.ndarray:
-    """Residual of all rows with the constants refitted without some (a mask), as `FittedModel.square_without`."""
+    """Residual of all rows with the constants refitted without some (a mask), to first order.
+
+    As `FittedModel.square_without`, which returns the mean square of the rows left out.
+    """
     jacobian, normal, low, high, prior, pull = fitted._linear
     if not jacobian.shape[1]:
         return fitted.residual
@@ -698,21 +716,12 @@ def _shrunk(left: np.ndarray, correction: np.ndarray, labels: np.ndarray) -> np.
     return shrunk
 
 
-_RHOS = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.975, 0.99, 0.997)  # autocorrelation of neighbouring rows
-_WHITE_SHARES = (0.0, 0.15, 0.4, 0.7)  # w: share of white noise in the variance of the noise
-_LEAST_WHITE = 1e-6  # instead of a share of 0, so that equal rows do not make the matrix singular
-_AMPLITUDES = np.geomspace(1e-6, 1e4, 31)  # variance of the effect over that of the noise
-_ROUGHNESSES = (0.2, 0.7)  # lengths of the processes whose columns are tried, of variables in -1 ... 1
-_WEIGHTY = 1e-3  # prior standard deviation of a column over the largest one, below which it is left out
-_MOST_LINE_ROWS = 6000  # for the likelihood ratio; of more rows every second, third ... of each line is taken
-_PROJECTED = 1e-10  # of a sum of squares, below which a column lies among the others
-
-
 def likelihood_ratio(fitted: FittedModel, predictor: Predictor) -> float:
     r"""Twice the gain in log likelihood by a free surface beside correlated noise; 0 where there is none.
 
     Of each channel, with its blocks as random effects of one common amplitude, see `ratio_of`; the largest
-    one counts. The lines are the sweeps of the predictor.
+    one counts, of rough and smooth surfaces, and of what is late alone in a run. The lines are the sweeps of
+    the predictor.
     """
     largest = 0.0
     for channel in predictor.channels:
@@ -720,83 +729,143 @@ def likelihood_ratio(fitted: FittedModel, predictor: Predictor) -> float:
         if len(rows) < FEWEST_ROWS or fitted.lost or not np.any(fitted.residual[rows]):
             continue
         blocks, _ = _blocks_of(fitted, predictor, rows)
-        if not blocks:
-            continue
         lines = _lines_of(predictor, rows)
+        if not blocks or not lines:
+            continue
+        columns = np.hstack([block.at_rows() for block in blocks])
         jacobian, residual = fitted.jacobian[rows], fitted.residual[rows]
-        for length in _ROUGHNESSES:
-            columns = _smooth_columns(blocks, length)
-            largest = max(largest, ratio_of(jacobian, residual, columns, lines))
+        largest = max(largest, ratio_of(jacobian, residual, columns, lines, _surfaces(blocks)))
     return largest
 
 
 def ratio_of(
-    jacobian: np.ndarray, residual: np.ndarray, columns: np.ndarray, lines: Sequence[np.ndarray]
+    jacobian: np.ndarray,
+    residual: np.ndarray,
+    columns: np.ndarray,
+    lines: Sequence[np.ndarray],
+    surfaces: Sequence[np.ndarray],
 ) -> float:
     r"""Twice the gain in log likelihood by a random effect, beside white noise and noise that is correlated.
 
-    Without and with the effect the residual is :math:`r \sim N(K\beta, s^2(R + \lambda BB^T))`. Within each line
+    Without and with the effect the residual is :math:`r \sim N(K\beta, s^2(R + \lambda BDB^T))`. Within each
+    line
 
-    .. math:: R = (1-w)A + wI = A\,((1-w)I + wT),\quad A_{ij} = \rho^{|i-j|},\quad T = A^{-1}
+    .. math:: R = (1-w)A + wI = A\,((1-w)I + wT),\quad T = A^{-1},\quad
+       e_i = \phi_1e_{i-1} + \phi_2e_{i-2} + \epsilon_i
 
-    where T is tridiagonal, so that all products with :math:`R^{-1} = T((1-w)I + wT)^{-1}` are banded and cost
-    :math:`O(n k)`. Both hypotheses choose :math:`\rho` and w of a grid for themselves, by restricted likelihood.
+    with A the correlations of the autoregressive noise e; :math:`A_{ij} = \rho^{|i-j|}` for one of first
+    order. T has two diagonals beside the main one, so that products with
+    :math:`R^{-1} = T((1-w)I + wT)^{-1}` are banded and cost :math:`O(n k)`. Both
+    hypotheses choose the noise of a grid for themselves, by restricted likelihood: of first order, and
+    swinging ones of second order.
 
     Args:
         jacobian: K, shape (rows, constants).
         residual: r, shape (rows,).
         columns: B, shape (rows, columns).
         lines: indices of the rows of each uninterrupted line, in order; rows in none are left out.
+        surfaces: roots of D, each of shape (columns,); the one that gains most counts.
     """
     constants = jacobian[:, np.any(jacobian != 0.0, axis=0)]
     constants = constants / np.linalg.norm(constants, axis=0)
     rows = np.concatenate(lines)
-    first = np.zeros(len(rows), bool)
-    first[np.cumsum([0, *(len(line) for line in lines[:-1])])] = True
-    scale = np.sqrt(np.mean(columns**2)) or 1.0
-    own = constants.shape[1]
-    table = np.column_stack([constants, residual[:, None], columns / scale])[rows]
-    if len(rows) - own < 2 or not np.any(residual):
+    lengths = np.array([len(line) for line in lines])
+    own, freedom = constants.shape[1], len(rows) - constants.shape[1]
+    table = np.column_stack([constants, residual[:, None], columns])[rows]
+    if freedom < 2 or not np.any(residual):
         return 0.0
+    sizes = np.sum(table[:, own + 1 :] ** 2, axis=0)
+    # With the mean square of the effect as that of the residual for an amplitude of 1.
+    roots = [(surface > 0.0, surface[surface > 0.0]) for surface in surfaces]
+    roots = [(kept, root * np.sqrt(len(rows) / np.sum(root**2 * sizes[kept]))) for kept, root in roots]
     without, beside = -np.inf, -np.inf
-    for rho in _RHOS:
-        for white in _WHITE_SHARES if rho > 0.0 else _WHITE_SHARES[:1]:
-            product_, log_det = _whitened(table, first, rho, max(white, _LEAST_WHITE))
-            plain, most = _log_likelihoods(product_, own, len(rows) - own)
-            without = max(without, plain - 0.5 * log_det)
-            beside = max(beside, most - 0.5 * log_det)
+    for noise in _noises():
+        products, log_det = _whitened(table, lengths, noise)
+        plain, rest = _without_constants(products, own, freedom)
+        without = max(without, plain - 0.5 * log_det)
+        for kept, root in roots:
+            inner = root[:, None] * rest[1:, 1:][np.ix_(kept, kept)] * root
+            gained = _gained(rest[0, 0], inner, root * rest[0, 1:][kept], freedom)
+            beside = max(beside, plain + gained - 0.5 * log_det)
     return 2.0 * max(beside - without, 0.0)
 
 
-def _whitened(table: np.ndarray, first: np.ndarray, rho: float, white: float) -> tuple[np.ndarray, float]:
-    """The products of columns with the inverse of R between them, and log det R; R = I for a rho of 0.
+class _Noise(NamedTuple):
+    """Autoregressive noise with white noise beside it: its coefficients and the share of the white one."""
+
+    first: float
+    second: float
+    white: float
+
+    @property
+    def next_one(self) -> float:
+        """Correlation of neighbouring rows."""
+        return self.first / (1.0 - self.second)
+
+    @property
+    def innovation(self) -> float:
+        """Variance of what is new in each row, over the variance."""
+        return (1.0 - self.next_one**2) * (1.0 - self.second**2)
+
+
+def _noises() -> list[_Noise]:
+    """The grid of both hypotheses."""
+    whites = [max(white, _LEAST_WHITE) for white in _WHITE_SHARES]
+    plain = [_Noise(rho, 0.0, white) for rho in _RHOS for white in (whites if rho > 0.0 else whites[:1])]
+    swinging = [
+        _Noise(2.0 * radius * float(np.cos(2.0 * np.pi / period)), -(radius**2), max(white, _LEAST_WHITE))
+        for radius in _RADII
+        for period in _PERIODS
+        for white in _SWINGING_SHARES
+    ]
+    return plain + swinging
+
+
+def _whitened(table: np.ndarray, lengths: np.ndarray, noise: _Noise) -> tuple[np.ndarray, float]:
+    r"""The products of columns with the inverse of R between them, and log det R.
+
+    The inverse of the correlations of autoregressive noise is (Siddiqui, Ann. Math. Statist. 29 (1958) 585)
+
+    .. math:: T_{ij} = s^{-2}\sum_k a_ka_{k+j-i},\quad a = (1, -\phi_1, -\phi_2),\quad k \le \min(i, n-1-j)
 
     Args:
         table: rows of one line after the other, shape (rows, columns).
-        first: whether a row begins a line, shape (rows,).
-        rho: autocorrelation of neighbouring rows.
-        white: share of white noise.
+        lengths: number of rows of each line.
+        noise: the noise.
     """
     from scipy.linalg import cho_solve_banded, cholesky_banded
 
-    if rho == 0.0:
+    if noise.first == 0.0 and noise.second == 0.0:
         return table.T @ table, 0.0
-    last = np.append(first[1:], True)
-    size = 1.0 / (1.0 - rho**2)
-    diagonal = size * np.where(first & last, 1.0 - rho**2, np.where(first | last, 1.0, 1.0 + rho**2))
-    beside = np.where(first, 0.0, -rho * size)  # between a row and the one before
-    banded = np.array([white * beside, (1.0 - white) + white * diagonal])
-    factor = cholesky_banded(banded, check_finite=False)
-    solved = cho_solve_banded((factor, False), table, check_finite=False)
-    inverse = diagonal[:, None] * solved
-    inverse[1:] += beside[1:, None] * solved[:-1]
-    inverse[:-1] += beside[1:, None] * solved[1:]
-    log_det = np.count_nonzero(~first) * np.log1p(-(rho**2)) + 2.0 * float(np.sum(np.log(factor[1])))
-    return table.T @ inverse, log_det
+    fewest = _FEWEST_OF_A_LINE if noise.second else 2
+    length = np.repeat(lengths, lengths)
+    place = np.arange(len(length)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
+    ahead, short = length - 1 - place, length < fewest
+    a, size = np.array([1.0, -noise.first, -noise.second]), 1.0 / noise.innovation
+    diagonals = []
+    for offset in range(3):
+        sums = np.cumsum(a[: 3 - offset] * a[offset:]) * size
+        terms = np.minimum(np.minimum(place, ahead - offset), 2 - offset)
+        values = np.where(terms < 0, 0.0, sums[np.maximum(terms, 0)])
+        diagonals.append(np.where(short, 1.0 if offset == 0 else 0.0, values))
+    main, one, two = diagonals
+    banded = np.zeros((3, len(length)))  # lower diagonals
+    banded[0] = (1.0 - noise.white) + noise.white * main
+    banded[1], banded[2] = noise.white * one, noise.white * two
+    factor = cholesky_banded(banded, lower=True, check_finite=False)
+    solved = cho_solve_banded((factor, True), table, check_finite=False)
+    inverse = main[:, None] * solved
+    for offset, beside in ((1, one), (2, two)):
+        if len(length) > offset and np.any(beside):
+            inverse[offset:] += beside[:-offset, None] * solved[:-offset]
+            inverse[:-offset] += beside[:-offset, None] * solved[offset:]
+    long = lengths[lengths >= fewest]
+    log_det = float(np.sum(long - 2)) * np.log(noise.innovation) + len(long) * np.log1p(-(noise.next_one**2))
+    return table.T @ inverse, float(log_det) + 2.0 * float(np.sum(np.log(factor[0])))
 
 
-def _log_likelihoods(products: np.ndarray, own: int, freedom: int) -> tuple[float, float]:
-    """Restricted log likelihood without the effect, and the largest one with it, from products of columns.
+def _without_constants(products: np.ndarray, own: int, freedom: int) -> tuple[float, np.ndarray]:
+    """Restricted log likelihood without the effect, and the products beside the constants.
 
     Args:
         products: of constants, residual and columns of the effect with each other.
@@ -808,26 +877,37 @@ def _log_likelihoods(products: np.ndarray, own: int, freedom: int) -> tuple[floa
     basis = vectors[:, kept] / np.sqrt(values[kept])
     shared = basis.T @ products[:own, own:]
     rest = products[own:, own:] - shared.T @ shared
-    log_det = float(np.sum(np.log(values[kept])))
-    square = max(float(rest[0, 0]), 1e-300)
-    without = -0.5 * (freedom * np.log(square / freedom) + log_det)
-    sizes, turned = np.linalg.eigh(rest[1:, 1:])
-    sizes = np.maximum(sizes, 0.0)
-    moments = (turned.T @ rest[1:, 0]) ** 2
+    rest[0, 0] = max(float(rest[0, 0]), 1e-300)
+    return -0.5 * (freedom * np.log(rest[0, 0] / freedom) + float(np.sum(np.log(values[kept])))), rest
+
+
+def _gained(square: float, inner: np.ndarray, moment: np.ndarray, freedom: int) -> float:
+    """Largest gain in log likelihood by an effect, over its amplitudes, for one noise."""
+    from scipy.linalg import eigh
+
+    sizes, turned = eigh(inner, driver="evd", check_finite=False)
+    sizes, moments = np.maximum(sizes, 0.0), (turned.T @ moment) ** 2
     widened = 1.0 + _AMPLITUDES[:, None] * sizes
-    squares = np.maximum(square - np.sum(_AMPLITUDES[:, None] * moments / widened, axis=1), 1e-12 * square)
-    each = -0.5 * (freedom * np.log(squares / freedom) + np.sum(np.log(widened), axis=1) + log_det)
-    return without, max(float(np.max(each)), without)
+    shares = np.sum(_AMPLITUDES[:, None] * moments / widened, axis=1) / square
+    gains = -0.5 * (freedom * np.log(np.maximum(1.0 - shares, 1e-12)) + np.sum(np.log(widened), axis=1))
+    return float(np.max(gains, initial=0.0))
 
 
-def _smooth_columns(blocks: Sequence[Block], length: float) -> np.ndarray:
-    """Columns of the blocks, weighted as those of processes of one length and one variance."""
-    parts = []
-    for block in blocks:
-        roots = np.sqrt(block.variances(1.0, np.maximum(np.full(len(block.orders), length), block.shortest)))
-        kept = roots > _WEIGHTY * np.max(roots)
-        parts.append(block.at_rows()[:, kept] * roots[kept])
-    return np.hstack(parts)
+def _surfaces(blocks: Sequence[Block]) -> list[np.ndarray]:
+    """Prior standard deviations of the columns, of processes of one length and one variance; 0 for none."""
+    late = [block.name.startswith("late") for block in blocks]
+    kinds = [(length, [True] * len(blocks)) for length in _ROUGHNESSES]
+    if any(late):
+        kinds.append((_LATE, late))
+    found = []
+    for length, used in kinds:
+        parts = []
+        for block, taken in zip(blocks, used, strict=True):
+            lengths = np.maximum(np.full(len(block.orders), length), block.shortest)
+            roots = np.sqrt(block.variances(1.0, lengths)) * taken
+            parts.append(np.where(roots > _WEIGHTY * np.max(roots), roots, 0.0))
+        found.append(np.concatenate(parts))
+    return found
 
 
 def _lines_of(predictor: Predictor, rows: np.ndarray) -> list[np.ndarray]:
