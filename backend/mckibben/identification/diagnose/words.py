@@ -226,10 +226,10 @@ def superfluous_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
         return ""
     unit, scale = _unit_of(result)
     names = _joined([titles.get(item.effect, item.effect) for item in result.superfluous])
-    these = "it" if len(result.superfluous) == 1 else "them"
+    these, are = ("it", "is") if len(result.superfluous) == 1 else ("them", "are")
     error = brief(scale * result.superfluous[-1].rmse)
     return (
-        f"These data do not need {names}: without {these}, and all else refitted, the error is {error} "
+        f"{names} {are} superfluous here: without {these}, and all else refitted, the error is {error} "
         f"instead of {brief(scale * result.best.rmse)} {unit}."
     )
 
