@@ -7,7 +7,7 @@ import pytest
 from scipy.linalg import toeplitz
 
 from mckibben.identification.fit import correlated
-from mckibben.identification.fit.correlated import WHITE, Noise, covariance
+from mckibben.identification.fit.correlated import Noise, covariance
 
 LINES = [np.arange(first, first + 60) for first in range(0, 300, 60)]
 WAYS = [[LINES, [np.arange(300)]]]
@@ -75,7 +75,7 @@ def test_the_banded_algebra_is_that_of_full_matrices(
     rho: float, share: float, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     """One hypothesis alone: the sandwich and the variance by generalised least squares, R written out."""
-    monkeypatch.setattr(correlated, "noises_of", lambda _: [WHITE, Noise(rho, 0.0, share)])
+    monkeypatch.setattr(correlated, "correlated_noises", lambda: (Noise(rho, 0.0, share),))
     monkeypatch.setattr(correlated, "_WHITE_PRIOR", 1e-300)
     columns = design()
     residual = autoregressive(0.9, np.random.default_rng(1), 300)

@@ -19,7 +19,7 @@ line of a record to the next, so both are weighed. With the Jacobian J of a leas
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import NamedTuple
@@ -33,6 +33,9 @@ _CORRELATIONS = (0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 0.99, 0.997, 0.999, 0.9997)  # 
 _WHITE_SHARES = (0.0, 0.3, 0.7, 0.9)
 # Noise that swings: radius of the poles, period in rows, and shares of white noise.
 _RADII, _PERIODS, _SWINGING_SHARES = (0.8, 0.9, 0.97), (6.0, 10.0, 16.0, 30.0), (0.0, 0.4)
+_ROUNDEST, _SHORTEST = 0.99999, 2.2  # largest radius, shortest period
+_REFINED = 80  # evaluations of the search for the swinging noise that suits best
+_SIMPLEX = np.diag([0.3, 0.15, 1.0])  # its first steps, in log(-log(1 - radius)), log(period), logit(share)
 _FEWEST_OF_A_LINE = 4  # rows; in shorter lines noise that swings counts as white
 _LEAST_WHITE = 1e-6  # instead of a share of 0, so that equal rows do not make the matrix singular
 _WHITE_PRIOR = 0.5
@@ -59,6 +62,20 @@ class Noise(NamedTuple):
         return (1.0 - self.next_one**2) * (1.0 - self.second**2)
 
     @property
+    def period(self) -> float:
+        """Of noise that swings, in rows; infinite for noise that does not."""
+        if not self.second:
+            return np.inf
+        return 2.0 * np.pi / float(np.arccos(0.5 * self.first / np.sqrt(-self.second)))
+
+    @staticmethod
+    def swinging(radius: float, period: float, white: float) -> Noise:
+        """Noise with poles of a radius, that swings with a period of some rows."""
+        radius, period = min(max(radius, 1e-3), _ROUNDEST), max(period, _SHORTEST)
+        first = 2.0 * radius * float(np.cos(2.0 * np.pi / period))
+        return Noise(first, -(radius**2), min(max(white, _LEAST_WHITE), 1.0 - _LEAST_WHITE))
+
+    @property
     def length(self) -> float:
         """Rows over which the autoregressive part falls to 1/e."""
         radius = np.sqrt(-self.second) if self.second else self.first
@@ -74,19 +91,12 @@ def correlated_noises() -> tuple[Noise, ...]:
     """The grid without white noise alone."""
     plain = [Noise(rho, 0.0, max(white, _LEAST_WHITE)) for rho in _CORRELATIONS for white in _WHITE_SHARES]
     swinging = [
-        Noise(2.0 * radius * float(np.cos(2.0 * np.pi / period)), -(radius**2), max(white, _LEAST_WHITE))
+        Noise.swinging(radius, period, white)
         for radius in _RADII
         for period in _PERIODS
         for white in _SWINGING_SHARES
     ]
     return (*plain, *swinging)
-
-
-def noises_of(lengths: Sequence[int]) -> Iterator[Noise]:
-    """White noise, and the noises that lines of these lengths can show."""
-    yield WHITE
-    longest = _LONGEST * max(lengths)
-    yield from (noise for noise in correlated_noises() if noise.length <= longest)
 
 
 class Chain:
@@ -169,6 +179,63 @@ def _fewest(noise: Noise) -> int:
     return _FEWEST_OF_A_LINE if noise.second else 2
 
 
+class _Tried(NamedTuple):
+    """One noise with what it leaves of a residual beside its parameters."""
+
+    noise: Noise
+    squares: float
+    """Generalised sum of squares."""
+    log_det: float
+    """Of R."""
+    normal: float
+    """Log determinant of the normal matrix of the parameters."""
+
+    def likelihood(self, rows: int) -> float:
+        """Log likelihood of the residual with that variance which suits it best."""
+        return -0.5 * (rows * np.log(self.squares / rows) + self.log_det)
+
+
+def tried_noises(chain: Chain, basis: np.ndarray, residual: np.ndarray) -> list[_Tried]:
+    """White noise, the noises that lines of these lengths can show, and the swinging one that suits best.
+
+    Args:
+        chain: the lines.
+        basis: orthonormal columns of the parameters, shape (rows, parameters).
+        residual: shape (rows,).
+    """
+    columns = np.column_stack([basis, residual])
+    # A residual that is rounding error is still one.
+    least = 1e-30 * float(residual @ residual) + 1e-300
+
+    def tried(noise: Noise) -> _Tried:
+        products, log_det = chain.products(columns, noise)
+        normal, right = products[:-1, :-1], products[:-1, -1]
+        squares = max(float(products[-1, -1] - right @ np.linalg.solve(normal, right)), least)
+        return _Tried(noise, squares, log_det, float(np.linalg.slogdet(normal)[1]))
+
+    rows, longest = len(residual), _LONGEST * float(np.max(chain.lengths))
+    found = [tried(noise) for noise in (WHITE, *correlated_noises()) if noise.length <= longest]
+    swinging = [each for each in found if each.noise.second]
+    if swinging:
+        from scipy.optimize import minimize
+
+        def noise_at(place: np.ndarray) -> Noise:
+            radius, white = 1.0 - np.exp(-np.exp(place[0])), 1.0 / (1.0 + np.exp(-place[2]))
+            return Noise.swinging(radius, float(np.exp(place[1])), white)
+
+        best = max(swinging, key=lambda each: each.likelihood(rows)).noise
+        white = min(max(best.white, 0.01), 0.99)
+        start = [
+            np.log(-np.log(1.0 - np.sqrt(-best.second))), np.log(best.period), np.log(white / (1.0 - white)),
+        ]  # fmt: skip
+        end = minimize(
+            lambda place: -tried(noise_at(place)).likelihood(rows), start, method="Nelder-Mead",
+            options={"maxfev": _REFINED, "initial_simplex": start + np.vstack([np.zeros(3), _SIMPLEX])},
+        )  # fmt: skip
+        found.append(tried(noise_at(end.x)))
+    return found
+
+
 @dataclass(frozen=True, eq=False)
 class Weighed:
     """One noise of the grid, with its weight.
@@ -206,20 +273,12 @@ def weighed_noises(jacobian: np.ndarray, residual: np.ndarray, ways: Ways) -> li
         left, sizes, _ = np.linalg.svd(jacobian[rows], full_matrices=False)
         basis = left[:, sizes > _INDEPENDENT * float(np.max(sizes, initial=0.0))]
         freedom = max(len(rows) - basis.shape[1], 1)
-        columns = np.column_stack([basis, residual[rows]])
-        # A residual that is rounding error is still one.
-        least = 1e-30 * float(residual[rows] @ residual[rows]) + 1e-300
-        noises = list(noises_of(chain.lengths.tolist()))
-        for noise in noises:
-            if noise == WHITE and found:
+        for each in tried_noises(chain, basis, residual[rows]):
+            if each.noise == WHITE and found:
                 continue
-            products, log_det = chain.products(columns, noise)
-            normal, right = products[:-1, :-1], products[:-1, -1]
-            squares = max(float(products[-1, -1] - right @ np.linalg.solve(normal, right)), least)
-            log_det += float(np.linalg.slogdet(normal)[1])
-            prior = _WHITE_PRIOR if noise == WHITE else (1.0 - _WHITE_PRIOR) / len(correlated_noises())
-            evidence = -0.5 * (freedom * np.log(squares) + log_det) + np.log(prior)
-            found.append((float(evidence), noise, squares / freedom, chain, rows))
+            prior = _WHITE_PRIOR if each.noise == WHITE else (1.0 - _WHITE_PRIOR) / len(correlated_noises())
+            evidence = np.log(prior) - 0.5 * (freedom * np.log(each.squares) + each.log_det + each.normal)
+            found.append((float(evidence), each.noise, each.squares / freedom, chain, rows))
     evidence = np.array([each[0] for each in found])
     weights = np.exp(evidence - np.max(evidence))
     weights /= np.sum(weights)
@@ -290,11 +349,7 @@ def log_likelihood(jacobian: np.ndarray, residual: np.ndarray, channels: Sequenc
             rows, chain = np.concatenate(lines), Chain([len(line) for line in lines])
             left, sizes, _ = np.linalg.svd(jacobian[rows], full_matrices=False)
             basis = left[:, sizes > _INDEPENDENT * float(np.max(sizes, initial=0.0))]
-            columns = np.column_stack([basis, residual[rows]])
-            for noise in noises_of(chain.lengths.tolist()):
-                products, log_det = chain.products(columns, noise)
-                normal, right = products[:-1, :-1], products[:-1, -1]
-                squares = float(products[-1, -1] - right @ np.linalg.solve(normal, right))
-                best = max(best, -0.5 * (len(rows) * np.log(max(squares, 1e-300) / len(rows)) + log_det))
+            tried = tried_noises(chain, basis, residual[rows])
+            best = max(best, *(each.likelihood(len(rows)) for each in tried))
         whole += best
     return whole

@@ -24,7 +24,7 @@ from itertools import pairwise, product
 
 import numpy as np
 
-from mckibben.identification.fit.correlated import Chain, noises_of
+from mckibben.identification.fit.correlated import Chain, Ways, tried_noises
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.profiles import variables_of
@@ -714,21 +714,20 @@ def likelihood_ratio(fitted: FittedModel, predictor: Predictor) -> float:
     r"""Twice the gain in log likelihood by a free surface beside correlated noise; 0 where there is none.
 
     Of each channel, with its blocks as random effects of one common amplitude, see `ratio_of`; the largest
-    one counts, of rough and smooth surfaces, and of what is late alone in a run. The lines are the sweeps of
-    the predictor.
+    one counts, of rough and smooth surfaces, and of what is late alone in a run.
     """
     largest = 0.0
-    for channel in predictor.channels:
+    for channel, channel_lines in zip(predictor.channels, predictor.noise_lines, strict=True):
         rows = np.arange(len(fitted.residual))[channel.rows]
         if len(rows) < FEWEST_ROWS or fitted.lost or not np.any(fitted.residual[rows]):
             continue
         blocks, _ = _blocks_of(fitted, predictor, rows)
-        lines = _lines_of(predictor, rows)
-        if not blocks or not lines:
+        if not blocks:
             continue
         columns = np.hstack([block.at_rows() for block in blocks])
         jacobian, residual = fitted.jacobian[rows], fitted.residual[rows]
-        largest = max(largest, ratio_of(jacobian, residual, columns, lines, _surfaces(blocks)))
+        ways = [_thinned(lines, rows) for lines in channel_lines]
+        largest = max(largest, ratio_of(jacobian, residual, columns, ways, _surfaces(blocks)))
     return largest
 
 
@@ -736,7 +735,7 @@ def ratio_of(
     jacobian: np.ndarray,
     residual: np.ndarray,
     columns: np.ndarray,
-    lines: Sequence[np.ndarray],
+    ways: Ways,
     surfaces: Sequence[np.ndarray],
 ) -> float:
     r"""Twice the gain in log likelihood by a random effect, beside white noise and noise that is correlated.
@@ -749,31 +748,31 @@ def ratio_of(
         jacobian: K, shape (rows, constants).
         residual: r, shape (rows,).
         columns: B, shape (rows, columns).
-        lines: indices of the rows of each uninterrupted line, in order; rows in none are left out.
+        ways: lines in which the noise may be correlated, as indices of rows; the first holds all rows.
         surfaces: roots of D, each of shape (columns,); the one that gains most counts.
     """
     constants = jacobian[:, np.any(jacobian != 0.0, axis=0)]
     constants = constants / np.linalg.norm(constants, axis=0)
-    rows = np.concatenate(lines)
-    lengths = [len(line) for line in lines]
-    chain = Chain(lengths)
-    own, freedom = constants.shape[1], len(rows) - constants.shape[1]
-    table = np.column_stack([constants, residual[:, None], columns])[rows]
+    own, freedom = constants.shape[1], len(residual) - constants.shape[1]
+    table = np.column_stack([constants, residual[:, None], columns])
     if freedom < 2 or not np.any(residual):
         return 0.0
-    sizes = np.sum(table[:, own + 1 :] ** 2, axis=0)
+    sizes = np.sum(columns**2, axis=0)
     # With the mean square of the effect as that of the residual for an amplitude of 1.
     roots = [(surface > 0.0, surface[surface > 0.0]) for surface in surfaces]
-    roots = [(kept, root * np.sqrt(len(rows) / np.sum(root**2 * sizes[kept]))) for kept, root in roots]
+    roots = [(kept, root * np.sqrt(len(residual) / np.sum(root**2 * sizes[kept]))) for kept, root in roots]
     without, beside = -np.inf, -np.inf
-    for noise in noises_of(lengths):
-        products, log_det = chain.products(table, noise)
-        plain, rest = _without_constants(products, own, freedom)
-        without = max(without, plain - 0.5 * log_det)
-        for kept, root in roots:
-            inner = root[:, None] * rest[1:, 1:][np.ix_(kept, kept)] * root
-            gained = _gained(rest[0, 0], inner, root * rest[0, 1:][kept], freedom)
-            beside = max(beside, plain + gained - 0.5 * log_det)
+    for lines in ways:
+        rows, chain = np.concatenate(lines), Chain([len(line) for line in lines])
+        basis = np.linalg.qr(constants[rows])[0] if own else np.empty((len(rows), 0))
+        for noise in (each.noise for each in tried_noises(chain, basis, residual[rows])):
+            products, log_det = chain.products(table[rows], noise)
+            plain, rest = _without_constants(products, own, freedom)
+            without = max(without, plain - 0.5 * log_det)
+            for kept, root in roots:
+                inner = root[:, None] * rest[1:, 1:][np.ix_(kept, kept)] * root
+                gained = _gained(rest[0, 0], inner, root * rest[0, 1:][kept], freedom)
+                beside = max(beside, plain + gained - 0.5 * log_det)
     return 2.0 * max(beside - without, 0.0)
 
 
@@ -823,11 +822,9 @@ def _surfaces(blocks: Sequence[Block]) -> list[np.ndarray]:
     return found
 
 
-def _lines_of(predictor: Predictor, rows: np.ndarray) -> list[np.ndarray]:
-    """The sweeps within some values, thinned where there are many rows; places within ``rows``."""
-    place = np.full(len(predictor.measured), -1)
+def _thinned(lines: Sequence[np.ndarray], rows: np.ndarray) -> list[np.ndarray]:
+    """The lines as places within ``rows``, thinned where there are many rows."""
+    place = np.full(int(np.max(rows)) + 1, -1)
     place[rows] = np.arange(len(rows))
     step = -(-len(rows) // _MOST_LINE_ROWS)
-    lines = [place[np.asarray(sweep)] for sweep in predictor.sweeps]
-    lines = [line[line >= 0][::step] for line in lines]
-    return [line for line in lines if len(line)]
+    return [place[line][::step] for line in lines]
