@@ -60,6 +60,7 @@ _MAIN = (
 )  # no surface beyond their range
 _BESIDE = 1e-3  # of the range; so far beyond the other rows is still within
 _FEWEST_FOLDS = 3  # groups with rows inside; with less the gain has no interval
+_BLOCKS, _BLOCK_FOLDS = 40, 8  # short blocks of each run, left out in turn in so many folds
 _DRAWS, _SEED = 2000, 0  # of the bootstrap over groups
 _INTERVAL = (0.05, 0.95)
 _MATTERS = 0.02  # share of the surface below which a block is not named
@@ -86,8 +87,8 @@ class Surface:
         left: rms that model and surface would leave, in the units of the scaled residual:
             :math:`\\sqrt{RSS/(n - k)}` with k effective degrees of freedom.
         numbers: effective degrees of freedom, rounded up.
-        gain: for each way of folding, 1 - MSE(model + surface)/MSE(model) of left-out groups, over the rows
-            within the range of the other groups; NaN where less than three groups have such rows.
+        gain: for each way of `foldings_of`, 1 - MSE(model + surface)/MSE(model) of left-out groups, over the
+            rows within the range of the other groups; NaN where less than three groups have such rows.
         gain_low, gain_high: its 90 % interval, by a bootstrap of whole groups.
         inside: for each way, share of these rows; a surface corrects no other row and is not judged by it.
         independent: for each way, whether no sweep has rows in two of its groups. Otherwise correlated noise
@@ -545,7 +546,8 @@ def surface_of(fitted: FittedModel, predictor: Predictor) -> Surface | None:
     count = len(fitted.residual)
     values, deviations = np.zeros(count), np.zeros(count)
     square, numbers, shares = 0.0, 0, {}
-    ways = [_Way(fitted, labels) for labels in predictor.folds]
+    foldings = foldings_of(predictor)
+    ways = [_Way(fitted, labels) for labels in foldings]
     found = False
     for channel in predictor.channels:
         rows = np.arange(count)[channel.rows]
@@ -578,13 +580,26 @@ def surface_of(fitted: FittedModel, predictor: Predictor) -> Surface | None:
         gain_high=tuple(way.interval[1] for way in ways),
         inside=tuple(float(np.mean(way.inside)) for way in ways),
         independent=tuple(
-            all(np.ptp(labels[sweep]) == 0 for sweep in predictor.sweeps if len(sweep))
-            for labels in predictor.folds
+            all(np.ptp(labels[sweep]) == 0 for sweep in predictor.sweeps if len(sweep)) for labels in foldings
         ),
         values=values,
         deviations=deviations,
         variables=tuple((name, share / whole) for name, share in order if share > _MATTERS * whole),
     )
+
+
+def foldings_of(predictor: Predictor) -> tuple[np.ndarray, ...]:
+    """Ways of folding: those of the predictor, and of runs short blocks of time between others as well.
+
+    A run is left out in blocks so long that a surface seldom holds what it would need there.
+    """
+    if predictor.kind != "transient":
+        return predictor.folds
+    labels = np.zeros(len(predictor.measured), dtype=np.int64)
+    for record in np.unique(predictor.records):
+        rows = np.flatnonzero(predictor.records == record)
+        labels[rows] = np.arange(len(rows)) * _BLOCKS // len(rows) % _BLOCK_FOLDS
+    return (*predictor.folds, labels)
 
 
 class _Part:
