@@ -21,10 +21,10 @@ from typing import Literal
 
 import numpy as np
 
-from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.surface import (
     Block,
+    Fitted,
     Likeliest,
     levels_of,
     most_likely,
@@ -49,7 +49,7 @@ _LOG_SCATTER = 1.11
 _GROWS = 3.0  # standard errors of the slope from which the noise grows
 _STEEPEST = 1.0  # slope of noise in proportion to the reading
 _LEAST_SIZE = 0.05  # of the largest prediction; the noise of smaller ones is that of this one
-_BESIDE = 2  # rows from a row that does not fit to the next one, up to which both are in a row
+_BESIDE = 3  # rows from a row that does not fit to the next one, up to which both are in a row
 _MANY_LEVELS = 0.5  # of the rows; with more levels a variable has no places that rows share
 
 Kind = Literal[
@@ -118,7 +118,7 @@ class Outlying:
 _NONE = Outlying((), 0.0, (), (), surface=False)
 
 
-def outlying_of(fitted: FittedModel, predictor: Predictor) -> Outlying:
+def outlying_of(fitted: Fitted, predictor: Predictor) -> Outlying:
     """Rows of a fitted model that do not fit, of the channel that gains most by setting them aside.
 
     Args:

@@ -21,11 +21,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, product
-from typing import NamedTuple
+from typing import NamedTuple, Protocol
 
 import numpy as np
 
-from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.profiles import variables_of
 
@@ -77,6 +77,35 @@ _LATE = 2.0  # length of what is late alone: nearly in proportion
 _WEIGHTY = 1e-2  # prior standard deviation of a column over the largest one, below which it is left out
 _MOST_LINE_ROWS = 6000  # for the likelihood ratio; of more rows every second, third ... of each line is taken
 _PROJECTED = 1e-10  # of a sum of squares, below which a column lies among the others
+
+
+class Fitted(Protocol):
+    """What a surface needs of a `mckibben.identification.fit.fitted_model.FittedModel`."""
+
+    @property
+    def fit_model(self) -> FitModel:
+        """The model with the fitted values."""
+        ...
+
+    @property
+    def residual(self) -> np.ndarray:
+        """Measured minus predicted, weighted, shape (values,)."""
+        ...
+
+    @property
+    def jacobian(self) -> np.ndarray:
+        """Derivatives of the prediction, weighted likewise, shape (values, free)."""
+        ...
+
+    @property
+    def lost(self) -> int:
+        """Number of values without a finite prediction."""
+        ...
+
+    @property
+    def _linear(self) -> tuple[np.ndarray, ...]:
+        """Of the inner parameters over their ranges: Jacobian, normal matrix, bounds, prior and its pull."""
+        ...
 
 
 @dataclass(frozen=True, eq=False)
@@ -466,7 +495,7 @@ def moving_blocks(
 
 
 def _moving_variables(
-    fitted: FittedModel, predictor: Predictor, rows: np.ndarray
+    fitted: Fitted, predictor: Predictor, rows: np.ndarray
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Variables of a run at some values, with what the model itself predicts, and their times."""
     inputs = {name: values[rows] for name, values in predictor.inputs.items()}
@@ -503,7 +532,7 @@ def in_order(predictor: Predictor) -> bool:
 
 
 def surface_variables(
-    fitted: FittedModel, predictor: Predictor, rows: np.ndarray
+    fitted: Fitted, predictor: Predictor, rows: np.ndarray
 ) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
     """Variables of a surface at the values of a channel, and the times of a run.
 
@@ -519,7 +548,7 @@ def surface_variables(
 
 
 def _blocks_of(
-    fitted: FittedModel, predictor: Predictor, rows: np.ndarray
+    fitted: Fitted, predictor: Predictor, rows: np.ndarray
 ) -> tuple[list[Block], list[np.ndarray]]:
     """Blocks of the values of a channel, and the variables beyond whose range nothing is corrected."""
     variables, time = surface_variables(fitted, predictor, rows)
@@ -531,7 +560,7 @@ def _blocks_of(
     return blocks, [_unit(variables[name]) for name in _MAIN if name in variables]
 
 
-def surface_of(fitted: FittedModel, predictor: Predictor) -> Surface | None:
+def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
     """The free surface on the residual of a fitted model; None below twenty rows and after a stopped run.
 
     Left-out groups are predicted by the physical model with its constants refitted without them to first
@@ -635,7 +664,7 @@ class _Part:
 class _Way:
     """A way of leaving out: the residual of each row with its group left out, without and with a surface."""
 
-    def __init__(self, fitted: FittedModel, labels: np.ndarray) -> None:
+    def __init__(self, fitted: Fitted, labels: np.ndarray) -> None:
         self.labels, self.folds = labels, np.unique(labels)
         self.refitted = {label: _without(fitted, labels == label) for label in self.folds}
         self.model = np.zeros(len(labels))
@@ -694,7 +723,7 @@ class _Way:
         return float(low), float(high)
 
 
-def _without(fitted: FittedModel, rows: np.ndarray) -> np.ndarray:
+def _without(fitted: Fitted, rows: np.ndarray) -> np.ndarray:
     """Residual of all rows with the constants refitted without some (a mask), to first order.
 
     As `FittedModel.square_without`, which returns the mean square of the rows left out.
@@ -731,7 +760,7 @@ def _shrunk(left: np.ndarray, correction: np.ndarray, labels: np.ndarray) -> np.
     return shrunk
 
 
-def likelihood_ratio(fitted: FittedModel, predictor: Predictor) -> float:
+def likelihood_ratio(fitted: Fitted, predictor: Predictor) -> float:
     r"""Twice the gain in log likelihood by a free surface beside correlated noise; 0 where there is none.
 
     Of each channel, with its blocks as random effects of one common amplitude, see `ratio_of`; the largest
