@@ -18,7 +18,7 @@ def test_the_first_impact_is_no_arrival() -> None:
     fill = found.timing.extend
     assert np.max(found.position) == pytest.approx(0.06, abs=1e-4)
     assert found.position[-1] == pytest.approx(0.045, abs=1e-3)
-    assert fill.state == "arrived_bounced"
+    assert fill.state == "arrived_and_bounced"
     assert fill.positioning_time is None
     assert f"{1e3 * (0.06 - found.position[-1]):.3g} mm before" in (fill.motion or "")
 
@@ -35,7 +35,7 @@ def test_a_curve_fit_that_swings_says_so() -> None:
     tops = np.flatnonzero(np.diff(np.sign(found.velocity[late])) < 0)
     assert fill.swing_frequency == pytest.approx(1.0 / np.mean(np.diff(found.time[late][tops])), rel=0.02)
     physical = mk.Drive.preset("propneu-20-physical").run().timing.extend
-    assert physical.state == "arrived_held"
+    assert physical.state == "arrived_and_held"
     assert physical.settling_time is not None
 
 

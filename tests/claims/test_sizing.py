@@ -39,7 +39,7 @@ def test_the_least_air_is_that_of_a_brute_force_search() -> None:
                 continue
             run = drive.changed(supply=float(pressure)).run(points=201)
             fill = run.timing.extend
-            if fill.state == "arrived_held" and fill.positioning_time <= 0.5:
+            if fill.state == "arrived_and_held" and fill.positioning_time <= 0.5:
                 least = min(least, run.supplied_volume_anr)
             break  # a higher pressure takes more air
     assert 0.001 < least < 0.0012

@@ -39,6 +39,16 @@ def test_weights_put_on_and_off_tell_the_direction() -> None:
     assert found.direction[:21].tolist() == [0.0] + 10 * [1.0] + 10 * [-1.0]
 
 
+@pytest.mark.parametrize("rows", [20, 60, 200])
+def test_rows_have_the_way_from_the_reversal_on(rows: int) -> None:
+    """However finely a loop is read: not only once it has gone a part of the way back."""
+    there = np.linspace(0.0, 0.05, rows)
+    loop = np.concatenate([there, there[-2::-1]])
+    found = order_of_rows({"pressure": np.full(len(loop), 3e5), "displacement": loop, "force": 100.0 - loop})
+    assert found is not None
+    assert found.direction.tolist() == [0.0] + (rows - 1) * [-1.0] + (rows - 1) * [1.0]
+
+
 @pytest.mark.parametrize("swept", ["length", "contraction"])
 def test_any_stroke_tells_it(swept: str) -> None:
     columns = weights()

@@ -109,7 +109,9 @@ def _reworded(door: Door, value: Any, *, corrects: bool = False) -> Any:
                 if new is not old:
                     changed[name] = new
         return replace(value, **changed) if changed else value
-    inside = value.values() if isinstance(value, Mapping) else value if isinstance(value, list | tuple) else ()
+    inside = (
+        value.values() if isinstance(value, Mapping) else value if isinstance(value, list | tuple) else ()
+    )
     if not corrects and isinstance(next(iter(inside), 0), _PLAIN):
         return value
     if isinstance(value, list | tuple):

@@ -210,7 +210,8 @@ PARAMETER = Group(
     Figure("value", "", "", "Value", "As given, or fitted."),
     Figure(
         "stderr", "±", "", "± standard error",
-        "Standard error of the fitted value, one standard deviation, from the covariance of the fit.",
+        "Standard error of the fitted value, one standard deviation, from the covariance of the fit under "
+        "noise that may be correlated from row to row.",
         _STDERR,
     ),
     Figure(

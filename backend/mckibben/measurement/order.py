@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,7 +34,7 @@ class RowOrder:
     """What the order of rows says.
 
     Attributes:
-        direction: of each row, -1 shortening or filling, +1 lengthening or venting, 0 before the first step.
+        direction: of each row, -1 shortening or filling, +1 lengthening or venting, 0 before the first one.
         starts: first row of each block; between blocks something else was done.
     """
 
@@ -118,14 +119,17 @@ def _is_turn(values: Array, turn: int, span: float, later: tuple[Array, Array]) 
 
 
 def _ways(moved: Array, span: float) -> Array:
-    """-1 or +1 with the last change before each row; rows without one keep the way, 0 before the first."""
+    """-1 or +1 by the way to each row from the reversal before it; 0 of the first row."""
+    threshold = _MOVED * span
     ways = np.zeros(len(moved))
-    at, way = float(moved[0]), 0.0
-    for row, value in enumerate(moved[1:].tolist(), start=1):
-        if abs(value - at) > _MOVED * span:
-            way, at = float(np.sign(value - at)), value
-        ways[row] = way
-    return ways
+    if len(moved) < _STEPS or not np.ptp(moved) > threshold:
+        return ways
+    ends = [0, *np.flatnonzero(turning_points(moved, threshold=threshold)).tolist(), len(moved) - 1]
+    for begin, end in pairwise(ends):
+        ways[begin + 1 : end + 1] = np.sign(moved[end] - moved[begin])
+    # A reading that is taken twice has the way of the first.
+    changes = np.concatenate([[True], np.diff(moved) != 0.0])
+    return ways[np.maximum.accumulate(np.where(changes, np.arange(len(moved)), 0))]
 
 
 def _agree(stated: Array, found: Array) -> bool:

@@ -33,7 +33,13 @@ def slopes(residual):
 
 def fitted(residual, choice, **options):
     """A fit whose derivatives are differences."""
-    return least_squares_fit(residual, slopes(residual), choice, **options)
+    return reported(residual, slopes(residual), choice, **options)
+
+
+def reported(residual, jacobian, choice, **options):
+    """What a fit determines."""
+    minimum = least_squares_fit(residual, jacobian, choice, **options)
+    return fit_report(minimum.numbers, minimum.jacobian, minimum.residuals, choice)
 
 
 def free(name: str, start: float, lower: float, upper: float) -> Free:
@@ -52,7 +58,7 @@ def test_certified_values_and_standard_errors(start, exact):
         return np.column_stack([1 - np.exp(-b[1] * x), b[0] * x * np.exp(-b[1] * x)])
 
     choice = [free("b1", start[0], 1.0, 1000.0), free("b2", start[1], 1e-6, 1e-2)]
-    result = least_squares_fit(residual, jacobian if exact else slopes(residual), choice)
+    result = reported(residual, jacobian if exact else slopes(residual), choice)
     for parameter in result.parameters:
         value, stderr = MISRA[parameter.name]
         assert parameter.value == pytest.approx(value, rel=1e-6)

@@ -58,7 +58,9 @@ def test_noise_of_the_measured_length_does_not_hide_the_way_of_friction():
     predictor = record(0)
     start = FitModel(MUSCLE).adding(CATALOGUE["dahl"])
     misfit = Misfit(predictor, start, free_numbers(start, freed={"dahl.break_strain"}))
-    found = {each.name: each.value for each in misfit.fit(final_effort(simulated=False)).parameters}
+    found = {
+        each.name: each.value for each in misfit.report(misfit.fit(final_effort(simulated=False))).parameters
+    }
     assert found["dahl.force"] == pytest.approx(FRICTION, rel=0.03)
     assert found["dahl.break_strain"] * 0.3 == pytest.approx(WAY, rel=0.1)
 

@@ -111,7 +111,7 @@ def test_a_hold_that_begins_with_its_pressure_creeps_on():
     assert "put on anew before each level" in said
     started = model.with_numbers(["pressure_creep.share"], [0.0])
     free = free_numbers(started, (), ["pressure_creep.share"])
-    assert Misfit(predictor, started, free).fit(final_effort(simulated=False)).numbers == pytest.approx(
+    assert Misfit(predictor, started, free).fit(final_effort(simulated=False)) == pytest.approx(
         [share], rel=0.02
     )
 

@@ -415,10 +415,11 @@ def test_a_fit_with_differences_side_by_side_finds_the_numbers(monkeypatch):
     model = fit_model(
         {"bladder_elasticity": {"shear_modulus": 0.3e6}, "viscous_damping": {"coefficient": 120.0}}
     )
-    found = Misfit(predictor, model, free_numbers(model)).fit(FitEffort(1, 1e-10, 60))
+    free = free_numbers(model)
+    found = Misfit(predictor, model, free).fit(FitEffort(1, 1e-10, 60))
     true = {f"{effect}.{name}": value for effect, own in HIDDEN.items() for name, value in own.items()}
-    for parameter in found.parameters:
-        assert parameter.value == pytest.approx(true[parameter.name], rel=1e-3)
+    for parameter, value in zip(free, found, strict=True):
+        assert value == pytest.approx(true[parameter.name], rel=1e-3)
 
 
 def test_a_run_without_a_start_has_no_prediction_and_no_error():

@@ -308,7 +308,7 @@ def test_a_demanded_stroke_that_is_passed_and_not_kept_has_no_arrival(kept):
         else:
             assert getattr(figures, name) is None
             assert notes[f"extend.{name}"] == "220 mm of the 200 mm are reached, or not kept"
-    assert figures.state == ("arrived_held" if kept else "never_arrived")
+    assert figures.state == ("arrived_and_held" if kept else "never_arrived")
 
 
 @pytest.mark.parametrize("demanded", [0.2, 0.15])

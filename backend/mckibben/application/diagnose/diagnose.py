@@ -57,6 +57,7 @@ from mckibben.identification.diagnose.words import (
     left_out_sentence,
     repeats,
     sentence_of,
+    superfluous_sentence,
     title_of,
     where_to_look,
 )
@@ -67,6 +68,7 @@ from mckibben.identification.fit.comparison import (
     correlations_of,
     parameter_table,
 )
+from mckibben.identification.fit.correlated import Noises
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import Predictor
@@ -131,7 +133,7 @@ def prepare(question: ModelQuestion, studio: Studio) -> Callable[[Watch], Diagno
     def work(watch: Watch) -> DiagnosisResult:
         def report_candidate(candidate: SingleAddition) -> None:
             if watch.found is not None:
-                watch.found(_candidate(question, candidate, catalogue))
+                watch.found(_candidate(question, candidate, catalogue, None))
 
         try:
             diagnosis = search_effects(
@@ -210,7 +212,7 @@ def _result(
         where=list(diagnosis.where),
         candidates=[
             replace(
-                _candidate(question, candidate, catalogue),
+                _candidate(question, candidate, catalogue, diagnosis.best.noises),
                 probability=None if diagnosis.unfinished else diagnosis.probability_of(candidate.effect.id),
             )
             for candidate in diagnosis.candidates
@@ -287,6 +289,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
             CorrectionResult(item.effect, item.before, item.after, item.probability, item.kept)
             for item in diagnosis.corrections
         ],
+        superfluous=[item.effect for item in diagnosis.superfluous],
         unexplained_share=unexplained_share(
             diagnosis.status, diagnosis.best, diagnosis.noise, diagnosis.structure
         ),
@@ -306,6 +309,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
                 sentence_of(diagnosis, catalogue),
                 bounds,
                 corrections_sentence(diagnosis, titles),
+                superfluous_sentence(diagnosis, titles),
                 left_out_sentence(diagnosis),
             )
             if text
@@ -342,8 +346,12 @@ def groups_of(diagnosis: Diagnosis) -> list[list[str]]:
 
 
 def _candidate(
-    question: ModelQuestion, candidate: SingleAddition, catalogue: Mapping[str, Effect]
+    question: ModelQuestion,
+    candidate: SingleAddition,
+    catalogue: Mapping[str, Effect],
+    noises: Noises | None,
 ) -> CandidateResult:
+    """A candidate; its standard errors are not known before the noise is, that of the best model."""
     fitted, effect = candidate.fitted_model, candidate.effect
     other = catalogue.get(candidate.twins[0]) if candidate.twins else None
     twin = None if other is None else declared(effect, other)
@@ -354,7 +362,7 @@ def _candidate(
         holdout_rmse=fitted.holdout_rmse,
         gain_percent=100.0 * candidate.gain,
         score_change=candidate.score,
-        parameters=_parameters(fitted, effect),
+        parameters=_parameters(fitted, effect, noises),
         twins=list(candidate.twins),
         why=candidate.why,
         equation=effect.equation,
@@ -364,8 +372,8 @@ def _candidate(
     )
 
 
-def _parameters(fitted: FittedModel, effect: Effect) -> dict[str, ParameterValue]:
-    errors = fitted.standard_errors
+def _parameters(fitted: FittedModel, effect: Effect, noises: Noises | None) -> dict[str, ParameterValue]:
+    errors = [None] * len(fitted.free) if noises is None else fitted.standard_errors_under(noises)
     places = {p.name: number for number, p in enumerate(fitted.free)}
     values = {}
     for p in effect.parameters:

@@ -217,6 +217,8 @@ class Verdict:
     """Effect of the model that data cannot tell from others -> why this one was taken."""
     corrections: list[CorrectionResult]
     """Effects that lower the error but are not called missing; the model keeps some of them."""
+    superfluous: list[str]
+    """Effects of the start model that the data do not need: without all of them the model is as good."""
     unexplained_share: float
     unexplained_in: list[str]
     """Variables that this part depends on."""

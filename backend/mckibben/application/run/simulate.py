@@ -32,6 +32,7 @@ from mckibben.application.operating_limits import (
 from mckibben.application.prediction_interval import PositionInterval
 from mckibben.application.run.drive_run import measured_interval, run_drive, use_of_run
 from mckibben.application.run.events import STILL, RunEvent, events_of_run, rest_of_run
+from mckibben.application.run.verdict import RunVerdict, verdict_of
 from mckibben.documents.drive_reading import AnnotatedDrive
 from mckibben.facts.comparison import CHANNELS
 from mckibben.facts.figure import Figure, Group
@@ -270,6 +271,8 @@ class SimulationResult:
     """Times, speeds and air of the first fill and the vent after it."""
     tracking: Tracking | None
     """Tracking figures of a controlled run."""
+    verdict: RunVerdict
+    """Whether the run does what its command or its reference asks."""
     outcome: OutcomeName
     """How the run ended; only a completed one has all rows."""
     message: str | None
@@ -366,6 +369,7 @@ def result_of(
         )
 
     between = held_interval(drive)
+    message = None if run.outcome is Outcome.COMPLETED else run.outcome.advice()
     notes = dict(annotated.notes) | {f"timing.{name}": why for name, why in table.notes.items()}
     if len(run.events) >= MOST_EVENTS:
         notes["events"] = f"of very many events in a short time only the first {MOST_EVENTS} are listed"
@@ -416,8 +420,9 @@ def result_of(
         choked=choked_of(run),
         timing=table,
         tracking=follows,
+        verdict=verdict_of(table, follows, run.outcome, message),
         outcome=run.outcome.label,
-        message=None if run.outcome is Outcome.COMPLETED else run.outcome.advice(),
+        message=message,
         wall_ms=run.wall_seconds * 1e3,
         steps=run.steps,
         flags=[

@@ -15,6 +15,7 @@ from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
+from mckibben.identification.diagnose.needed import pruned
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
 from mckibben.identification.diagnose.probability import (
     LIKELY,
@@ -37,6 +38,7 @@ from mckibben.identification.diagnose.steps import (
     path_to,
     single_addition,
 )
+from mckibben.identification.diagnose.superfluous import Superfluous, superfluous
 from mckibben.identification.diagnose.supported import supported
 from mckibben.identification.diagnose.twins import Alternative, likeliest, same, same_predictions
 from mckibben.identification.diagnose.verdict import (
@@ -134,6 +136,7 @@ class Diagnosis:
         context: entries that may be wrong instead, the most convincing first.
         absorbed: reading errors within the stated accuracy that explain a part of the residual.
         corrections: effects that lower the error but are not called missing.
+        superfluous: effects of the start model that the data do not need.
         evidence: of each effect of the best model.
         weights: of the models that the search visited.
         left_out: of several specimens, each predicted by the best model fitted to the others.
@@ -169,6 +172,7 @@ class Diagnosis:
     context: tuple[WrongEntry, ...] = ()
     absorbed: tuple[AbsorbedError, ...] = ()
     corrections: tuple[Correction, ...] = ()
+    superfluous: tuple[Superfluous, ...] = ()
     evidence: tuple[Evidence, ...] = ()
     weights: ModelWeights | None = None
     left_out: tuple[LeftOutSpecimen, ...] = ()
@@ -380,6 +384,7 @@ def _search(
     fitted_singles = [(effect, single) for effect, single in fitted_singles if not single.lost]
     progress.share, progress.end = 0.45, 0.85
     best = search(fitter, root, singles=[fitted_model for _, fitted_model in fitted_singles])
+    best = pruned(fitter, best, root)
     fitter.noise, how = noise_of(predictor, best.residual, noise)
     # Simulated data have no noise: differences below their numerical resolution do not count.
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
@@ -489,6 +494,7 @@ def _search(
         context=context,
         absorbed=absorbed_by(predictor, best.fit_model),
         corrections=corrections,
+        superfluous=superfluous(fitter, best, root),
         evidence=beside(support, context, unknown=left),
         weights=likely.weights,
         left_out=left_out_specimens(predictor, best) if isinstance(predictor, SpecimensPredictor) else (),
@@ -556,4 +562,4 @@ def _final_fit(best: FittedModel) -> FitResult | None:
         return None
     # The numbers are those of the model, which is at its minimum: what is reported and what is saved agree.
     numbers = np.array([p.start for p in best.free])
-    return fit_report(numbers, best.jacobian, -best.residual, best.free)
+    return fit_report(numbers, best.jacobian, -best.residual, best.free, noise_lines=best.noise_lines)

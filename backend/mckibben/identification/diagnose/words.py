@@ -220,6 +220,20 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
     return " ".join(texts)
 
 
+def superfluous_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
+    """The effects of the start model that the data do not need; empty without any."""
+    if not result.superfluous:
+        return ""
+    unit, scale = _unit_of(result)
+    names = _joined([titles.get(item.effect, item.effect) for item in result.superfluous])
+    these, are = ("it", "is") if len(result.superfluous) == 1 else ("them", "are")
+    error = brief(scale * result.superfluous[-1].rmse)
+    return (
+        f"{names} {are} superfluous here: without {these}, and all else refitted, the error is {error} "
+        f"instead of {brief(scale * result.best.rmse)} {unit}."
+    )
+
+
 def bounds_sentence(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     """The named effects whose values ended at the bound of the search; empty without any.
 

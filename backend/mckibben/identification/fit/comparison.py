@@ -366,20 +366,16 @@ def fit_of(
     """
     effort = final_effort(simulated=predictor.simulated)
     misfit = Misfit(predictor, fit_model, choice)
-    result = misfit.fit(effort)
-    if not 0 < len(first) < len(choice):
-        return result
-    begun = dict(
-        zip([p.name for p in first], Misfit(predictor, fit_model, first).fit(effort).numbers, strict=True)
-    )
-    near = [replace(p, start=begun.get(p.name, p.start)) for p in choice]
-    staged = Misfit(predictor, fit_model, near)
-    other = staged.fit(effort)
-    sizes = [
-        float(np.sum(one.value(np.array(found.numbers)) ** 2))
-        for one, found in ((misfit, result), (staged, other))
-    ]
-    return other if sizes[1] < sizes[0] else result
+    numbers = misfit.fit(effort)
+    if 0 < len(first) < len(choice):
+        ended = Misfit(predictor, fit_model, first).fit(effort).tolist()
+        begun = dict(zip([p.name for p in first], ended, strict=True))
+        near = [replace(p, start=begun.get(p.name, p.start)) for p in choice]
+        staged = Misfit(predictor, fit_model, near)
+        other = staged.fit(effort)
+        if float(np.sum(staged.value(other) ** 2)) < float(np.sum(misfit.value(numbers) ** 2)):
+            misfit, numbers = staged, other
+    return misfit.report(numbers)
 
 
 def determined(

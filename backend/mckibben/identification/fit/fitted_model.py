@@ -8,6 +8,14 @@ from functools import cached_property
 
 import numpy as np
 
+from mckibben.identification.fit.correlated import (
+    Noises,
+    Ways,
+    Weighed,
+    covariance,
+    log_likelihood,
+    weighed_noises,
+)
 from mckibben.identification.fit.effort import FitEffort, search_effort
 from mckibben.identification.fit.misfit import Misfit, penalised
 from mckibben.identification.predict.fit_model import FitModel, Free
@@ -33,6 +41,7 @@ class FittedModel:
             shape (values,).
         jacobian: derivatives of the prediction, weighted likewise, shape (values, free).
         folds: folds of the held-out error, see `mckibben.identification.predict.predictor.Predictor`.
+        noise_lines: see `mckibben.identification.predict.predictor.Predictor`.
         lost: number of values without a finite prediction, because a run stopped: their residual is the
             penalty of the optimiser, and no figure of this model may be shown.
     """
@@ -44,6 +53,7 @@ class FittedModel:
     jacobian: np.ndarray = field(repr=False)
     folds: tuple[np.ndarray, ...] = field(repr=False)
     lost: int = 0
+    noise_lines: Sequence[Ways] = field(default=(), repr=False)
 
     @property
     def key(self) -> tuple[frozenset[str], frozenset[str]]:
@@ -100,19 +110,31 @@ class FittedModel:
         return int(np.count_nonzero(self.at_bound) + np.count_nonzero(weak))
 
     @cached_property
+    def noises(self) -> list[list[Weighed]]:
+        """Of each channel, what its noise may be if the model is right."""
+        inner = self.jacobian[:, self.inner]
+        return [weighed_noises(inner, self.residual, ways) for ways in self.noise_lines]
+
+    @cached_property
+    def log_likelihood(self) -> float:
+        """Log likelihood of the residual under the noise that suits it best, up to a constant."""
+        return log_likelihood(self.jacobian[:, self.inner], self.residual, self.noise_lines)
+
+    @property
     def standard_errors(self) -> list[float | None]:
         """Standard errors of the free parameters; None at a bound or where the data do not determine it."""
+        return self.standard_errors_under(self.noises)
+
+    def standard_errors_under(self, noises: Noises) -> list[float | None]:
+        """`standard_errors` with noise that is known from a better model, of the size of this residual."""
         errors: list[float | None] = [None] * len(self.free)
         inner = [i for i in self.inner if not self.at_bound[i]]
         if not inner or self.implausible:
             return errors
-        # Columns of one size: N per Pa and N per m differ by more than the digits of a number.
-        scale = np.linalg.norm(self.jacobian[:, inner], axis=0)
-        unit = self.jacobian[:, inner] / scale
-        variance = self.mean_square * len(self.residual) / max(len(self.residual) - len(inner), 1)
-        covariance = variance * np.linalg.pinv(unit.T @ unit)
-        for place, index in enumerate(inner):
-            errors[index] = float(np.sqrt(max(covariance[place, place], 0.0)) / scale[place])
+        if len(self.residual) > len(inner):
+            matrix = covariance(self.jacobian[:, inner], self.residual, noises=noises or None)
+            for place, index in enumerate(inner):
+                errors[index] = float(np.sqrt(max(matrix[place, place], 0.0)))
         return errors
 
     @cached_property
@@ -198,15 +220,16 @@ def refitted(
     if not free:
         return unfitted(predictor, fit_model, freed=freed)
     misfit = Misfit(predictor, fit_model, free)
-    result = misfit.fit(effort or search_effort(simulated=predictor.simulated))
-    numbers = np.array(result.numbers)
+    numbers = misfit.fit(effort or search_effort(simulated=predictor.simulated))
     ended = misfit.fit_model(numbers)
     # Fits use the unclipped force, which may be negative; the residual uses the force of a slack muscle.
     residual, lost = penalised(predictor, predictor.residual(ended))
     same = np.isclose(residual, -misfit.value(numbers), rtol=1e-9)
     jacobian = np.where(same[:, None], misfit.derivatives(numbers), 0.0)
     at_solution = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))
-    return FittedModel(ended, at_solution, frozenset(freed), residual, jacobian, predictor.folds, lost)
+    return FittedModel(
+        ended, at_solution, frozenset(freed), residual, jacobian, predictor.folds, lost, predictor.noise_lines
+    )
 
 
 def unfitted(predictor: Predictor, fit_model: FitModel, *, freed: Collection[str] = ()) -> FittedModel:

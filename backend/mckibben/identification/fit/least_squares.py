@@ -8,7 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.facts.result import result_class
-from mckibben.identification.fit.levenberg import minimise
+from mckibben.identification.fit.correlated import Ways
+from mckibben.identification.fit.correlated import covariance as covariance_of
+from mckibben.identification.fit.levenberg import Minimum, minimise
 from mckibben.identification.predict.fit_model import Free
 
 _AT_BOUND = 1e-3  # share of the range; nearer to a bound a parameter counts as being at it
@@ -65,7 +67,7 @@ def least_squares_fit(
     tolerance: float = 1e-12,
     evaluations: int = 200,
     secants: int = 0,
-) -> FitResult:
+) -> Minimum:
     """Minimise the sum of squared residuals over the free parameters within their bounds.
 
     Args:
@@ -77,9 +79,6 @@ def least_squares_fit(
         tolerance: relative change of the sum of squares at which the fit stops.
         evaluations: most evaluations from each start.
         secants: see `minimise`.
-
-    Standard errors assume independent residuals of equal size; they come from the exact Jacobian at the end.
-    A parameter at a bound has none, nor has one that the data cannot separate from others.
     """
     lower = np.array([parameter.lower for parameter in free])
     upper = np.array([parameter.upper for parameter in free])
@@ -94,19 +93,29 @@ def least_squares_fit(
         if best is None or minimum.squares < best.squares * (1.0 - 1e-9):
             best = minimum
     assert best is not None  # noqa: S101 - there is always at least the first start
-    return fit_report(best.numbers, best.jacobian, best.residuals, free)
+    return best
 
 
 def fit_report(
-    numbers: np.ndarray, jacobian: np.ndarray, residuals: np.ndarray, free: Sequence[Free]
+    numbers: np.ndarray,
+    jacobian: np.ndarray,
+    residuals: np.ndarray,
+    free: Sequence[Free],
+    *,
+    noise_lines: Sequence[Ways] = (),
 ) -> FitResult:
     """What a fit that ended at these numbers determines.
+
+    Standard errors allow for noise that is correlated from row to row
+    (`mckibben.identification.fit.correlated`). A parameter at a bound has none, nor has one that the data
+    cannot separate from others.
 
     Args:
         numbers: values of the free parameters.
         jacobian: derivatives of the residuals, shape (residuals, free).
         residuals: there.
         free: the free parameters with their bounds.
+        noise_lines: in which the noise may be correlated; without any it is independent.
     """
     span = np.array([parameter.upper - parameter.lower for parameter in free])
     reach = np.linalg.norm(jacobian, axis=0) * span
@@ -140,15 +149,15 @@ def fit_report(
             alike = ", ".join(free[index].name for index in inner)
             messages.append(f"the data cannot separate {alike}: no standard errors are given")
         else:
-            inverse = np.linalg.inv(normal)
-            variance = float(residuals @ residuals) / freedom
-            deviation = np.sqrt(np.diag(inverse))
-            matrix = variance * inverse / np.outer(scale, scale)
+            matrix = covariance_of(jacobian[:, inner], residuals, noise_lines)
+            deviation = np.sqrt(np.diag(matrix))
             names = [free[index].name for index in inner]
-            covariance = FittedCovariance(names, (0.5 * (matrix + matrix.T)).tolist())
+            covariance = FittedCovariance(names, matrix.tolist())
             for place, index in enumerate(inner):
-                errors[index] = float(np.sqrt(variance) * deviation[place] / scale[place])
-            correlation = inverse / np.outer(deviation, deviation)
+                errors[index] = float(deviation[place])
+            inverse = np.linalg.inv(normal)
+            sizes = np.sqrt(np.diag(inverse))
+            correlation = inverse / np.outer(sizes, sizes)
             for i, first in enumerate(inner):
                 for j, second in enumerate(inner[i + 1 :], i + 1):
                     if abs(correlation[i, j]) > _CORRELATED:

@@ -89,10 +89,16 @@ class Misfit:
 
     def report(self, numbers: np.ndarray) -> FitResult:
         """What the data determine at these numbers, as after a fit that ended there."""
-        return fit_report(numbers, self.derivatives(numbers), self.value(numbers), self._free)
+        return fit_report(
+            numbers,
+            self.derivatives(numbers),
+            self.value(numbers),
+            self._free,
+            noise_lines=self._predictor.noise_lines,
+        )
 
-    def fit(self, effort: FitEffort) -> FitResult:
-        """Least squares over the free parameters, see `least_squares_fit`.
+    def fit(self, effort: FitEffort) -> np.ndarray:
+        """Values of the free parameters by least squares, see `least_squares_fit`.
 
         What went before the records is that which suits the start; where another one suits the end better,
         the fit goes on with that. Of histories that lead to other sizes of an effect, each is fitted and the
@@ -103,26 +109,26 @@ class Misfit:
         if len(histories) > 1:
             return self._with_closest(any_history, histories, effort)
         history = any_history.history(self.fit_model(np.array([p.start for p in free])))
-        result = self._after(any_history.after(history), free, effort)
-        better = any_history.history(self.fit_model(np.array(result.numbers)))
+        numbers = self._after(any_history.after(history), free, effort)
+        better = any_history.history(self.fit_model(numbers))
         if better != history:
-            ended = [replace(p, start=float(x)) for p, x in zip(free, result.numbers, strict=True)]
-            result = self._after(any_history.after(better), ended, effort)
-        return result
+            ended = [replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True)]
+            numbers = self._after(any_history.after(better), ended, effort)
+        return numbers
 
     def _with_closest(
         self, predictor: Predictor, histories: Sequence[tuple[str, ...]], effort: FitEffort
-    ) -> FitResult:
+    ) -> np.ndarray:
         """The fit with that one of the histories with which it ends closest to the readings."""
         fits = []
         for history in histories:
-            result = self._after(predictor.after(history), self._free, effort)
-            fits.append((float(np.sum(self.value(np.array(result.numbers)) ** 2)), history, result))
-        _, history, result = min(fits, key=lambda fit: fit[0])
+            numbers = self._after(predictor.after(history), self._free, effort)
+            fits.append((float(np.sum(self.value(numbers) ** 2)), history, numbers))
+        _, history, numbers = min(fits, key=lambda fit: fit[0])
         self._predictor, self._at = predictor.after(history), None
-        return result
+        return numbers
 
-    def _after(self, predictor: Predictor, free: Sequence[Free], effort: FitEffort) -> FitResult:
+    def _after(self, predictor: Predictor, free: Sequence[Free], effort: FitEffort) -> np.ndarray:
         self._predictor, self._at = predictor, None
         dear = predictor.follows(self._fit_model, free)
         return least_squares_fit(
@@ -133,4 +139,4 @@ class Misfit:
             tolerance=max(effort.tolerance, _TOLERANCE) if dear else effort.tolerance,
             evaluations=effort.evaluations,
             secants=_SECANTS if dear else 0,
-        )
+        ).numbers

@@ -248,6 +248,8 @@ def _motion(
         velocity = columns["velocity"]
         if not known:
             direction, known = velocity, True
+    if measurement.by_rows and known and direction is not None:
+        unsure |= direction == 0.0  # which way the muscle came there is before the first row
     if direction is None or not known:
         messages.append("the direction of motion is unknown: friction cannot be determined from these rows")
         return velocity, np.zeros(measurement.rows), unsure

@@ -414,6 +414,21 @@ class Predictor(ABC):
         return float(np.sqrt(np.mean((residual / self.scale) ** 2)))
 
     @property
+    def noise_lines(self) -> list[list[list[np.ndarray]]]:
+        """Of each channel, ways in which its noise may go on from row to row: by records, by sweeps."""
+        channels = []
+        for channel in self.channels:
+            rows = np.arange(len(self.measured))[channel.rows]
+            inside = np.zeros(len(self.measured), bool)
+            inside[rows] = True
+            records = [rows[self.records[rows] == label] for label in np.unique(self.records[rows])]
+            sweeps = [sweep[inside[sweep]] for sweep in self.sweeps]
+            inside[np.concatenate([*sweeps, rows[:0]])] = False
+            sweeps = [sweep for sweep in sweeps if len(sweep)] + list(np.flatnonzero(inside)[:, None])
+            channels.append([records] if len(sweeps) == len(records) else [records, sweeps])
+        return channels
+
+    @property
     def unit(self) -> str:
         """Unit of the error: of the channel, or "1" when several are scaled by their noise."""
         return self.channels[0].unit if len(self.channels) == 1 else "1"

@@ -21,10 +21,11 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, product
-from typing import NamedTuple, Protocol
+from typing import Protocol
 
 import numpy as np
 
+from mckibben.identification.fit.correlated import Chain, noises_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.profiles import variables_of
@@ -65,12 +66,6 @@ _DRAWS, _SEED = 2000, 0  # of the bootstrap over groups
 _INTERVAL = (0.05, 0.95)
 _MATTERS = 0.02  # share of the surface below which a block is not named
 
-_RHOS = (0.0, 0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.975, 0.99, 0.997)  # autocorrelation of neighbouring rows
-_WHITE_SHARES = (0.0, 0.15, 0.4, 0.7)  # w: share of white noise in the variance of the noise
-# Noise that swings, of second order: radius of the poles, period in rows, and shares of white noise.
-_RADII, _PERIODS, _SWINGING_SHARES = (0.8, 0.9, 0.97), (6.0, 10.0, 16.0, 30.0), (0.0, 0.4)
-_FEWEST_OF_A_LINE = 4  # rows; in shorter lines noise of second order counts as white
-_LEAST_WHITE = 1e-6  # instead of a share of 0, so that equal rows do not make the matrix singular
 _AMPLITUDES = np.geomspace(1e-6, 1e4, 31)  # variance of the effect over that of the noise
 _ROUGHNESSES = (0.2, 0.7)  # lengths of the processes whose columns are tried, of variables in -1 ... 1
 _LATE = 2.0  # length of what is late alone: nearly in proportion
@@ -791,17 +786,9 @@ def ratio_of(
 ) -> float:
     r"""Twice the gain in log likelihood by a random effect, beside white noise and noise that is correlated.
 
-    Without and with the effect the residual is :math:`r \sim N(K\beta, s^2(R + \lambda BDB^T))`. Within each
-    line
-
-    .. math:: R = (1-w)A + wI = A\,((1-w)I + wT),\quad T = A^{-1},\quad
-       e_i = \phi_1e_{i-1} + \phi_2e_{i-2} + \epsilon_i
-
-    with A the correlations of the autoregressive noise e; :math:`A_{ij} = \rho^{|i-j|}` for one of first
-    order. T has two diagonals beside the main one, so that products with
-    :math:`R^{-1} = T((1-w)I + wT)^{-1}` are banded and cost :math:`O(n k)`. Both
-    hypotheses choose the noise of a grid for themselves, by restricted likelihood: of first order, and
-    swinging ones of second order.
+    Without and with the effect the residual is :math:`r \sim N(K\beta, s^2(R + \lambda BDB^T))`, with the
+    noises R of `mckibben.identification.fit.correlated`, of which both hypotheses choose for themselves, by
+    restricted likelihood.
 
     Args:
         jacobian: K, shape (rows, constants).
@@ -813,7 +800,8 @@ def ratio_of(
     constants = jacobian[:, np.any(jacobian != 0.0, axis=0)]
     constants = constants / np.linalg.norm(constants, axis=0)
     rows = np.concatenate(lines)
-    lengths = np.array([len(line) for line in lines])
+    lengths = [len(line) for line in lines]
+    chain = Chain(lengths)
     own, freedom = constants.shape[1], len(rows) - constants.shape[1]
     table = np.column_stack([constants, residual[:, None], columns])[rows]
     if freedom < 2 or not np.any(residual):
@@ -823,8 +811,8 @@ def ratio_of(
     roots = [(surface > 0.0, surface[surface > 0.0]) for surface in surfaces]
     roots = [(kept, root * np.sqrt(len(rows) / np.sum(root**2 * sizes[kept]))) for kept, root in roots]
     without, beside = -np.inf, -np.inf
-    for noise in _noises():
-        products, log_det = _whitened(table, lengths, noise)
+    for noise in noises_of(lengths):
+        products, log_det = chain.products(table, noise)
         plain, rest = _without_constants(products, own, freedom)
         without = max(without, plain - 0.5 * log_det)
         for kept, root in roots:
@@ -832,80 +820,6 @@ def ratio_of(
             gained = _gained(rest[0, 0], inner, root * rest[0, 1:][kept], freedom)
             beside = max(beside, plain + gained - 0.5 * log_det)
     return 2.0 * max(beside - without, 0.0)
-
-
-class _Noise(NamedTuple):
-    """Autoregressive noise with white noise beside it: its coefficients and the share of the white one."""
-
-    first: float
-    second: float
-    white: float
-
-    @property
-    def next_one(self) -> float:
-        """Correlation of neighbouring rows."""
-        return self.first / (1.0 - self.second)
-
-    @property
-    def innovation(self) -> float:
-        """Variance of what is new in each row, over the variance."""
-        return (1.0 - self.next_one**2) * (1.0 - self.second**2)
-
-
-def _noises() -> list[_Noise]:
-    """The grid of both hypotheses."""
-    whites = [max(white, _LEAST_WHITE) for white in _WHITE_SHARES]
-    plain = [_Noise(rho, 0.0, white) for rho in _RHOS for white in (whites if rho > 0.0 else whites[:1])]
-    swinging = [
-        _Noise(2.0 * radius * float(np.cos(2.0 * np.pi / period)), -(radius**2), max(white, _LEAST_WHITE))
-        for radius in _RADII
-        for period in _PERIODS
-        for white in _SWINGING_SHARES
-    ]
-    return plain + swinging
-
-
-def _whitened(table: np.ndarray, lengths: np.ndarray, noise: _Noise) -> tuple[np.ndarray, float]:
-    r"""The products of columns with the inverse of R between them, and log det R.
-
-    The inverse of the correlations of autoregressive noise is (Siddiqui, Ann. Math. Statist. 29 (1958) 585)
-
-    .. math:: T_{ij} = s^{-2}\sum_k a_ka_{k+j-i},\quad a = (1, -\phi_1, -\phi_2),\quad k \le \min(i, n-1-j)
-
-    Args:
-        table: rows of one line after the other, shape (rows, columns).
-        lengths: number of rows of each line.
-        noise: the noise.
-    """
-    from scipy.linalg import cho_solve_banded, cholesky_banded
-
-    if noise.first == 0.0 and noise.second == 0.0:
-        return table.T @ table, 0.0
-    fewest = _FEWEST_OF_A_LINE if noise.second else 2
-    length = np.repeat(lengths, lengths)
-    place = np.arange(len(length)) - np.repeat(np.cumsum(lengths) - lengths, lengths)
-    ahead, short = length - 1 - place, length < fewest
-    a, size = np.array([1.0, -noise.first, -noise.second]), 1.0 / noise.innovation
-    diagonals = []
-    for offset in range(3):
-        sums = np.cumsum(a[: 3 - offset] * a[offset:]) * size
-        terms = np.minimum(np.minimum(place, ahead - offset), 2 - offset)
-        values = np.where(terms < 0, 0.0, sums[np.maximum(terms, 0)])
-        diagonals.append(np.where(short, 1.0 if offset == 0 else 0.0, values))
-    main, one, two = diagonals
-    banded = np.zeros((3, len(length)))  # lower diagonals
-    banded[0] = (1.0 - noise.white) + noise.white * main
-    banded[1], banded[2] = noise.white * one, noise.white * two
-    factor = cholesky_banded(banded, lower=True, check_finite=False)
-    solved = cho_solve_banded((factor, True), table, check_finite=False)
-    inverse = main[:, None] * solved
-    for offset, beside in ((1, one), (2, two)):
-        if len(length) > offset and np.any(beside):
-            inverse[offset:] += beside[:-offset, None] * solved[:-offset]
-            inverse[:-offset] += beside[:-offset, None] * solved[offset:]
-    long = lengths[lengths >= fewest]
-    log_det = float(np.sum(long - 2)) * np.log(noise.innovation) + len(long) * np.log1p(-(noise.next_one**2))
-    return table.T @ inverse, float(log_det) + 2.0 * float(np.sum(np.log(factor[0])))
 
 
 def _without_constants(products: np.ndarray, own: int, freedom: int) -> tuple[float, np.ndarray]:

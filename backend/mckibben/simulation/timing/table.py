@@ -43,7 +43,7 @@ from mckibben.simulation.timing.trace import Impact, Trace
 
 #: How the motion of a phase ends.
 MotionState = Literal[
-    "never_left", "swings", "returned", "arrived_held", "arrived_bounced", "never_arrived", "drifts"
+    "never_left", "swings", "returned", "arrived_and_held", "arrived_and_bounced", "never_arrived", "drifts"
 ]
 
 # Figures that need an arrival.
@@ -228,7 +228,7 @@ class _Motion:
     def state(self) -> tuple[MotionState, str]:
         """How the motion ends, and a sentence."""
         if self.stays:
-            return "never_left", "stays where it is"
+            return "never_left", "stays on its stop" if self.contact.all() else "does not move"
         if (swing := self.swing) is not None:
             dies = "" if swing.growth > 0.98 else f", {100.0 * (1.0 - swing.growth):.2g} % less each period"
             size = f"{swing.frequency:.3g} Hz by ±{1e3 * swing.amplitude:.3g} mm"
@@ -250,10 +250,10 @@ class _Motion:
         if self.settled is not None and self.impact is not None:
             behind = self._travel_to(self.impact) - self.reached
             if behind <= self.band * self._travel_to(self.impact):
-                return "arrived_held", "arrives on the stop and holds"
-            return "arrived_bounced", f"hits the stop, and rests {1e3 * behind:.3g} mm before it"
+                return "arrived_and_held", "arrives on the stop and holds"
+            return "arrived_and_bounced", f"hits the stop, and rests {1e3 * behind:.3g} mm before it"
         if self.settled is not None:
-            return "arrived_held", f"arrives after {reached} and holds"
+            return "arrived_and_held", f"arrives after {reached} and holds"
         pace = f"{1e3 * float(self.speed[-1]):.3g} mm/s".replace("-", "−")
         return "drifts", f"still moves at {pace} at the end of the phase"
 

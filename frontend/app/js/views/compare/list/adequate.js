@@ -7,7 +7,7 @@ import { capitalized, scaleOf, withUnit } from "../../../format.js";
 import { answer, heldOut } from "../answers.js";
 import { useInDesign } from "../exports.js";
 import { exchange } from "../model/steps.js";
-import { fitting } from "../model/history.js";
+import { fitting, remove } from "../model/history.js";
 import { errorText, titleOf } from "../words.js";
 import { tellings, twinChoice } from "./entry.js";
 import { openSteps, wideNoise } from "./state.js";
@@ -31,6 +31,35 @@ export function openChoices() {
         }, `${titleOf(chosen)}, or one that these data cannot tell from it`),
         ...tellings(tells),
       )
+    ),
+  );
+}
+
+/** Effects of the model that the data do not need. @param {Diagnosis} result */
+export function notNeeded({ verdict: { superfluous } }) {
+  if (!superfluous.length) return null;
+  return h(
+    "section",
+    { class: "list-part", "aria-label": "Not needed" },
+    h("h3", null, "Not needed"),
+    h("p", { class: "why" }, "Without it, and all else refitted, the model describes these data as well."),
+    h(
+      "ul",
+      { class: "plain" },
+      ...superfluous.map((id) =>
+        h(
+          "li",
+          { class: "row" },
+          titleOf(id),
+          h("button", {
+            type: "button",
+            class: "small",
+            "aria-label": `Take out ${titleOf(id)}`,
+            disabled: () => fitting.value,
+            onclick: () => remove(id),
+          }, "Take out"),
+        )
+      ),
     ),
   );
 }
@@ -135,6 +164,7 @@ export function adequate(result) {
       ),
     ),
     openChoices(),
+    notNeeded(result),
     covered(result),
   ];
 }

@@ -67,9 +67,6 @@ const OUTCOMES = {
 const NOTE = "unverified";
 /** Remarks on what the figures are worth, which are no limits. */
 const REMARKS = new Set(["curve_fit", "stretched"]);
-/** How a controlled run ends that does what its reference asks. */
-const FOLLOWED = new Set(["tracks", "settles"]);
-
 /** @param {string} text */
 const capital = (text) => text.charAt(0).toUpperCase() + text.slice(1);
 
@@ -82,13 +79,9 @@ function verdict() {
   const beside = r.flags.filter((f) => REMARKS.has(f.code));
   const hard = r.flags.filter((f) => f.code !== NOTE && !REMARKS.has(f.code)),
     doubts = r.flags.filter((f) => f.code === NOTE);
-  // A complete run in which nothing moves is a warning.
-  const still = r.timing.extend.max_speed == null && !r.tracking
-    ? r.timing.notes["extend.max_speed"] ?? null
-    : null;
-  const followed = done ? r.tracking : null;
-  const away = followed !== null && !FOLLOWED.has(followed.state);
-  const grade = !done ? "bad" : hard.length || still || away ? "warn" : "good";
+  const { verdict: asked } = r;
+  const away = asked.met === false;
+  const grade = !done ? "bad" : hard.length || away ? "warn" : "good";
   const end = r.time.at(-1) ?? 0;
   return [
     ...beside.map((f) =>
@@ -102,14 +95,10 @@ function verdict() {
         "span",
         null,
         OUTCOMES[r.outcome] ?? r.outcome,
-        followed ? unbroken(` ${capital(followed.verdict)}.`) : "",
-        away && followed?.advice ? h("span", { class: "advice" }, ` ${capital(followed.advice)}.`) : "",
+        done && asked.state ? unbroken(` ${asked.sentence}`) : "",
+        done && r.tracking?.advice ? h("span", { class: "advice" }, ` ${capital(r.tracking.advice)}.`) : "",
         done
-          ? hard.length
-            ? `${still ? ` Nothing moves: ${still}.` : ""} It leaves the permitted range:`
-            : still
-            ? ` Nothing moves: ${still}.`
-            : " No permitted limit is exceeded."
+          ? hard.length ? " It leaves the permitted range:" : " No permitted limit is exceeded."
           : ` It ended at ${lapse(end)}. ${r.message ?? ""}`,
       ),
     ),
