@@ -174,7 +174,9 @@ def test_a_place_is_told_only_where_chance_does_not_give_it() -> None:
     assert common_place([3, 9, 15, 28], variables, lines) is None
     course = common_place([60, 61, 63, 64], {}, sweeps)
     assert course is not None
-    assert (course.kind, course.value, course.rows) == ("in a row", 1.0, 5)
+    assert (course.kind, course.named, course.rows) == ("in a row", 4, 5)
+    assert course.sentence == "4 of 5 of neighbouring rows"
+    assert common_place([60, 61, 63, 130], {}, sweeps) is None
 
 
 def test_swings_of_correlated_noise_are_no_bad_rows() -> None:

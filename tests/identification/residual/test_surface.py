@@ -116,8 +116,9 @@ def test_noise_is_no_structure(kind: str) -> None:
         assert found.gain_low[0] < 0.1
 
 
-@pytest.mark.parametrize("kind", ["white", "0.98"])
-@pytest.mark.parametrize("name", EFFECTS)
+@pytest.mark.parametrize(
+    ("name", "kind"), [*((name, "0.98") for name in EFFECTS), ("a bump", "white"), ("a wave", "0.9")]
+)
 def test_a_smooth_effect_is_more_than_correlated_noise(name: str, kind: str) -> None:
     node, rig = loops(1.5 * NOISE * beside(DESIGN, EFFECTS[name]) + noise(kind, 7))
     found = surface_of(node, rig)

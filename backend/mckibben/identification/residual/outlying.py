@@ -21,10 +21,10 @@ from typing import Literal
 
 import numpy as np
 
-from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.surface import (
     Block,
+    Fitted,
     Likeliest,
     levels_of,
     most_likely,
@@ -49,7 +49,7 @@ _LOG_SCATTER = 1.11
 _GROWS = 3.0  # standard errors of the slope from which the noise grows
 _STEEPEST = 1.0  # slope of noise in proportion to the reading
 _LEAST_SIZE = 0.05  # of the largest prediction; the noise of smaller ones is that of this one
-_STRETCH = 2  # rows between the first and the last of them, over their number, up to which they lie in a row
+_BESIDE = 3  # rows from a row that does not fit to the next one, up to which both are in a row
 _MANY_LEVELS = 0.5  # of the rows; with more levels a variable has no places that rows share
 
 Kind = Literal[
@@ -61,10 +61,12 @@ Kind = Literal[
 class Place:
     """What all rows that do not fit have in common.
 
+    Rows in a row are more likely a course that neither model nor surface follows than wrong readings.
+
     Attributes:
         kind: of the place; a "level" is one value of a variable.
         variable: of a level, else empty.
-        value: of a level [SI]; the number of a sweep from 0, also of rows in a row; else NaN.
+        value: of a level [SI]; the number of a sweep from 0; else NaN.
         named: number of rows that do not fit, all at this place.
         rows: number of rows at it.
         chance: bound of the probability that as many rows anywhere lie at one place of any kind.
@@ -85,7 +87,7 @@ class Place:
             "before a turn": "the last rows before a turn of the motion",
             "first of a sweep": "the first rows of a sweep",
             "last of a sweep": "the last rows of a sweep",
-            "in a row": f"neighbouring rows of sweep {self.value + 1.0:.0f}",
+            "in a row": "neighbouring rows",
             "sweep": f"the rows of sweep {self.value + 1.0:.0f}",
             "level": f"the rows at {self.variable} {self.value:.4g}",
         }[self.kind]
@@ -116,7 +118,7 @@ class Outlying:
 _NONE = Outlying((), 0.0, (), (), surface=False)
 
 
-def outlying_of(fitted: FittedModel, predictor: Predictor) -> Outlying:
+def outlying_of(fitted: Fitted, predictor: Predictor) -> Outlying:
     """Rows of a fitted model that do not fit, of the channel that gains most by setting them aside.
 
     Args:
@@ -404,11 +406,9 @@ def common_place(
         places.append(("last of a sweep", "", np.nan, {int(sweep[-1]) for sweep in long}, 1))
         for number, sweep in enumerate(sweeps):
             places.append(("sweep", "", float(number), set(sweep.tolist()), len(sweeps)))
-    for number, sweep in enumerate(long):
-        inside = np.flatnonzero(np.isin(sweep, list(named)))
-        if len(inside) == len(wanted) and (stretch := np.ptp(inside) + 1) <= _STRETCH * len(inside):
-            between = set(sweep[inside[0] : inside[0] + stretch].tolist())
-            places.append(("in a row", "", float(number), between, rows))
+    beside = _neighbours(wanted, long)
+    if wanted <= beside:
+        places.append(("in a row", "", np.nan, beside, 1))
     for name, values in variables.items():
         count = levels_of(values)
         if name == "direction" or not 1 < count <= _MANY_LEVELS * len(values):
@@ -416,20 +416,34 @@ def common_place(
         near = np.abs(values - values[named[0]]) <= 1e-3 * float(np.ptp(values))
         places.append(("level", name, float(values[named[0]]), set(np.flatnonzero(near).tolist()), count))
     kinds = len({(kind, name) for kind, name, *_ in places})
-    found = [
-        Place(
-            kind,
-            name,
-            value,
-            len(wanted),
-            len(inside),
-            min(kinds * ways * _odds(len(wanted), len(inside), rows), 1.0),
-        )
-        for kind, name, value, inside, ways in places
-        if wanted <= inside
-    ]
+    found = []
+    for kind, name, value, inside, ways in places:
+        if wanted <= inside:
+            odds = _odds(len(wanted), len(inside), rows)
+            if kind == "in a row":
+                odds = _odds_of_neighbours(len(wanted), rows)
+            found.append(
+                Place(kind, name, value, len(wanted), len(inside), float(min(kinds * ways * odds, 1.0)))
+            )
     found = [place for place in found if place.chance < _CHANCE]
-    return min(found, key=lambda place: place.chance, default=None)
+    # Rows in a row are one event each time, wherever it is.
+    return min(found, key=lambda place: (place.kind != "in a row", place.chance), default=None)
+
+
+def _neighbours(named: set[int], sweeps: Sequence[np.ndarray]) -> set[int]:
+    """The named rows that have another one beside them, and the rows between."""
+    found = set()
+    for sweep in sweeps:
+        inside = np.flatnonzero(np.isin(sweep, list(named)))
+        for before, after in pairwise(inside):
+            if after - before <= _BESIDE:
+                found.update(sweep[before : after + 1].tolist())
+    return found
+
+
+def _odds_of_neighbours(named: int, rows: int) -> float:
+    """Bound of the probability that each of some rows anywhere has another one beside it."""
+    return float((2 * _BESIDE * named / rows) ** -(-named // 2))
 
 
 def _odds(named: int, inside: int, rows: int) -> float:

@@ -21,11 +21,12 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise, product
+from typing import Protocol
 
 import numpy as np
 
-from mckibben.identification.fit.correlated import Chain, Ways, tried_noises
-from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.residual.correlated import Chain, Ways, tried_noises
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.profiles import variables_of
 
@@ -60,6 +61,7 @@ _MAIN = (
 )  # no surface beyond their range
 _BESIDE = 1e-3  # of the range; so far beyond the other rows is still within
 _FEWEST_FOLDS = 3  # groups with rows inside; with less the gain has no interval
+_BLOCKS, _BLOCK_FOLDS = 40, 8  # short blocks of each run, left out in turn in so many folds
 _DRAWS, _SEED = 2000, 0  # of the bootstrap over groups
 _INTERVAL = (0.05, 0.95)
 _MATTERS = 0.02  # share of the surface below which a block is not named
@@ -72,6 +74,35 @@ _MOST_LINE_ROWS = 6000  # for the likelihood ratio; of more rows every second, t
 _PROJECTED = 1e-10  # of a sum of squares, below which a column lies among the others
 
 
+class Fitted(Protocol):
+    """What a surface needs of a `mckibben.identification.fit.fitted_model.FittedModel`."""
+
+    @property
+    def fit_model(self) -> FitModel:
+        """The model with the fitted values."""
+        ...
+
+    @property
+    def residual(self) -> np.ndarray:
+        """Measured minus predicted, weighted, shape (values,)."""
+        ...
+
+    @property
+    def jacobian(self) -> np.ndarray:
+        """Derivatives of the prediction, weighted likewise, shape (values, free)."""
+        ...
+
+    @property
+    def lost(self) -> int:
+        """Number of values without a finite prediction."""
+        ...
+
+    @property
+    def _linear(self) -> tuple[np.ndarray, ...]:
+        """Of the inner parameters over their ranges: Jacobian, normal matrix, bounds, prior and its pull."""
+        ...
+
+
 @dataclass(frozen=True, eq=False)
 class Surface:
     """A free surface on the residual of a model.
@@ -80,8 +111,8 @@ class Surface:
         left: rms that model and surface would leave, in the units of the scaled residual:
             :math:`\\sqrt{RSS/(n - k)}` with k effective degrees of freedom.
         numbers: effective degrees of freedom, rounded up.
-        gain: for each way of folding, 1 - MSE(model + surface)/MSE(model) of left-out groups, over the rows
-            within the range of the other groups; NaN where less than three groups have such rows.
+        gain: for each way of `foldings_of`, 1 - MSE(model + surface)/MSE(model) of left-out groups, over the
+            rows within the range of the other groups; NaN where less than three groups have such rows.
         gain_low, gain_high: its 90 % interval, by a bootstrap of whole groups.
         inside: for each way, share of these rows; a surface corrects no other row and is not judged by it.
         independent: for each way, whether no sweep has rows in two of its groups. Otherwise correlated noise
@@ -459,7 +490,7 @@ def moving_blocks(
 
 
 def _moving_variables(
-    fitted: FittedModel, predictor: Predictor, rows: np.ndarray
+    fitted: Fitted, predictor: Predictor, rows: np.ndarray
 ) -> tuple[dict[str, np.ndarray], np.ndarray]:
     """Variables of a run at some values, with what the model itself predicts, and their times."""
     inputs = {name: values[rows] for name, values in predictor.inputs.items()}
@@ -496,7 +527,7 @@ def in_order(predictor: Predictor) -> bool:
 
 
 def surface_variables(
-    fitted: FittedModel, predictor: Predictor, rows: np.ndarray
+    fitted: Fitted, predictor: Predictor, rows: np.ndarray
 ) -> tuple[dict[str, np.ndarray], np.ndarray | None]:
     """Variables of a surface at the values of a channel, and the times of a run.
 
@@ -512,7 +543,7 @@ def surface_variables(
 
 
 def _blocks_of(
-    fitted: FittedModel, predictor: Predictor, rows: np.ndarray
+    fitted: Fitted, predictor: Predictor, rows: np.ndarray
 ) -> tuple[list[Block], list[np.ndarray]]:
     """Blocks of the values of a channel, and the variables beyond whose range nothing is corrected."""
     variables, time = surface_variables(fitted, predictor, rows)
@@ -524,7 +555,7 @@ def _blocks_of(
     return blocks, [_unit(variables[name]) for name in _MAIN if name in variables]
 
 
-def surface_of(fitted: FittedModel, predictor: Predictor) -> Surface | None:
+def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
     """The free surface on the residual of a fitted model; None below twenty rows and after a stopped run.
 
     Left-out groups are predicted by the physical model with its constants refitted without them to first
@@ -539,7 +570,8 @@ def surface_of(fitted: FittedModel, predictor: Predictor) -> Surface | None:
     count = len(fitted.residual)
     values, deviations = np.zeros(count), np.zeros(count)
     square, numbers, shares = 0.0, 0, {}
-    ways = [_Way(fitted, labels) for labels in predictor.folds]
+    foldings = foldings_of(predictor)
+    ways = [_Way(fitted, labels) for labels in foldings]
     found = False
     for channel in predictor.channels:
         rows = np.arange(count)[channel.rows]
@@ -572,13 +604,26 @@ def surface_of(fitted: FittedModel, predictor: Predictor) -> Surface | None:
         gain_high=tuple(way.interval[1] for way in ways),
         inside=tuple(float(np.mean(way.inside)) for way in ways),
         independent=tuple(
-            all(np.ptp(labels[sweep]) == 0 for sweep in predictor.sweeps if len(sweep))
-            for labels in predictor.folds
+            all(np.ptp(labels[sweep]) == 0 for sweep in predictor.sweeps if len(sweep)) for labels in foldings
         ),
         values=values,
         deviations=deviations,
         variables=tuple((name, share / whole) for name, share in order if share > _MATTERS * whole),
     )
+
+
+def foldings_of(predictor: Predictor) -> tuple[np.ndarray, ...]:
+    """Ways of folding: those of the predictor, and of runs short blocks of time between others as well.
+
+    A run is left out in blocks so long that a surface seldom holds what it would need there.
+    """
+    if predictor.kind != "transient":
+        return predictor.folds
+    labels = np.zeros(len(predictor.measured), dtype=np.int64)
+    for record in np.unique(predictor.records):
+        rows = np.flatnonzero(predictor.records == record)
+        labels[rows] = np.arange(len(rows)) * _BLOCKS // len(rows) % _BLOCK_FOLDS
+    return (*predictor.folds, labels)
 
 
 class _Part:
@@ -614,7 +659,7 @@ class _Part:
 class _Way:
     """A way of leaving out: the residual of each row with its group left out, without and with a surface."""
 
-    def __init__(self, fitted: FittedModel, labels: np.ndarray) -> None:
+    def __init__(self, fitted: Fitted, labels: np.ndarray) -> None:
         self.labels, self.folds = labels, np.unique(labels)
         self.refitted = {label: _without(fitted, labels == label) for label in self.folds}
         self.model = np.zeros(len(labels))
@@ -673,7 +718,7 @@ class _Way:
         return float(low), float(high)
 
 
-def _without(fitted: FittedModel, rows: np.ndarray) -> np.ndarray:
+def _without(fitted: Fitted, rows: np.ndarray) -> np.ndarray:
     """Residual of all rows with the constants refitted without some (a mask), to first order.
 
     As `FittedModel.square_without`, which returns the mean square of the rows left out.
@@ -710,7 +755,7 @@ def _shrunk(left: np.ndarray, correction: np.ndarray, labels: np.ndarray) -> np.
     return shrunk
 
 
-def likelihood_ratio(fitted: FittedModel, predictor: Predictor) -> float:
+def likelihood_ratio(fitted: Fitted, predictor: Predictor) -> float:
     r"""Twice the gain in log likelihood by a free surface beside correlated noise; 0 where there is none.
 
     Of each channel, with its blocks as random effects of one common amplitude, see `ratio_of`; the largest
