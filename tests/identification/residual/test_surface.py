@@ -285,7 +285,7 @@ def test_the_likelihood_ratio_is_that_of_whole_matrices() -> None:
     with_effect = [one + lam * own @ own.T for one in plain for lam in np.geomspace(1e-6, 1e4, 31)]
     whole = 2.0 * (best([*plain, *with_effect]) - best(plain))
     assert whole > 5.0
-    assert ratio_of(constants, residual, column, lines, [np.ones(1)]) == pytest.approx(whole, rel=1e-6)
+    assert ratio_of(constants, residual, column, [lines], [np.ones(1)]) == pytest.approx(whole, rel=1e-6)
 
 
 def test_the_log_evidence_is_that_of_the_normal_distribution() -> None:

@@ -68,10 +68,10 @@ from mckibben.identification.fit.comparison import (
     correlations_of,
     parameter_table,
 )
-from mckibben.identification.fit.correlated import Noises
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import Predictor
+from mckibben.identification.residual.correlated import Noises
 from mckibben.identification.residual.profiles import variables_of
 from mckibben.identification.residual.term import SYMBOLS
 from mckibben.physics.custom import CUSTOM, TERM

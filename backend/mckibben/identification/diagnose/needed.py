@@ -14,8 +14,8 @@ def needed(after: FittedModel, before: FittedModel) -> float:
 
     .. math:: 2(\ell_1 - \ell_0) - (k_1 - k_0)\ln n - S
 
-    with the likelihoods of `mckibben.identification.fit.correlated`, in which each model chooses the noise
-    under which it does best, and S = `LEAST_SCORE`: above 0 the further numbers are needed.
+    with the likelihoods of `mckibben.identification.residual.correlated`, in which each model chooses the
+    noise under which it does best, and S = `LEAST_SCORE`: above 0 the further numbers are needed.
 
     Args:
         after: the model with them.

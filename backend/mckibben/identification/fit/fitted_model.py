@@ -8,7 +8,11 @@ from functools import cached_property
 
 import numpy as np
 
-from mckibben.identification.fit.correlated import (
+from mckibben.identification.fit.effort import FitEffort, search_effort
+from mckibben.identification.fit.misfit import Misfit, penalised
+from mckibben.identification.predict.fit_model import FitModel, Free
+from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.residual.correlated import (
     Noises,
     Ways,
     Weighed,
@@ -16,10 +20,6 @@ from mckibben.identification.fit.correlated import (
     log_likelihood,
     weighed_noises,
 )
-from mckibben.identification.fit.effort import FitEffort, search_effort
-from mckibben.identification.fit.misfit import Misfit, penalised
-from mckibben.identification.predict.fit_model import FitModel, Free
-from mckibben.identification.predict.predictor import Predictor
 
 _NEAR_BOUND = 1e-6  # share of the range; nearer to a bound a parameter cannot move
 _AT_BOUND = 1e-3  # share of the range; nearer to a bound a parameter counts as being at it
@@ -236,4 +236,6 @@ def unfitted(predictor: Predictor, fit_model: FitModel, *, freed: Collection[str
     """A model with the values that it has."""
     residual, lost = penalised(predictor, predictor.residual(fit_model))
     empty = np.empty((len(residual), 0))
-    return FittedModel(fit_model, (), frozenset(freed), residual, empty, predictor.folds, lost)
+    return FittedModel(
+        fit_model, (), frozenset(freed), residual, empty, predictor.folds, lost, predictor.noise_lines
+    )

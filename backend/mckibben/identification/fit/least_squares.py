@@ -8,10 +8,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.facts.result import result_class
-from mckibben.identification.fit.correlated import Ways
-from mckibben.identification.fit.correlated import covariance as covariance_of
 from mckibben.identification.fit.levenberg import Minimum, minimise
 from mckibben.identification.predict.fit_model import Free
+from mckibben.identification.residual.correlated import Ways
+from mckibben.identification.residual.correlated import covariance as covariance_of
 
 _AT_BOUND = 1e-3  # share of the range; nearer to a bound a parameter counts as being at it
 _CORRELATED = 0.95  # correlations above are reported
@@ -107,8 +107,8 @@ def fit_report(
     """What a fit that ended at these numbers determines.
 
     Standard errors allow for noise that is correlated from row to row
-    (`mckibben.identification.fit.correlated`). A parameter at a bound has none, nor has one that the data
-    cannot separate from others.
+    (`mckibben.identification.residual.correlated`). A parameter at a bound has none, nor has one that the
+    data cannot separate from others.
 
     Args:
         numbers: values of the free parameters.

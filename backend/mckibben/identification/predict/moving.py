@@ -154,6 +154,7 @@ class TransientPredictor(Predictor):
             len(self._records) * np.arange(several), count
         )
         self.groups = self.records
+        self.row_numbers = np.tile(self.rows, several)
         self.sweeps = [np.flatnonzero(self.records == label) for label in np.unique(self.records)]
         self.folds = (_blocks(self._records, several),)
         time = np.concatenate([record.time for record in self._records])

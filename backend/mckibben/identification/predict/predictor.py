@@ -84,6 +84,7 @@ class StoppedRun:
         return f"{self.event}. The figures are of the rows before; {lost} were not reached"
 
 
+_MOST_MISSING = 20  # rows that are not compared, over which noise is followed
 _BEYOND_CHANCE = 3.0  # standard deviations of the noise from which a reading lies outside of a range
 
 
@@ -160,6 +161,7 @@ class Predictor(ABC):
             by ranges of the quantity that changes within a group.
         groups: label of the curve that a value belongs to, shape (values,).
         records: label of the uninterrupted record, shape (values,).
+        row_numbers: row of its file that a value was read from, shape (values,).
         sweeps: indices of the values of each smooth sweep, in order.
         inputs: variables that the residual may depend on, name -> shape (values,), SI.
         simulated: whether each prediction is a simulated run: a thousand times the cost of a closed form,
@@ -184,6 +186,7 @@ class Predictor(ABC):
     folds: tuple[np.ndarray, ...]
     groups: np.ndarray
     records: np.ndarray
+    row_numbers: np.ndarray
     sweeps: Sequence[np.ndarray]
     inputs: Mapping[str, np.ndarray]
     rows_used: int
@@ -415,7 +418,11 @@ class Predictor(ABC):
 
     @property
     def noise_lines(self) -> list[list[list[np.ndarray]]]:
-        """Of each channel, ways in which its noise may go on from row to row: by records, by sweeps."""
+        """Of each channel, ways in which its noise may go on from row to row: by records, by sweeps.
+
+        A line holds the values in the order of their rows; -1 stands for a row of the file between them that
+        is not compared.
+        """
         channels = []
         for channel in self.channels:
             rows = np.arange(len(self.measured))[channel.rows]
@@ -425,8 +432,21 @@ class Predictor(ABC):
             sweeps = [sweep[inside[sweep]] for sweep in self.sweeps]
             inside[np.concatenate([*sweeps, rows[:0]])] = False
             sweeps = [sweep for sweep in sweeps if len(sweep)] + list(np.flatnonzero(inside)[:, None])
-            channels.append([records] if len(sweeps) == len(records) else [records, sweeps])
+            ways = [records] if len(sweeps) == len(records) else [records, sweeps]
+            channels.append([[part for line in way for part in self._unbroken(line)] for way in ways])
         return channels
+
+    def _unbroken(self, line: np.ndarray) -> list[np.ndarray]:
+        """A line cut where many rows are missing, or where it does not follow the file."""
+        steps = np.diff(self.row_numbers[line])
+        parts = np.split(line, np.flatnonzero((steps < 1) | (steps > _MOST_MISSING)) + 1)
+        found = []
+        for part in parts:
+            numbers = self.row_numbers[part] - self.row_numbers[part[0]]
+            whole = np.full(numbers[-1] + 1, -1)
+            whole[numbers] = part
+            found.append(whole)
+        return found
 
     @property
     def unit(self) -> str:

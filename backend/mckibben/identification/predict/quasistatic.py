@@ -85,6 +85,7 @@ class QuasistaticPredictor(Predictor):
         full_scale = float(np.max(np.abs(self.measured)))
         self.channels = (PredictedChannel(task.channel, task.unit, slice(None), 1.0, full_scale),)
         self.records, self.groups = counted.records, counted.groups
+        self.row_numbers = counted.rows
         self.rows_used, self.excluded, self.messages = len(self.measured), task.excluded, self.task.messages
         within = "pressure" if task.kind in ("isometric", "isotonic") else "length"
         other = ranges_of(counted.state.get(within, counted.state["pressure"]))

@@ -100,6 +100,7 @@ class SpecimensPredictor(Predictor):
             self._stacked(_numbered([getattr(part, name) for part in parts]))
             for name in ("groups", "records")
         )
+        self.row_numbers = self._stacked([part.row_numbers for part in parts])
         self.folds = self._folds(parts)
         self.sweeps = [
             self._back[sweep + start]

@@ -25,9 +25,9 @@ from typing import Protocol
 
 import numpy as np
 
-from mckibben.identification.residual.correlated import Chain, Ways, tried_noises
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.residual.correlated import Chain, Ways, tried_noises
 from mckibben.identification.residual.profiles import variables_of
 
 FEWEST_ROWS = 20  # below, a surface says nothing: 17 rows of a joint gave no gain whatever was hidden
@@ -786,8 +786,8 @@ def ratio_of(
     r"""Twice the gain in log likelihood by a random effect, beside white noise and noise that is correlated.
 
     Without and with the effect the residual is :math:`r \sim N(K\beta, s^2(R + \lambda BDB^T))`, with the
-    noises R of `mckibben.identification.fit.correlated`, of which both hypotheses choose for themselves, by
-    restricted likelihood.
+    noises R of `mckibben.identification.residual.correlated`, of which both hypotheses choose for themselves,
+    by restricted likelihood.
 
     Args:
         jacobian: K, shape (rows, constants).
@@ -808,7 +808,8 @@ def ratio_of(
     roots = [(kept, root * np.sqrt(len(residual) / np.sum(root**2 * sizes[kept]))) for kept, root in roots]
     without, beside = -np.inf, -np.inf
     for lines in ways:
-        rows, chain = np.concatenate(lines), Chain([len(line) for line in lines])
+        chain = Chain(lines)
+        rows = chain.rows
         basis = np.linalg.qr(constants[rows])[0] if own else np.empty((len(rows), 0))
         for noise in (each.noise for each in tried_noises(chain, basis, residual[rows])):
             products, log_det = chain.products(table[rows], noise)
@@ -869,7 +870,7 @@ def _surfaces(blocks: Sequence[Block]) -> list[np.ndarray]:
 
 def _thinned(lines: Sequence[np.ndarray], rows: np.ndarray) -> list[np.ndarray]:
     """The lines as places within ``rows``, thinned where there are many rows."""
-    place = np.full(int(np.max(rows)) + 1, -1)
+    place = np.full(int(np.max(rows)) + 2, -1)  # the last one for a row that is not there
     place[rows] = np.arange(len(rows))
     step = -(-len(rows) // _MOST_LINE_ROWS)
     return [place[line][::step] for line in lines]

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 from scipy.linalg import toeplitz
 
-from mckibben.identification.fit import correlated
-from mckibben.identification.fit.correlated import Noise, covariance
+from mckibben.identification.residual import correlated
+from mckibben.identification.residual.correlated import Noise, covariance
 
 LINES = [np.arange(first, first + 60) for first in range(0, 300, 60)]
 WAYS = [[LINES, [np.arange(300)]]]

@@ -6,8 +6,11 @@ The noise of a channel is the sum of autoregressive noise e and of white noise, 
 
 with A the correlations of e within an uninterrupted line of rows; :math:`A_{ij} = \rho^{|i-j|}` where
 :math:`\phi_2 = 0`, else it swings. The inverse T of A has two diagonals beside the main one (Siddiqui, Ann.
-Math. Statist. 29 (1958) 585), so that the work of products with :math:`R^{-1} = ((1-w)I + wT)^{-1}\,T` grows
-with the number of rows.
+Math. Statist. 29 (1958) 585). With D = 1/w at each row, and 0 at a row of the line that is not compared,
+
+.. math:: R^{-1} = D - D\,\Big(\frac{T}{1-w} + D\Big)^{-1} D
+
+so that the work grows with the number of rows.
 
 The noise is not known: each one of a grid has the weight of its restricted likelihood (the parameters
 integrated out), and half of the prior is on white noise. Nor is it known whether the noise goes on from one
@@ -26,7 +29,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-#: Ways in which the rows of a channel may be lines of correlated noise: of each the indices of its lines.
+#: Ways in which the rows of a channel may be lines of correlated noise: of each the lines of a `Chain`.
 Ways = Sequence[Sequence[np.ndarray]]
 
 _CORRELATIONS = (0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 0.99, 0.997, 0.999, 0.9997)  # of neighbouring rows
@@ -37,7 +40,7 @@ _ROUNDEST, _SHORTEST = 0.99999, 2.2  # largest radius, shortest period
 _REFINED = 80  # evaluations of the search for the swinging noise that suits best
 _SIMPLEX = np.diag([0.3, 0.15, 1.0])  # its first steps, in log(-log(1 - radius)), log(period), logit(share)
 _FEWEST_OF_A_LINE = 4  # rows; in shorter lines noise that swings counts as white
-_LEAST_WHITE = 1e-6  # instead of a share of 0, so that equal rows do not make the matrix singular
+_LEAST_WHITE = 1e-5  # instead of a share of 0, which the formula of the inverse does not take
 _WHITE_PRIOR = 0.5
 _LONGEST = 5.0  # correlation length over the longest line beyond which a correlation is not tried
 _COUNTS = 1e-4  # weight below which a noise does not count
@@ -100,68 +103,76 @@ def correlated_noises() -> tuple[Noise, ...]:
 
 
 class Chain:
-    """Rows of one line after the other, and products with the inverse of their correlations.
+    """Lines of rows one after the other, and products with the inverse of their correlations.
 
     Args:
-        lengths: number of rows of each line.
+        lines: indices of the rows of each line, in order; -1 for a row that is not there.
     """
 
-    def __init__(self, lengths: Sequence[int]) -> None:
-        self.lengths = np.asarray(lengths, dtype=np.intp)
-        self._own = np.repeat(self.lengths, self.lengths)
-        self._inverses: dict[tuple[float, float], tuple[np.ndarray, ...]] = {}
-        self._place = np.arange(len(self._own)) - np.repeat(
-            np.cumsum(self.lengths) - self.lengths, self.lengths
+    def __init__(self, lines: Sequence[np.ndarray]) -> None:
+        self._lengths = np.array([len(line) for line in lines])
+        rows = np.concatenate(lines)
+        self._there = rows >= 0
+        self.rows = rows[self._there]
+        self._own = np.repeat(self._lengths, self._lengths)
+        self._place = np.arange(len(rows)) - np.repeat(
+            np.cumsum(self._lengths) - self._lengths, self._lengths
         )
+        self._inverses: dict[tuple[float, float], tuple[np.ndarray, float]] = {}
 
-    def __len__(self) -> int:
-        return len(self._own)
+    @property
+    def longest(self) -> int:
+        """Number of rows of the longest line, with those that are not there."""
+        return int(np.max(self._lengths))
 
-    def _inverse(self, noise: Noise) -> tuple[np.ndarray, ...]:
-        r"""Diagonals of T: :math:`T_{ij} = s^{-2}\sum_k a_ka_{k+j-i}`, a = (1, -phi_1, -phi_2)."""
+    def _inverse(self, noise: Noise) -> tuple[np.ndarray, float]:
+        r"""Diagonals of :math:`T_{ij} = s^{-2}\sum_k a_ka_{k+j-i}`, a = (1, -phi_1, -phi_2); log det T."""
         key = noise.first, noise.second
-        if key not in self._inverses:
-            self._inverses[key] = self._diagonals(noise)
-        return self._inverses[key]
-
-    def _diagonals(self, noise: Noise) -> tuple[np.ndarray, ...]:
+        if key in self._inverses:
+            return self._inverses[key]
         ahead, short = self._own - 1 - self._place, self._own < _fewest(noise)
         a, size = np.array([1.0, -noise.first, -noise.second]), 1.0 / noise.innovation
         order = 2 if noise.second else 1
-        diagonals = []
+        diagonals = np.zeros((order + 1, len(self._own)))
         for offset in range(order + 1):
             sums = np.cumsum(a[: order + 1 - offset] * a[offset : order + 1]) * size
             terms = np.minimum(np.minimum(self._place, ahead - offset), order - offset)
             values = np.where(terms < 0, 0.0, sums[np.maximum(terms, 0)])
-            diagonals.append(np.where(short, 1.0 if offset == 0 else 0.0, values))
-        return tuple(diagonals)
+            diagonals[offset] = np.where(short, 1.0 if offset == 0 else 0.0, values)
+        long = self._lengths[self._lengths >= _fewest(noise)]
+        log_det = -float(np.sum(long - order)) * float(np.log(noise.innovation))
+        if order > 1:
+            log_det -= len(long) * float(np.log1p(-(noise.next_one**2)))
+        self._inverses[key] = diagonals, log_det
+        return diagonals, log_det
 
     def products(self, table: np.ndarray, noise: Noise) -> tuple[np.ndarray, float]:
         """Products of columns with the inverse of R between them, and log det R.
 
         Args:
-            table: shape (rows, columns).
+            table: of the rows that are there, shape (rows, columns).
             noise: the noise.
         """
+        own = table.T @ table
         if noise == WHITE:
-            return table.T @ table, 0.0
+            return own, 0.0
         from scipy.linalg import cho_solve_banded, cholesky_banded
 
-        diagonals = self._inverse(noise)
-        banded = noise.white * np.array(diagonals)
-        banded[0] += 1.0 - noise.white
-        factor = cholesky_banded(banded, lower=True, check_finite=False)
-        solved = cho_solve_banded((factor, True), table, check_finite=False)
-        inverse = diagonals[0][:, None] * solved
-        for offset, beside in enumerate(diagonals[1:], start=1):
-            inverse[offset:] += beside[:-offset, None] * solved[:-offset]
-            inverse[:-offset] += beside[:-offset, None] * solved[offset:]
-        long = self.lengths[self.lengths >= _fewest(noise)]
-        order = 2 if noise.second else 1
-        log_det = float(np.sum(long - order)) * np.log(noise.innovation)
-        if order > 1:
-            log_det += len(long) * np.log1p(-(noise.next_one**2))
-        return table.T @ inverse, float(log_det) + 2.0 * float(np.sum(np.log(factor[0])))
+        weight = 1.0 / noise.white
+        diagonals, log_det = self._inverse(noise)
+        banded = diagonals / (1.0 - noise.white)
+        banded[0] += weight * self._there
+        factor = cholesky_banded(banded, lower=True, overwrite_ab=True, check_finite=False)
+        right = np.zeros((len(self._own), table.shape[1]))
+        right[self._there] = weight * table
+        solved = cho_solve_banded((factor, True), right, check_finite=False)[self._there]
+        log_det = (
+            len(self._own) * np.log1p(-noise.white)
+            - log_det
+            + len(table) * np.log(noise.white)
+            + 2.0 * float(np.sum(np.log(factor[0])))
+        )
+        return weight * (own - table.T @ solved), float(log_det)
 
     def spread(self, jacobian: np.ndarray, noise: Noise) -> np.ndarray:
         """J^T R J."""
@@ -170,8 +181,10 @@ class Chain:
             return alone
         from scipy.linalg import cho_solve_banded, cholesky_banded
 
-        factor = cholesky_banded(np.array(self._inverse(noise)), lower=True, check_finite=False)
-        correlated = jacobian.T @ cho_solve_banded((factor, True), jacobian, check_finite=False)
+        factor = cholesky_banded(self._inverse(noise)[0], lower=True, check_finite=False)
+        right = np.zeros((len(self._own), jacobian.shape[1]))
+        right[self._there] = jacobian
+        correlated = jacobian.T @ cho_solve_banded((factor, True), right, check_finite=False)[self._there]
         return (1.0 - noise.white) * correlated + noise.white * alone
 
 
@@ -213,7 +226,7 @@ def tried_noises(chain: Chain, basis: np.ndarray, residual: np.ndarray) -> list[
         squares = max(float(products[-1, -1] - right @ np.linalg.solve(normal, right)), least)
         return _Tried(noise, squares, log_det, float(np.linalg.slogdet(normal)[1]))
 
-    rows, longest = len(residual), _LONGEST * float(np.max(chain.lengths))
+    rows, longest = len(residual), _LONGEST * chain.longest
     found = [tried(noise) for noise in (WHITE, *correlated_noises()) if noise.length <= longest]
     swinging = [each for each in found if each.noise.second]
     if swinging:
@@ -245,14 +258,12 @@ class Weighed:
         weight: posterior probability; the weights of all sum to 1.
         variance: of the residual's noise.
         chain: lines in which it is correlated.
-        rows: of the residual, in the order of the chain.
     """
 
     noise: Noise
     weight: float
     variance: float
     chain: Chain
-    rows: np.ndarray
 
 
 #: What the noise of each channel may be.
@@ -267,9 +278,10 @@ def weighed_noises(jacobian: np.ndarray, residual: np.ndarray, ways: Ways) -> li
         residual: shape (values,).
         ways: lines of the channel.
     """
-    found: list[tuple[float, Noise, float, Chain, np.ndarray]] = []
+    found: list[tuple[float, Noise, float, Chain]] = []
     for lines in ways:
-        rows, chain = np.concatenate(lines), Chain([len(line) for line in lines])
+        chain = Chain(lines)
+        rows = chain.rows
         left, sizes, _ = np.linalg.svd(jacobian[rows], full_matrices=False)
         basis = left[:, sizes > _INDEPENDENT * float(np.max(sizes, initial=0.0))]
         freedom = max(len(rows) - basis.shape[1], 1)
@@ -278,7 +290,7 @@ def weighed_noises(jacobian: np.ndarray, residual: np.ndarray, ways: Ways) -> li
                 continue
             prior = _WHITE_PRIOR if each.noise == WHITE else (1.0 - _WHITE_PRIOR) / len(correlated_noises())
             evidence = np.log(prior) - 0.5 * (freedom * np.log(each.squares) + each.log_det + each.normal)
-            found.append((float(evidence), each.noise, each.squares / freedom, chain, rows))
+            found.append((float(evidence), each.noise, each.squares / freedom, chain))
     evidence = np.array([each[0] for each in found])
     weights = np.exp(evidence - np.max(evidence))
     weights /= np.sum(weights)
@@ -317,7 +329,7 @@ def covariance(
             for each in weighed:
                 if each.weight > _COUNTS:
                     share = size * each.weight * each.variance
-                    spread += share * each.chain.spread(unit[each.rows], each.noise)
+                    spread += share * each.chain.spread(unit[each.chain.rows], each.noise)
         matrix = inverse @ spread @ inverse
     else:
         matrix = inverse * float(residual @ residual) / freedom
@@ -327,7 +339,7 @@ def covariance(
 def _times(residual: np.ndarray, weighed: Sequence[Weighed]) -> float:
     """Mean square of the rows of a residual over the variance of the noise."""
     variance = sum(each.weight * each.variance for each in weighed)
-    return float(np.mean(residual[weighed[0].rows] ** 2)) / max(variance, 1e-300)
+    return float(np.mean(residual[weighed[0].chain.rows] ** 2)) / max(variance, 1e-300)
 
 
 def log_likelihood(jacobian: np.ndarray, residual: np.ndarray, channels: Sequence[Ways]) -> float:
@@ -346,7 +358,8 @@ def log_likelihood(jacobian: np.ndarray, residual: np.ndarray, channels: Sequenc
     for ways in channels:
         best = -np.inf
         for lines in ways:
-            rows, chain = np.concatenate(lines), Chain([len(line) for line in lines])
+            chain = Chain(lines)
+            rows = chain.rows
             left, sizes, _ = np.linalg.svd(jacobian[rows], full_matrices=False)
             basis = left[:, sizes > _INDEPENDENT * float(np.max(sizes, initial=0.0))]
             tried = tried_noises(chain, basis, residual[rows])
