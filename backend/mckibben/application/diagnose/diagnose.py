@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from typing import Literal
 
@@ -30,6 +30,7 @@ from mckibben.application.diagnose.result import (
     PathPoint,
     RepetitionResult,
     SamePeriod,
+    SuspectRow,
     TermCurve,
     TermProposal,
     Verdict,
@@ -48,16 +49,18 @@ from mckibben.identification.diagnose.diagnosis import diagnose as search_effect
 from mckibben.identification.diagnose.next_measurement import declared
 from mckibben.identification.diagnose.search import ended
 from mckibben.identification.diagnose.steps import SingleAddition
-from mckibben.identification.diagnose.swept_rows import Coordinate
+from mckibben.identification.diagnose.swept_rows import Over
 from mckibben.identification.diagnose.verdict import unexplained_share
 from mckibben.identification.diagnose.words import (
     applied_reasons,
+    aside_sentence,
     bounds_sentence,
     corrections_sentence,
     left_out_sentence,
     repeats,
     sentence_of,
     superfluous_sentence,
+    suspects_of,
     title_of,
     where_to_look,
 )
@@ -80,7 +83,9 @@ from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Outcome, Watch
 
 _MOST_ROWS = 3000  # of a diagnosis; longer measurements are reduced
-_UNITS: dict[Coordinate, Literal["m", "Pa", "s"]] = {"length": "m", "pressure": "Pa", "time": "s"}
+_UNITS: dict[Over, Literal["m", "Pa", "s", "1"]] = {
+    "length": "m", "pressure": "Pa", "time": "s", "rows": "1",
+}  # fmt: skip
 _CURVE = 200  # points of the curve of a proposed term
 
 #: A diagnosis that takes longer ends with what it has found [s].
@@ -191,6 +196,7 @@ def _result(
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
     muscle = best.fit_model.muscle
     envelope = envelope_of(question.specimens, predictor, best.fit_model)
+    suspects = _suspects(question, diagnosis)
     return DiagnosisResult(
         rows=data.rows,
         rows_used=predictor.rows_used,
@@ -230,7 +236,8 @@ def _result(
             )
             for step in diagnosis.path
         ],
-        verdict=_verdict(question, diagnosis, catalogue),
+        verdict=_verdict(question, diagnosis, catalogue, suspects),
+        suspect_rows=suspects,
         parameters=parameter_table(best.fit_model, diagnosis.fit),
         correlations=correlations_of(diagnosis.fit),
         geometry=geometry_of(start, muscle),
@@ -270,7 +277,34 @@ def _model(question: ModelQuestion, fitted: FittedModel) -> ModelDocument:
     return ModelDocument(question.effect_document(fitted.fit_model))
 
 
-def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[str, Effect]) -> Verdict:
+def _suspects(question: ModelQuestion, diagnosis: Diagnosis) -> list[SuspectRow]:
+    """The rows that were set aside, with their files."""
+    whole = diagnosis.with_them
+    if whole is None or whole.judgement is None:
+        return []
+    outlying, predictor = whole.judgement.outlying, whole.predictor
+    names = [specimen.points.measurement.name for specimen in question.specimens.each]
+    of_file = getattr(predictor, "specimen", np.zeros(len(predictor.measured), int))
+    why = "it does not fit beside the others" if outlying.place is None else outlying.place.sentence
+    return [
+        SuspectRow(
+            file=names[int(of_file[value])],
+            row=int(predictor.row_numbers[value]) + 1,
+            residual=float(size * predictor.scale[value]),
+            why=why,
+            place=f"row {predictor.row_numbers[value] + 1}"
+            + (f" of {names[int(of_file[value])]}" if len(names) > 1 else ""),
+        )
+        for value, size in zip(outlying.rows, suspects_of(diagnosis), strict=True)
+    ]
+
+
+def _verdict(
+    question: ModelQuestion,
+    diagnosis: Diagnosis,
+    catalogue: Mapping[str, Effect],
+    suspects: Sequence[SuspectRow],
+) -> Verdict:
     titles = {name: effect.title for name, effect in catalogue.items()}
     bounds = bounds_sentence(diagnosis, catalogue)
     return Verdict(
@@ -307,6 +341,7 @@ def _verdict(question: ModelQuestion, diagnosis: Diagnosis, catalogue: Mapping[s
                 *(assumption.sentence for assumption in question.assumptions),
                 questions_of(diagnosis.context, titles),
                 sentence_of(diagnosis, catalogue),
+                aside_sentence(diagnosis, [each.place for each in suspects], catalogue),
                 bounds,
                 corrections_sentence(diagnosis, titles),
                 superfluous_sentence(diagnosis, titles),

@@ -20,7 +20,7 @@ from mckibben.facts.comparison import NOISE
 from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.result import Series, result_class
 from mckibben.identification.diagnose.diagnosis import NotTried
-from mckibben.identification.diagnose.swept_rows import Coordinate
+from mckibben.identification.diagnose.swept_rows import Coordinate, Over
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.identification.fit.comparison import ChannelMisfit, Correlation, ParameterTable, ParameterValue
 from mckibben.identification.fit.least_squares import FittedCovariance
@@ -141,9 +141,9 @@ class RepetitionResult:
 
     FIGURES: ClassVar = DIAGNOSIS.name
 
-    over: Coordinate
+    over: Over
     """What it repeats over."""
-    unit: Literal["m", "Pa", "s"]
+    unit: Literal["m", "Pa", "s", "1"]
     """Unit of the period."""
     period: float
     share: float
@@ -202,8 +202,8 @@ class Verdict:
     """The verdict as a word for programs: the model is at the noise (adequate); effects bring it there
     (missing_effects), some of which the data cannot tell from others (ambiguous); a rest with structure
     stays that no catalogued effect explains, or it is likelier that none of those named is missing
-    (unknown_effect); the limit of time ended the diagnosis, and this is what was found until then
-    (unfinished).
+    (unknown_effect); the data cannot tell whether the rest is noise (undecided); the limit of time ended the
+    diagnosis, and this is what was found until then (unfinished).
     """
     title: str
     """The status in words."""
@@ -240,6 +240,22 @@ class Verdict:
     """
     sentence: str
     """The verdict in one to four sentences."""
+
+
+@result_class
+class SuspectRow:
+    """A row that does not fit, and counts for nothing in the verdict."""
+
+    file: str
+    """Name of its measurement."""
+    row: int
+    """Its number among the rows of readings, from 1."""
+    residual: float
+    """Measured minus predicted by the best model, SI."""
+    why: str
+    """Why it is set aside."""
+    place: str
+    """The row in words."""
 
 
 @result_class
@@ -296,6 +312,8 @@ class DiagnosisResult:
     """Steps to the best model; each adds the effect that lowers the error most."""
     verdict: Verdict
     """The verdict."""
+    suspect_rows: list[SuspectRow]
+    """Rows that do not fit, and count for nothing in the verdict."""
     parameters: ParameterTable
     """Effect -> parameter -> value, of the best model."""
     correlations: list[Correlation]

@@ -14,6 +14,7 @@ from mckibben.identification.diagnose.corrections import Correction, refined, wi
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
+from mckibben.identification.diagnose.judgement import Judgement, judged
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.needed import pruned
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
@@ -113,8 +114,9 @@ class Diagnosis:
         root: the start model refitted.
         noise: of the scaled residual; None when it cannot be estimated.
         noise_how: how it was obtained.
-        noise_interval: from the scatter of neighbouring readings to all that no variable explains; None
-            where an effect is unknown.
+        noise_interval: from the scatter of neighbouring readings to all that is left; None where that is not
+            noise alone.
+        judgement: what speaks for and against the best model; None where the limit of time ended it before.
         where: the start model's residual over each variable.
         left_where: the best model's residual over each variable.
         candidates: single additions, the best first; their errors, and those of the path, are those that a
@@ -123,7 +125,7 @@ class Diagnosis:
         best: the best model, with the corrections that it keeps.
         lean: the same with those corrections only that the alternatives hold as well.
         fit: its parameters with standard errors.
-        status: adequate, missing_effects, ambiguous, unknown_effect, or unfinished.
+        status: adequate, missing_effects, ambiguous, unknown_effect, undecided, or unfinished.
         added: effects of the best model that the start model does not have.
         alternatives: effects that could replace one of these.
         structure: the part of the last residual that a regression still predicts.
@@ -142,6 +144,7 @@ class Diagnosis:
         left_out: of several specimens, each predicted by the best model fitted to the others.
         none_likely: whether the status is unknown_effect because none of the named effects is likely, and not
             because of what they leave.
+        with_them: the diagnosis of all rows, where some were set aside because they do not fit.
         unfinished: how far it came, where the limit of time ended it: then it is the best of what was fitted
             until then, and what the data cannot tell from it was not looked for. None when it is complete.
     """
@@ -152,6 +155,7 @@ class Diagnosis:
     noise: float | None
     noise_how: str
     noise_interval: Interval | None
+    judgement: Judgement | None
     where: tuple[Profile, ...]
     left_where: tuple[Profile, ...]
     candidates: tuple[SingleAddition, ...]
@@ -177,6 +181,7 @@ class Diagnosis:
     weights: ModelWeights | None = None
     left_out: tuple[LeftOutSpecimen, ...] = ()
     none_likely: bool = False
+    with_them: Diagnosis | None = None
     unfinished: Unfinished | None = None
 
     def probability_of(self, effect: str) -> float:
@@ -228,17 +233,17 @@ def diagnose(
     from threadpoolctl import threadpool_limits
 
     watch = watch or Watch(time_limit=np.inf)
-    # The matrices are small: several linear-algebra threads would be slower than one.
-    with threadpool_limits(1):
+
+    def diagnosed(data: Predictor) -> Diagnosis:
         begun = _begin(
-            predictor,
+            data,
             fit_model,
             catalogue=catalogue,
             geometry=geometry,
             load=load,
             freed=frozenset(freed),
             noise=noise,
-            effort=effort or diagnosis_effort(simulated=predictor.simulated),
+            effort=effort or diagnosis_effort(simulated=data.simulated),
             watch=watch,
             on_candidate=on_candidate,
         )
@@ -248,6 +253,35 @@ def diagnose(
             if end.outcome is not Outcome.TIMED_OUT:
                 raise
             return _so_far(begun, watch.time_limit)
+
+    # The matrices are small: several linear-algebra threads would be slower than one.
+    with threadpool_limits(1):
+        whole = diagnosed(predictor)
+        rows = () if whole.judgement is None else whole.judgement.outlying.rows
+        # In a run, rows that do not fit are an event and no wrong readings.
+        if not rows or predictor.simulated:
+            return whole
+        return _with_all_rows(diagnosed(predictor.setting_aside(rows)), whole)
+
+
+def _with_all_rows(without: Diagnosis, whole: Diagnosis) -> Diagnosis:
+    """A diagnosis that sets rows aside, with the errors of all rows, as a comparison shows them."""
+    predictor = whole.predictor
+
+    def shown(model: FittedModel) -> FittedModel:
+        residual = predictor.weighted(predictor.residual(model.fit_model))
+        jacobian = model.jacobian
+        if model.free:
+            jacobian = predictor.weighted(predictor.linearised(model.fit_model, model.free)[1])
+        return replace(model, residual=residual, jacobian=jacobian, aside=None)
+
+    return replace(
+        without,
+        start=shown(without.start),
+        path=tuple(replace(step, fitted_model=shown(step.fitted_model)) for step in without.path),
+        candidates=tuple(replace(one, fitted_model=shown(one.fitted_model)) for one in without.candidates),
+        with_them=whole,
+    )
 
 
 @dataclass
@@ -388,6 +422,11 @@ def _search(
     fitter.noise, how = noise_of(predictor, best.residual, noise)
     # Simulated data have no noise: differences below their numerical resolution do not count.
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
+    judgement = judged(best, predictor, fitter.noise)
+    if fitter.noise is not None and not judgement.structured:
+        fitter.noise = max(
+            fitter.noise, best.rmse
+        )  # what is left is noise, whatever neighbouring readings share
     level = max(fitter.noise or best.rmse, _DIGITS * full_scale)
     progress.share, progress.end = 0.85, 0.95
     start_names = set(root.fit_model.ids)
@@ -433,21 +472,14 @@ def _search(
         ),
         key=lambda candidate: candidate.score,
     )
-    remaining = left_structure(predictor, best.residual, variables, fitter.noise, added)
+    remaining = left_structure(predictor, best.residual, variables)
     context = ()
     if statements is not None:
         context = contest(
             statements, fitter=fitter, first=begun.first, root=root, best=searched, stated_noise=noise
         )
     doubted = any(entry.stands for entry in context)
-    # What a correction explains is not an unknown effect.
-    explained = best if best.rmse <= searched.rmse else searched
-    unexplained = remaining
-    if explained is not best:
-        unexplained = left_structure(predictor, explained.residual, variables, fitter.noise, added)
-    status = status_of(
-        start, explained, fitter.noise, added, exchangeable, unexplained, full_scale, doubted=doubted
-    )
+    status = status_of(judgement, added, exchangeable, full_scale, doubted=doubted)
     left = status == "unknown_effect"
     unlikely = not left and not doubted and none_likely(support)
     term = None
@@ -465,9 +497,10 @@ def _search(
         predictor=predictor,
         start=start,
         root=root,
-        noise=fitter.noise,
+        noise=judgement.noise,
         noise_how=how,
-        noise_interval=None if left else noise_interval(best, fitter.noise, remaining),
+        noise_interval=noise_interval(judgement),
+        judgement=judgement,
         where=tuple(where),
         left_where=tuple(profiles(best.residual, variables, predictor.folds[0])),
         candidates=tuple(replace(one, fitted_model=shown(one.fitted_model)) for one in ranked),
@@ -479,14 +512,14 @@ def _search(
         added=added,
         alternatives=tuple(exchangeable),
         structure=remaining,
-        repetition=left_repetition(predictor, best.residual) if left else None,
+        repetition=_repetition(judgement, predictor, best) if left else None,
         term=term,
         proposals=tuple(pairs),
         designs=tuple(designs),
         messages=(
             *([] if gauge_zero is None else [gauge_zero.message]),
             *messages(fitter, best, fit, added),
-            *([] if reversals is None else [reversals.sentence(fitter.noise)]),
+            *([] if reversals is None else [reversals.sentence(judgement.noise)]),
             *predictor.assumed_history(best.fit_model),
             *sign_changes(fitter, fit_model, best),
         ),
@@ -523,6 +556,7 @@ def _so_far(begun: _Begun, limit: float) -> Diagnosis:
         noise=fitter.noise,
         noise_how=begun.noise_how,
         noise_interval=None,
+        judgement=None,
         where=tuple(begun.where),
         left_where=tuple(profiles(best.residual, begun.variables, predictor.folds[0])),
         candidates=tuple(
@@ -536,7 +570,7 @@ def _so_far(begun: _Begun, limit: float) -> Diagnosis:
         status="unfinished",
         added=added,
         alternatives=(),
-        structure=left_structure(predictor, best.residual, begun.variables, fitter.noise, added),
+        structure=left_structure(predictor, best.residual, begun.variables),
         repetition=None,
         term=None,
         proposals=(),
@@ -548,6 +582,11 @@ def _so_far(begun: _Begun, limit: float) -> Diagnosis:
         absorbed=absorbed_by(predictor, best.fit_model),
         unfinished=Unfinished(len(begun.singles), len(begun.candidates), len(fitter.known), limit),
     )
+
+
+def _repetition(judgement: Judgement, predictor: Predictor, best: FittedModel) -> Repetition | None:
+    """What repeats in the last residual: a line, or else over the length, the pressure or the time."""
+    return judgement.line or left_repetition(predictor, best.residual)
 
 
 def _why_not(effect: Effect, predictor: Predictor) -> str:

@@ -20,7 +20,7 @@ from math import exp, lgamma, log
 import numpy as np
 
 from mckibben.identification.diagnose.score import effective_rows
-from mckibben.identification.diagnose.swept_rows import COORDINATES, Coordinate, SweptRows
+from mckibben.identification.diagnose.swept_rows import COORDINATES, Coordinate, Over, SweptRows
 
 _FALSE_ALARM = 1e-4  # chance of noise, over all periods tried, below which a repetition is told
 _SHARE = 0.2  # least share of the rest
@@ -47,18 +47,19 @@ class Repetition:
     """A periodic part of a residual.
 
     Attributes:
-        over: ``length``, ``pressure`` or ``time``.
-        period: in it [m, Pa, s].
+        over: ``length``, ``pressure``, ``time``, or ``rows`` of a file without time.
+        period: in it [m, Pa, s, -].
         share: of the mean square of the residual.
         amplitude: of the scaled residual, at the mean pressure where it grows with the pressure.
         grows: whether its amplitude is in proportion to the pressure.
         left_out: share that it explains of sweeps that it was not fitted to.
         parts, shown: number of records, and of those that a fit to the others explains.
         of_sweeps: whether the parts are sweeps: in time, and where there is one record.
+        in_step: whether it swings in step throughout the file, as no noise does.
         also: the same repetition over other coordinates, which these data cannot tell from it.
     """
 
-    over: Coordinate
+    over: Over
     period: float
     share: float
     amplitude: float
@@ -67,6 +68,7 @@ class Repetition:
     parts: int
     shown: int
     of_sweeps: bool = False
+    in_step: bool = False
     also: tuple[tuple[Coordinate, float], ...] = ()
 
 

@@ -17,7 +17,9 @@ def repetition_text(found: Repetition, unit: str, scale: float) -> str:
         scale: from the scaled residual to that unit.
     """
     parts = "sweeps" if found.of_sweeps else "records"
-    if found.parts < 2:
+    if found.in_step:
+        seen = "in step throughout the file"
+    elif found.parts < 2:
         seen = "in both halves of the sweep"
     elif found.shown == found.parts:
         seen = f"the same in all {found.parts} {parts}"
@@ -42,6 +44,8 @@ def how_often(over: str, period: float) -> str:
         return f"every {brief(1e3 * period)} mm of length"
     if over == "pressure":
         return f"every {brief(1e-5 * period)} bar of pressure"
+    if over == "rows":
+        return f"every {brief(period)} rows"
     if 1.0 / period < _FEW_PER_SECOND:
         return f"every {brief(period)} s"
     return f"{brief(1.0 / period)} times a second"
@@ -52,6 +56,8 @@ def _cause(found: Repetition) -> str:
         return "a thread, rack or weave with that pitch"
     if found.over == "pressure":
         return "steps of that size in the regulator, the sensor or its converter"
+    if found.over == "rows":
+        return "hum, a pump or a vibration: the time of the rows would tell its frequency"
     if 1.0 / found.period < _FEW_PER_SECOND:
         return "a pump, a compressor or a regulator that hunts"
     return "hum of the mains, also as the sampling folds it, a pump or a vibration"

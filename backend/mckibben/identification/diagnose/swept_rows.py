@@ -12,6 +12,8 @@ import numpy as np
 FEWEST_ROWS = 60
 #: What a residual may repeat over.
 Coordinate = Literal["length", "pressure", "time"]
+#: What a line of a file without time repeats over besides.
+Over = Literal["length", "pressure", "time", "rows"]
 COORDINATES: tuple[Coordinate, ...] = ("length", "pressure", "time")
 _DEGREE, _ROWS_PER_DEGREE = 4, 12  # of the polynomial of a sweep
 _MOST_ROWS = 6000  # more are thinned

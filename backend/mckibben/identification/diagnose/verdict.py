@@ -7,8 +7,8 @@ from typing import Literal, NamedTuple
 
 import numpy as np
 
+from mckibben.identification.diagnose.judgement import Judgement
 from mckibben.identification.diagnose.repetition import Repetition, repetition
-from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.diagnose.usual import taken_as_usual
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -18,18 +18,7 @@ from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.structure import ResidualStructure, structure
 from mckibben.physics.muscle import assumption
 
-_FAR = 2.0  # error over noise above which a structured rest is an unknown effect, however much was explained
-_STRUCTURED = 0.3  # share of the residual predicted by a regression, above which it is not noise
-_EXPLAINED = 0.98  # explained share of the excess over the noise, above which the rest does not matter
-_BEYOND = 4.0  # error over noise that is more than noise beside effects that are named
-# Error over noise that correlated noise alone does not reach: of an autoregressive process with a = 0.9 the
-# third differences have the variance 20 - 30 a + 12 a^2 - 2 a^3 = 1.26 instead of 20, a ratio of 4.0.
-_BEYOND_NOISE = 5.0
-_MOST_ROWS = 2.0  # the same for the median row; below, a few outliers make the error
 _SMALL = 0.03  # error over full scale up to which a model is adequate when the noise is unknown
-
-
-_MEDIAN = 0.6745  # median magnitude of a standard normal deviate
 
 
 class Interval(NamedTuple):
@@ -40,34 +29,7 @@ class Interval(NamedTuple):
 
 
 #: What a diagnosis ends with; `mckibben.identification.diagnose.words` says what each means.
-Status = Literal["adequate", "missing_effects", "ambiguous", "unknown_effect", "unfinished"]
-
-
-def left_structure(
-    predictor: Predictor,
-    residual: np.ndarray,
-    variables: Mapping[str, np.ndarray],
-    noise: float | None,
-    added: Sequence[str],
-) -> ResidualStructure:
-    """Structure left in the residual; channels are weighted by their mean squares.
-
-    Where no effect is named, within what correlated noise reaches, only what the other curves show as well is
-    structure. Beside effects a rest that belongs to one curve may be run-in or another history.
-
-    Args:
-        predictor: the data.
-        residual: scaled, shape (values,).
-        variables: that it may depend on.
-        noise: of the scaled residual; None when it cannot be estimated.
-        added: the missing effects.
-    """
-    found = _structure_of_channels(predictor, residual, variables)
-    within = noise is not None and float(np.sqrt(np.mean(residual**2))) <= _BEYOND_NOISE * noise
-    if added or not within or found.share <= _STRUCTURED:
-        return found
-    others = _structure_of_channels(predictor, residual, variables, predictor.folds[0])
-    return min(found, others, key=lambda each: each.share)
+Status = Literal["adequate", "missing_effects", "ambiguous", "unknown_effect", "undecided", "unfinished"]
 
 
 def left_repetition(predictor: Predictor, residual: np.ndarray) -> Repetition | None:
@@ -79,18 +41,21 @@ def left_repetition(predictor: Predictor, residual: np.ndarray) -> Repetition | 
     return repetition(residual, predictor.inputs, sweeps=sweeps, records=predictor.records)
 
 
-def _structure_of_channels(
-    predictor: Predictor,
-    residual: np.ndarray,
-    variables: Mapping[str, np.ndarray],
-    left_out: np.ndarray | None = None,
+def left_structure(
+    predictor: Predictor, residual: np.ndarray, variables: Mapping[str, np.ndarray]
 ) -> ResidualStructure:
+    """The variables that the residual depends on; channels are weighted by their mean squares.
+
+    Args:
+        predictor: the data.
+        residual: scaled, shape (values,).
+        variables: that it may depend on.
+    """
     parts = []
     for channel in predictor.channels:
         channel_variables = {name: values[channel.rows] for name, values in variables.items()}
         left = residual[channel.rows]
-        label = None if left_out is None else left_out[channel.rows]
-        parts.append((float(np.mean(left**2)), structure(left, channel_variables, left_out=label)))
+        parts.append((float(np.mean(left**2)), structure(left, channel_variables)))
     whole = sum(size for size, _ in parts) or 1.0
     lost: dict[str, float] = {}
     for size, part in parts:
@@ -101,12 +66,9 @@ def _structure_of_channels(
 
 
 def status_of(
-    start: FittedModel,
-    best: FittedModel,
-    noise: float | None,
+    judgement: Judgement,
     added: Sequence[str],
     others: Sequence[Alternative],
-    rest: ResidualStructure,
     full_scale: float,
     *,
     doubted: bool = False,
@@ -114,50 +76,33 @@ def status_of(
     """What the diagnosis ends with.
 
     Args:
-        start, best: the model as given, and the best one.
-        noise: None when it cannot be estimated.
+        judgement: on the best model.
         added: the missing effects.
         others: effects that could replace them.
-        rest: structure left in the residual.
         full_scale: largest measured magnitude over the scale of the residual.
         doubted: whether a changed entry explains the data better: missing physics cannot be distinguished
             from it.
     """
     if doubted:
         return "ambiguous"
-    if noise is None and not added:
-        return "adequate" if best.rmse <= _SMALL * full_scale else "unknown_effect"
-    floor = noise or 0.0
-    excess = max(start.mean_square - floor**2, 1e-300)
-    explained = 1.0 - max(best.mean_square - floor**2, 0.0) / excess
-    if rest.share > _STRUCTURED and (
-        best.rmse > _FAR * floor or (best.rmse > AT_FLOOR * floor and explained < _EXPLAINED)
-    ):
+    if judgement.structured:
         return "unknown_effect"
-    # Without structure the rest is noise unlike that between neighbours: correlated, or with outliers.
-    beyond = _BEYOND if added else _BEYOND_NOISE
-    if best.rmse > beyond * floor and typical(best.residual) > _MOST_ROWS * floor:
-        return "unknown_effect"
-    if not added:
-        return "adequate"
-    return "ambiguous" if others else "missing_effects"
+    if added:
+        return "ambiguous" if others else "missing_effects"
+    if judgement.noise is None and judgement.surface is None:
+        return "adequate" if judgement.rmse <= _SMALL * full_scale else "unknown_effect"
+    return "undecided" if judgement.undecided else "adequate"
 
 
-def typical(residual: np.ndarray) -> float:
-    """Standard deviation of a residual from its median magnitude, which outliers do not change."""
-    return float(np.median(np.abs(residual))) / _MEDIAN
+def noise_interval(judgement: Judgement) -> Interval | None:
+    """From the scatter of neighbouring readings to all that is left; None where that is not noise alone.
 
-
-def noise_interval(best: FittedModel, noise: float | None, rest: ResidualStructure) -> Interval | None:
-    """From the scatter of neighbouring readings to all that no variable explains.
-
-    The upper end counts correlated noise and outliers as noise, which the lower end does not see. Both are
-    the same for white noise. None where the noise is unknown or a structure remains.
+    Both are the same for white noise. The lower end does not see what neighbouring readings share, nor
+    readings that are farther off than most.
     """
-    if noise is None or rest.share > _STRUCTURED:
+    if judgement.noise is None or judgement.structured or judgement.undecided:
         return None
-    unexplained = best.rmse * float(np.sqrt(1.0 - rest.share))
-    return Interval(noise, max(noise, unexplained))
+    return Interval(judgement.noise, max(judgement.noise, judgement.rmse))
 
 
 def unexplained_share(

@@ -19,6 +19,9 @@ _REFITTED = 0.98  # error over the error before, below which the refit of the st
 _WORTH_TELLING = 0.15  # share of the residual that depends on variables, above which it is mentioned
 _DIFFERENT = 2.0  # left-out specimen over left-out groups above which the specimens differ
 _MOST = 0.5  # share of the rest that repeats, from which the variables that it depends on are not told
+_MOSTLY_WHITE = 0.8  # share of white noise from which the rest is not told
+_SWINGS = 0.5  # periods over which noise stays in step, from which it swings
+_ROWS = 5  # rows that are listed
 _FEW = 3  # alternatives that are listed without grouping them
 _UNKNOWN_NOISE = (
     "The noise cannot be estimated from these data: state it to know whether the error exceeds it."
@@ -30,6 +33,7 @@ _TITLES: dict[Status, str] = {
     "missing_effects": "Effects are missing",
     "ambiguous": "Effects are missing, and the data cannot tell all of them apart",
     "unknown_effect": "Something is missing that no catalogued effect explains",
+    "undecided": "These data cannot tell whether something is missing",
     "unfinished": "Not finished: the limit of time ended the diagnosis",
 }
 
@@ -78,11 +82,16 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     if noise is not None and highest is not None and not scaled:
         level = f"{brief(noise)} {unit}"
         if highest > AT_FLOOR * noise:
-            level = f"{brief(noise)} {unit} between neighbouring readings, {brief(highest)} {unit} in all"
+            whole = f"{brief(highest)} {unit} {_why_more(result)}"
+            level = f"{brief(noise)} {unit} between neighbouring readings, {whole}"
     rest = _rest(result)
     if not result.added:
+        if result.with_them is not None:
+            before, after = after, scale * result.best.rmse
         error = f"the error of {brief(after)} {unit}"
-        if after < _REFITTED * before:
+        if result.with_them is not None:
+            error += " of the other rows"
+        elif after < _REFITTED * before:
             error += f" (with the numbers of the model refitted; before {brief(before)} {unit})"
         if doubted:
             return f"With the entries as stated no catalogued effect explains {error}."
@@ -92,6 +101,8 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
             return f"No catalogued effect explains {error}: {rest}.{look}{unsure}"
         if result.noise is None:
             return f"No catalogued effect lowers {error}. {_UNKNOWN_NOISE}"
+        if result.status == "undecided":
+            return f"No catalogued effect lowers {error}. {undecided_sentence(result)}"
         of_noise = f"is of the size of the noise ({level})" if level else "is noise"
         return f"Nothing is missing: {error} {of_noise}."
     at_floor = highest is not None and after <= AT_FLOOR * highest
@@ -122,6 +133,8 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
         )
     elif result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {rest}. {where_to_look(result)}".rstrip()
+    if result.judgement is not None and result.judgement.undecided:
+        text += f" {undecided_sentence(result)}"
     unexplained = highest is not None and scale * result.best.rmse > AT_FLOOR * highest
     if unexplained and result.structure.share >= _WORTH_TELLING:
         text += f" Of the rest, {_structured(result)}."
@@ -136,6 +149,30 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
             for name, reason in applied_reasons(result, catalogue).items()
         )
     return text
+
+
+def _why_more(result: Diagnosis) -> str:
+    """Why the error is above the scatter of neighbouring readings although it is noise."""
+    best = None if result.judgement is None else result.judgement.likeliest
+    if best is None or best.noise.white > _MOSTLY_WHITE:
+        return "with the rows that are farther off than most"
+    if best.noise.second and best.noise.length > _SWINGS * best.noise.period:
+        return f"with what swings over about {best.noise.period:.0f} rows"
+    return f"with what stays alike over about {max(best.noise.length, 1.0):.0f} rows"
+
+
+def undecided_sentence(result: Diagnosis) -> str:
+    """Why one test sees a structure in the rest and another does not."""
+    surface = None if result.judgement is None else result.judgement.surface
+    if surface is None:
+        return ""
+    unit, scale = _unit_of(result)
+    left = f"{brief(scale * surface.left)} {unit}"
+    return (
+        f"These data cannot tell whether more is missing: a free curve with {surface.numbers} numbers would "
+        f"leave {left}, and noise that lasts for many rows would look the same. Repeat the run: what is "
+        "missing comes again, noise does not."
+    )
 
 
 def _own_law(result: Diagnosis, titles: Mapping[str, str]) -> str:
@@ -218,6 +255,41 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
             "explain as much, and these data do not test what it would predict elsewhere."
         )
     return " ".join(texts)
+
+
+def aside_sentence(result: Diagnosis, places: Sequence[str], catalogue: Mapping[str, Effect]) -> str:
+    """The rows that do not fit, and what is said with them; empty without any.
+
+    Args:
+        result: the diagnosis.
+        places: names of these rows, in the order of the evidence.
+        catalogue: of effects.
+    """
+    whole = result.with_them
+    if whole is None or whole.judgement is None:
+        return ""
+    unit, scale = _unit_of(result)
+    sizes = [brief(scale * abs(size)) for size in suspects_of(result)]
+    away = [f"{place} ({size} {unit} off)" for place, size in zip(places, sizes, strict=True)]
+    where = whole.judgement.outlying.place
+    shown = _joined([*away[:_ROWS], *([f"{len(away) - _ROWS} more"] if len(away) > _ROWS else [])])
+    they, these = ("it does", "it") if len(away) == 1 else ("they do", "them")
+    rule = "a rule of the file or of the motion, no accidents"
+    which = "" if where is None else f" They are {where.sentence}: {rule}."
+    return (
+        f"Set aside, because {they} not fit: {shown}. The error without {these} is "
+        f"{brief(scale * result.best.rmse)} {unit}.{which} With {these}: {sentence_of(whole, catalogue)}"
+    )
+
+
+def suspects_of(result: Diagnosis) -> list[float]:
+    """Measured minus predicted by the best model of the rows that were set aside, SI over the scale."""
+    whole = result.with_them
+    if whole is None or whole.judgement is None:
+        return []
+    predictor = whole.predictor
+    residual = predictor.residual(result.best.fit_model) / predictor.scale
+    return residual[list(whole.judgement.outlying.rows)].tolist()
 
 
 def superfluous_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:

@@ -42,6 +42,7 @@ class FittedModel:
         jacobian: derivatives of the prediction, weighted likewise, shape (values, free).
         folds: folds of the held-out error, see `mckibben.identification.predict.predictor.Predictor`.
         noise_lines: see `mckibben.identification.predict.predictor.Predictor`.
+        aside: values that count for nothing, a mask; None without any.
         lost: number of values without a finite prediction, because a run stopped: their residual is the
             penalty of the optimiser, and no figure of this model may be shown.
     """
@@ -54,6 +55,7 @@ class FittedModel:
     folds: tuple[np.ndarray, ...] = field(repr=False)
     lost: int = 0
     noise_lines: Sequence[Ways] = field(default=(), repr=False)
+    aside: np.ndarray | None = field(default=None, repr=False)
 
     @property
     def key(self) -> tuple[frozenset[str], frozenset[str]]:
@@ -63,7 +65,8 @@ class FittedModel:
     @cached_property
     def mean_square(self) -> float:
         """Mean square of the residual."""
-        return float(np.mean(self.residual**2))
+        counted = self.residual if self.aside is None else self.residual[~self.aside]
+        return float(np.mean(counted**2))
 
     @property
     def rmse(self) -> float:
@@ -159,6 +162,8 @@ class FittedModel:
     def square_without(self, rows: np.ndarray) -> float:
         """Hold-out mean square of some rows (a mask), as `fold_squares` defines it."""
         jacobian, normal, low, high, prior, pull = self._linear
+        if self.aside is not None:
+            rows = rows & ~self.aside if np.any(rows & ~self.aside) else rows
         out, left = jacobian[rows], self.residual[rows]
         if jacobian.shape[1]:
             inverse = np.linalg.pinv(normal - out.T @ out + np.diag(prior), rcond=_CUTOFF, hermitian=True)
@@ -228,7 +233,15 @@ def refitted(
     jacobian = np.where(same[:, None], misfit.derivatives(numbers), 0.0)
     at_solution = tuple(replace(p, start=float(x)) for p, x in zip(free, numbers, strict=True))
     return FittedModel(
-        ended, at_solution, frozenset(freed), residual, jacobian, predictor.folds, lost, predictor.noise_lines
+        ended,
+        at_solution,
+        frozenset(freed),
+        residual,
+        jacobian,
+        predictor.folds,
+        lost=lost,
+        noise_lines=predictor.noise_lines,
+        aside=predictor.aside,
     )
 
 
@@ -237,5 +250,13 @@ def unfitted(predictor: Predictor, fit_model: FitModel, *, freed: Collection[str
     residual, lost = penalised(predictor, predictor.residual(fit_model))
     empty = np.empty((len(residual), 0))
     return FittedModel(
-        fit_model, (), frozenset(freed), residual, empty, predictor.folds, lost, predictor.noise_lines
+        fit_model,
+        (),
+        frozenset(freed),
+        residual,
+        empty,
+        predictor.folds,
+        lost=lost,
+        noise_lines=predictor.noise_lines,
+        aside=predictor.aside,
     )

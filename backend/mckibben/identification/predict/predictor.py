@@ -176,6 +176,7 @@ class Predictor(ABC):
         weights: how fits allow for reading errors; None before `allowing`, and without any.
         accuracy_floor: error of the scaled residual due to `accuracy`; known after `allowing`.
         input_floor: error of the scaled residual due to noise of inputs that neighbouring rows share.
+        aside: values that count for nothing, because they do not fit; None without any.
         quick: candidates whose equations are compiled together, so that the best of them is known soon.
     """
 
@@ -200,6 +201,7 @@ class Predictor(ABC):
     weights: ReadingWeights | None = None
     accuracy_floor: float = 0.0
     input_floor: float = 0.0
+    aside: np.ndarray | None = None
     quick: tuple[Effect, ...] = ()
 
     @abstractmethod
@@ -265,6 +267,13 @@ class Predictor(ABC):
         """This predictor of other readings, shape (values,), at the same inputs."""
         other = copy(self)
         other.measured = values
+        return other
+
+    def setting_aside(self, values: Sequence[int]) -> Predictor:
+        """This predictor without some values (indices): they weigh nothing, and are in no line of noise."""
+        other = copy(self)
+        other.aside = np.zeros(len(self.measured), bool)
+        other.aside[list(values)] = True
         return other
 
     #: Why rows without time do not reveal what remembers the past.
@@ -367,6 +376,8 @@ class Predictor(ABC):
             values: shape (values,) or (values, columns), SI.
         """
         scaled = values / (self.scale if values.ndim == 1 else self.scale[:, None])
+        if self.aside is not None:
+            scaled[self.aside] = 0.0
         return scaled if self.weights is None else self.weights(scaled)
 
     def input_slope(self, fit_model: FitModel, channel: str) -> np.ndarray:
@@ -433,7 +444,13 @@ class Predictor(ABC):
             inside[np.concatenate([*sweeps, rows[:0]])] = False
             sweeps = [sweep for sweep in sweeps if len(sweep)] + list(np.flatnonzero(inside)[:, None])
             ways = [records] if len(sweeps) == len(records) else [records, sweeps]
-            channels.append([[part for line in way for part in self._unbroken(line)] for way in ways])
+            lines = [[part for line in way for part in self._unbroken(line)] for way in ways]
+            if self.aside is not None:
+                counts = np.append(~self.aside, False)  # the last one for rows that are not there
+                lines = [
+                    [np.where(counts[line], line, -1) for line in way if counts[line].any()] for way in lines
+                ]
+            channels.append(lines)
         return channels
 
     def _unbroken(self, line: np.ndarray) -> list[np.ndarray]:

@@ -36,7 +36,8 @@ _CORRELATIONS = (0.3, 0.6, 0.8, 0.9, 0.95, 0.98, 0.99, 0.997, 0.999, 0.9997)  # 
 _WHITE_SHARES = (0.0, 0.3, 0.7, 0.9)
 # Noise that swings: radius of the poles, period in rows, and shares of white noise.
 _RADII, _PERIODS, _SWINGING_SHARES = (0.8, 0.9, 0.97), (6.0, 10.0, 16.0, 30.0), (0.0, 0.4)
-_ROUNDEST, _SHORTEST = 0.99999, 2.2  # largest radius, shortest period
+_SHORTEST = 2.2  # shortest period
+_LASTING, _SLOWEST = 10.0, 2.0  # longest time in step, and longest period, over the longest line
 _REFINED = 80  # evaluations of the search for the swinging noise that suits best
 _SIMPLEX = np.diag([0.3, 0.15, 1.0])  # its first steps, in log(-log(1 - radius)), log(period), logit(share)
 _FEWEST_OF_A_LINE = 4  # rows; in shorter lines noise that swings counts as white
@@ -74,7 +75,7 @@ class Noise(NamedTuple):
     @staticmethod
     def swinging(radius: float, period: float, white: float) -> Noise:
         """Noise with poles of a radius, that swings with a period of some rows."""
-        radius, period = min(max(radius, 1e-3), _ROUNDEST), max(period, _SHORTEST)
+        period = max(period, _SHORTEST)
         first = 2.0 * radius * float(np.cos(2.0 * np.pi / period))
         return Noise(first, -(radius**2), min(max(white, _LEAST_WHITE), 1.0 - _LEAST_WHITE))
 
@@ -217,8 +218,8 @@ def tried_noises(chain: Chain, basis: np.ndarray, residual: np.ndarray) -> list[
         residual: shape (rows,).
     """
     columns = np.column_stack([basis, residual])
-    # A residual that is rounding error is still one.
-    least = 1e-30 * float(residual @ residual) + 1e-300
+    # No eigenvalue of R is larger than the longest line.
+    least = float(residual @ residual) / chain.longest + 1e-300
 
     def tried(noise: Noise) -> _Tried:
         products, log_det = chain.products(columns, noise)
@@ -234,18 +235,30 @@ def tried_noises(chain: Chain, basis: np.ndarray, residual: np.ndarray) -> list[
 
         def noise_at(place: np.ndarray) -> Noise:
             radius, white = 1.0 - np.exp(-np.exp(place[0])), 1.0 / (1.0 + np.exp(-place[2]))
-            return Noise.swinging(radius, float(np.exp(place[1])), white)
+            return Noise.swinging(
+                min(radius, 1.0 - 1.0 / (_LASTING * chain.longest)),
+                float(np.exp(min(place[1], np.log(_SLOWEST * chain.longest)))),
+                white,
+            )
 
         best = max(swinging, key=lambda each: each.likelihood(rows)).noise
         white = min(max(best.white, 0.01), 0.99)
         start = [
             np.log(-np.log(1.0 - np.sqrt(-best.second))), np.log(best.period), np.log(white / (1.0 - white)),
         ]  # fmt: skip
+
+        def misfit(place: np.ndarray) -> float:
+            try:
+                return -tried(noise_at(place)).likelihood(rows)
+            except np.linalg.LinAlgError:  # so near to a pure line that its matrix has no factor any more
+                return np.inf
+
         end = minimize(
-            lambda place: -tried(noise_at(place)).likelihood(rows), start, method="Nelder-Mead",
+            misfit, start, method="Nelder-Mead",
             options={"maxfev": _REFINED, "initial_simplex": start + np.vstack([np.zeros(3), _SIMPLEX])},
         )  # fmt: skip
-        found.append(tried(noise_at(end.x)))
+        if np.isfinite(end.fun):
+            found.append(tried(noise_at(end.x)))
     return found
 
 
@@ -294,7 +307,10 @@ def weighed_noises(jacobian: np.ndarray, residual: np.ndarray, ways: Ways) -> li
     evidence = np.array([each[0] for each in found])
     weights = np.exp(evidence - np.max(evidence))
     weights /= np.sum(weights)
-    return [Weighed(noise, float(w), *rest) for w, (_, noise, *rest) in zip(weights, found, strict=True)]
+    return [
+        Weighed(noise, float(weight), variance, chain)
+        for weight, (_, noise, variance, chain) in zip(weights, found, strict=True)
+    ]
 
 
 def covariance(

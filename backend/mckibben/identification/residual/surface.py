@@ -802,7 +802,7 @@ def ratio_of(
     table = np.column_stack([constants, residual[:, None], columns])
     if freedom < 2 or not np.any(residual):
         return 0.0
-    sizes = np.sum(columns**2, axis=0)
+    sizes, square = np.sum(columns**2, axis=0), float(residual @ residual)
     # With the mean square of the effect as that of the residual for an amplitude of 1.
     roots = [(surface > 0.0, surface[surface > 0.0]) for surface in surfaces]
     roots = [(kept, root * np.sqrt(len(residual) / np.sum(root**2 * sizes[kept]))) for kept, root in roots]
@@ -813,7 +813,7 @@ def ratio_of(
         basis = np.linalg.qr(constants[rows])[0] if own else np.empty((len(rows), 0))
         for noise in (each.noise for each in tried_noises(chain, basis, residual[rows])):
             products, log_det = chain.products(table[rows], noise)
-            plain, rest = _without_constants(products, own, freedom)
+            plain, rest = _without_constants(products, own, freedom, square / chain.longest)
             without = max(without, plain - 0.5 * log_det)
             for kept, root in roots:
                 inner = root[:, None] * rest[1:, 1:][np.ix_(kept, kept)] * root
@@ -822,20 +822,23 @@ def ratio_of(
     return 2.0 * max(beside - without, 0.0)
 
 
-def _without_constants(products: np.ndarray, own: int, freedom: int) -> tuple[float, np.ndarray]:
+def _without_constants(
+    products: np.ndarray, own: int, freedom: int, least: float
+) -> tuple[float, np.ndarray]:
     """Restricted log likelihood without the effect, and the products beside the constants.
 
     Args:
         products: of constants, residual and columns of the effect with each other.
         own: number of constants.
         freedom: rows less constants.
+        least: that the generalised sum of squares can be; less is rounding error.
     """
     values, vectors = np.linalg.eigh(products[:own, :own]) if own else (np.ones(0), np.zeros((0, 0)))
     kept = values > _PROJECTED * np.max(values, initial=0.0)
     basis = vectors[:, kept] / np.sqrt(values[kept])
     shared = basis.T @ products[:own, own:]
     rest = products[own:, own:] - shared.T @ shared
-    rest[0, 0] = max(float(rest[0, 0]), 1e-300)
+    rest[0, 0] = max(float(rest[0, 0]), least)
     return -0.5 * (freedom * np.log(rest[0, 0] / freedom) + float(np.sum(np.log(values[kept])))), rest
 
 

@@ -1,0 +1,160 @@
+"""What speaks for and against a model on its data, whatever led to the model.
+
+Two tests look for structure in its residual, and only both together prove one. The *ratio* asks whether a
+free surface explains more than noise does that may be correlated and swing; noise outside of that family may
+raise it by itself. The *gain* asks whether the surface predicts groups that it was not fitted to; noise that
+is correlated beyond a group may raise that. A *line* is noise that swings in step throughout the file, as hum
+and vibration do. Rows that do not fit are named by evidence.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from mckibben.identification.diagnose.repetition import Repetition
+from mckibben.identification.diagnose.score import AT_FLOOR
+from mckibben.identification.diagnose.swept_rows import Over
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.residual.correlated import Noises, Weighed
+from mckibben.identification.residual.outlying import Outlying, outlying_of
+from mckibben.identification.residual.surface import Surface, likelihood_ratio, surface_of
+
+# Twice the gain in log likelihood from which a surface is more than correlated noise; of 170 files with noise
+# of eleven kinds the largest had 9.
+_RATIO = 16.0
+# Lower end of the gain on left-out groups from which the surface says something of them, and from which it
+# does so whatever the ratio says: correlated noise has up to 0.4.
+_GAIN, _GAIN_ALONE = 0.1, 0.5
+_IN_STEP = 5.0  # rows over which a swing stays in step, over those of the longest line: then it is one
+_LINE_SHARE = 0.2  # least share of the variance
+_NEAR = 0.1  # of the frequency that the noise swings with, within which that of the line is looked for
+# Error over noise, mean and median, beyond which rows too few for a surface show a structure.
+_FEW_MEAN, _FEW_MEDIAN = 5.0, 2.0
+_MEDIAN = 0.6745  # median magnitude of a standard normal deviate
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """What speaks for and against a model.
+
+    Attributes:
+        rmse: of the scaled residual.
+        noise: of neighbouring readings, or stated; None where it cannot be estimated.
+        typical: standard deviation by the median magnitude of the residual.
+        noises: what the noise of each channel may be if the model is right.
+        ratio: see the module; 0 for fewer than twenty rows.
+        surface: the free surface on the residual; None for fewer than twenty rows.
+        outlying: rows that do not fit.
+        line: noise that swings in step; None without it.
+    """
+
+    rmse: float
+    noise: float | None
+    typical: float
+    noises: Noises
+    ratio: float
+    surface: Surface | None
+    outlying: Outlying
+    line: Repetition | None
+
+    @cached_property
+    def _lowest_gain(self) -> float:
+        gains = [] if self.surface is None else [low for low in self.surface.gain_low if np.isfinite(low)]
+        return max(gains, default=0.0)
+
+    @property
+    def structured(self) -> bool:
+        """Whether something is left that is no noise."""
+        if self.line is not None:
+            return True
+        if self.surface is None:
+            floor = self.noise or np.inf
+            return self.rmse > _FEW_MEAN * floor and self.typical > _FEW_MEDIAN * floor
+        return self._beyond and self._lowest_gain > _GAIN
+
+    @property
+    def undecided(self) -> bool:
+        """Whether one test speaks for a structure and the other does not."""
+        if self.structured or self.surface is None:
+            return False
+        first = self.surface.gain_low[0]
+        return self._beyond or (self._above and bool(np.isfinite(first)) and first > _GAIN_ALONE)
+
+    @property
+    def _above(self) -> bool:
+        return self.surface is not None and self.rmse > AT_FLOOR * self.surface.left
+
+    @property
+    def _beyond(self) -> bool:
+        return self._above and self.ratio > _RATIO
+
+    @property
+    def likeliest(self) -> Weighed | None:
+        """The likeliest noise of a single channel; None for several channels."""
+        return max(self.noises[0], key=lambda each: each.weight) if len(self.noises) == 1 else None
+
+
+def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Judgement:
+    """The judgement on a fitted model.
+
+    Args:
+        model: the model.
+        predictor: the data.
+        noise: of the scaled residual.
+    """
+    return Judgement(
+        rmse=model.rmse,
+        noise=noise,
+        typical=float(np.median(np.abs(model.residual))) / _MEDIAN,
+        noises=model.noises,
+        ratio=likelihood_ratio(model, predictor),
+        surface=surface_of(model, predictor),
+        outlying=outlying_of(model, predictor),
+        line=_line(model, predictor),
+    )
+
+
+def _line(model: FittedModel, predictor: Predictor) -> Repetition | None:
+    """The strongest swing of a channel that stays in step throughout its rows.
+
+    What drives a run, or rings in it, is in step as well: only readings of a static law are looked at.
+    """
+    if predictor.simulated:
+        return None
+    found = []
+    for weighed in model.noises:
+        best = max(weighed, key=lambda each: each.weight)
+        noise, rows = best.noise, best.chain.rows
+        share = 1.0 - noise.white
+        if not noise.second or noise.length < _IN_STEP * best.chain.longest or share < _LINE_SHARE:
+            continue
+        over: Over = "time" if "time" in predictor.inputs else "rows"
+        place = (
+            predictor.inputs["time"][rows] if over == "time" else predictor.row_numbers[rows].astype(float)
+        )
+        steps = np.diff(place) / np.diff(predictor.row_numbers[rows])
+        period, amplitude = _in_step(model.residual[rows], place, noise.period * float(np.median(steps)))
+        line = Repetition(
+            over=over, period=period, share=share, amplitude=amplitude, grows=False, left_out=share, parts=1,
+            shown=1, in_step=True,
+        )  # fmt: skip
+        found.append(line)
+    return max(found, key=lambda each: each.amplitude, default=None)
+
+
+def _in_step(residual: np.ndarray, place: np.ndarray, period: float) -> tuple[float, float]:
+    """Period and amplitude of the sine near a period that explains most of a residual."""
+    cycles = float(np.ptp(place)) / period
+    near = np.linspace(1.0 - _NEAR, 1.0 + _NEAR, 2 * int(np.ceil(8.0 * _NEAR * cycles)) + 3)
+    best = (0.0, period, 0.0)
+    for factor in near:
+        angle = 2.0 * np.pi * factor * place / period
+        columns = np.column_stack([np.sin(angle), np.cos(angle), np.ones(len(place))])
+        numbers, *_ = np.linalg.lstsq(columns, residual, rcond=None)
+        explained = float(np.sum((columns @ numbers) ** 2))
+        best = max(best, (explained, period / float(factor), float(np.hypot(*numbers[:2]))))
+    return best[1], best[2]
