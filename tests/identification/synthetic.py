@@ -145,6 +145,7 @@ class Plain(Predictor):
         self.folds = tuple(folds)
         self.groups = self.folds[0]
         self.records = np.zeros(len(measured), int)
+        self.row_numbers = np.arange(len(measured))
         self.sweeps = [np.arange(len(measured))]
         self.inputs = dict(inputs)
         self.rows_used, self.excluded, self.messages = len(measured), {}, ()

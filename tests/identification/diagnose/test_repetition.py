@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.atlas import _TESTS, stand_ins
+from mckibben.identification.diagnose.judgement import left_repetition
 from mckibben.identification.diagnose.repetition import Repetition, _chance, repetition
 from mckibben.identification.diagnose.repetition_words import repetition_text
-from mckibben.identification.diagnose.verdict import left_repetition
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
@@ -225,12 +225,14 @@ LENGTH = Repetition("length", 3.2e-3, 0.62, 10.7, True, 0.5, 3, 3)
         (
             LENGTH,
             "it repeats every 3.20 mm of length (the same in all 3 records): a thread, rack or weave with "
-            "that pitch; this is 62 % of it, with an amplitude of 10.7 N that grows with the pressure",
+            "that pitch, or what rings after each turn of the motion; "
+            "this is 62 % of it, with an amplitude of 10.7 N that grows with the pressure",
         ),
         (
             replace(LENGTH, shown=2, grows=False, also=(("time", 0.5),)),
             "it repeats every 3.20 mm of length (the same in 2 of 3 records): a thread, rack or weave with "
-            "that pitch; this is 62 % of it, with an amplitude of 10.7 N; these data cannot tell it from one "
+            "that pitch, or what rings after each turn of the motion; "
+            "this is 62 % of it, with an amplitude of 10.7 N; these data cannot tell it from one "
             "2.00 times a second: repeat the run at another speed",
         ),
         (

@@ -42,6 +42,9 @@ def result(
         status=status,
         none_likely=False,
         unfinished=None,
+        judgement=None,
+        with_them=None,
+        superfluous=(),
         predictor=SimpleNamespace(unit=unit, channels=[SimpleNamespace(name="force" if unit == "N" else "")]),
         start=SimpleNamespace(rmse=before),
         root=SimpleNamespace(rmse=before if refitted is None else refitted, free=refitted is not None),
@@ -77,7 +80,8 @@ def result(
 WEAVE = Repetition("length", 3.2e-3, 0.62, 10.7, True, 0.5, 3, 3)
 REPEATS = (
     "it repeats every 3.20 mm of length (the same in all 3 records): a thread, rack or weave with that "
-    "pitch; this is 62 % of it, with an amplitude of 10.7 N that grows with the pressure"
+    "pitch, or what rings after each turn of the motion; "
+    "this is 62 % of it, with an amplitude of 10.7 N that grows with the pressure"
 )
 FAINT = replace(WEAVE, share=0.38)  # less than half of the rest: what it depends on is told as well
 SENTENCES = {
@@ -145,7 +149,9 @@ SENTENCES = {
         "missing_effects", 40.0, 2.1, "creep", refitted=15.0
     ),
     "Nothing is missing: the error of 6.00 N is of the size of the noise (2.00 N between neighbouring "
-    "readings, 6.00 N in all).": result("adequate", 6.0, 6.0, highest=6.0),
+    "readings, 6.00 N with the rows that are farther off than most).": result(
+        "adequate", 6.0, 6.0, highest=6.0
+    ),
     "With the entries as stated no catalogued effect explains the error of 40.0 N.": result(
         "ambiguous", 40.0, 40.0, doubted=True
     ),

@@ -14,6 +14,7 @@ from mckibben.identification.fit.fitted_model import FittedModel, refitted
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
+from mckibben.identification.residual.correlated import Chain, tried_noises
 from mckibben.identification.residual.surface import (
     Block,
     lagged,
@@ -255,7 +256,7 @@ def test_a_run_shows_what_grows_with_the_square_of_its_stroke_beside_correlated_
 
 
 def test_the_likelihood_ratio_is_that_of_whole_matrices() -> None:
-    """Two lines, one random effect, white noise against it: the ratio from dense matrices of the grid."""
+    """Two lines, one random effect, white noise against it: the ratio from dense matrices of these."""
     rng = np.random.default_rng(8)
     lines = [np.arange(30), np.arange(30, 55)]
     constants, column = rng.normal(size=(55, 2)), np.sin(0.4 * np.arange(55))[:, None]
@@ -271,12 +272,10 @@ def test_the_likelihood_ratio_is_that_of_whole_matrices() -> None:
             found.append(-0.5 * (53 * np.log(square / 53) + np.linalg.slogdet(inner)[1]))
         return max(found)
 
-    firsts = [(rho, 0.0, w) for rho in (0.3, 0.5, 0.7, 0.8, 0.9, 0.95, 0.975, 0.99, 0.997)
-              for w in (1e-6, 0.15, 0.4, 0.7)]  # fmt: skip
-    seconds = [(2 * r * np.cos(2 * np.pi / n), -(r**2), w) for r in (0.8, 0.9, 0.97)
-               for n in (6, 10, 16, 30) for w in (1e-6, 0.4)]  # fmt: skip
+    within = np.linalg.svd(constants, full_matrices=False)[0]
     plain = [np.eye(55)]
-    for first, second, white in firsts + seconds:
+    for each in tried_noises(Chain(lines), within, residual)[1:]:
+        first, second, white = each.noise
         course = [1.0, first / (1.0 - second)]
         while len(course) < 30:
             course.append(first * course[-1] + second * course[-2])

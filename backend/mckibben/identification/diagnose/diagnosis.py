@@ -46,7 +46,6 @@ from mckibben.identification.diagnose.verdict import (
     Interval,
     Status,
     is_force,
-    left_repetition,
     left_structure,
     messages,
     noise_interval,
@@ -512,7 +511,7 @@ def _search(
         added=added,
         alternatives=tuple(exchangeable),
         structure=remaining,
-        repetition=_repetition(judgement, predictor, best) if left else None,
+        repetition=judgement.repeats if left else None,
         term=term,
         proposals=tuple(pairs),
         designs=tuple(designs),
@@ -582,11 +581,6 @@ def _so_far(begun: _Begun, limit: float) -> Diagnosis:
         absorbed=absorbed_by(predictor, best.fit_model),
         unfinished=Unfinished(len(begun.singles), len(begun.candidates), len(fitter.known), limit),
     )
-
-
-def _repetition(judgement: Judgement, predictor: Predictor, best: FittedModel) -> Repetition | None:
-    """What repeats in the last residual: a line, or else over the length, the pressure or the time."""
-    return judgement.line or left_repetition(predictor, best.residual)
 
 
 def _why_not(effect: Effect, predictor: Predictor) -> str:

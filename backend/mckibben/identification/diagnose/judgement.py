@@ -3,8 +3,8 @@
 Two tests look for structure in its residual, and only both together prove one. The *ratio* asks whether a
 free surface explains more than noise does that may be correlated and swing; noise outside of that family may
 raise it by itself. The *gain* asks whether the surface predicts groups that it was not fitted to; noise that
-is correlated beyond a group may raise that. A *line* is noise that swings in step throughout the file, as hum
-and vibration do. Rows that do not fit are named by evidence.
+is correlated beyond a group may raise that. What *repeats* in step throughout the file, as hum and vibration
+do, or in the same places of several sweeps, is no noise. Rows that do not fit are named by evidence.
 """
 
 from __future__ import annotations
@@ -14,7 +14,7 @@ from functools import cached_property
 
 import numpy as np
 
-from mckibben.identification.diagnose.repetition import Repetition
+from mckibben.identification.diagnose.repetition import Repetition, repetition
 from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.swept_rows import Over
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -34,6 +34,7 @@ _LINE_SHARE = 0.2  # least share of the variance
 _NEAR = 0.1  # of the frequency that the noise swings with, within which that of the line is looked for
 # Error over noise, mean and median, beyond which rows too few for a surface show a structure.
 _FEW_MEAN, _FEW_MEDIAN = 5.0, 2.0
+_DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 _MEDIAN = 0.6745  # median magnitude of a standard normal deviate
 
 
@@ -43,23 +44,26 @@ class Judgement:
 
     Attributes:
         rmse: of the scaled residual.
+        least: error that is one of rounding.
         noise: of neighbouring readings, or stated; None where it cannot be estimated.
         typical: standard deviation by the median magnitude of the residual.
         noises: what the noise of each channel may be if the model is right.
         ratio: see the module; 0 for fewer than twenty rows.
         surface: the free surface on the residual; None for fewer than twenty rows.
         outlying: rows that do not fit.
-        line: noise that swings in step; None without it.
+        repeats: what is periodic in the residual beyond doubt: noise that swings in step, or what is the same
+            over the length or the pressure in several sweeps; None without it.
     """
 
     rmse: float
+    least: float
     noise: float | None
     typical: float
     noises: Noises
     ratio: float
     surface: Surface | None
     outlying: Outlying
-    line: Repetition | None
+    repeats: Repetition | None
 
     @cached_property
     def _lowest_gain(self) -> float:
@@ -69,12 +73,12 @@ class Judgement:
     @property
     def structured(self) -> bool:
         """Whether something is left that is no noise."""
-        if self.line is not None:
+        if self.repeats is not None and self.rmse > self.least and self.repeats.in_step:
             return True
         if self.surface is None:
             floor = self.noise or np.inf
             return self.rmse > _FEW_MEAN * floor and self.typical > _FEW_MEDIAN * floor
-        return self._beyond and self._lowest_gain > _GAIN
+        return self._above and self._lowest_gain > _GAIN and (self.ratio > _RATIO or self.repeats is not None)
 
     @property
     def undecided(self) -> bool:
@@ -82,15 +86,14 @@ class Judgement:
         if self.structured or self.surface is None:
             return False
         first = self.surface.gain_low[0]
-        return self._beyond or (self._above and bool(np.isfinite(first)) and first > _GAIN_ALONE)
+        return self._above and (self.ratio > _RATIO or (bool(np.isfinite(first)) and first > _GAIN_ALONE))
 
     @property
     def _above(self) -> bool:
-        return self.surface is not None and self.rmse > AT_FLOOR * self.surface.left
-
-    @property
-    def _beyond(self) -> bool:
-        return self._above and self.ratio > _RATIO
+        """Whether the error is above what a surface would leave, and above the noise."""
+        if self.surface is None or not self.rmse > self.least:
+            return False
+        return self.rmse > AT_FLOOR * max(self.surface.left, self.noise or 0.0)
 
     @property
     def likeliest(self) -> Weighed | None:
@@ -108,14 +111,24 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
     """
     return Judgement(
         rmse=model.rmse,
+        least=_DIGITS * float(np.max(np.abs(predictor.measured / predictor.scale))),
         noise=noise,
         typical=float(np.median(np.abs(model.residual))) / _MEDIAN,
         noises=model.noises,
         ratio=likelihood_ratio(model, predictor),
         surface=surface_of(model, predictor),
         outlying=outlying_of(model, predictor),
-        line=_line(model, predictor),
+        repeats=_line(model, predictor) or left_repetition(predictor, model.residual),
     )
+
+
+def left_repetition(predictor: Predictor, residual: np.ndarray) -> Repetition | None:
+    """What of the residual repeats over length, pressure or time, in the channel with the largest rest."""
+    channel = max(predictor.channels, key=lambda each: float(np.mean(residual[each.rows] ** 2)))
+    inside = np.zeros(len(residual), bool)
+    inside[channel.rows] = True
+    sweeps = [np.asarray(sweep)[inside[sweep]] for sweep in predictor.sweeps]
+    return repetition(residual, predictor.inputs, sweeps=sweeps, records=predictor.records)
 
 
 def _line(model: FittedModel, predictor: Predictor) -> Repetition | None:

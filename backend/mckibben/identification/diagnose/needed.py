@@ -4,32 +4,35 @@ from __future__ import annotations
 
 import numpy as np
 
-from mckibben.identification.diagnose.score import LEAST_SCORE
+from mckibben.identification.diagnose.probability import LIKELY, log_odds
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 
 
 def needed(after: FittedModel, before: FittedModel) -> float:
-    r"""How much more likely a model is with further free numbers than their number alone makes it.
+    r"""Probability that the effects which one model has and another lacks are there, and not noise.
 
-    .. math:: 2(\ell_1 - \ell_0) - (k_1 - k_0)\ln n - S
+    Its odds are those of the effects before any data, times the ratio of the likelihoods of
+    `mckibben.identification.residual.correlated`, in which each model chooses the noise under which it does
+    best, by Schwarz's approximation:
 
-    with the likelihoods of `mckibben.identification.residual.correlated`, in which each model chooses the
-    noise under which it does best, and S = `LEAST_SCORE`: above 0 the further numbers are needed.
+    .. math:: \ln\frac{P}{1-P} = \sum_e\ln\frac{p_e}{1-p_e} + \ell_1 - \ell_0 - \tfrac12(k_1-k_0)\ln n
 
     Args:
         after: the model with them.
         before: the model without.
     """
     if before.lost:
-        return np.inf
-    further = len(after.free) - len(before.free)
-    gain = 2.0 * (after.log_likelihood - before.log_likelihood)
-    return gain - further * float(np.log(len(after.residual))) - LEAST_SCORE
+        return 1.0
+    further = [effect for effect in after.fit_model.effects if effect.id not in before.fit_model.ids]
+    numbers = len(after.free) - len(before.free)
+    odds = sum(map(log_odds, further)) + after.log_likelihood - before.log_likelihood
+    odds -= 0.5 * numbers * float(np.log(len(after.residual)))
+    return float(1.0 / (1.0 + np.exp(-np.clip(odds, -50.0, 50.0))))
 
 
 def pruned(fitter: Fitter, model: FittedModel, root: FittedModel) -> FittedModel:
-    """The model without the added effects that noise explains as well, the least needed one after the other.
+    """The model without the added effects that are likelier noise, the least needed one after the other.
 
     Args:
         fitter: of the search.
@@ -40,6 +43,6 @@ def pruned(fitter: Fitter, model: FittedModel, root: FittedModel) -> FittedModel
         added = [name for name in model.fit_model.ids if name not in root.fit_model.ids]
         without = [fitter.dropping(model, name) for name in added]
         least = min(without, key=lambda less: needed(model, less), default=None)
-        if least is None or needed(model, least) > 0.0:
+        if least is None or needed(model, least) >= LIKELY:
             return model
         model = least

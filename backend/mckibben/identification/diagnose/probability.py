@@ -77,7 +77,7 @@ def model_weights(
 
 def log_weight(model: FittedModel, *, rows: float, noise: float | None) -> float:
     """Logarithm of a model's weight, up to a constant: prior odds of its effects and evidence."""
-    return sum(map(_log_odds, model.fit_model.effects)) - 0.5 * score(model, rows=rows, noise=noise)
+    return sum(map(log_odds, model.fit_model.effects)) - 0.5 * score(model, rows=rows, noise=noise)
 
 
 def log_preference(model: FittedModel, *, rows: float, noise: float | None) -> float:
@@ -86,10 +86,11 @@ def log_preference(model: FittedModel, *, rows: float, noise: float | None) -> f
     Of two models that fit about as well, one group left out may prefer the worse law by chance.
     """
     evidence = score(model, rows=rows, noise=noise) + score_within(model, rows=rows, noise=noise)
-    return sum(map(_log_odds, model.fit_model.effects)) - 0.25 * evidence
+    return sum(map(log_odds, model.fit_model.effects)) - 0.25 * evidence
 
 
-def _log_odds(effect: Effect) -> float:
+def log_odds(effect: Effect) -> float:
+    """Logarithm of the odds of an effect before any data."""
     return float(np.log(effect.prior.share / (1.0 - effect.prior.share)))
 
 
@@ -115,7 +116,8 @@ class Evidence:
     Attributes:
         effect: its id.
         group: it and the effects that the data cannot tell from it.
-        share: of the visited models, by weight, that hold one of the group.
+        share: of the visited models, by weight, that hold one of the group, times the probability that
+            correlated noise does not explain it as well.
         loss: what the best model loses without it.
         beside_unknown: whether an unknown effect remains.
         entries_right: probability that no entry is wrong whose correction does without the group.

@@ -53,7 +53,7 @@ def how_often(over: str, period: float) -> str:
 
 def _cause(found: Repetition) -> str:
     if found.over == "length":
-        return "a thread, rack or weave with that pitch"
+        return "a thread, rack or weave with that pitch, or what rings after each turn of the motion"
     if found.over == "pressure":
         return "steps of that size in the regulator, the sensor or its converter"
     if found.over == "rows":

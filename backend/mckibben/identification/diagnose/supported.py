@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from mckibben.identification.diagnose.corrections import Correction
+from mckibben.identification.diagnose.needed import needed
 from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, model_weights
 from mckibben.identification.diagnose.score import effective_rows
 from mckibben.identification.diagnose.twins import Alternative
@@ -59,9 +60,11 @@ def supported(
     for name in model.fit_model.ids:
         if name not in root.fit_model.ids:
             group = (name, *(other.effect for other in others if other.of == name))
-            lost = loss(model, fitter.dropping(model, name), root, noise=noise)
+            without = fitter.dropping(model, name)
+            lost = loss(model, without, root, noise=noise)
             laws = rubbing.difference(model.fit_model.ids) if name in rubbing else frozenset()
-            evidence.append(Evidence(name, group, weights.share({*group, *laws}), lost))
+            share = weights.share({*group, *laws}) * needed(model, without)
+            evidence.append(Evidence(name, group, share, lost))
     ordered = sorted(evidence, key=lambda item: item.probability)
     unlikely = [item for item in ordered[:-1] if item.probability < LIKELY]
     firm, steps, corrections = model, [], []

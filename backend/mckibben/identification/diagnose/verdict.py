@@ -8,7 +8,6 @@ from typing import Literal, NamedTuple
 import numpy as np
 
 from mckibben.identification.diagnose.judgement import Judgement
-from mckibben.identification.diagnose.repetition import Repetition, repetition
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.diagnose.usual import taken_as_usual
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -30,15 +29,6 @@ class Interval(NamedTuple):
 
 #: What a diagnosis ends with; `mckibben.identification.diagnose.words` says what each means.
 Status = Literal["adequate", "missing_effects", "ambiguous", "unknown_effect", "undecided", "unfinished"]
-
-
-def left_repetition(predictor: Predictor, residual: np.ndarray) -> Repetition | None:
-    """What of the residual repeats over length, pressure or time, in the channel with the largest rest."""
-    channel = max(predictor.channels, key=lambda each: float(np.mean(residual[each.rows] ** 2)))
-    inside = np.zeros(len(residual), bool)
-    inside[channel.rows] = True
-    sweeps = [np.asarray(sweep)[inside[sweep]] for sweep in predictor.sweeps]
-    return repetition(residual, predictor.inputs, sweeps=sweeps, records=predictor.records)
 
 
 def left_structure(

@@ -368,8 +368,10 @@ def log_likelihood(jacobian: np.ndarray, residual: np.ndarray, channels: Sequenc
     Args:
         jacobian: derivatives of all values at the fit, shape (values, parameters).
         residual: shape (values,).
-        channels: lines of the noise of each channel.
+        channels: lines of the noise of each channel; without any it is white.
     """
+    if not channels:
+        return -0.5 * len(residual) * float(np.log(max(float(np.mean(residual**2)), 1e-300)))
     whole = 0.0
     for ways in channels:
         best = -np.inf
