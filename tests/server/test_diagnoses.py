@@ -34,9 +34,9 @@ PROMISED = {
     "envelope", "covariance", "unread",
     "kind", "rows", "predicted", "unit", "baseline", "noise_floor", "where", "candidates", "path", "verdict",
     "model", "rows_used", "excluded", "channels", "parameters", "correlations", "geometry", "freed",
-    "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed", "context",
+    "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed", "suspect_rows", "rivals", "context",
 }  # fmt: skip
-STATUS = {"adequate", "missing_effects", "ambiguous", "unknown_effect", "unfinished"}
+STATUS = {"adequate", "missing_effects", "ambiguous", "unknown_effect", "undecided", "unfinished"}
 
 
 def coulomb(*, direction: float, **_: float) -> float:

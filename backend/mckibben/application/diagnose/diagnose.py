@@ -28,7 +28,9 @@ from mckibben.application.diagnose.result import (
     DiagnosisResult,
     NoiseFloor,
     PathPoint,
+    Proofs,
     RepetitionResult,
+    Rival,
     SamePeriod,
     SuspectRow,
     TermCurve,
@@ -237,6 +239,7 @@ def _result(
             for step in diagnosis.path
         ],
         verdict=_verdict(question, diagnosis, catalogue, suspects),
+        rivals=_rivals(diagnosis),
         suspect_rows=suspects,
         parameters=parameter_table(best.fit_model, diagnosis.fit),
         correlations=correlations_of(diagnosis.fit),
@@ -277,6 +280,16 @@ def _model(question: ModelQuestion, fitted: FittedModel) -> ModelDocument:
     return ModelDocument(question.effect_document(fitted.fit_model))
 
 
+def _rivals(diagnosis: Diagnosis) -> list[Rival]:
+    """The free surface on the residual of the best model."""
+    surface = None if diagnosis.judgement is None else diagnosis.judgement.surface
+    if surface is None:
+        return []
+    gain, held = surface.gain[0], diagnosis.best.holdout_rmse
+    left_out = float(held * np.sqrt(max(1.0 - gain, 0.0))) if np.isfinite(gain) else None
+    return [Rival("free surface", surface.numbers, surface.left, left_out)]
+
+
 def _suspects(question: ModelQuestion, diagnosis: Diagnosis) -> list[SuspectRow]:
     """The rows that were set aside, with their files."""
     whole = diagnosis.with_them
@@ -307,6 +320,8 @@ def _verdict(
 ) -> Verdict:
     titles = {name: effect.title for name, effect in catalogue.items()}
     bounds = bounds_sentence(diagnosis, catalogue)
+    judgement = diagnosis.judgement
+    proofs = {} if judgement is None else judgement.proofs
     return Verdict(
         status=diagnosis.status,
         title=title_of(
@@ -324,6 +339,8 @@ def _verdict(
             for item in diagnosis.corrections
         ],
         superfluous=[item.effect for item in diagnosis.superfluous],
+        proofs=None if judgement is None else Proofs(**{name: holds for name, (holds, _) in proofs.items()}),
+        why_not={name: why for name, (holds, why) in proofs.items() if not holds},
         unexplained_share=unexplained_share(
             diagnosis.status, diagnosis.best, diagnosis.noise, diagnosis.structure
         ),

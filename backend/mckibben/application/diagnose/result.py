@@ -192,6 +192,34 @@ class TermProposal:
 
 
 @result_class
+class Proofs:
+    """What "nothing is missing" rests on: whether each proof holds; None where it cannot be told."""
+
+    noise_known: bool | None
+    """The noise is known apart from the model, and what is left does not last for whole sweeps."""
+    white: bool | None
+    """A free surface explains no more of what is left than noise does, and nothing repeats in step."""
+    no_outliers: bool | None
+    """Each row that counts fits beside the others."""
+    rival_gains_nothing: bool | None
+    """A free surface predicts groups that were left out no better than the model."""
+
+
+@result_class
+class Rival:
+    """A model without physics beside the best one."""
+
+    kind: str
+    """What it is."""
+    numbers: int
+    """Its effective number of free numbers [-]."""
+    rmse: float
+    """Error of model and rival together, SI; in the noise of each channel where there are several."""
+    holdout_rmse: float | None
+    """The same on groups that were left out; None where there are too few."""
+
+
+@result_class
 class Verdict:
     """Verdict of a diagnosis."""
 
@@ -219,6 +247,10 @@ class Verdict:
     """Effects that lower the error but are not called missing; the model keeps some of them."""
     superfluous: list[str]
     """Effects of the start model that the data do not need: without all of them the model is as good."""
+    proofs: Proofs | None
+    """Of the best model; None where the limit of time ended the diagnosis before."""
+    why_not: dict[str, str]
+    """Proof that does not hold, or cannot be told -> why."""
     unexplained_share: float
     unexplained_in: list[str]
     """Variables that this part depends on."""
@@ -312,6 +344,8 @@ class DiagnosisResult:
     """Steps to the best model; each adds the effect that lowers the error most."""
     verdict: Verdict
     """The verdict."""
+    rivals: list[Rival]
+    """Models without physics on what the best one leaves, the best on left-out groups first."""
     suspect_rows: list[SuspectRow]
     """Rows that do not fit, and count for nothing in the verdict."""
     parameters: ParameterTable

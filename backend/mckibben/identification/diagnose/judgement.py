@@ -9,7 +9,7 @@ do, or in the same places of several sweeps, is no noise. Rows that do not fit a
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
@@ -26,13 +26,13 @@ from mckibben.identification.residual.surface import Surface, likelihood_ratio, 
 # Twice the gain in log likelihood from which a surface is more than correlated noise; of 170 files with noise
 # of eleven kinds the largest had 9.
 _RATIO = 16.0
-# Lower end of the gain on left-out groups from which the surface says something of them, and from which it
-# does so whatever the ratio says: correlated noise has up to 0.4.
-_GAIN, _GAIN_ALONE = 0.1, 0.5
+_GAIN = 0.1  # lower end of the gain on left-out groups from which the surface says something of them
+_LASTING = 0.5  # rows over which noise is alike, over those of a sweep: what is missing may look so
 _IN_STEP = 5.0  # rows over which a swing stays in step, over those of the longest line: then it is one
 _LINE_SHARE = 0.2  # least share of the variance
 _NEAR = 0.1  # of the frequency that the noise swings with, within which that of the line is looked for
-# Error over noise, mean and median, beyond which rows too few for a surface show a structure.
+# Error over noise, mean and median, beyond which rows too few for a surface show a structure; in the mean
+# also what is far above the scatter of neighbours.
 _FEW_MEAN, _FEW_MEDIAN = 5.0, 2.0
 _DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 _MEDIAN = 0.6745  # median magnitude of a standard normal deviate
@@ -51,6 +51,7 @@ class Judgement:
         ratio: see the module; 0 for fewer than twenty rows.
         surface: the free surface on the residual; None for fewer than twenty rows.
         outlying: rows that do not fit.
+        sweep: rows of a usual sweep.
         repeats: what is periodic in the residual beyond doubt: noise that swings in step, or what is the same
             over the length or the pressure in several sweeps; None without it.
     """
@@ -64,6 +65,7 @@ class Judgement:
     surface: Surface | None
     outlying: Outlying
     repeats: Repetition | None
+    sweep: float
 
     @cached_property
     def _lowest_gain(self) -> float:
@@ -82,11 +84,22 @@ class Judgement:
 
     @property
     def undecided(self) -> bool:
-        """Whether one test speaks for a structure and the other does not."""
+        """Whether one test speaks for a structure and the other does not, or noise lasts for whole sweeps."""
         if self.structured or self.surface is None:
             return False
         first = self.surface.gain_low[0]
-        return self._above and (self.ratio > _RATIO or (bool(np.isfinite(first)) and first > _GAIN_ALONE))
+        gains = bool(np.isfinite(first)) and first > _GAIN
+        return self._above and (self.ratio > _RATIO or gains or self._lasting)
+
+    @property
+    def _lasting(self) -> bool:
+        """Whether the rest is far above the scatter of neighbours, and alike over a good part of a sweep."""
+        if self.noise is None or not self.rmse > _FEW_MEAN * self.noise:
+            return False
+        longest = max(
+            (max(weighed, key=lambda each: each.weight).noise.length for weighed in self.noises), default=0.0
+        )
+        return longest > _LASTING * self.sweep
 
     @property
     def _above(self) -> bool:
@@ -94,6 +107,29 @@ class Judgement:
         if self.surface is None or not self.rmse > self.least:
             return False
         return self.rmse > AT_FLOOR * max(self.surface.left, self.noise or 0.0)
+
+    @property
+    def proofs(self) -> dict[str, tuple[bool | None, str]]:
+        """Each proof that nothing is missing: whether it holds, None where it cannot be told, and why not."""
+        surface, first = self.surface, np.nan if self.surface is None else self.surface.gain_low[0]
+        in_step = self.repeats is not None and self.repeats.in_step
+        lasts = "what is left lasts for a good part of a sweep, and is far above the scatter of neighbours"
+        more = "what is left repeats in step" if in_step else "a free surface explains more than noise does"
+        better = "a free surface predicts groups that were left out better than the model"
+        few = "fewer than twenty rows"
+        proofs = {
+            "noise_known": (True, "") if self.noise is not None else (None, "the noise cannot be estimated"),
+            "white": (not (in_step or (self._above and self.ratio > _RATIO)), more),
+            "no_outliers": (not self.outlying.rows, "rows do not fit beside the others"),
+            "rival_gains_nothing": (not (self._above and first > _GAIN), better),
+        }
+        if self._lasting:
+            proofs["noise_known"] = False, lasts
+        if surface is None:
+            proofs |= {"white": (None, few), "rival_gains_nothing": (None, few)}
+        elif not np.isfinite(first):
+            proofs["rival_gains_nothing"] = None, "too few groups to leave one out"
+        return proofs
 
     @property
     def likeliest(self) -> Weighed | None:
@@ -118,8 +154,17 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
         ratio=likelihood_ratio(model, predictor),
         surface=surface_of(model, predictor),
         outlying=outlying_of(model, predictor),
-        repeats=_line(model, predictor) or left_repetition(predictor, model.residual),
+        repeats=_repeats(model, predictor),
+        sweep=float(np.median([len(sweep) for sweep in predictor.sweeps])),
     )
+
+
+def _repeats(model: FittedModel, predictor: Predictor) -> Repetition | None:
+    """What repeats in a residual; where it is in step throughout, by the quantity over which it is found."""
+    line, found = _line(model, predictor), left_repetition(predictor, model.residual)
+    if found is None or line is None:
+        return line or found
+    return replace(found, in_step=True)
 
 
 def left_repetition(predictor: Predictor, residual: np.ndarray) -> Repetition | None:
@@ -132,12 +177,7 @@ def left_repetition(predictor: Predictor, residual: np.ndarray) -> Repetition | 
 
 
 def _line(model: FittedModel, predictor: Predictor) -> Repetition | None:
-    """The strongest swing of a channel that stays in step throughout its rows.
-
-    What drives a run, or rings in it, is in step as well: only readings of a static law are looked at.
-    """
-    if predictor.simulated:
-        return None
+    """The strongest swing of a channel that stays in step throughout its rows."""
     found = []
     for weighed in model.noises:
         best = max(weighed, key=lambda each: each.weight)

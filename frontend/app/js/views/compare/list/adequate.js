@@ -35,6 +35,30 @@ export function openChoices() {
   );
 }
 
+/** Rows that do not fit, which count for nothing in the verdict. @param {Diagnosis} result */
+export function setAside({ suspect_rows: rows, unit, predicted }) {
+  if (!rows.length) return null;
+  return h(
+    "section",
+    { class: "list-part", "aria-label": "Set aside" },
+    h("h3", null, "Set aside"),
+    h(
+      "ul",
+      { class: "plain" },
+      ...rows.map((each) =>
+        h(
+          "li",
+          null,
+          `${capitalized(each.place)}: ${
+            errorText(Math.abs(each.residual), unit, predicted, units.value)
+          } off`,
+          h("p", { class: "why" }, `${capitalized(each.why)}.`),
+        )
+      ),
+    ),
+  );
+}
+
 /** Effects of the model that the data do not need. @param {Diagnosis} result */
 export function notNeeded({ verdict: { superfluous } }) {
   if (!superfluous.length) return null;
@@ -153,16 +177,13 @@ export function adequate(result) {
         h(
           "p",
           null,
-          wide
-            ? `${asText(a?.rmse_beyond_accuracy)} is of the size of the noise: ${
-              asText(wide.low)
-            } between neighbouring readings, ${
-              asText(wide.high)
-            } in all. Held-out ${held}. No effect left lowers it by more than chance.`
+          wide || result.suspect_rows.length
+            ? result.verdict.sentence
             : sentenceOf(asText(a?.rmse_beyond_accuracy), held),
         ),
       ),
     ),
+    setAside(result),
     openChoices(),
     notNeeded(result),
     covered(result),

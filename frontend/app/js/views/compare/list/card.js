@@ -8,7 +8,7 @@ import { units } from "../../../state.js";
 import { answer, brush, diagnosis, diagnosisError, lookCompare, progress, stage, stale } from "../answers.js";
 import { fitting } from "../model/history.js";
 import { errorText, rangeText } from "../words.js";
-import { adequate, notNeeded, openChoices, settling } from "./adequate.js";
+import { adequate, notNeeded, openChoices, setAside, settling } from "./adequate.js";
 import { contextBlock, contextLine } from "./context.js";
 import { entryRow, refitRow, skeletonRow, soFarRow } from "./entry.js";
 import { kept, remaining } from "./kept.js";
@@ -186,6 +186,7 @@ function body() {
         result.verdict.status === "unknown_effect"
           ? quiet(`${result.verdict.sentence}`)
           : result.verdict.at_bounds && quiet(result.verdict.at_bounds),
+        setAside(result),
         openChoices(),
         notNeeded(result),
       ];

@@ -9,7 +9,7 @@ import { proposedTerm } from "../model/own-term.js";
 import { errorText, overNoise, titleOf, VARIABLES, whatIsLeft } from "../words.js";
 import { tellingText } from "./entry.js";
 import { refits } from "./plan.js";
-import { openChoices } from "./adequate.js";
+import { openChoices, setAside } from "./adequate.js";
 import { termPlot } from "./term-plot.js";
 
 /** @typedef {import("../types.js").Diagnosis} Diagnosis */
@@ -109,6 +109,23 @@ function showWorst(name) {
 export function unknown(result) {
   const { verdict } = result, a = answer.value;
   const over = result.unit !== "1" && a?.over_noise ? `, ${overNoise(a.over_noise)} × the noise` : "";
+  if (verdict.status === "undecided") {
+    return [
+      h(
+        "div",
+        { class: "conclusion settling" },
+        icon("flask"),
+        h(
+          "div",
+          null,
+          h("b", { id: "verdict-status" }, capitalized(verdict.title)),
+          h("p", null, verdict.sentence),
+        ),
+      ),
+      setAside(result),
+      openChoices(),
+    ];
+  }
   const term = verdict.proposed_term, variable = verdict.unexplained_in.find((name) => name in VARIABLES);
   return [
     h(
@@ -179,6 +196,7 @@ export function unknown(result) {
         proposedTerm(term, "Formula", true),
       )
       : null,
+    setAside(result),
     openChoices(),
   ];
 }

@@ -196,8 +196,14 @@ export const next = computed(() => {
     case "unknown":
       return {
         tone: "warn",
-        what: result ? nextMeasurement(result) : "",
-        effect: "No effect explains it",
+        what: !result
+          ? ""
+          : result.verdict.status === "undecided"
+          ? "Repeat the run"
+          : nextMeasurement(result),
+        effect: result?.verdict.status === "undecided"
+          ? "These data cannot tell more"
+          : "No effect explains it",
         label: "Copy plan",
         run: async () => {
           if (!result) return;
