@@ -31,10 +31,11 @@ from tests.truth.generate import case
 
 PATH = "/api/diagnoses"
 PROMISED = {
-    "envelope", "covariance", "unread",
+    "run", "envelope", "covariance", "unread",
     "kind", "rows", "predicted", "unit", "baseline", "noise_floor", "where", "candidates", "path", "verdict",
     "model", "rows_used", "excluded", "channels", "parameters", "correlations", "geometry", "freed",
-    "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed", "suspect_rows", "rivals", "context",
+    "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed", "suspect_rows",
+    "rivals", "context",
 }  # fmt: skip
 STATUS = {"adequate", "missing_effects", "ambiguous", "unknown_effect", "undecided", "unfinished"}
 

@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.application.compare.question import EffectDocument, ModelQuestion
+from mckibben.application.compare.reach import RunReach, reach_of
 from mckibben.application.compare.residual_map import (
     ExplainedInside,
     Over,
@@ -180,6 +181,8 @@ class ComparisonResult:
     """Errors of readings within the accuracy, which a fit allows for."""
     unread: list[UnreadColumn]
     """Columns of the files that nothing is read from, and why."""
+    run: RunReach
+    """How far the runs of the model came."""
     stopped: list[StoppedRun]
     """Runs of the model that ended early; all figures are of the rows that they reached."""
 
@@ -310,6 +313,7 @@ def compared_whole(
         assumptions=[assumption.message for assumption in question.assumptions],
         specimens=specimen_results(question, predictor, predictor.weighted(comparison.residual)),
         absorbed=list(comparison.absorbed),
+        run=reach_of(comparison.stopped),
         stopped=stopped,
     )
     return Compared(result, comparison, data)

@@ -11,6 +11,7 @@ import numpy as np
 
 from mckibben.application.compare.compare import ModelDocument
 from mckibben.application.compare.question import ModelQuestion
+from mckibben.application.compare.reach import reach_of
 from mckibben.application.compare.stated_question import of_one_channel
 from mckibben.application.diagnose.doubts import (
     doubtful_entries,
@@ -200,6 +201,7 @@ def _result(
     envelope = envelope_of(question.specimens, predictor, best.fit_model)
     suspects = _suspects(question, diagnosis)
     return DiagnosisResult(
+        run=reach_of(()),
         rows=data.rows,
         rows_used=predictor.rows_used,
         excluded=data.excluded,

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from mckibben.application.compare.compare import ModelDocument
 from mckibben.application.compare.question import EffectDocument
+from mckibben.application.compare.reach import RunReach
 from mckibben.application.diagnose.doubts import DoubtfulEntry
 from mckibben.application.diagnose.next_experiment import ExperimentProposal, NextExperiment
 from mckibben.application.envelope import MeasuredRange
@@ -318,6 +319,8 @@ class DiagnosisResult:
         "assumptions",
     )
 
+    run: RunReach
+    """How far the runs of the model came: a diagnosis is made of complete ones alone."""
     rows: int
     """Number of rows of the measurements."""
     rows_used: int
