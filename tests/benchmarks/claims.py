@@ -25,6 +25,10 @@ those before it had been seen, and so were two each of *unknown*, *bad rows* and
 |---|---|---|---|---|---|
 | comparison | 36 | 55 | true model | 3 | 6 |
 | effect in noise | 3 | 6 | same clock | 1 | 5 |
+
+With one judgement of a model and noise that may be correlated, seed 2, which nobody had looked at, 365 s: 164
+of 207; null 17, noise figure 21 of 24, effect 19, unknown 8, add 6, superfluous 3, bad rows 4, entry 4,
+transient 4, comparison 36, true model 6, effect in noise 6, same clock 4, interval 16.
 """
 
 from __future__ import annotations
