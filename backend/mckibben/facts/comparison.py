@@ -338,7 +338,7 @@ NOISE = Group(
     replace(_NOISE_FIGURE, name="rmse"),
     Figure(
         "interval", "", "", "Noise, from and to",
-        "From the scatter of neighbouring readings to the error of the model, where all that is left is noise.",
+        "From the scatter of neighbouring readings to the error of the model, where that is noise.",
         Condition(
             "the noise is known and all that is left is noise",
             "the noise is unknown, or what is left may be more than noise",

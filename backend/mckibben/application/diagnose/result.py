@@ -194,7 +194,7 @@ class TermProposal:
 
 @result_class
 class Proofs:
-    """What "nothing is missing" rests on: whether each proof holds; None where it cannot be told."""
+    """What "nothing is missing" rests on: whether each proof holds; None where it is not decided."""
 
     noise_known: bool | None
     """The noise is known apart from the model, and what is left does not last for whole sweeps."""
@@ -251,7 +251,7 @@ class Verdict:
     proofs: Proofs | None
     """Of the best model; None where the limit of time ended the diagnosis before."""
     why_not: dict[str, str]
-    """Proof that does not hold, or cannot be told -> why."""
+    """Proof that does not hold, or is not decided -> why."""
     unexplained_share: float
     unexplained_in: list[str]
     """Variables that this part depends on."""
