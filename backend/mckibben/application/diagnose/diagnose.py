@@ -56,6 +56,7 @@ from mckibben.identification.diagnose.swept_rows import Over
 from mckibben.identification.diagnose.verdict import unexplained_share
 from mckibben.identification.diagnose.words import (
     applied_reasons,
+    aside_of,
     aside_sentence,
     bounds_sentence,
     corrections_sentence,
@@ -300,7 +301,8 @@ def _suspects(question: ModelQuestion, diagnosis: Diagnosis) -> list[SuspectRow]
     outlying, predictor = whole.judgement.outlying, whole.predictor
     names = [specimen.points.measurement.name for specimen in question.specimens.each]
     of_file = getattr(predictor, "specimen", np.zeros(len(predictor.measured), int))
-    why = "it does not fit beside the others" if outlying.place is None else outlying.place.sentence
+    alone = outlying.place is None or len(outlying.rows) != len(aside_of(diagnosis))
+    why = "it does not fit beside the others" if alone or not outlying.place else outlying.place.sentence
     return [
         SuspectRow(
             file=names[int(of_file[value])],
@@ -310,7 +312,7 @@ def _suspects(question: ModelQuestion, diagnosis: Diagnosis) -> list[SuspectRow]
             place=f"row {predictor.row_numbers[value] + 1}"
             + (f" of {names[int(of_file[value])]}" if len(names) > 1 else ""),
         )
-        for value, size in zip(outlying.rows, suspects_of(diagnosis), strict=True)
+        for value, size in zip(aside_of(diagnosis).tolist(), suspects_of(diagnosis), strict=True)
     ]
 
 

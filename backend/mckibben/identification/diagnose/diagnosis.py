@@ -70,6 +70,7 @@ from mckibben.simulation.outcome import Outcome, Watch
 
 #: Fewest values for a diagnosis: with fewer, many single effects fit them exactly.
 FEWEST_VALUES = 6
+_ROUNDS = 3  # in which rows are set aside: where one is far off, others show only without it
 _STOPS = "with it the model stops before the end of a run"
 _DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 
@@ -255,12 +256,16 @@ def diagnose(
 
     # The matrices are small: several linear-algebra threads would be slower than one.
     with threadpool_limits(1):
-        whole = diagnosed(predictor)
-        rows = () if whole.judgement is None else whole.judgement.outlying.rows
-        # In a run, rows that do not fit are an event and no wrong readings.
-        if not rows or predictor.simulated:
-            return whole
-        return _with_all_rows(diagnosed(predictor.setting_aside(rows)), whole)
+        whole = found = diagnosed(predictor)
+        aside: list[int] = []
+        for _ in range(_ROUNDS):
+            rows = () if found.judgement is None else found.judgement.outlying.rows
+            # In a run, rows that do not fit are an event and no wrong readings.
+            if not rows or predictor.simulated:
+                break
+            aside += rows
+            found = diagnosed(predictor.setting_aside(aside))
+        return _with_all_rows(found, whole) if aside else whole
 
 
 def _with_all_rows(without: Diagnosis, whole: Diagnosis) -> Diagnosis:

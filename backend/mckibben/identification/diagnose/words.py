@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
+
 from mckibben.facts.units import probability_text
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis, Unfinished
@@ -271,14 +273,22 @@ def aside_sentence(result: Diagnosis, places: Sequence[str], catalogue: Mapping[
     unit, scale = _unit_of(result)
     sizes = [brief(scale * abs(size)) for size in suspects_of(result)]
     away = [f"{place} ({size} {unit} off)" for place, size in zip(places, sizes, strict=True)]
-    where = whole.judgement.outlying.place
+    where = whole.judgement.outlying.place if len(whole.judgement.outlying.rows) == len(away) else None
     shown = _joined([*away[:_ROWS], *([f"{len(away) - _ROWS} more"] if len(away) > _ROWS else [])])
     they, these = ("it does", "it") if len(away) == 1 else ("they do", "them")
     rule = "a rule of the file or of the motion, no accidents"
+    other = title_of(
+        whole.status,
+        added=bool(whole.added),
+        doubted=any(entry.stands for entry in whole.context),
+        none_likely=whole.none_likely,
+    )
+    named = _joined([catalogue[name].title for name in whole.added if name in catalogue])
+    other = f"{other[:1].lower()}{other[1:]}" + (f" ({named})" if named else "")
     which = "" if where is None else f" They are {where.sentence}: {rule}."
     return (
         f"Set aside, because {they} not fit: {shown}. The error without {these} is "
-        f"{brief(scale * result.best.rmse)} {unit}.{which} With {these}: {sentence_of(whole, catalogue)}"
+        f"{brief(scale * result.best.rmse)} {unit}.{which} With {these} the verdict would be: {other}."
     )
 
 
@@ -289,7 +299,13 @@ def suspects_of(result: Diagnosis) -> list[float]:
         return []
     predictor = whole.predictor
     residual = predictor.residual(result.best.fit_model) / predictor.scale
-    return residual[list(whole.judgement.outlying.rows)].tolist()
+    return residual[aside_of(result)].tolist()
+
+
+def aside_of(result: Diagnosis) -> np.ndarray:
+    """The values that were set aside, as indices."""
+    aside = result.predictor.aside
+    return np.flatnonzero(np.zeros(0, bool) if aside is None else aside)
 
 
 def superfluous_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:

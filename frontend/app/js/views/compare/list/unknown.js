@@ -113,7 +113,7 @@ export function unknown(result) {
     return [
       h(
         "div",
-        { class: "conclusion settling" },
+        { class: "conclusion" },
         icon("flask"),
         h(
           "div",
