@@ -48,7 +48,7 @@ class Judgement:
         noise: of neighbouring readings, or stated; None where it cannot be estimated.
         typical: standard deviation by the median magnitude of the residual.
         noises: what the noise of each channel may be if the model is right.
-        ratio: see the module; 0 for fewer than twenty rows.
+        ratio: see the module; 0 for fewer than twenty rows, and where the error is no more than the noise.
         surface: the free surface on the residual; None for fewer than twenty rows.
         outlying: rows that do not fit.
         sweep: rows of a usual sweep.
@@ -145,13 +145,14 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
         predictor: the data.
         noise: of the scaled residual.
     """
+    above = noise is None or model.rmse > AT_FLOOR * noise
     return Judgement(
         rmse=model.rmse,
         least=_DIGITS * float(np.max(np.abs(predictor.measured / predictor.scale))),
         noise=noise,
         typical=float(np.median(np.abs(model.residual))) / _MEDIAN,
         noises=model.noises,
-        ratio=likelihood_ratio(model, predictor),
+        ratio=likelihood_ratio(model, predictor) if above else 0.0,
         surface=surface_of(model, predictor),
         outlying=outlying_of(model, predictor),
         repeats=_repeats(model, predictor),
