@@ -38,7 +38,7 @@ class Diagnosis(ResultOf[DiagnosisResult], DiagnosisResult, Generic[ModelT]):
 
     @property
     def status(self) -> Status:
-        """adequate, missing_effects, ambiguous, unknown_effect or unfinished; see `verdict`."""
+        """adequate, missing_effects, ambiguous, unknown_effect, undecided or unfinished; see `verdict`."""
         return self.verdict.status
 
     @property

@@ -40,6 +40,7 @@ _TONES: dict[Status, Tone] = {
     "missing_effects": "warn",
     "ambiguous": "warn",
     "unknown_effect": "bad",
+    "undecided": "warn",
     "unfinished": "warn",
 }
 _SAME = 0.98  # ratio to the first error: below, the refitted error gets a tile of its own

@@ -132,6 +132,13 @@ function expected() {
 /** @param {string} words */
 const quiet = (words) => h("p", { class: "list-part muted" }, words);
 
+/** Why more may be missing than what is named. @param {Record<string, string>} whyNot */
+const moreMay = (whyNot) => {
+  const { noise_known: lasts, white, rival_gains_nothing: rival } = whyNot;
+  const reasons = [lasts, white, rival].filter(Boolean);
+  return reasons.length ? quiet(`Whether more is missing is open: ${reasons.join("; ")}.`) : null;
+};
+
 /** What the limit of time left untried. */
 const unfinishedLine = () =>
   h(
@@ -186,6 +193,7 @@ function body() {
         result.verdict.status === "unknown_effect"
           ? quiet(`${result.verdict.sentence}`)
           : result.verdict.at_bounds && quiet(result.verdict.at_bounds),
+        result.verdict.status === "unknown_effect" ? null : moreMay(result.verdict.why_not),
         setAside(result),
         openChoices(),
         notNeeded(result),

@@ -24,7 +24,9 @@ export const state = computed(() => {
   if (asked(result).length) return "context";
   const { status } = result.verdict;
   if (status === "unfinished" && !entries.value.length && !refits.value) return "stopped";
-  if (entries.value.length || (refits.value && status !== "unknown_effect")) return "verdict";
+  if (entries.value.length || (refits.value && !["unknown_effect", "undecided"].includes(status))) {
+    return "verdict";
+  }
   return status === "adequate" ? "adequate" : "unknown";
 });
 
