@@ -47,7 +47,8 @@ def judgement(
         ({"of": Noise(0.99, 0.0, 1e-5), "rmse": 6.0}, False, True),  # alike over 100 rows
         ({"of": Noise(0.9, 0.0, 1e-5), "rmse": 6.0}, False, False),
         ({"rows": False, "rmse": 6.0}, True, False),
-        ({"rows": False, "rmse": 4.0}, False, False),
+        ({"rows": False, "rmse": 4.0}, False, True),
+        ({"rows": False, "rmse": 1.1}, False, False),
         ({"rows": False, "rmse": 6.0, "noise": None}, False, False),
     ],
 )

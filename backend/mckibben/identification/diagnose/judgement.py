@@ -85,8 +85,10 @@ class Judgement:
     @property
     def undecided(self) -> bool:
         """Whether one test speaks for a structure and the other does not, or noise lasts for whole sweeps."""
-        if self.structured or self.surface is None:
+        if self.structured:
             return False
+        if self.surface is None:
+            return self.noise is not None and self.rmse > max(AT_FLOOR * self.noise, self.least)
         first = self.surface.gain_low[0]
         gains = bool(np.isfinite(first)) and first > _GAIN
         return self._above and (self.ratio > _RATIO or gains or self._lasting)
@@ -145,6 +147,7 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
         predictor: the data.
         noise: of the scaled residual.
     """
+    surface = surface_of(model, predictor)
     above = noise is None or model.rmse > AT_FLOOR * noise
     return Judgement(
         rmse=model.rmse,
@@ -153,16 +156,23 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
         typical=float(np.median(np.abs(model.residual))) / _MEDIAN,
         noises=model.noises,
         ratio=likelihood_ratio(model, predictor) if above else 0.0,
-        surface=surface_of(model, predictor),
+        surface=surface,
         outlying=outlying_of(model, predictor),
-        repeats=_repeats(model, predictor),
+        repeats=_repeats(model, predictor, surface),
         sweep=float(np.median([len(sweep) for sweep in predictor.sweeps])),
     )
 
 
-def _repeats(model: FittedModel, predictor: Predictor) -> Repetition | None:
-    """What repeats in a residual; where it is in step throughout, by the quantity over which it is found."""
+def _repeats(model: FittedModel, predictor: Predictor, surface: Surface | None) -> Repetition | None:
+    """What repeats in a residual; where it is in step throughout, by the quantity over which it is found.
+
+    What the test itself repeats is in step as well: a surface describes that better than a line does.
+    """
     line, found = _line(model, predictor), left_repetition(predictor, model.residual)
+    if line is not None and surface is not None:
+        rest = model.mean_square - 0.5 * line.amplitude**2 / len(predictor.channels)
+        if rest > surface.left**2:
+            line = None
     if found is None or line is None:
         return line or found
     return replace(found, in_step=True)

@@ -167,7 +167,7 @@ def undecided_sentence(result: Diagnosis) -> str:
     """Why one test sees a structure in the rest and another does not."""
     surface = None if result.judgement is None else result.judgement.surface
     if surface is None:
-        return ""
+        return "Fewer than twenty rows cannot tell whether more is missing: the error is above their noise."
     unit, scale = _unit_of(result)
     left = f"{brief(scale * surface.left)} {unit}"
     return (
