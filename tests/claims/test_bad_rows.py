@@ -47,3 +47,27 @@ def test_what_is_missing_is_missing_beside_a_bad_row_too(tmp_path: Path) -> None
 
 def test_a_file_without_bad_rows_names_none(tmp_path: Path) -> None:
     assert model().diagnose(mk.read(loops(tmp_path / "loops.csv"))).suspect_rows == []
+
+
+def test_a_limit_that_ends_the_second_look_keeps_the_first(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """Setting rows aside begins anew: where the time is over then, what all rows say is still there."""
+    from mckibben.identification.diagnose import diagnosis
+    from mckibben.identification.fit.fitter import CancelledError
+    from mckibben.simulation.outcome import Outcome
+
+    begin, looks = diagnosis._begin, []
+
+    def timed(*given: object, **more: object) -> object:
+        looks.append(given)
+        if len(looks) > 1:
+            raise CancelledError(Outcome.TIMED_OUT)
+        return begin(*given, **more)  # type: ignore[arg-type]
+
+    monkeypatch.setattr(diagnosis, "_begin", timed)
+    found = model().diagnose(mk.read(spoilt(tmp_path / "loops.csv", {100: 60.0})))
+    assert len(looks) == 2
+    assert found.suspect_rows == []
+    assert found.verdict.proofs is not None
+    assert found.verdict.proofs.no_outliers is False

@@ -14,7 +14,7 @@ from mckibben.identification.diagnose.corrections import Correction, refined, wi
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
-from mckibben.identification.diagnose.judgement import Judgement, judged
+from mckibben.identification.diagnose.judgement import DIGITS, Judgement, judged
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.needed import pruned
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
@@ -72,7 +72,6 @@ from mckibben.simulation.outcome import Outcome, Watch
 FEWEST_VALUES = 6
 _ROUNDS = 3  # in which rows are set aside: where one is far off, others show only without it
 _STOPS = "with it the model stops before the end of a run"
-_DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 
 
 @result_class
@@ -263,8 +262,15 @@ def diagnose(
             # In a run, rows that do not fit are an event and no wrong readings.
             if not rows or predictor.simulated:
                 break
-            aside += rows
-            found = diagnosed(predictor.setting_aside(aside))
+            try:
+                without = diagnosed(predictor.setting_aside([*aside, *rows]))
+            except CancelledError as end:
+                if end.outcome is not Outcome.TIMED_OUT:
+                    raise
+                break
+            if without.unfinished is not None:
+                break  # the time is over: what was found before is whole
+            aside, found = [*aside, *rows], without
         return _with_all_rows(found, whole) if aside else whole
 
 
@@ -431,7 +437,7 @@ def _search(
         fitter.noise = max(
             fitter.noise, best.rmse
         )  # what is left is noise, whatever neighbouring readings share
-    level = max(fitter.noise or best.rmse, _DIGITS * full_scale)
+    level = max(fitter.noise or best.rmse, DIGITS * full_scale)
     progress.share, progress.end = 0.85, 0.95
     start_names = set(root.fit_model.ids)
     searched = best

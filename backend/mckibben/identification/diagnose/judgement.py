@@ -34,7 +34,7 @@ _NEAR = 0.1  # of the frequency that the noise swings with, within which that of
 # Error over noise, mean and median, beyond which rows too few for a surface show a structure; in the mean
 # also what is far above the scatter of neighbours.
 _FEW_MEAN, _FEW_MEDIAN = 5.0, 2.0
-_DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
+DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 _MEDIAN = 0.6745  # median magnitude of a standard normal deviate
 
 
@@ -151,7 +151,7 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
     above = noise is None or model.rmse > AT_FLOOR * noise
     return Judgement(
         rmse=model.rmse,
-        least=_DIGITS * float(np.max(np.abs(predictor.measured / predictor.scale))),
+        least=DIGITS * float(np.max(np.abs(predictor.measured / predictor.scale))),
         noise=noise,
         typical=float(np.median(np.abs(model.residual))) / _MEDIAN,
         noises=model.noises,
@@ -159,7 +159,7 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
         surface=surface,
         outlying=outlying_of(model, predictor),
         repeats=_repeats(model, predictor, surface),
-        sweep=float(np.median([len(sweep) for sweep in predictor.sweeps])),
+        sweep=float(np.median([len(sweep) for sweep in predictor.sweeps] or [len(model.residual)])),
     )
 
 
@@ -200,7 +200,8 @@ def _line(model: FittedModel, predictor: Predictor) -> Repetition | None:
         place = (
             predictor.inputs["time"][rows] if over == "time" else predictor.row_numbers[rows].astype(float)
         )
-        steps = np.diff(place) / np.diff(predictor.row_numbers[rows])
+        numbers = np.diff(predictor.row_numbers[rows])
+        steps = np.diff(place)[numbers > 0] / numbers[numbers > 0]  # within records
         period, amplitude = _in_step(model.residual[rows], place, noise.period * float(np.median(steps)))
         line = Repetition(
             over=over, period=period, share=share, amplitude=amplitude, grows=False, left_out=share, parts=1,
