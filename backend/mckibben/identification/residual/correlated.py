@@ -283,6 +283,16 @@ class Weighed:
 Noises = Sequence[Sequence[Weighed]]
 
 
+def _beside(
+    jacobian: np.ndarray, residual: np.ndarray, lines: Sequence[np.ndarray]
+) -> tuple[Chain, int, list[_Tried]]:
+    """The chain of lines, the number of parameters that its rows determine, and the noises beside them."""
+    chain = Chain(lines)
+    left, sizes, _ = np.linalg.svd(jacobian[chain.rows], full_matrices=False)
+    basis = left[:, sizes > _INDEPENDENT * float(np.max(sizes, initial=0.0))]
+    return chain, basis.shape[1], tried_noises(chain, basis, residual[chain.rows])
+
+
 def weighed_noises(jacobian: np.ndarray, residual: np.ndarray, ways: Ways) -> list[Weighed]:
     """What the noise of one channel may be.
 
@@ -293,12 +303,9 @@ def weighed_noises(jacobian: np.ndarray, residual: np.ndarray, ways: Ways) -> li
     """
     found: list[tuple[float, Noise, float, Chain]] = []
     for lines in ways:
-        chain = Chain(lines)
-        rows = chain.rows
-        left, sizes, _ = np.linalg.svd(jacobian[rows], full_matrices=False)
-        basis = left[:, sizes > _INDEPENDENT * float(np.max(sizes, initial=0.0))]
-        freedom = max(len(rows) - basis.shape[1], 1)
-        for each in tried_noises(chain, basis, residual[rows]):
+        chain, determined, tried = _beside(jacobian, residual, lines)
+        freedom = max(len(chain.rows) - determined, 1)
+        for each in tried:
             if each.noise == WHITE and found:
                 continue
             prior = _WHITE_PRIOR if each.noise == WHITE else (1.0 - _WHITE_PRIOR) / len(correlated_noises())
@@ -376,11 +383,7 @@ def log_likelihood(jacobian: np.ndarray, residual: np.ndarray, channels: Sequenc
     for ways in channels:
         best = -np.inf
         for lines in ways:
-            chain = Chain(lines)
-            rows = chain.rows
-            left, sizes, _ = np.linalg.svd(jacobian[rows], full_matrices=False)
-            basis = left[:, sizes > _INDEPENDENT * float(np.max(sizes, initial=0.0))]
-            tried = tried_noises(chain, basis, residual[rows])
-            best = max(best, *(each.likelihood(len(rows)) for each in tried))
+            chain, _, tried = _beside(jacobian, residual, lines)
+            best = max(best, *(each.likelihood(len(chain.rows)) for each in tried))
         whole += best
     return whole
