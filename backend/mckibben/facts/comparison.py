@@ -37,6 +37,10 @@ _STROKE = Condition("a length or a stroke is predicted and varies", "the error i
 _VARIES = Condition("the measured values vary", "the measured values do not vary")
 _STDERR = Condition("it is fitted and the data determine it", "it is given, or the data do not determine it")
 _FITTED = Condition("several values are fitted", "no fitted values are strongly correlated")
+_WINDOWS = Condition(
+    "a stroke was measured over time, and where a command drives the model the pressure too",
+    "windows begin from a measured stroke over time, and from the pressure where a command drives the model",
+)
 _CHECK = Condition("a file is kept for a check", "no file is kept for a check")
 _SPECIMENS = Condition("there are several specimens", "there is one specimen")
 _ACCURACY = Condition("an accuracy is stated or assumed", "no accuracy is stated or assumed")
@@ -166,6 +170,29 @@ REVERSALS = Group(
         "Readings with a distance of more than three standard deviations of the noise.",
         _REVERSALS, quantity="number",
     ),
+)  # fmt: skip
+
+#: The error over windows, each of which begins anew from what was measured.
+WINDOWS = Group(
+    "windows",
+    "Error over windows",
+    Figure(
+        "rmse", "e_w", "", "RMS error over windows",
+        "√(mean r²) of a run that begins anew in each window, at the measured stroke, its smoothed speed and, "
+        "with a command, the measured pressure; states of effects follow the measured motion.",
+        _WINDOWS,
+    ),
+    Figure(
+        "perfect", "", "", "A perfect model over windows",
+        "The same error of the model's own run with the noise of the readings in place of the measurement; "
+        "white noise, from third differences of all rows where it is not stated.", _WINDOWS,
+    ),
+    Figure(
+        "length", "T_w", "s", "Length of a window",
+        "One mean period of the measured motion, twice the duration over the number of its reversals, to two "
+        "digits; at most a quarter of the record, at least ten rows.", _WINDOWS,
+    ),
+    Figure("count", "", "1", "Windows", "Number of whole windows.", _WINDOWS, quantity="number"),
 )  # fmt: skip
 
 #: The error on files that are compared but not fitted.

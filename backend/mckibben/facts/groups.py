@@ -16,6 +16,7 @@ from mckibben.facts.comparison import (
     RESIDUAL,
     REVERSALS,
     SPECIMEN,
+    WINDOWS,
 )
 from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.figure import Figure, Group
@@ -75,6 +76,7 @@ GROUPS: Mapping[str, Group] = MappingProxyType(
                 CHANNELS,
                 COMPARISON,
                 REVERSALS,
+                WINDOWS,
                 CHECK,
                 SPECIMEN,
                 PARAMETER,

@@ -29,6 +29,7 @@ from mckibben.application.compare.series import (
     series_of,
 )
 from mckibben.application.compare.specimens import Specimens
+from mckibben.application.compare.windows import WindowsResult, windows_result
 from mckibben.application.diagnose.doubts import with_accepted
 from mckibben.application.envelope import Envelope, MeasuredRange, beyond, envelope_of
 from mckibben.application.measurement.specimen_result import (
@@ -185,6 +186,8 @@ class ComparisonResult:
     """How far the runs of the model came."""
     stopped: list[StoppedRun]
     """Runs of the model that ended early; all figures are of the rows that they reached."""
+    windows: WindowsResult | None
+    """The error over windows of records in time; None for other data, and where `messages` says why."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -251,12 +254,14 @@ def compared_whole(
         *comparison.messages,
         *absorbed_message(comparison.absorbed, predictor.unit),
     ]
+    over_windows, why_none = windows_result(predictor, comparison.fit_model, question.noise)
+    messages += [why_none] if why_none else []
     validation, stopped = None, list(comparison.stopped)
     if question.validation is not None:
-        validation, thin, remark, others = _validation(question, question.validation, comparison, data)
+        validation, thin, said, others = checked(question, question.validation, comparison.fit_model, data)
         stopped += others
         thinned = thinned or thin
-        messages += [remark] if remark else []
+        messages += said
     reversals, fewer = reversals_of(comparison)
     if thinned or fewer:
         messages.append(f"curves show at most {MAX_POINTS_PER_SERIES} points each; the figures use all rows")
@@ -300,7 +305,11 @@ def compared_whole(
         cross=_cross(comparison, residual, variables),
         loops=closed[:MAX_SERIES],
         mean_loop=mean_loop(closed),
-        sentences=[*(run.sentence for run in stopped), *_sentences(where, white, predictor.unit)],
+        sentences=[
+            *(run.sentence for run in stopped),
+            *([] if over_windows is None else [over_windows.sentence]),
+            *_sentences(where, white, predictor.unit),
+        ],
         series=series,
         reversals=reversals,
         validation=validation,
@@ -315,6 +324,7 @@ def compared_whole(
         absorbed=list(comparison.absorbed),
         run=reach_of(comparison.stopped),
         stopped=stopped,
+        windows=over_windows,
     )
     return Compared(result, comparison, data)
 
@@ -358,16 +368,16 @@ def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
     return words
 
 
-def _validation(
-    question: ModelQuestion, specimens: Specimens, fitted: Comparison, envelope: Envelope
-) -> tuple[ValidationResult, bool, str, list[StoppedRun]]:
-    """The error of the fitted model for validation data, whether the curves were thinned, a remark, and the
+def checked(
+    question: ModelQuestion, specimens: Specimens, fit_model: FitModel, envelope: Envelope
+) -> tuple[ValidationResult, bool, list[str], list[StoppedRun]]:
+    """The error of a fitted model for validation data, whether the curves were thinned, remarks, and the
     runs that ended early.
     """
-    muscle = fitted.fit_model.muscle
+    muscle = fit_model.muscle
     own = own_muscle(muscle, reference=specimens.reference, own=specimens.each[0].muscle)
     predictor = specimens.predictor(muscle if specimens.several else own)[0]
-    model = fitted.fit_model if specimens.several else replace(fitted.fit_model, muscle=own)
+    model = fit_model if specimens.several else replace(fit_model, muscle=own)
     model, remark = preconditioned_model(predictor, model, envelope)
     rows = specimens.points.measurement.rows
     validation = compared(predictor, model, rows=rows, noise=question.noise)
@@ -376,7 +386,7 @@ def _validation(
     result = ValidationResult(validation.rmse, validation.nrmse_percent, rows_used, series)
     names = [f"validation, {run.of}" if run.of else "validation" for run in validation.stopped]
     stopped = [replace(run, of=name) for run, name in zip(validation.stopped, names, strict=True)]
-    return result, thinned, f"validation: {remark}" if remark else "", stopped
+    return result, thinned, [f"validation: {remark}"] if remark else [], stopped
 
 
 def preconditioned_model(predictor: Predictor, model: FitModel, envelope: Envelope) -> tuple[FitModel, str]:

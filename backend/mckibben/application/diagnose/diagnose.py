@@ -9,10 +9,11 @@ from typing import Literal
 
 import numpy as np
 
-from mckibben.application.compare.compare import ModelDocument
+from mckibben.application.compare.compare import ModelDocument, checked
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.compare.reach import reach_of
 from mckibben.application.compare.stated_question import of_one_channel
+from mckibben.application.compare.windows import windows_result
 from mckibben.application.diagnose.doubts import (
     doubtful_entries,
     notes_of,
@@ -24,6 +25,7 @@ from mckibben.application.diagnose.next_experiment import next_experiment, next_
 from mckibben.application.diagnose.result import (
     Baseline,
     CandidateResult,
+    CheckError,
     CorrectionResult,
     DiagnosedModel,
     DiagnosisResult,
@@ -38,7 +40,7 @@ from mckibben.application.diagnose.result import (
     TermProposal,
     Verdict,
 )
-from mckibben.application.envelope import beyond, envelope_of
+from mckibben.application.envelope import Envelope, beyond, envelope_of
 from mckibben.application.measurement.specimen_result import (
     absorbed_message,
     common_experiment,
@@ -78,6 +80,7 @@ from mckibben.identification.fit.comparison import (
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import Predictor
+from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.residual.correlated import Noises
 from mckibben.identification.residual.profiles import variables_of
 from mckibben.identification.residual.term import SYMBOLS
@@ -201,6 +204,8 @@ def _result(
     muscle = best.fit_model.muscle
     envelope = envelope_of(question.specimens, predictor, best.fit_model)
     suspects = _suspects(question, diagnosis)
+    over_windows, why_none = windows_result(predictor, best.fit_model, question.noise)
+    validation, of_check = _check(question, best.fit_model, envelope)
     return DiagnosisResult(
         run=reach_of(()),
         rows=data.rows,
@@ -267,6 +272,8 @@ def _result(
             *diagnosis.messages,
             *notes_of(diagnosis.context, titles),
             *absorbed_message(diagnosis.absorbed, predictor.unit),
+            *([why_none] if why_none else []),
+            *of_check,
         ],
         experiment=with_accepted(common_experiment(question), question.accepted, best.fit_model),
         unread=question.unread,
@@ -276,7 +283,23 @@ def _result(
         context=doubtful_entries(diagnosis.context, titles),
         envelope=envelope,
         covariance=None if diagnosis.fit is None else diagnosis.fit.covariance,
+        windows=over_windows,
+        validation=validation,
     )
+
+
+def _check(
+    question: ModelQuestion, fit_model: FitModel, envelope: Envelope
+) -> tuple[CheckError | None, list[str]]:
+    """The error of the best model on the measurements that are kept for it, and remarks."""
+    if question.validation is None:
+        return None, []
+    try:
+        found, _, remarks, stopped = checked(question, question.validation, fit_model, envelope)
+    except InputError as error:  # which is no reason to withhold the verdict
+        return None, [f"validation: {error.message}"]
+    error = CheckError(found.rmse, found.nrmse_percent, found.rows_used)
+    return error, [*remarks, *(run.sentence for run in stopped)]
 
 
 def _model(question: ModelQuestion, fitted: FittedModel) -> ModelDocument:

@@ -11,15 +11,16 @@ from numpy.typing import NDArray
 from mckibben.application.compare.compare import ModelDocument
 from mckibben.application.compare.question import EffectDocument
 from mckibben.application.compare.reach import RunReach
+from mckibben.application.compare.windows import WindowsResult
 from mckibben.application.diagnose.doubts import DoubtfulEntry
 from mckibben.application.diagnose.next_experiment import ExperimentProposal, NextExperiment
 from mckibben.application.envelope import MeasuredRange
 from mckibben.application.measurement.specimen_result import SpecimenResult
 from mckibben.application.measurement.summary import UnreadColumn
 from mckibben.application.muscle_summary import GeometrySummary
-from mckibben.facts.comparison import NOISE
+from mckibben.facts.comparison import CHECK, NOISE
 from mckibben.facts.diagnosis import DIAGNOSIS
-from mckibben.facts.result import Series, result_class
+from mckibben.facts.result import Number, Series, result_class
 from mckibben.identification.diagnose.diagnosis import NotTried
 from mckibben.identification.diagnose.swept_rows import Coordinate, Over
 from mckibben.identification.diagnose.verdict import Status
@@ -311,6 +312,17 @@ class DiagnosedModel:
 
 
 @result_class
+class CheckError:
+    """The error of the best model for measurements that no model of the search was fitted to."""
+
+    FIGURES: ClassVar = CHECK.name
+
+    rmse: Number
+    nrmse_percent: Number
+    rows_used: int
+
+
+@result_class
 class DiagnosisResult:
     """The missing effects of a model, with the evidence; SI."""
 
@@ -385,3 +397,9 @@ class DiagnosisResult:
     """Of the fitted values of the best model; None where the data cannot separate them."""
     unread: list[UnreadColumn]
     """Columns of the files that nothing is read from, and why."""
+    windows: WindowsResult | None
+    """The error of the best model over windows of records in time; None for other data, and where `messages`
+    says why.
+    """
+    validation: CheckError | None
+    """The error of the best model on measurements that nothing was fitted to; None without them."""

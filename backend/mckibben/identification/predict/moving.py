@@ -28,6 +28,7 @@ from mckibben.identification.predict.moving_records import (
     record_of,
     recorded_channels,
     stroke_of,
+    thinned,
 )
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor, StoppedRun
 from mckibben.measurement.measurement import Measurement
@@ -41,6 +42,7 @@ from mckibben.simulation.drive.many_runs import readings_of_many
 from mckibben.simulation.drive.parts import Drive
 from mckibben.simulation.drive.recorded_run import RecordedRun
 from mckibben.simulation.drive.records import motions_of_records
+from mckibben.simulation.drive.windows import WholeRun, whole_motion, whole_run
 from mckibben.simulation.integrate.engine import compiled_driven
 from mckibben.simulation.statics.model import StaticModel
 
@@ -168,6 +170,41 @@ class TransientPredictor(Predictor):
     def drives(self) -> tuple[Drive, ...]:
         """The drive of each run: as documented, with the load, supply and command of the run."""
         return tuple(record.drive for record in self._records)
+
+    @property
+    def runs(self) -> int:
+        """Number of uninterrupted records."""
+        return len(self._records)
+
+    def whole_run(self, fit_model: FitModel, number: int) -> tuple[WholeRun, dict[str, np.ndarray]]:
+        """The run of a model on all rows of a record, and the readings there, SI.
+
+        The readings are those of the predicted channels, the stroke from the middle of a pair on, and the
+        pressure where it was measured.
+
+        Raises:
+            InputError: values that no drive can have.
+        """
+        record, columns = self._records[number], self._measurement.columns
+        rows = np.arange(record.rows[0], record.rows[-1] + 1)
+        rows = thinned(rows[self._measurement.usable[rows]], MOST_DRIVING)
+        time = columns["time"][rows]
+        grid = np.minimum(time - time[0], record.time[-1])
+        drive = _drive_with(fit_model, record)
+        readings = {name: values[rows] for name, _, values in self._recorded}
+        if "displacement" in readings:
+            readings["displacement"] = readings["displacement"] - middle_of(drive)
+        if "pressure" in columns:
+            readings["pressure"] = columns["pressure"][rows]
+        if self.commanded:
+            run = whole_run(drive, record.pieces(drive), grid=grid, max_steps=record.most_steps)
+            return run, readings
+        driving = _driving(drive, record)
+        run = whole_motion(
+            drive, time=driving[0], pressure=driving[1], stroke=record.stroke, grid=grid,
+            tolerance=_TOLERANCE, max_steps=record.most_steps,
+        )  # fmt: skip
+        return run, readings
 
     def elsewhere(self, measurement: Measurement) -> TransientPredictor:
         """The same drive and channels, with the noise of these data, for other runs.
@@ -432,10 +469,8 @@ class TransientPredictor(Predictor):
     @staticmethod
     def _motions(drives: Sequence[Drive], record: Record) -> list[RecordedRun]:
         """Runs of drives under the measured pressure; without readings where no drive can have the values."""
-        assert record.driving is not None  # noqa: S101 - checked by the constructor
         try:
-            sticks = compiled_driven(drives[0].model.effects, True).slides.any()
-            time, pressure = record.smooth_driving if sticks else record.driving
+            time, pressure = _driving(drives[0], record)
             return motions_of_records(
                 drives,
                 time=time,
@@ -447,6 +482,13 @@ class TransientPredictor(Predictor):
             )
         except InputError as error:  # values of the fit that no drive can have
             return [RecordedRun({}, stop=error.message) for _ in drives]
+
+
+def _driving(drive: Drive, record: Record) -> tuple[np.ndarray, np.ndarray]:
+    """Times and pressures that drive the motion of a load under a measured pressure."""
+    assert record.driving is not None  # noqa: S101 - checked by the constructor
+    sticks = compiled_driven(drive.model.effects, True).slides.any()
+    return record.smooth_driving if sticks else record.driving
 
 
 def _readings(

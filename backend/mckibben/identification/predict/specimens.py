@@ -149,6 +149,10 @@ class SpecimensPredictor(Predictor):
         """Name of each specimen."""
         return tuple(each.name for each in self._specimens)
 
+    def parts(self, fit_model: FitModel) -> list[tuple[Predictor, FitModel]]:
+        """The predictor of each specimen, and the model with its muscle."""
+        return [(each.predictor, self._own(fit_model, each)) for each in self._specimens]
+
     def without(self, number: int) -> SpecimensPredictor:
         """The data of all specimens but one, prepared alike; reading errors are to be allowed for again."""
         left = [each for place, each in enumerate(self._specimens) if place != number]

@@ -11,7 +11,7 @@ from collections.abc import Iterable, Sequence
 
 from mckibben.application.compare.compare import ComparisonResult
 from mckibben.application.compare.residual_map import MapRow, ResidualMap
-from mckibben.facts.comparison import CHECK, COMPARISON, RESIDUAL, TIMES_NOISE, error_scale
+from mckibben.facts.comparison import CHECK, COMPARISON, RESIDUAL, TIMES_NOISE, WINDOWS, error_scale
 from mckibben.facts.figure import Figure
 from mckibben.report.document import Head, bullets, figure_of, paragraph, table
 from mckibben.report.figures import Scale, figure, percent, plain, variable
@@ -65,6 +65,12 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
             values = [getattr(answer.channels[name], each.name) for answer in answers]
             if any(value is not None for value in values):
                 rows.append(row(each, values, scale, f", {words}"))
+    windows = [answer.windows for answer in answers]
+    if any(windows):
+        rows += [
+            row(WINDOWS[name], [None if each is None else getattr(each, name) for each in windows], unit)
+            for name in ("rmse", "perfect", "length")
+        ]
     checks = [answer.validation for answer in answers]
     if any(checks):
         rows += [
@@ -77,6 +83,8 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
         ]
     names = [Head("", False), *(Head(name, number=True) for name, _ in columns)]
     parts: list[Child] = [table(names, rows, caption=f"Error of the predicted {words_of(first.predicted)}.")]
+    if first.windows is not None:
+        parts.append(paragraph(f"{first.windows.sentence}.", note=True))
     if first.rows_used < first.rows:
         reasons = "; ".join(f"{number} {reason}" for reason, number in first.excluded.items())
         parts.append(paragraph(f"Rows left out: {reasons}.", note=True))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mckibben.application.compare.compare import ComparisonResult
-from mckibben.facts.comparison import CHECK, COMPARISON, error_scale
+from mckibben.facts.comparison import CHECK, COMPARISON, WINDOWS, error_scale
 from mckibben.report.summary import (
     Summary,
     Table,
@@ -46,6 +46,13 @@ def error_table(result: ComparisonResult) -> Table:
         for name, figure in COMPARISON.items()
         if name in (*_ALWAYS, *of_stroke)
     ]
+    windows = result.windows
+    if windows is not None:
+        of = f", {windows.count} of {windows.length:.3g} s"
+        rows += [
+            [f"{WINDOWS[name].label}{of if name == 'rmse' else ''}", in_unit(getattr(windows, name), unit)]
+            for name in ("rmse", "perfect")
+        ]
     if result.validation is not None:
         rows.append([CHECK["rmse"].label, in_unit(result.validation.rmse, unit)])
     return Table(f"Predicted {result.predicted} ({result.kind}, {rows_of(result)})", ["", "value"], rows)

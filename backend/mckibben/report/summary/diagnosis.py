@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from mckibben.application.diagnose.result import DiagnosisResult, PathPoint
-from mckibben.facts.comparison import NOISE, SPECIMEN, error_scale
+from mckibben.facts.comparison import CHECK, NOISE, SPECIMEN, error_scale
 from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.units import probability_text
 from mckibben.report.summary import (
@@ -30,6 +30,8 @@ def summary_of(result: DiagnosisResult) -> Summary:
         *parameter_tables(result.parameters),
         result.verdict.sentence,
     ]
+    if result.windows is not None:
+        summary.append(result.windows.sentence)
     if result.verdict.next_measurement is not None:
         summary.append(f"next: {result.verdict.next_measurement}")
     if result.verdict.proposed_term is not None:
@@ -53,6 +55,8 @@ def path_table(result: DiagnosisResult) -> Table:
         for number, step in enumerate(result.path)
     ]
     rows.append([NOISE["rmse"].words, _error(result, result.noise_floor.rmse), result.noise_floor.how])
+    if result.validation is not None:
+        rows.append([CHECK["rmse"].words, _error(result, result.validation.rmse), ""])
     title = f"Error of the predicted {result.predicted} ({result.kind}, {rows_of(result)})"
     return Table(title, ["after adding", DIAGNOSIS["rmse"].label, DIAGNOSIS["holdout_rmse"].label], rows)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import NamedTuple
 
 import numpy as np
 
@@ -192,6 +193,49 @@ def motion_of_record(
     return dict(found.readings)
 
 
+class BegunMotion(NamedTuple):
+    """What a run under a measured pressure begins with: states, switches, constants, inputs of segments."""
+
+    start: np.ndarray
+    switches: np.ndarray
+    parameters: np.ndarray
+    inputs: np.ndarray
+
+
+def begun_motion(
+    drive: Drive, compiled: CompiledDrive, *, time: np.ndarray, pressure: np.ndarray, stroke: float
+) -> BegunMotion:
+    """The start of `motion_of_record`, where the load is at rest.
+
+    Args:
+        drive, time, pressure, stroke: as there.
+        compiled: the equations of its motion.
+
+    Raises:
+        InputError: times that do not ascend.
+    """
+    steps, names = _steps(time), [state.name for state in compiled.model.states]
+    table = constants_of(drive) | {"temperature": drive.temperature}
+    external = external_force(drive).value(time - time[0])
+    inputs = {
+        "pressure": pressure[:-1],
+        "pressure_slope": np.diff(pressure) / steps,
+        "external_force": external[:-1],
+        "external_force_slope": np.diff(external) / steps,
+        "begin": time[:-1],
+    }
+    start = np.array([state.initial or 0.0 for state in compiled.model.states])
+    low, high = drive.stops
+    start[names.index("clock")], start[names.index("stroke")] = time[0], min(max(stroke, low), high)
+    constants = np.array([table[name] for name in compiled.model.parameters])
+    columns, at_rest = _packed(compiled, inputs)
+    settle(compiled, start, constants, at_rest)
+    held = np.zeros(len(compiled.model.switches))
+    packed = np.concatenate([start, constants, at_rest])
+    without_friction(compiled, held, lambda given: compiled.guards(packed, given))
+    return BegunMotion(start, held, constants, columns)
+
+
 def motions_of_records(
     drives: Sequence[Drive],
     *,
@@ -217,33 +261,15 @@ def motions_of_records(
     grid = time if grid is None else grid
     first = drives[0]
     compiled = compiled_driven(first.model.effects, motion=True)
-    steps, names = _steps(time), [state.name for state in compiled.model.states]
     parameters, starts, switches, packed = [], [], [], []
     alike = all(drive.load is first.load for drive in drives)  # then one table of inputs serves them all
     for drive in drives:
-        table = constants_of(drive) | {"temperature": drive.temperature}
-        external = external_force(drive).value(time - time[0])
-        inputs = {
-            "pressure": pressure[:-1],
-            "pressure_slope": np.diff(pressure) / steps,
-            "external_force": external[:-1],
-            "external_force_slope": np.diff(external) / steps,
-            "begin": time[:-1],
-        }
-        start = np.array([state.initial or 0.0 for state in compiled.model.states])
-        low, high = drive.stops
-        start[names.index("clock")], start[names.index("stroke")] = time[0], min(max(stroke, low), high)
-        constants = np.array([table[name] for name in compiled.model.parameters])
-        columns, at_rest = _packed(compiled, inputs)
-        settle(compiled, start, constants, at_rest)
-        held = np.zeros(len(compiled.model.switches))
-        packed_start = np.concatenate([start, constants, at_rest])
-        without_friction(compiled, held, lambda given, at=packed_start: compiled.guards(at, given))
-        switches.append(held)
-        parameters.append(constants)
-        starts.append(start)
+        begun = begun_motion(drive, compiled, time=time, pressure=pressure, stroke=stroke)
+        switches.append(begun.switches)
+        parameters.append(begun.parameters)
+        starts.append(begun.start)
         if not (alike and packed):
-            packed.append(columns)
+            packed.append(begun.inputs)
     solutions = integrate_many(
         compiled,
         parameters=np.array(parameters),

@@ -97,9 +97,18 @@ function channels(a) {
   );
 }
 
+/** What the error over windows says beside that of the run. @param {Comparison} a */
+const overWindows = (a) =>
+  a.windows === null ? null : h("p", {
+    class: "over-windows",
+    title: `${figure("windows.rmse").label}: ${figure("windows.rmse").definition} ${
+      figure("windows.length").label
+    }: ${figure("windows.length").definition}`,
+  }, `${a.windows.sentence}.`);
+
 /** Under the residual; of constant height. */
 export const partsBar = () =>
   h("div", { class: "error-parts" }, () => {
     const a = shown.value;
-    return a ? [bar(a), channels(a)].flat() : null;
+    return a ? [bar(a), channels(a), overWindows(a)].flat() : null;
   });
