@@ -380,9 +380,8 @@ def summary(cases: Mapping[str, Stranger], lines: Sequence[Examined[Line]]) -> l
     aside = [
         sum(len(each.rows) for each in line.result.answers) for line in lines if not cases[line.key].rows
     ]
-    rows.append(
-        f"cases without bad rows: {sum(map(bool, aside))} of {len(aside)} have rows set aside, {sum(aside)} rows"
-    )
+    some = sum(map(bool, aside))
+    rows.append(f"rows set aside where none is bad: {sum(aside)}, in {some} of {len(aside)} cases")
     told = [pair for line in lines for pair in line.result.told]
     if told:
         stated, there = np.array([share for share, _ in told]), np.array([right for _, right in told], float)
@@ -430,10 +429,6 @@ def checked(cases: Sequence[Stranger]) -> None:
                 say(f"{mark} {case.name} {number}: {data.kind}, {data.rows} rows; {ranges}{more}")
 
 
-def key(case: Stranger) -> str:
-    return case.name
-
-
 def main() -> None:
     """Print the answers and the table."""
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
@@ -447,7 +442,11 @@ def main() -> None:
     if given.list or given.read:
         (listed if given.list else checked)(cases)
         return
-    by_name = {case.name: case for case in cases}
+
+    def key(case: Stranger) -> str:
+        return f"{given.seed} {case.name}"
+
+    by_name = {key(case): case for case in cases}
     lines = []
     for one in examined(asked, cases, key=key, keep=given.keep):
         if one.key in by_name:
