@@ -19,6 +19,7 @@ from mckibben.cli.options import (
     MuscleText,
     SavedModelFile,
     Use,
+    Validate,
     with_shared_options,
 )
 
@@ -38,6 +39,7 @@ def compare(
     model: SavedModelFile = "",
     fit: bool = typer.Option(False, "--fit", help="Fit the parameters of the effects."),
     free: Free = None,
+    validate: Validate = None,
     use: Use = None,
     keep: Keep = None,
     *,
@@ -47,17 +49,13 @@ def compare(
 ) -> None:
     """Compare a model with measurements: the error in numbers, with or without a fit."""
     from mckibben.application.compare.compare import compare as compare_model
-    from mckibben.application.measurement.files import measurements_of
-    from mckibben.cli.model import model_question, muscle_length
-    from mckibben.cli.output import progress, standard_input, write_json, write_summary
+    from mckibben.cli.model import data_of, model_question
+    from mckibben.cli.output import progress, write_json, write_summary
     from mckibben.report.summary.comparison import summary_of
 
     chosen = ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model)
     with progress("fitting" if fit else "comparing"):
-        measurements = measurements_of(
-            files, studio, reading.correction, reading.said, contents=standard_input(files),
-            muscle_length=muscle_length(studio, chosen),
-        )  # fmt: skip
+        measurements = data_of(files, studio, reading, chosen, validate=validate or ())
         question = model_question(
             studio, measurements, chosen, free=free or [], strict=reading.correction.strict, refit=fit
         )
@@ -78,6 +76,7 @@ def diagnose(
     drive: str = typer.Option("", "--drive", help="A drive document (JSON): its muscle, effects, valve."),
     model: SavedModelFile = "",
     free: Free = None,
+    validate: Validate = None,
     noise: Annotated[
         str | None,
         typer.Option("--noise", help='Noise of the predicted channel, if known, e.g. "2 N"; a number is SI.'),
@@ -136,9 +135,9 @@ def diagnose(
         files=files,
         model=ModelOptions(muscle, ideal, effect or (), drive, use or (), keep or (), model),
         free=free or [],
+        validate=validate or [],
         noise=noise,
-        correction=reading.correction,
-        said=reading.said,
+        reading=reading,
         as_json=as_json,
         report=report,
         save=save,
@@ -163,10 +162,15 @@ def convert(
     from mckibben.application.measurement.convert import converted
     from mckibben.application.measurement.files import read_file
     from mckibben.application.text_file import write_text
+    from mckibben.cli.model import at_option
     from mckibben.cli.output import progress, remark, standard_input
+    from mckibben.measurement.preparation import prepared
 
     with progress("reading"):
-        result = converted(read_file(file, reading.correction, standard_input([file]).get(file)))
+        measurement = read_file(file, reading.correction, standard_input([file]).get(file))
+        with at_option():
+            measurement = prepared(measurement, reading.prepare)
+        result = converted(measurement)
     if out is None:
         typer.echo(result.text, nl=False)
     else:

@@ -2,30 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
 
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.diagnose.diagnose import prepare
 from mckibben.application.diagnose.next_experiment import NO_EXPERIMENT, schedule_csv
-from mckibben.application.measurement.files import measurements_of
+from mckibben.application.measurement.files import FileOptions
 from mckibben.application.model.saved import keep, model_text, saved_model
 from mckibben.cli.diagnose_folder import FolderOptions, run_folder
-from mckibben.cli.model import model_question, muscle_length
+from mckibben.cli.model import data_of, model_question
 from mckibben.cli.options import ModelOptions
 from mckibben.cli.output import (
     check_folder,
     progress,
     remark,
-    standard_input,
     write_file,
     write_json,
     write_summary,
 )
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.studio import Studio
-from mckibben.measurement.experiment import ExperimentValue
-from mckibben.measurement.read import Correction
 from mckibben.physics.errors import InputError
 from mckibben.report.summary.diagnosis import summary_of
 
@@ -36,9 +33,9 @@ def run(
     files: Sequence[str],
     model: ModelOptions,
     free: Sequence[str],
+    validate: Sequence[str],
     noise: str | None,
-    correction: Correction,
-    said: Mapping[str, ExperimentValue],
+    reading: FileOptions,
     as_json: bool,
     report: Path | None = None,
     save: Path | None = None,
@@ -53,15 +50,16 @@ def run(
     """
 
     def asked(names: Sequence[str]) -> ModelQuestion:
-        measurements = measurements_of(
-            names, studio, correction, said, contents=standard_input(names),
-            muscle_length=muscle_length(studio, model),
-        )  # fmt: skip
-        return model_question(studio, measurements, model, free=free, noise=noise, strict=correction.strict)
+        measurements = data_of(names, studio, reading, model, validate=validate)
+        strict = reading.correction.strict
+        return model_question(studio, measurements, model, free=free, noise=noise, strict=strict)
 
     if any(Path(name).is_dir() for name in files):
         writes = {"--report": report, "--save": save, "--save-preset": save_preset, "--schedule": schedule}
-        wanted = (model, tuple(free), noise, correction, dict(said))
+        wanted = (
+            model, tuple(free), noise, reading.correction, dict(reading.said), reading.prepare,
+            tuple(validate),
+        )  # fmt: skip
         run_folder(
             files, lambda name: asked([name]), studio, wanted, folder or FolderOptions(), as_json, writes
         )

@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.compare.stated_question import SavedStart, stated_question
 from mckibben.application.measurement.experiment import QuestionMeasurement, QuestionModel
+from mckibben.application.measurement.files import FileOptions, measurements_of
 from mckibben.cli.options import ModelOptions, start_model, stated_model
+from mckibben.cli.output import standard_input
 from mckibben.documents.drive import DriveDocument
 from mckibben.documents.drive_reading import read_document
 from mckibben.documents.located import at_file
@@ -60,6 +63,49 @@ def model_question(
         use=options.use,
         keep=options.keep,
     )
+
+
+def data_of(
+    files: Sequence[str],
+    studio: Studio,
+    reading: FileOptions,
+    options: ModelOptions,
+    *,
+    validate: Sequence[str] = (),
+) -> list[QuestionMeasurement]:
+    """The measurements of ``compare`` and ``diagnose``, those of ``--validate`` last.
+
+    Args:
+        files: to fit to.
+        studio: presets and effects.
+        reading: how files are read and prepared, and what is said of their experiment.
+        options: the model.
+        validate: files to check the model on.
+
+    Raises:
+        InputError: names the file or option, what is wrong and what would be right.
+    """
+    contents, length = standard_input([*files, *validate]), muscle_length(studio, options)
+    with at_option():
+        return [
+            each
+            for names, check in ((files, False), (validate, True))
+            for each in measurements_of(
+                names, studio, reading.correction, reading.said, contents=contents, muscle_length=length,
+                prepare=reading.prepare, validation=check,
+            )
+        ]  # fmt: skip
+
+
+@contextmanager
+def at_option() -> Iterator[None]:
+    """Errors of a step that prepares data name the option that states it."""
+    try:
+        yield
+    except InputError as error:
+        if error.field != "prepare" or not error.message.startswith("prepare"):
+            raise
+        raise InputError(f"--{error.message}", field=error.field, hint=error.hint) from error
 
 
 def _effects_of(options: ModelOptions, saved: SavedModel) -> frozenset[str]:

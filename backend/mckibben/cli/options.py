@@ -101,6 +101,21 @@ Experiment = Annotated[
         help='More about the test, e.g. "force_zero=2.5 N" or "inclination=45 deg"; repeatable.',
     ),
 ]
+Prepare = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--prepare",
+        metavar="STEP",
+        help='"range time 2 s to 10 s", "detrend force", "low pass 20 Hz" or "resample 100 Hz"; repeatable, '
+        "in this order.",
+    ),
+]
+Validate = Annotated[
+    list[str] | None,
+    typer.Option(
+        "--validate", metavar="FILE", help="A file to check the model on, not fitted to; repeatable."
+    ),
+]
 Strict = Annotated[
     bool, typer.Option("--strict", help="Refuse a file instead of assuming what it does not say.")
 ]
@@ -231,6 +246,7 @@ def reading(
     supply: Supply = None,
     accuracy: Accuracy = None,
     experiment: Experiment = None,
+    prepare: Prepare = None,
     strict: Strict = False,
 ) -> FileOptions:
     """How measurement files are to be read, and what is said about their experiment."""
@@ -238,7 +254,7 @@ def reading(
 
     return file_options(
         sheet=sheet, head=head, columns=column, ignored=ignore, rest_length=rest_length, load=load,
-        supply=supply, accuracy=accuracy, experiment=experiment, strict=strict,
+        supply=supply, accuracy=accuracy, experiment=experiment, strict=strict, prepare=prepare,
     )  # fmt: skip
 
 

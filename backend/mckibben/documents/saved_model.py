@@ -41,6 +41,9 @@ class FittedFile(Strict):
     experiment: dict[str, str] = Field(
         default_factory=dict, description="What it was made with, and who says it, in words."
     )
+    prepared: list[Text] = Field(
+        default_factory=list, description="Steps that prepared it, in their order, as '--prepare' takes them."
+    )
 
 
 class FitError(Strict):

@@ -30,6 +30,7 @@ from mckibben.measurement.experiment import Experiment
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.measurement import Measurement as Data
 from mckibben.measurement.points import Points
+from mckibben.measurement.preparation import prepared_points
 from mckibben.measurement.read import read_measurement
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.report.figures import variable
@@ -166,6 +167,20 @@ class Measurement(Result):
         )
         return Measurement(replace(self._said, said={**self._said.said, **options.said}))
 
+    @reported
+    def prepared(self, *steps: str) -> Measurement:
+        """The same measurement after these steps, in their order.
+
+        Args:
+            steps: "range time 2 s to 10 s" (or rows, or a channel), "detrend force" (or between two rests,
+                "detrend force 0 s to 1 s, 59 s to 60 s"), "low pass 20 Hz" (or "low pass force 20 Hz"),
+                "resample 100 Hz". ``messages`` says what each did.
+
+        Raises:
+            Problem: names the step, what is wrong with it and what would be right.
+        """
+        return Measurement(replace(self._said, points=prepared_points(self._said.points, steps)))
+
     @property
     def _data(self) -> Data:
         return self._said.points.measurement
@@ -252,6 +267,7 @@ def read(
     supply: Quantity | None = None,
     accuracy: str | None = None,
     experiment: Mapping[str, object] | None = None,
+    prepare: str | Sequence[str] = (),
     strict: bool = False,
 ) -> Measurement:
     """Read a measurement file (CSV, .xlsx, .mat, .tdms), or a measurement preset by its id.
@@ -267,6 +283,7 @@ def read(
         supply: supply pressure, gauge, "6 bar".
         accuracy: standard deviation by channel, "length 1 mm, force 0.5 %", or a sensor.
         experiment: more about the test, ``{"force_zero": "2.5 N", "inclination": "45 deg"}``.
+        prepare: steps that prepare the data, "low pass 20 Hz"; see `Measurement.prepared`.
         strict: refuse a file instead of assuming what it does not say.
 
     Raises:
@@ -274,9 +291,11 @@ def read(
     """
     options = _options(
         columns=columns, sheet=sheet, head=head, ignore=ignore, rest_length=rest_length, load=load,
-        supply=supply, accuracy=accuracy, experiment=experiment, strict=strict,
+        supply=supply, accuracy=accuracy, experiment=experiment, strict=strict, prepare=prepare,
     )  # fmt: skip
-    found = measurements_of([fspath(path)], studio(), options.correction, options.said)
+    found = measurements_of(
+        [fspath(path)], studio(), options.correction, options.said, prepare=options.prepare
+    )
     if len(found) > 1:
         raise InputError(
             f"{fspath(path)}: is a list of {len(found)} measurements",
@@ -296,6 +315,7 @@ def _options(
     supply: Quantity | None = None,
     accuracy: str | None = None,
     experiment: Mapping[str, object] | None = None,
+    prepare: str | Sequence[str] = (),
     strict: bool = False,
 ) -> FileOptions:
     if isinstance(columns, Mapping):
@@ -311,6 +331,7 @@ def _options(
         accuracy=accuracy,
         experiment=experiment,
         strict=strict,
+        prepare=names_of(prepare),
         prefix=ARGUMENT,
     )
 

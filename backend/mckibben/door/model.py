@@ -302,6 +302,7 @@ class Model(Exportable):
         use: str | Sequence[str] = (),
         keep: str | Sequence[str] = (),
         drive: DocumentedDrive | None = None,
+        validate: Data = (),
         strict: bool = False,
     ) -> Comparison[Model]:
         """The error of this model on measurements, with or without a fit.
@@ -312,6 +313,7 @@ class Model(Exportable):
             free: geometry, or constants as "effect.parameter", to be fitted as well.
             use, keep: entries that are wrong, or right, as stated: an answer to ``doubts`` of a diagnosis.
             drive: a `mckibben.Drive`: valve, tube, supply and load of a transient measurement.
+            validate: measurements to check the model on, which it is not fitted to; see ``validation``.
             strict: refuse instead of assuming what nobody states.
 
         Raises:
@@ -319,7 +321,7 @@ class Model(Exportable):
         """
         question, names = question_of(
             self._stated, self._studio, data, free=free, use=use, keep=keep,
-            drive=None if drive is None else drive.parsed, strict=strict, refit=fit,
+            drive=None if drive is None else drive.parsed, strict=strict, refit=fit, validate=validate,
         )  # fmt: skip
         compared = compared_whole(question, fit=fit)
         model = self
@@ -338,13 +340,14 @@ class Model(Exportable):
         use: str | Sequence[str] = (),
         keep: str | Sequence[str] = (),
         drive: DocumentedDrive | None = None,
+        validate: Data = (),
         strict: bool = False,
         progress: Callable[[float], object] | None = None,
     ) -> Diagnosis[Model]:
         """Which physical effect this model of the measurements is missing.
 
         Args:
-            data, free, use, keep, drive, strict: as in `compare`.
+            data, free, use, keep, drive, validate, strict: as in `compare`.
             noise: standard deviation of the predicted channel where it is known, "2 N"; a number is SI.
             progress: called with the share that is done, 0 to 1, a few times a second.
 
@@ -353,7 +356,7 @@ class Model(Exportable):
         """
         question, names = question_of(
             self._stated, self._studio, data, free=free, use=use, keep=keep,
-            drive=None if drive is None else drive.parsed, strict=strict, noise=noise,
+            drive=None if drive is None else drive.parsed, strict=strict, noise=noise, validate=validate,
         )  # fmt: skip
         result = prepare(question, self._studio)(watch_of(progress))
         saved = saved_model(question, result, self._studio)

@@ -227,6 +227,7 @@ def question_of(
     noise: float | str | None = None,
     strict: bool = False,
     refit: bool = True,
+    validate: Data = (),
 ) -> tuple[ModelQuestion, str]:
     """The question of a comparison or diagnosis, and names of the data; arguments as in `stated_question`.
 
@@ -234,13 +235,17 @@ def question_of(
         InputError: as there.
     """
     measurements = _measurements_in(data)
+    checks = [] if isinstance(validate, Sequence) and not validate else _measurements_in(validate)
     saved = None
     if model.saved is not None:
         kept = frozenset(model.saved.effects) & frozenset(model.sample(studio).effects)
         saved = SavedStart(model.saved, model.source, kept)
     question = stated_question(
         model.said(studio, drive),
-        [measurement.said for measurement in measurements],
+        [
+            *(measurement.said for measurement in measurements),
+            *(replace(measurement.said, validation=True) for measurement in checks),
+        ],
         studio,
         saved=saved,
         free=names_of(free),

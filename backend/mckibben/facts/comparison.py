@@ -178,8 +178,8 @@ WINDOWS = Group(
     "Error over windows",
     Figure(
         "rmse", "e_w", "", "RMS error over windows",
-        "√(mean r²) of a run that begins anew in each window, at the measured stroke, its smoothed speed and, "
-        "with a command, the measured pressure; states of effects follow the measured motion.",
+        "√(mean r²) of a run that begins anew in each window, at the measured stroke, its smoothed speed "
+        "and, with a command, the measured pressure; states of effects follow the measured motion.",
         _WINDOWS,
     ),
     Figure(

@@ -29,8 +29,8 @@ from mckibben.measurement.sweeps import Sweeps, sweeps_of
 from mckibben.physics.errors import InputError, did_you_mean
 
 __all__ = [
-    "CHANNEL_UNITS", "FORCE_KINDS", "KINDS", "STROKES", "MeasuredChannel", "Measurement", "StatedValue",
-    "build", "group_rows", "lengths",
+    "CHANNEL_UNITS", "FORCE_KINDS", "KINDS", "STROKES", "MeasuredChannel", "Measurement", "PreparedStep",
+    "StatedValue", "build", "group_rows", "lengths",
 ]  # fmt: skip
 
 #: Canonical channel name -> SI unit. Pressure is gauge; displacement is a contraction stroke (positive =
@@ -70,6 +70,15 @@ class StatedValue(NamedTuple):
     where: str
 
 
+class PreparedStep(NamedTuple):
+    """A step that prepared a measurement: as it is written, what it did, and the rows before and after."""
+
+    step: str
+    done: str
+    rows_before: int
+    rows_after: int
+
+
 @dataclass(frozen=True, eq=False)
 class Measurement:
     """One measurement file, in SI.
@@ -98,6 +107,10 @@ class Measurement:
         stated: the conditions with their origin.
         questions: what the file leaves open.
         by_rows: without time, the order of the rows is that of the test.
+        prepared: the steps of `mckibben.measurement.preparation` that made it, in their order.
+        source_rows: row of its file that each row comes from, from 0; None where they are the same.
+        shared_noise: channel -> standard deviation of noise that neighbouring rows share, because a filter or
+            another time step spread it over them [SI]; their differences do not show it.
     """
 
     name: str
@@ -120,6 +133,9 @@ class Measurement:
     stated: tuple[StatedValue, ...] = ()
     questions: tuple[Question, ...] = ()
     by_rows: bool = False
+    prepared: tuple[PreparedStep, ...] = ()
+    source_rows: NDArray[np.intp] | None = None
+    shared_noise: Mapping[str, float] = field(default_factory=dict)
 
     @cached_property
     def usable(self) -> NDArray[np.bool_]:

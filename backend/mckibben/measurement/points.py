@@ -179,10 +179,18 @@ def joined(all_points: Sequence[Points]) -> Points:
         for reason, count in points.left_out.items():
             left_out[reason] = left_out.get(reason, 0) + count
     rest = {points.nominal_length for points in all_points}
+    weights = [part.rows / combined.rows for part in parts]
+    shared = {
+        name: sum(w * part.shared_noise.get(name, 0.0) ** 2 for part, w in zip(parts, weights, strict=True))
+        ** 0.5
+        for name in dict.fromkeys(name for part in parts for name in part.shared_noise)
+    }
     return Points(
-        replace(combined, messages=tuple(messages)), left_out, rest.pop() if len(rest) == 1 else None,
+        replace(combined, messages=tuple(messages), shared_noise=shared),
+        left_out,
+        rest.pop() if len(rest) == 1 else None,
         parts=tuple(all_points),
-    )  # fmt: skip
+    )
 
 
 def _excluded(parts: Sequence[Measurement]) -> dict[str, NDArray[np.bool_]]:

@@ -81,6 +81,7 @@ def reduced(measurement: Measurement, rows: int = ROWS) -> Reduced:
         excluded_rows=MappingProxyType({}),
         starts=tuple(start for start in starts if start < len(first)) or (0,),
         segmented=measurement.segments.only(first),
+        source_rows=None if measurement.source_rows is None else measurement.source_rows[first],
         messages=(*measurement.messages, message),
     )
     return Reduced(few, counts, message)

@@ -39,4 +39,15 @@ def rescaled(
         starts=measurement.starts,
     )
     kept = MappingProxyType({**changed.columns, "group": measurement.columns["group"]})
-    return replace(changed, columns=kept, skipped=measurement.skipped, ignored=measurement.ignored)
+    return replace(
+        changed,
+        columns=kept,
+        skipped=measurement.skipped,
+        ignored=measurement.ignored,
+        prepared=measurement.prepared,
+        source_rows=measurement.source_rows,
+        shared_noise={
+            name: noise * (abs(factor) if name in names else 1.0)
+            for name, noise in measurement.shared_noise.items()
+        },
+    )

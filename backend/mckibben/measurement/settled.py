@@ -83,6 +83,7 @@ def settled(measurement: Measurement) -> Settled:
             ),
             starts=tuple(np.flatnonzero(np.diff(file[rows], prepend=0)).tolist()),
             segmented=None if measurement.segmented is None else measurement.segmented.only(rows),
+            source_rows=None if measurement.source_rows is None else measurement.source_rows[rows],
         )
     return Settled(left, rows, int(np.count_nonzero(copies)))
 

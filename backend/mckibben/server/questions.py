@@ -25,6 +25,7 @@ from mckibben.documents.start_model import StartModel, stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.points import find_points
+from mckibben.measurement.preparation import prepared_points
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.server.schemas.curves import (
@@ -85,6 +86,12 @@ def measurements_of_question(
             points = find_points(item.id, library=studio.library, store=store)
         except InputError as error:
             raise error.at(field) from error
+        steps = body.prepare if item.prepare is None else item.prepare
+        try:
+            points = prepared_points(points, steps)
+        except InputError as error:
+            own_steps = item.prepare is not None and inside
+            raise error.at(f"{inside}.prepare" if own_steps else "prepare") from error
         own = stated_experiment(item.experiment, f"{inside}.experiment".removeprefix("."))
         found.append(QuestionMeasurement(points, shared | own, item.use == "validation", inside or "."))
     return found

@@ -21,6 +21,7 @@ from mckibben.application.project.projects import restore_files, unpacked
 from mckibben.application.run import simulate
 from mckibben.documents.studio import Studio
 from mckibben.export.use_case import export
+from mckibben.measurement.preparation import prepared
 from mckibben.measurement.read import Correction, preview
 from mckibben.measurement.read.limits import MOST_SECONDS
 from mckibben.measurement.store import MeasurementStore, clean_name
@@ -169,8 +170,16 @@ def _preview(body: FileRequest, studio: Studio, _store: MeasurementStore) -> Pre
     return read
 
 
-def _details(body: str, _studio: Studio, store: MeasurementStore) -> Prepared:
-    return lambda _: answer_of(details_of(store.get(body)))
+@dataclass(frozen=True, slots=True)
+class StoredMeasurement:
+    """A stored measurement, and the steps that prepare it."""
+
+    id: str
+    prepare: tuple[str, ...] = ()
+
+
+def _details(body: StoredMeasurement, _studio: Studio, store: MeasurementStore) -> Prepared:
+    return lambda _: answer_of(details_of(prepared(store.get(body.id), body.prepare)))
 
 
 def _comparison(body: ComparisonRequest, studio: Studio, store: MeasurementStore) -> Prepared:

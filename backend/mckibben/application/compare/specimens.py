@@ -89,7 +89,7 @@ class Specimens:
 
     @property
     def several(self) -> bool:
-        """Whether they differ in kind, geometry, load or drive, or have errors of their own."""
+        """Whether they differ in kind, geometry, load or drive, have own errors, or were prepared."""
         first = self.each[0]
         return any(
             not _alike(specimen, first)
@@ -97,7 +97,7 @@ class Specimens:
             or specimen.accuracy
             or specimen.zeros
             for specimen in self.each[1:]
-        )
+        ) or any(len(self.each) > 1 and one.points.measurement.prepared for one in self.each)
 
     def predictor(
         self, muscle: Muscle, most_rows: int | None = None

@@ -81,6 +81,7 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.identification.residual.correlated import Noises
 from mckibben.identification.residual.profiles import variables_of
 from mckibben.identification.residual.term import SYMBOLS
@@ -322,21 +323,37 @@ def _suspects(question: ModelQuestion, diagnosis: Diagnosis) -> list[SuspectRow]
     if whole is None or whole.judgement is None:
         return []
     outlying, predictor = whole.judgement.outlying, whole.predictor
-    names = [specimen.points.measurement.name for specimen in question.specimens.each]
-    of_file = getattr(predictor, "specimen", np.zeros(len(predictor.measured), int))
+    places = [_place_in_file(question, predictor, value) for value in aside_of(diagnosis).tolist()]
+    several = len(question.specimens.each) > 1
     alone = outlying.place is None or len(outlying.rows) != len(aside_of(diagnosis))
     why = "it does not fit beside the others" if alone or not outlying.place else outlying.place.sentence
     return [
         SuspectRow(
-            file=names[int(of_file[value])],
-            row=int(predictor.row_numbers[value]) + 1,
+            file=file,
+            row=row,
             residual=float(size * predictor.scale[value]),
             why=why,
-            place=f"row {predictor.row_numbers[value] + 1}"
-            + (f" of {names[int(of_file[value])]}" if len(names) > 1 else ""),
+            place=f"row {row}{f' of {file}' if several else ''}",
         )
-        for value, size in zip(aside_of(diagnosis).tolist(), suspects_of(diagnosis), strict=True)
+        for (file, row), value, size in zip(
+            places, aside_of(diagnosis).tolist(), suspects_of(diagnosis), strict=True
+        )
     ]
+
+
+def _place_in_file(question: ModelQuestion, predictor: Predictor, value: int) -> tuple[str, int]:
+    """The file of a value of a predictor, and its row there, counted from 1 over the rows that were read."""
+    each = [specimen.points.measurement for specimen in question.specimens.each]
+    row = int(predictor.row_numbers[value])
+    if isinstance(predictor, SpecimensPredictor):
+        measurement = each[int(predictor.specimen[value])]
+    else:  # several files as one record
+        ends = np.cumsum([one.rows for one in each])
+        number = min(int(np.searchsorted(ends, row, side="right")), len(each) - 1)
+        measurement, row = each[number], row - int(ends[number] - each[number].rows)
+    if measurement.source_rows is not None and row < measurement.rows:
+        row = int(measurement.source_rows[row])
+    return measurement.name, row + 1
 
 
 def _verdict(

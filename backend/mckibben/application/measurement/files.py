@@ -13,6 +13,7 @@ from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import FIELDS, ExperimentValue
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.points import POINT_PRESETS, Points, find_preset, is_preset, points_of
+from mckibben.measurement.preparation import prepared_points, steps_of
 from mckibben.measurement.read import Correction, read_measurement, spoken_correction
 from mckibben.physics.errors import InputError, did_you_mean
 
@@ -21,6 +22,7 @@ OPTION, ARGUMENT = "--", ""
 STANDARD_INPUT = "standard input"  # its name in messages
 LARGEST_FILE = 200_000_000  # of a file; more are not even taken into memory
 _READING = ("sheet", "head", "column", "ignore")  # of an entry: how its file is read
+_PREPARE = "prepare"  # of an entry: the steps that prepare it, instead of those of the options
 _LIST_EXAMPLE = '[{"file": "a.csv", "rest_length": "250 mm", "load": "3 kg"}]'
 
 # What may answer a question of the file while it is read.
@@ -35,6 +37,8 @@ def measurements_of(
     contents: Mapping[str, bytes] | None = None,
     *,
     muscle_length: float | None = None,
+    prepare: Sequence[str] = (),
+    validation: bool = False,
 ) -> list[QuestionMeasurement]:
     """Files, presets where there is no such file, and lists of files in JSON.
 
@@ -45,6 +49,8 @@ def measurements_of(
         said: about the experiment of all of them.
         contents: name -> content, of names that are no files: standard input.
         muscle_length: rest length of the muscle that is stated beside the files [m], if it is.
+        prepare: steps of `mckibben.measurement.preparation` for each file that states none itself.
+        validation: whether they are only to judge models by.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
@@ -59,8 +65,26 @@ def measurements_of(
         if entry.words:
             reading = _read_as(entry.words, name, reading)
             own |= _said_in(entry.words, name)
-        found.append(QuestionMeasurement(_read(entry, studio, reading, contents or {}), own))
+        points = _read(entry, studio, reading, contents or {})
+        points = _prepared(points, entry.words.get(_PREPARE), prepare, name)
+        found.append(QuestionMeasurement(points, own, validation))
     return found
+
+
+def _prepared(points: Points, own: object, shared: Sequence[str], source: str) -> Points:
+    """The points after the steps of their entry, or those of the options.
+
+    Raises:
+        InputError: names the file or option, the step, what is wrong and what would be right.
+    """
+    steps = shared if own is None else [own] if isinstance(own, str) else own
+    if not isinstance(steps, Sequence):
+        raise InputError(f"{source}: {_PREPARE} is no list of texts", hint='["low pass 20 Hz"]')
+    try:
+        return prepared_points(points, steps)
+    except InputError as error:
+        message = error.message if own is None else f"{source}: {error.message}"
+        raise InputError(message, field=_PREPARE, hint=error.hint) from error
 
 
 @dataclass(frozen=True)
@@ -100,7 +124,7 @@ def _entries(name: str) -> list[_Entry]:
     if not isinstance(document, list) or not document:
         raise InputError(f"{name}: is no list of measurements", hint=_LIST_EXAMPLE)
     entries = []
-    known = ("file", *_READING, *ExperimentInput.model_fields)
+    known = ("file", *_READING, _PREPARE, *ExperimentInput.model_fields)
     for place, entry in enumerate(document):
         if not isinstance(entry, dict) or not isinstance(entry.get("file"), str):
             raise InputError(f"{name}: entry {place + 1} names no file", hint=_LIST_EXAMPLE)
@@ -168,7 +192,7 @@ def _read_as(entry: Mapping[str, Any], source: str, correction: Correction) -> C
 
 
 def _said_in(entry: Mapping[str, Any], source: str) -> dict[str, ExperimentValue]:
-    values = {key: value for key, value in entry.items() if key not in ("file", *_READING)}
+    values = {key: value for key, value in entry.items() if key not in ("file", *_READING, _PREPARE)}
     return said_values(values, source)
 
 
@@ -318,10 +342,12 @@ class FileOptions:
     Attributes:
         correction: how they are to be read.
         said: values of the experiment of all measurements.
+        prepare: the steps that prepare them.
     """
 
     correction: Correction
     said: Mapping[str, ExperimentValue]
+    prepare: tuple[str, ...] = ()
 
 
 def file_options(
@@ -336,6 +362,7 @@ def file_options(
     accuracy: str | None,
     experiment: Sequence[str] | Mapping[str, object] | None,
     strict: bool,
+    prepare: Sequence[str] | None = None,
     prefix: str = OPTION,
 ) -> FileOptions:
     """What these options say about the files and their experiment.
@@ -344,6 +371,7 @@ def file_options(
         sheet, head, columns, ignored, rest_length, load, supply, strict: see `spoken_correction`.
         accuracy: standard deviation by channel in words.
         experiment: further fields, as "field=value" or field -> value.
+        prepare: steps of `mckibben.measurement.preparation`.
         prefix: of the names in messages, `OPTION` or `ARGUMENT`.
 
     Raises:
@@ -368,7 +396,21 @@ def file_options(
     conditions |= {name: said[name].value for name in _CONDITIONS if name in said}
     if accuracy is not None:
         conditions["accuracy"] = accuracy
-    return FileOptions(replace(correction, conditions=conditions), said)
+    steps = tuple(prepare or ())
+    checked_steps(steps, prefix)
+    return FileOptions(replace(correction, conditions=conditions), said, steps)
+
+
+def checked_steps(steps: Sequence[str], prefix: str) -> None:
+    """Check how the steps of a preparation are written, before a file is read.
+
+    Raises:
+        InputError: names the option, the step, what is wrong and what would be right.
+    """
+    try:
+        steps_of(steps)
+    except InputError as error:
+        raise InputError(f"{prefix}{error.message}", field=_PREPARE, hint=error.hint) from error
 
 
 def _experiment(stated: Sequence[str] | Mapping[str, object], prefix: str) -> dict[str, object]:

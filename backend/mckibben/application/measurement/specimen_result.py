@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Sequence
-from dataclasses import replace
+from dataclasses import field, replace
 from typing import ClassVar
 
 import numpy as np
 
 from mckibben.application.compare.question import ModelQuestion
+from mckibben.application.measurement.summary import Preparation, preparations
 from mckibben.facts.comparison import SPECIMEN
 from mckibben.facts.result import result_class
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen
@@ -34,6 +35,8 @@ class SpecimenResult:
     """Values of its experiment, each with its origin."""
     left_out_rmse: float | None = None
     left_out_percent: float | None = None
+    prepared: list[Preparation] = field(default_factory=list)
+    """The steps that prepared its data, in their order."""
 
 
 def common_experiment(question: ModelQuestion) -> Experiment:
@@ -70,7 +73,12 @@ def specimen_results(
         if not apart:
             results.append(
                 SpecimenResult(
-                    specimen.name, specimen.points.measurement.rows, None, None, specimen.experiment
+                    specimen.name,
+                    specimen.points.measurement.rows,
+                    None,
+                    None,
+                    specimen.experiment,
+                    prepared=preparations(specimen.points.measurement),
                 )
             )
             continue
@@ -92,6 +100,7 @@ def specimen_results(
                 specimen.experiment,
                 left_out[number].rmse if left_out else None,
                 100.0 * left_out[number].share if left_out and len(predictor.channels) == 1 else None,
+                preparations(specimen.points.measurement),
             )
         )
     return results

@@ -9,6 +9,7 @@ from typing import ClassVar
 from mckibben.facts.result import Column, Number, Series, result_class
 from mckibben.measurement.experiment import Origin
 from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement, StatedValue
+from mckibben.measurement.preparation import rows_of_file
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.left_out import UNWANTED
 from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
@@ -168,6 +169,25 @@ class OpenQuestion:
 
 
 @result_class
+class Preparation:
+    """A step that prepared a measurement."""
+
+    step: str
+    """As it is written."""
+    done: str
+    """What it did, in words."""
+    rows_before: int
+    """Number of rows before it."""
+    rows_after: int
+    """Number of rows after it."""
+
+
+def preparations(measurement: Measurement) -> list[Preparation]:
+    """The steps that prepared a measurement."""
+    return [Preparation(*step) for step in measurement.prepared]
+
+
+@result_class
 class MeasurementSummary:
     """A measurement as it was read."""
 
@@ -211,6 +231,8 @@ class MeasurementSummary:
     """The conditions with their origin."""
     questions: list[OpenQuestion]
     """What the file leaves open."""
+    prepared: list[Preparation]
+    """The steps that prepared it, in their order."""
 
 
 @result_class
@@ -219,7 +241,8 @@ class MeasurementDetails(MeasurementSummary):
 
     columns: dict[str, Column] = field(default_factory=dict)
     """Channel -> values in SI; 'slack' marks rows without pulling force, 'usable' those with a usable
-    measurement, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, +1 lengthening, 0 at rest.
+    measurement, 'sweep' and 'cycle' number them, 'motion' is -1 shortening, +1 lengthening, 0 at rest;
+    'row' is that of the file, from 1, where steps have prepared the measurement.
     """
 
 
@@ -401,6 +424,7 @@ def summary_of(measurement: Measurement) -> MeasurementSummary:
         unread=_unread(measurement.unread),
         stated=_stated(measurement.stated),
         questions=_questions(measurement.questions),
+        prepared=preparations(measurement),
     )
 
 
@@ -450,6 +474,8 @@ def details_of(measurement: Measurement) -> MeasurementDetails:
         "cycle": sweeps.cycle,
         "motion": sweeps.direction,
     }
+    if measurement.prepared:
+        row_columns["row"] = rows_of_file(measurement) + 1
     return MeasurementDetails(**summary_fields, columns=dict(measurement.columns) | row_columns)
 
 

@@ -292,6 +292,7 @@ def _file(specimen: Specimen, shown: SpecimenResult) -> dict[str, Any]:
             title_of(name): f"{shown_value(name, value)}, {place_of(value)}"
             for name, value in shown.experiment.items()
         },
+        "prepared": [step.step for step in points.measurement.prepared],
     }
 
 

@@ -64,8 +64,17 @@ def predictor_of(
         blocked = ideal.force(braid=muscle.braid, pressure=pressure, length=muscle.nominal_length)
         predictor = QuasistaticPredictor(task, largest_load=float(blocked))
         _set_accuracy(predictor, dict(accuracy or {}))
-        return predictor
-    return TransientPredictor(measurement, drive or driven_by_pressure(measurement, muscle))
+        return _sharing_noise(predictor, measurement)
+    transient = TransientPredictor(measurement, drive or driven_by_pressure(measurement, muscle))
+    return _sharing_noise(transient, measurement)
+
+
+def _sharing_noise(predictor: Predictor, measurement: Measurement) -> Predictor:
+    """The predictor, whose noise holds what neighbouring rows share since a filter."""
+    if len(predictor.channels) == 1:  # several are weighed by noises that hold it already
+        shared = measurement.shared_noise.get(predictor.channels[0].name, 0.0)
+        predictor.input_floor = float(np.hypot(predictor.input_floor, shared))
+    return predictor
 
 
 def _set_accuracy(predictor: QuasistaticPredictor, accuracy: dict[str, float]) -> None:

@@ -119,9 +119,10 @@ class TransientPredictor(Predictor):
             )
         sweeps = [np.flatnonzero(labels == label) for label in np.unique(labels)]
         self._noise = []
-        for _, _, values in self._recorded:
+        for name, _, values in self._recorded:
             full_scale = float(np.max(np.abs(values)))
             noise = noise_floor(values, sweeps) or 1e-3 * full_scale
+            noise = float(np.hypot(noise, measurement.shared_noise.get(name, 0.0)))
             self._noise.append((max(noise, 1e-6 * full_scale), full_scale))
         self._arrange()
         self.excluded = dict(measurement.exclusions)

@@ -31,8 +31,8 @@ from mckibben.simulation.integrate.engine import compiled_driven
 
 _LONGEST = 0.25  # of the record
 _FEWEST_ROWS = 10  # of a window
-# By how much a motion has to turn back: a share of its range, and deviations of the noise up to another share,
-# because few rows a swing make a swing look like noise.
+# By how much a motion has to turn back: a share of its range, and deviations of the noise up to another
+# share, because few rows a swing make a swing look like noise.
 _TURN, _NOISE, _MOST_NOISE = 0.05, 6.0, 0.25
 _SEED = 0  # of the noise of a perfect model; the same question gives the same digits
 _FOLLOWED = 1e-4  # relative error per step of states along the measured motion

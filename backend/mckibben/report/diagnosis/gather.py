@@ -230,6 +230,12 @@ def _command(
     files = [_typed(name) for name in names]
     free = [f"--free {name}" for name in question.free]
     noise = [] if question.noise is None else [f"--noise {question.noise!r}"]
+    checks = () if question.validation is None else question.validation.each
+    files += [f"--validate {_typed(one.name)}" for one in checks]
+    prepared = {tuple(step.step for step in one.points.measurement.prepared)
+                for one in (*question.specimens.each, *checks)}  # fmt: skip
+    steps = prepared.pop() if len(prepared) == 1 else ()
+    files += [f"--prepare {shlex.quote(step)}" for step in steps]
     shared = [*files, f"--drive {_MODEL_FILE}", *_stated_options(common_experiment(question))]
     lines = [" ".join(["mckibben compare", *shared])]
     if diagnosis is not None:
@@ -242,8 +248,8 @@ def _command(
         )
     if question.freed:
         notes.append(f"Constants fitted in addition: {', '.join(question.freed)}.")
-    if question.validation is not None:
-        notes.append("The validation data are not part of the command.")
+    if prepared:
+        notes.append("The files are prepared in different ways, which the command does not say.")
     results = {"comparison.json": to_json(comparison).decode()}
     if diagnosis is not None:
         results["diagnosis.json"] = to_json(diagnosis).decode()

@@ -34,6 +34,7 @@ def _measurement(source: DataSource) -> Html:
         ("Used to", "fit the model" if source.use == "fit" else "judge the model only (validation)"),
         ("Rows", f"{rows}, of which {used} are usable"),
     ]
+    pairs += [("Prepared", f"{step.step}: {step.done}") for step in about.prepared]
     if left_out:
         reasons = "; ".join(f"{count} {reason.replace('_', ' ')}" for reason, count in left_out.items())
         pairs.append(("Left out", reasons))

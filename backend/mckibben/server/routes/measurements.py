@@ -5,12 +5,13 @@ from __future__ import annotations
 from typing import Annotated
 
 from fastapi import APIRouter, Path, Query, Request
-from pydantic import Field
+from pydantic import Field, StringConstraints
 from starlette.exceptions import HTTPException
 
 from mckibben.application.diagnose.mysteries import MysterySummary, Reveal, mysteries, reveal
 from mckibben.application.measurement.summary import MeasurementDetails, MeasurementSummary, PreviewResult
 from mckibben.documents.strict import Name, Strict
+from mckibben.measurement.preparation import LONGEST, MOST
 from mckibben.measurement.read import Correction, read_correction
 from mckibben.measurement.read.correction import MAX_LENGTH
 from mckibben.measurement.store import MAX_NAME
@@ -19,7 +20,7 @@ from mckibben.server.answer import JsonAnswer, StrictRoute
 from mckibben.server.context import BeforeWork, StoreDep, StudioDep
 from mckibben.server.long_work import whole
 from mckibben.server.schemas.common import errors
-from mckibben.server.short_jobs import FileRequest
+from mckibben.server.short_jobs import FileRequest, StoredMeasurement
 
 measurements_router = APIRouter(prefix="/api/measurements", tags=["measurements"], route_class=StrictRoute)
 
@@ -80,6 +81,14 @@ _Muscle = Annotated[
 ]
 
 
+_Step = Annotated[str, StringConstraints(min_length=1, max_length=LONGEST)]
+_Prepare = Query(
+    max_length=MOST,
+    description="Steps that prepare the data, in their order, as '--prepare' of the command line takes them.",
+    examples=[["low pass 20 Hz"]],
+)
+
+
 @measurements_router.put(
     "",
     dependencies=[BeforeWork],
@@ -134,10 +143,15 @@ async def _file(request: Request, mapping: str | None) -> tuple[bytes, Correctio
     "/{measurement_id}", response_model=MeasurementDetails, responses=errors(404, 422, 429)
 )
 async def read_measurement(
-    measurement_id: Identity, request: Request, studio: StudioDep, store: StoreDep
+    measurement_id: Identity,
+    request: Request,
+    studio: StudioDep,
+    store: StoreDep,
+    prepare: Annotated[list[_Step] | None, _Prepare] = None,
 ) -> JsonAnswer:
-    """A measurement with its columns in SI."""
-    return JsonAnswer(await whole(request, "measurement", measurement_id, studio, store))
+    """A measurement with its columns in SI, as it was read or after steps that prepare it."""
+    wanted = StoredMeasurement(measurement_id, tuple(prepare or ()))
+    return JsonAnswer(await whole(request, "measurement", wanted, studio, store))
 
 
 class RevealRequest(Strict):

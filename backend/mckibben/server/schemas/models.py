@@ -34,6 +34,7 @@ from mckibben.documents.drive import DriveDocument
 from mckibben.documents.experiment import ExperimentInput
 from mckibben.documents.muscle import EffectsInput, MuscleInput
 from mckibben.documents.strict import Strict
+from mckibben.measurement.preparation import LONGEST, MOST
 from mckibben.server.schemas.common import streamed
 
 MeasurementId = Annotated[
@@ -47,6 +48,10 @@ ParameterPath = Annotated[
 FreeGeometry = Literal["nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter"]
 
 
+Steps = Annotated[
+    list[Annotated[str, StringConstraints(min_length=1, max_length=LONGEST)]],
+    Field(max_length=MOST, examples=[["range time 2 s to 10 s", "low pass 20 Hz"]]),
+]
 Hypothesis = Annotated[str, StringConstraints(pattern=r"^[A-Za-z_]+$", max_length=64)]
 
 
@@ -57,6 +62,9 @@ class UsedMeasurement(Strict):
     use: Literal["fit", "validation"] = Field("fit", description="Used for the fit, or only for validation.")
     experiment: ExperimentInput | None = Field(
         None, description="What the user says about its experiment; takes precedence over the file."
+    )
+    prepare: Steps | None = Field(
+        None, description="Steps that prepare its data, in their order; null: those of the request."
     )
 
 
@@ -106,6 +114,11 @@ class ModelRequest(Strict):
         examples=["length 1 mm, force 0.5 %, pressure 20 mbar"],
     )
     strict: bool = Field(False, description="Refuse instead of assuming what nobody said.")
+    prepare: Steps = Field(
+        default=[],
+        description="Steps that prepare the data of every measurement that states none itself: a range, a "
+        "drift, a low pass, another time step, as '--prepare' of the command line.",
+    )
 
     use: list[Hypothesis] = Field(
         default=[],
@@ -121,7 +134,8 @@ class ModelRequest(Strict):
         """All measurements, from either field."""
         if self.measurement is None:
             return self.measurements
-        return [UsedMeasurement(id=self.measurement, use="fit", experiment=None), *self.measurements]
+        single = UsedMeasurement(id=self.measurement, use="fit", experiment=None, prepare=None)
+        return [single, *self.measurements]
 
 
 class ComparisonRequest(ModelRequest):
