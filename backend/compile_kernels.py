@@ -1,4 +1,4 @@
-"""Hook of the build: the integrators are compiled with the installation, so no first run waits for them.
+"""Hook of the build: the kernels are compiled with the installation, so no first run waits for them.
 
 It takes about 20 s. The code serves the processor that it was compiled on; on another one, or where this
 fails, the program compiles it when it is first needed.
@@ -21,8 +21,11 @@ _COMPILED = _BACKEND / "mckibben" / "_data" / "compiled"  # `mckibben.resources.
 _CALL = """
 import sys
 sys.path.insert(0, sys.argv[1])
+from mckibben.identification.residual import whitening
 from mckibben.simulation.integrate.lane_buffers import compile_kernels
 compile_kernels()
+for kernel in (whitening.whiten, whitening.misfit):
+    kernel.compiled()
 """
 
 
@@ -36,6 +39,6 @@ class CompileKernels(BuildHookInterface):
         command = [sys.executable, "-c", _CALL, str(_BACKEND)]
         done = subprocess.run(command, env=environment, capture_output=True, text=True)
         if done.returncode:
-            self.app.display_warning(f"the integrators are compiled at their first use: {done.stderr}")
+            self.app.display_warning(f"the kernels are compiled at their first use: {done.stderr}")
         if version == "standard" and _COMPILED.is_dir():  # an editable installation has it in its place
             build_data["force_include"][str(_COMPILED)] = "mckibben/_data/compiled"

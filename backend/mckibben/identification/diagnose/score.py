@@ -44,11 +44,13 @@ def effective_rows(residual: np.ndarray, sweeps: Sequence[np.ndarray], folds: Se
     variance = float(np.mean(centred**2))
     if not variance > 0.0:
         return float(len(residual))
-    residuals = [centred[rows] for rows in sweeps]
+    lengths = np.array([len(rows) for rows in sweeps])
+    residuals = np.zeros((len(lengths), np.max(lengths)))
+    residuals[np.arange(residuals.shape[1]) < lengths[:, None]] = centred[np.concatenate(sweeps)]
     correlation_length = 1.0
-    for lag in range(1, max(map(len, residuals))):
-        products = [line[lag:] * line[:-lag] for line in residuals if len(line) > lag]
-        rho = sum(float(np.sum(p)) for p in products) / sum(map(len, products)) / variance
+    for lag in range(1, residuals.shape[1]):
+        products = np.sum(residuals[:, lag:] * residuals[:, :-lag])
+        rho = float(products) / float(np.sum(np.maximum(lengths - lag, 0))) / variance
         if rho <= 0.05:
             break
         correlation_length += 2.0 * rho

@@ -22,12 +22,17 @@ line of a record to the next, so both are weighed. With the Jacobian J of a leas
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
+from math import cos, exp, log, pi, sqrt
 from typing import NamedTuple
 
 import numpy as np
+
+from mckibben.identification.residual import whitening
+from mckibben.identification.residual.simplex import lowest
 
 #: Ways in which the rows of a channel may be lines of correlated noise: of each the lines of a `Chain`.
 Ways = Sequence[Sequence[np.ndarray]]
@@ -39,11 +44,13 @@ _RADII, _PERIODS, _SWINGING_SHARES = (0.8, 0.9, 0.97), (6.0, 10.0, 16.0, 30.0), 
 _SHORTEST = 2.2  # shortest period
 _LASTING, _SLOWEST = 10.0, 2.0  # longest time in step, and longest period, over the longest line
 _REFINED = 80  # evaluations of the search for the swinging noise that suits best
-_SIMPLEX = np.diag([0.3, 0.15, 1.0])  # its first steps, in log(-log(1 - radius)), log(period), logit(share)
+_STEPS = 0.3, 0.15, 1.0  # its first steps, in log(-log(1 - radius)), log(period), logit(share)
+_FAR = 30.0  # beyond, exp(exp(x)) has no number
 _FEWEST_OF_A_LINE = 4  # rows; in shorter lines noise that swings counts as white
 _LEAST_WHITE = 1e-5  # instead of a share of 0, which the formula of the inverse does not take
 _WHITE_PRIOR = 0.5
 _LONGEST = 5.0  # correlation length over the longest line beyond which a correlation is not tried
+_ROOM = 2**18  # numbers of whitened rows that are held at once
 _COUNTS = 1e-4  # weight below which a noise does not count
 _INDEPENDENT = 1e-7  # singular value over the largest one below which a direction is not determined
 
@@ -76,7 +83,7 @@ class Noise(NamedTuple):
     def swinging(radius: float, period: float, white: float) -> Noise:
         """Noise with poles of a radius, that swings with a period of some rows."""
         period = max(period, _SHORTEST)
-        first = 2.0 * radius * float(np.cos(2.0 * np.pi / period))
+        first = 2.0 * radius * cos(2.0 * pi / period)
         return Noise(first, -(radius**2), min(max(white, _LEAST_WHITE), 1.0 - _LEAST_WHITE))
 
     @property
@@ -147,33 +154,41 @@ class Chain:
         self._inverses[key] = diagonals, log_det
         return diagonals, log_det
 
-    def products(self, table: np.ndarray, noise: Noise) -> tuple[np.ndarray, float]:
-        """Products of columns with the inverse of R between them, and log det R.
+    def products(self, table: np.ndarray, noises: Sequence[Noise]) -> Iterator[tuple[np.ndarray, float]]:
+        """Of each noise the products of columns with the inverse of R between them, and log det R.
 
         Args:
             table: of the rows that are there, shape (rows, columns).
-            noise: the noise.
+            noises: the noises.
         """
-        own = table.T @ table
-        if noise == WHITE:
-            return own, 0.0
-        from scipy.linalg import cho_solve_banded, cholesky_banded
+        whiten = whitening.whiten.compiled()
+        table = np.ascontiguousarray(table)
+        rows, columns = table.shape
+        together = min(max(_ROOM // max(rows * columns, 1), 1), len(noises))
+        room, log_dets = np.empty((together, rows, columns)), np.empty(together)
+        for start in range(0, len(noises), together):
+            some = noises[start : start + together]
+            numbers = np.array([(*each, each.innovation) for each in some])
+            fewest = np.array([_fewest(each) for each in some])
+            whiten(self._lengths, self._there, numbers, fewest, table, room, log_dets)
+            for found, log_det in zip(room[: len(some)], log_dets.tolist(), strict=False):
+                yield found.T @ found, log_det
 
-        weight = 1.0 / noise.white
-        diagonals, log_det = self._inverse(noise)
-        banded = diagonals / (1.0 - noise.white)
-        banded[0] += weight * self._there
-        factor = cholesky_banded(banded, lower=True, overwrite_ab=True, check_finite=False)
-        right = np.zeros((len(self._own), table.shape[1]))
-        right[self._there] = weight * table
-        solved = cho_solve_banded((factor, True), right, check_finite=False)[self._there]
-        log_det = (
-            len(self._own) * np.log1p(-noise.white)
-            - log_det
-            + len(table) * np.log(noise.white)
-            + 2.0 * float(np.sum(np.log(factor[0])))
-        )
-        return weight * (own - table.T @ solved), float(log_det)
+    def misfit(self, table: np.ndarray, least: float) -> Callable[[Noise], float]:
+        """-2 log likelihood of the last column beside the others, as a function of the noise.
+
+        Args:
+            table: of the rows that are there, shape (rows, columns).
+            least: that the sum of squares can be.
+        """
+        compiled, table = whitening.misfit.compiled(), np.ascontiguousarray(table)
+        room = np.empty_like(table)
+
+        def value(noise: Noise) -> float:
+            numbers = np.array((*noise, noise.innovation))
+            return compiled(self._lengths, self._there, numbers, _fewest(noise), table, room, least)
+
+        return value
 
     def spread(self, jacobian: np.ndarray, noise: Noise) -> np.ndarray:
         """J^T R J."""
@@ -221,45 +236,55 @@ def tried_noises(chain: Chain, basis: np.ndarray, residual: np.ndarray) -> list[
     # No eigenvalue of R is larger than the longest line.
     least = float(residual @ residual) / chain.longest + 1e-300
 
-    def tried(noise: Noise) -> _Tried:
-        products, log_det = chain.products(columns, noise)
-        normal, right = products[:-1, :-1], products[:-1, -1]
-        squares = max(float(products[-1, -1] - right @ np.linalg.solve(normal, right)), least)
-        return _Tried(noise, squares, log_det, float(np.linalg.slogdet(normal)[1]))
+    def tried(noises: Sequence[Noise]) -> list[_Tried]:
+        found = list(chain.products(columns, noises))
+        products, log_dets = np.array([each for each, _ in found]), [log_det for _, log_det in found]
+        normal, right = products[:, :-1, :-1], products[:, :-1, -1:]
+        explained = np.sum(right * np.linalg.solve(normal, right), axis=(1, 2))
+        squares = np.maximum(products[:, -1, -1] - explained, least)
+        normals = np.linalg.slogdet(normal)[1]
+        return [
+            _Tried(noise, float(square), float(log_det), float(own))
+            for noise, square, log_det, own in zip(noises, squares, log_dets, normals, strict=True)
+        ]
 
     rows, longest = len(residual), _LONGEST * chain.longest
-    found = [tried(noise) for noise in (WHITE, *correlated_noises()) if noise.length <= longest]
+    found = tried([noise for noise in (WHITE, *correlated_noises()) if noise.length <= longest])
     swinging = [each for each in found if each.noise.second]
     if swinging:
-        from scipy.optimize import minimize
-
-        def noise_at(place: np.ndarray) -> Noise:
-            radius, white = 1.0 - np.exp(-np.exp(place[0])), 1.0 / (1.0 + np.exp(-place[2]))
-            return Noise.swinging(
-                min(radius, 1.0 - 1.0 / (_LASTING * chain.longest)),
-                float(np.exp(min(place[1], np.log(_SLOWEST * chain.longest)))),
-                white,
-            )
-
         best = max(swinging, key=lambda each: each.likelihood(rows)).noise
-        white = min(max(best.white, 0.01), 0.99)
-        start = [
-            np.log(-np.log(1.0 - np.sqrt(-best.second))), np.log(best.period), np.log(white / (1.0 - white)),
-        ]  # fmt: skip
-
-        def misfit(place: np.ndarray) -> float:
-            try:
-                return -tried(noise_at(place)).likelihood(rows)
-            except np.linalg.LinAlgError:  # so near to a pure line that its matrix has no factor any more
-                return np.inf
-
-        end = minimize(
-            misfit, start, method="Nelder-Mead",
-            options={"maxfev": _REFINED, "initial_simplex": start + np.vstack([np.zeros(3), _SIMPLEX])},
-        )  # fmt: skip
-        if np.isfinite(end.fun):
-            found.append(tried(noise_at(end.x)))
+        with suppress(np.linalg.LinAlgError):  # so near to a pure line that nothing is left beside it
+            found += tried([_likeliest_swing(chain, columns, least, best)])
     return found
+
+
+def _likeliest_swing(chain: Chain, columns: np.ndarray, least: float, begin: Noise) -> Noise:
+    """The swinging noise with the largest likelihood, from one of the grid on.
+
+    Args:
+        chain: the lines.
+        columns: those of the parameters, and the residual as the last.
+        least: that the squares can be.
+        begin: where the search begins.
+    """
+    radius, slowest = 1.0 - 1.0 / (_LASTING * chain.longest), log(_SLOWEST * chain.longest)
+
+    def noise_at(place: Sequence[float]) -> Noise:
+        near, period, share = place
+        return Noise.swinging(
+            min(1.0 - exp(-exp(min(near, _FAR))), radius),
+            exp(min(period, slowest)),
+            1.0 / (1.0 + exp(-max(share, -_FAR))),
+        )
+
+    misfit = chain.misfit(columns, least)
+    white = min(max(begin.white, 0.01), 0.99)
+    start = log(-log(1.0 - sqrt(-begin.second))), log(begin.period), log(white / (1.0 - white))
+    corners = [list(start)] + [
+        [value + step * (place == axis) for place, value in enumerate(start)]
+        for axis, step in enumerate(_STEPS)
+    ]
+    return noise_at(lowest(lambda place: misfit(noise_at(place)), corners, _REFINED))
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,6 +16,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from itertools import pairwise
 from typing import Literal
 
@@ -27,6 +28,7 @@ from mckibben.identification.residual.surface import (
     Fitted,
     Likeliest,
     levels_of,
+    likely_at_least,
     most_likely,
     moving_blocks,
     still_blocks,
@@ -35,6 +37,8 @@ from mckibben.identification.residual.surface import (
 
 _SHARE = 0.05  # of rows that may be anything, before any is seen
 _PER_ROW = 1.0  # log evidence that each row set aside has to gain: e times likelier than with it
+# Log evidence that the search of another surface is given at most, and for each row set aside.
+_FURTHER, _FURTHER_PER_ROW = 4.0, 2.0
 _SURFACE_PAYS = 3.0  # log evidence from which a surface is there: 20 times likelier than none
 _FEWEST_ROWS = 8  # below, nothing can be said
 _PART, _MOST, _MOST_OF_MANY, _MANY = 4, 12, 20, 1000  # candidates: n/4, at most 12, of 1000 rows and more 20
@@ -101,7 +105,8 @@ class Outlying:
     Attributes:
         rows: their indices, in the order in which they were set aside.
         gain: log evidence gained by setting them aside.
-        steps: log evidence gained by each further candidate, in the order of `candidates`.
+        steps: log evidence gained by each further candidate, in the order of `candidates`; less than that for
+            those that are far from being set aside.
         candidates: indices of all rows that were tried, of the order that was taken.
         surface: whether the other rows show a surface on the residual.
         place: what all of them have in common; None where that is chance, or of a single row.
@@ -138,8 +143,11 @@ def outlying_of(fitted: Fitted, predictor: Predictor) -> Outlying:
         readings = (predictor.measured / predictor.scale)[rows]
         span = float(np.ptp(readings))
         residual = fitted.residual[rows]
-        noise = growing_noise(fitted.jacobian[rows], residual, blocks, readings - residual, span=span)
-        found = outlying_rows(fitted.jacobian[rows], residual, blocks, span=span, noise=noise)
+        table = _Table(fitted.jacobian[rows], residual, blocks, span, None)
+        noise = table.growing_noise(readings - residual)
+        if noise is not None:
+            table = _Table(fitted.jacobian[rows], residual, blocks, span, noise)
+        found = table.outlying()
         if not found.rows and best is not _NONE:
             continue
         place = np.full(len(predictor.measured), -1)
@@ -174,20 +182,7 @@ def growing_noise(
         jacobian, residual, blocks, span: as of `outlying_rows`.
         predicted: prediction of each row, shape (rows,).
     """
-    table = _Table(jacobian, residual, blocks, span, None)
-    rest = table.rest()
-    size = np.abs(predicted)
-    size = np.log(np.maximum(size, _LEAST_SIZE * float(np.max(size, initial=0.0))) + 1e-300)
-    size = size - np.mean(size)
-    spread = float(np.sqrt(np.sum(size**2)))
-    rest = np.log(np.maximum(np.abs(rest), _ROUNDING * span) + 1e-300)
-    if not spread > 0.0 or len(residual) < _FEWEST_ROWS:
-        return None
-    slope = float(size @ (rest - np.mean(rest))) / spread**2
-    scatter = max(_LOG_SCATTER, float(np.std(rest - slope * size)))
-    if slope * spread < _GROWS * scatter:
-        return None
-    return np.exp(min(slope, _STEEPEST) * size)
+    return _Table(jacobian, residual, blocks, span, None).growing_noise(predicted)
 
 
 def outlying_rows(
@@ -207,26 +202,7 @@ def outlying_rows(
         span: range of the readings, in the unit of the residual.
         noise: of each row over its geometric mean, shape (rows,); None where it is the same.
     """
-    table = _Table(jacobian, residual, blocks, span, noise)
-    most = table.most_candidates
-    if most < 1 or not np.any(residual):
-        return _NONE
-    first = table.evidence((), None)
-    orders = [table.order(most, None)]
-    if blocks and first.pays:
-        orders.append(table.order(most, first.likeliest))
-    paths = [table.path(order, first) for order in orders if order]
-    if not paths:
-        return Outlying((), 0.0, (), (), surface=first.pays)
-    best = max(paths, key=lambda path: path.gain)
-    count = best.count
-    return Outlying(
-        tuple(best.order[:count]),
-        best.gain,
-        tuple(float(step) for step in np.diff(best.evidences)),
-        tuple(best.order),
-        surface=best.pays,
-    )
+    return _Table(jacobian, residual, blocks, span, noise).outlying()
 
 
 @dataclass(frozen=True, eq=False)
@@ -272,6 +248,7 @@ class _Table:
         span: float,
         noise: np.ndarray | None,
     ) -> None:
+        self.given = residual
         noise = np.ones(len(residual)) if noise is None else noise
         self.log_noise = np.log(noise)
         jacobian, residual = jacobian / noise[:, None], residual / noise
@@ -298,9 +275,51 @@ class _Table:
             return 0
         return max(min(most, self.rows // _PART, self.rows - self.constants - 2), 0)
 
+    @cached_property
+    def first(self) -> _Evidence:
+        """The evidence of all rows."""
+        return self.evidence((), None)
+
+    def outlying(self) -> Outlying:
+        """The rows that do not fit."""
+        most = self.most_candidates
+        if most < 1 or not np.any(self.given):
+            return _NONE
+        orders = [self.order(most, None)]
+        if self.blocks and self.first.pays:
+            orders.append(self.order(most, self.first.likeliest))
+        paths = [self.path(order) for order in orders if order]
+        if not paths:
+            return Outlying((), 0.0, (), (), surface=self.first.pays)
+        best = max(paths, key=lambda path: path.gain)
+        count = best.count
+        return Outlying(
+            tuple(best.order[:count]),
+            best.gain,
+            tuple(float(step) for step in np.diff(best.evidences)),
+            tuple(best.order),
+            surface=best.pays,
+        )
+
+    def growing_noise(self, predicted: np.ndarray) -> np.ndarray | None:
+        """Noise of each row over its geometric mean, where it grows with the prediction; else None."""
+        rest = self.rest()
+        size = np.abs(predicted)
+        size = np.log(np.maximum(size, _LEAST_SIZE * float(np.max(size, initial=0.0))) + 1e-300)
+        size = size - np.mean(size)
+        spread = float(np.sqrt(np.sum(size**2)))
+        rest = np.log(np.maximum(np.abs(rest), _ROUNDING * self.span) + 1e-300)
+        if not spread > 0.0 or self.rows < _FEWEST_ROWS:
+            return None
+        slope = float(size @ (rest - np.mean(rest))) / spread**2
+        scatter = max(_LOG_SCATTER, float(np.std(rest - slope * size)))
+        if slope * spread < _GROWS * scatter:
+            return None
+        return np.exp(min(slope, _STEEPEST) * size)
+
     def rest(self) -> np.ndarray:
         """Residual over its deviation by constants and surface that are fitted to it, shape (rows,)."""
-        found = self.evidence((), None)
+        found = self.first
         columns, penalty = self.basis, np.zeros(self.constants)
         if found.pays and found.likeliest is not None:
             columns = np.hstack([self.basis, self.columns * found.likeliest.roots])
@@ -317,14 +336,11 @@ class _Table:
         if surface is not None:
             columns = np.hstack([self.basis, self.columns * surface.roots])
             penalty = np.append(penalty, np.full(columns.shape[1] - self.constants, surface.noise))
-        normal, moment = columns.T @ columns + np.diag(penalty), columns.T @ self.residual
+        inverse = np.linalg.pinv(columns.T @ columns + np.diag(penalty), hermitian=True)
+        leverage = np.sum((columns @ inverse) * columns, axis=1)
+        rest = self.residual - columns @ (inverse @ (columns.T @ self.residual))
         left, chosen = np.ones(self.rows, bool), []
-        leverage = np.zeros(self.rows)
-        for step in range(most):
-            inverse = np.linalg.pinv(normal, hermitian=True) if len(normal) else normal
-            if step == 0 or self.rows < _MANY:
-                leverage = np.sum((columns @ inverse) * columns, axis=1)
-            rest = self.residual - columns @ (inverse @ moment)
+        for _ in range(most):
             free = left & (leverage < _LEVERAGE)
             if not np.any(free):
                 break
@@ -332,12 +348,23 @@ class _Table:
             row = int(np.argmax(np.where(free, size, -1.0)))
             chosen.append(row)
             left[row] = False
-            normal = normal - np.outer(columns[row], columns[row])
-            moment = moment - columns[row] * self.residual[row]
+            # Without the row (Sherman & Morrison, Ann. Math. Statist. 21 (1950) 124).
+            moved = inverse @ columns[row]
+            beside = columns @ moved
+            share = 1.0 / (1.0 - leverage[row])
+            inverse = inverse + share * np.outer(moved, moved)
+            rest, leverage = rest + share * rest[row] * beside, leverage + share * beside**2
         return chosen
 
-    def evidence(self, aside: Sequence[int], before: np.ndarray | None) -> _Evidence:
-        """Log evidence with some rows set aside; ``before``: where the search of the surface begins."""
+    def evidence(self, aside: Sequence[int], before: _Evidence | None, wanted: float = -np.inf) -> _Evidence:
+        """Log evidence with some rows set aside.
+
+        Args:
+            aside: the rows.
+            before: evidence of a like problem, where the search of the surface begins.
+            wanted: evidence below which it need not be exact: there it is that of the surface of the like
+                problem, at its best size.
+        """
         out = np.asarray(aside, dtype=int)
         gone, basis = self.residual[out], self.basis[out]
         count = self.rows - len(out) - self.constants
@@ -356,20 +383,26 @@ class _Table:
         shared = self.shared - basis.T @ columns
         gram = self.gram - columns.T @ columns - shared.T @ inverse @ shared
         moment = self.moment - columns.T @ gone - shared.T @ inverse @ moved
-        found = most_likely(self.blocks, gram, moment, square, count, before=before)
+        given = self.blocks, gram, moment, square, count
+        logs = None if before is None or before.likeliest is None else before.likeliest.logs
+        if logs is not None:
+            beside = fixed + likely_at_least(*given, logs=logs)
+            if max(beside, without) < wanted:
+                return _Evidence(float(beside), float(without), before.likeliest if before else None)
+        found = most_likely(*given, before=logs)
         return _Evidence(fixed + found.log_evidence, float(without), found)
 
-    def path(self, order: list[int], first: _Evidence) -> _Path:
+    def path(self, order: list[int]) -> _Path:
         """The evidence along an order, and how many rows of it are worth setting aside."""
-        found = [first]
-        for count in range(1, len(order) + 1):
-            before = found[-1].likeliest
-            found.append(self.evidence(order[:count], None if before is None else before.logs))
+        found = [self.first]
         best = 0
-        for count in range(1, len(found)):
-            if found[count].best > found[best].best + _PER_ROW * (count - best):
+        for count in range(1, len(order) + 1):
+            enough = found[best].best + _PER_ROW * (count - best)
+            further = _FURTHER + _FURTHER_PER_ROW * (count - best)
+            found.append(self.evidence(order[:count], found[-1], enough - further))
+            if found[count].best > enough:
                 best = count
-        gain = found[best].best - first.best
+        gain = found[best].best - self.first.best
         return _Path(order, [each.best for each in found], best, float(gain), found[best].pays)
 
 

@@ -17,17 +17,17 @@ it takes of rows that were left out, `likelihood_ratio` what it explains that co
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from functools import cached_property
+from functools import cache, cached_property
 from itertools import pairwise, product
-from typing import Protocol
+from typing import Any, NamedTuple, Protocol
 
 import numpy as np
 
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
-from mckibben.identification.residual.correlated import Chain, Ways, tried_noises
+from mckibben.identification.residual.correlated import Chain, Noise, Ways, tried_noises
 from mckibben.identification.residual.profiles import variables_of
 
 FEWEST_ROWS = 20  # below, a surface says nothing: 17 rows of a joint gave no gain whatever was hidden
@@ -71,6 +71,10 @@ _ROUGHNESSES = (0.2, 0.7)  # lengths of the processes whose columns are tried, o
 _LATE = 2.0  # length of what is late alone: nearly in proportion
 _WEIGHTY = 1e-2  # prior standard deviation of a column over the largest one, below which it is left out
 _MOST_LINE_ROWS = 6000  # for the likelihood ratio; of more rows every second, third ... of each line is taken
+_SIZED = 1e-11  # of the largest size of an effect, below which a direction of it has none
+# The noises are tried with so many directions of an effect; then with all of them, until the log likelihood
+# of the next one, with what these brought to others, is so far below the largest one.
+_ROUGH, _NEAR = 80, 6.0
 _PROJECTED = 1e-10  # of a sum of squares, below which a column lies among the others
 
 
@@ -233,63 +237,104 @@ class _Likelihood:
         self.blocks, self.count = blocks, count
         self.size = float(np.sqrt(max(square / max(count, 1), 1e-300)))
         self.gram, self.moment, self.square = gram, moment / self.size, square / self.size**2
-        edges = np.cumsum([0, *(len(block.waves) for block in blocks)])
-        self.parts = [slice(*ends) for ends in pairwise(edges)]
         amplitudes, dimensions = len(blocks), [len(block.orders) for block in blocks]
-        ends = amplitudes + np.cumsum([0, *dimensions])
-        self.lengths = [slice(*pair) for pair in pairwise(ends)]
+        columns = [len(block.waves) for block in blocks]
+        self.lengths = slice(amplitudes, amplitudes + sum(dimensions))
+        self.of = np.repeat(np.arange(amplitudes), columns)
+        # Of each column its squared frequencies, and the variables that it has.
+        self.waves = np.zeros((sum(columns), sum(dimensions)))
+        self.has = np.zeros_like(self.waves)
+        row = column = 0
+        for block in blocks:
+            here = slice(row, row + len(block.waves)), slice(column, column + len(block.orders))
+            self.waves[here], self.has[here] = block.waves**2, 1.0
+            row, column = here[0].stop, here[1].stop
+        self.whole = np.empty_like(gram, order="F")
         shortest = np.concatenate([np.minimum(block.shortest, 0.5 * _LONGEST) for block in blocks])
         self.low = np.log([*[_LEAST] * amplitudes, *shortest, _LEAST_NOISE])
         self.high = np.log([*[_GREATEST] * amplitudes, *[_LONGEST] * len(shortest), _GREATEST_NOISE])
 
     def start(self, before: np.ndarray | None) -> np.ndarray:
         """Where the search begins; after another one no amplitude begins at 0, where nothing changes it."""
-        blocks, lengths = len(self.blocks), self.lengths[-1].stop - len(self.blocks)
+        blocks, lengths = len(self.blocks), self.has.shape[1]
         usual = np.log([_START] * blocks + [_START_LENGTH] * lengths + [_START_NOISE])
         if before is not None:
             usual = np.concatenate([np.maximum(before[:blocks], np.log(0.1)), before[blocks:]])
         return np.clip(usual, self.low, self.high)
 
+    def shapes(self, logs: np.ndarray) -> np.ndarray:
+        """Prior variances of the weights of processes whose amplitude is 1, without the least one."""
+        lengths = logs[self.lengths]
+        sizes = self.has @ (lengths + 0.5 * np.log(2.0 * np.pi))
+        return np.exp(sizes - 0.5 * (self.waves @ np.exp(2.0 * lengths)))
+
     def variances(self, logs: np.ndarray) -> np.ndarray:
-        return np.concatenate(
-            [
-                block.variances(np.exp(logs[number]), np.exp(logs[part]))
-                for number, (block, part) in enumerate(zip(self.blocks, self.lengths, strict=True))
-            ]
-        )
+        """Prior variances of the weights, as `Block.variances`."""
+        return np.exp(2.0 * logs[: len(self.blocks)])[self.of] * (self.shapes(logs) + _FLOOR)
+
+    def factor(self, roots: np.ndarray, noise: float) -> np.ndarray | None:
+        """Cholesky's factor of the products of the columns over the noise, and 1 each; None without one."""
+        np.multiply(self.gram, roots / noise, out=self.whole)
+        self.whole *= roots[:, None]
+        self.whole.reshape(-1, order="F")[:: len(roots) + 1] += 1.0
+        factor, failed = _lapack().potrf(self.whole, lower=1, clean=1, overwrite_a=1)
+        return None if failed else factor
+
+    def alike(self, logs: np.ndarray) -> float:
+        """Log marginal likelihood at the best size, with amplitudes and noise in the ratios of ``logs``."""
+        noise = float(np.exp(2.0 * logs[-1]))
+        roots = np.sqrt(self.variances(logs))
+        factor = self.factor(roots, noise)
+        if factor is None:
+            return -np.inf
+        right = _lapack().trtrs(factor, roots * self.moment, lower=1)[0]
+        square = max(self.square - float(right @ right) / noise, 1e-12 * self.square)
+        log_det = 2.0 * float(np.sum(np.log(np.diag(factor))))
+        own = -0.5 * (self.count * (np.log(2.0 * np.pi * square / self.count) + 1.0) + log_det)
+        return own - self.count * float(np.log(self.size))
 
     def __call__(self, logs: np.ndarray) -> tuple[float, np.ndarray]:
-        from scipy.linalg import get_lapack_funcs
-
-        variances, noise = self.variances(logs), float(np.exp(2.0 * logs[-1]))
-        roots, columns = np.sqrt(variances), len(variances)
-        whole = (roots[:, None] * self.gram * roots) / noise
-        whole[np.diag_indices(columns)] += 1.0
-        potrf, potrs, potri = get_lapack_funcs(("potrf", "potrs", "potri"), (whole,))
-        factor, failed = potrf(whole, lower=1, clean=0)
-        if failed:
+        shapes, amplitudes = self.shapes(logs), len(self.blocks)
+        variances, noise = (
+            np.exp(2.0 * logs[:amplitudes])[self.of] * (shapes + _FLOOR),
+            np.exp(2.0 * logs[-1]),
+        )
+        roots = np.sqrt(variances)
+        factor = self.factor(roots, noise)
+        if factor is None:
             return 1e12, np.zeros_like(logs)
         log_det = 2.0 * float(np.sum(np.log(np.diag(factor))))
-        weights = roots * potrs(factor, roots * self.moment, lower=1)[0] / noise
-        diagonal = np.diag(potri(factor, lower=1)[0])
+        weights = roots * _lapack().potrs(factor, roots * self.moment, lower=1)[0] / noise
+        inverse = _lapack().trtri(factor, lower=1, overwrite_c=1)[0]
+        diagonal = np.einsum("ij,ij->j", inverse, inverse)
         # At the best weights, so that their rounding errors count by their squares only.
         fit = float(weights @ self.moment)
-        rest = max(self.square - 2.0 * fit + float(weights @ self.gram @ weights), 0.0)
-        penalty = float(np.sum(weights**2 / variances))
-        value = 0.5 * (self.count * np.log(2.0 * np.pi * noise) + log_det + rest / noise + penalty)
-        slope = np.zeros_like(logs)
+        rest = max(self.square - 2.0 * fit + float(weights @ (self.gram @ weights)), 0.0)
+        penalties = weights**2 / variances
+        value = 0.5 * (self.count * np.log(2.0 * np.pi * noise) + log_det + rest / noise + np.sum(penalties))
         # By the logarithm of each variance, then by amplitude and lengths.
-        by_variance = 0.5 * ((1.0 - diagonal) - weights**2 / variances)
-        for number, (block, part, where) in enumerate(
-            zip(self.blocks, self.parts, self.lengths, strict=True)
-        ):
-            own = by_variance[part]
-            slope[number] = 2.0 * np.sum(own)
-            floor = _FLOOR * float(np.exp(2.0 * logs[number]))
-            free = own * (1.0 - floor / variances[part])
-            slope[where] = free @ (1.0 - (np.exp(logs[where]) * block.waves) ** 2)
-        slope[-1] = (self.count - columns + np.sum(diagonal)) - rest / noise
-        return value, slope
+        by_variance = 0.5 * ((1.0 - diagonal) - penalties)
+        free = by_variance * shapes / (shapes + _FLOOR)
+        slope = np.concatenate([
+            2.0 * np.bincount(self.of, by_variance, amplitudes),
+            free @ self.has - np.exp(2.0 * logs[self.lengths]) * (free @ self.waves),
+            [(self.count - len(variances) + np.sum(diagonal)) - rest / noise],
+        ])  # fmt: skip
+        return float(value), slope
+
+
+class _Lapack(NamedTuple):
+    potrf: Callable[..., Any]
+    potrs: Callable[..., Any]
+    trtri: Callable[..., Any]
+    trtrs: Callable[..., Any]
+
+
+@cache
+def _lapack() -> _Lapack:
+    from scipy.linalg import get_lapack_funcs
+
+    return _Lapack(*get_lapack_funcs(_Lapack._fields, (np.empty((1, 1)),)))
 
 
 def most_likely(
@@ -328,6 +373,24 @@ def most_likely(
     log_evidence = -float(found.fun) - 0.5 * count * np.log(size)
     variances, noise = likelihood.variances(found.x) * size, float(np.exp(2.0 * found.x[-1])) * size
     return Likeliest(found.x, float(log_evidence), variances, noise)
+
+
+def likely_at_least(
+    blocks: Sequence[Block],
+    gram: np.ndarray,
+    moment: np.ndarray,
+    square: float,
+    count: int,
+    *,
+    logs: np.ndarray,
+) -> float:
+    """A lower bound of the log evidence of `most_likely`, from where a like problem ended, in little time.
+
+    Args:
+        blocks, gram, moment, square, count: as of `most_likely`.
+        logs: of the like problem; amplitudes and noise keep their ratios.
+    """
+    return _Likelihood(blocks, gram, moment, square, count).alike(logs)
 
 
 def play(values: np.ndarray, half_width: float, records: np.ndarray) -> np.ndarray:
@@ -799,27 +862,69 @@ def ratio_of(
     constants = jacobian[:, np.any(jacobian != 0.0, axis=0)]
     constants = constants / np.linalg.norm(constants, axis=0)
     own, freedom = constants.shape[1], len(residual) - constants.shape[1]
-    table = np.column_stack([constants, residual[:, None], columns])
     if freedom < 2 or not np.any(residual):
         return 0.0
-    sizes, square = np.sum(columns**2, axis=0), float(residual @ residual)
-    # With the mean square of the effect as that of the residual for an amplitude of 1.
-    roots = [(surface > 0.0, surface[surface > 0.0]) for surface in surfaces]
-    roots = [(kept, root * np.sqrt(len(residual) / np.sum(root**2 * sizes[kept]))) for kept, root in roots]
+    square = float(residual @ residual)
+    effects = [_principal(columns[:, surface > 0.0] * surface[surface > 0.0]) for surface in surfaces]
     without, beside = -np.inf, -np.inf
     for lines in ways:
         chain = Chain(lines)
         rows = chain.rows
         basis = np.linalg.qr(constants[rows])[0] if own else np.empty((len(rows), 0))
-        for noise in (each.noise for each in tried_noises(chain, basis, residual[rows])):
-            products, log_det = chain.products(table[rows], noise)
-            plain, rest = _without_constants(products, own, freedom, square / chain.longest)
-            without = max(without, plain - 0.5 * log_det)
-            for kept, root in roots:
-                inner = root[:, None] * rest[1:, 1:][np.ix_(kept, kept)] * root
-                gained = _gained(rest[0, 0], inner, root * rest[0, 1:][kept], freedom)
-                beside = max(beside, plain + gained - 0.5 * log_det)
+        noises = [each.noise for each in tried_noises(chain, basis, residual[rows])]
+        beside_effects = _BesideEffects(
+            chain, constants[rows], residual[rows], [effect[rows] for effect in effects], freedom, square
+        )
+        rough = beside_effects.likelihoods(noises, _ROUGH)
+        without = max(without, *(alone for alone, _ in rough))
+        more = 0.0  # by all directions
+        for place in sorted(range(len(noises)), key=[-each[1] for each in rough].__getitem__):
+            if rough[place][1] + more + _NEAR < beside:
+                break
+            ((_, whole),) = beside_effects.likelihoods([noises[place]], columns.shape[1])
+            beside, more = max(beside, whole), max(more, whole - rough[place][1])
     return 2.0 * max(beside - without, 0.0)
+
+
+@dataclass(frozen=True, eq=False)
+class _BesideEffects:
+    """A residual beside its constants and random effects, of the rows of a chain."""
+
+    chain: Chain
+    constants: np.ndarray
+    residual: np.ndarray
+    effects: Sequence[np.ndarray]
+    freedom: int
+    square: float
+
+    def likelihoods(self, noises: Sequence[Noise], most: int) -> list[tuple[float, float]]:
+        """For each noise the restricted log likelihood without an effect, and with the likeliest one.
+
+        Args:
+            noises: the noises.
+            most: directions of an effect that are taken.
+        """
+        parts = [effect[:, :most] for effect in self.effects]
+        ends = np.cumsum([1, *(part.shape[1] for part in parts)])  # after the residual
+        table = np.column_stack([self.constants, self.residual, *parts])
+        own, least = self.constants.shape[1], self.square / self.chain.longest
+        found = []
+        for products, log_det in self.chain.products(table, noises):
+            plain, rest = _without_constants(products, own, self.freedom, least)
+            gained = [
+                _gained(rest[0, 0], rest[first:last, first:last], rest[0, first:last], self.freedom)
+                for first, last in pairwise(ends)
+            ]
+            found.append((plain - 0.5 * log_det, plain + max(gained) - 0.5 * log_det))
+        return found
+
+
+def _principal(effect: np.ndarray) -> np.ndarray:
+    """The same random effect with a mean square of 1, by columns of other directions, the largest first."""
+    gram = effect.T @ effect
+    sizes, turned = np.linalg.eigh(gram)
+    kept = turned[:, sizes > _SIZED * sizes[-1]]
+    return effect @ kept[:, ::-1] * np.sqrt(len(effect) / np.trace(gram))
 
 
 def _without_constants(
