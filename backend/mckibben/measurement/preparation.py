@@ -87,7 +87,7 @@ def prepared(measurement: Measurement, steps: Sequence[str]) -> Measurement:
         left = before - changed.rows
         skipped = dict(changed.skipped)
         if left > 0:
-            skipped[f"left out by '{step.text}'"] = left
+            skipped[f"by '{step.text}'"] = left
         measurement = replace(
             changed,
             channels=tuple(

@@ -48,7 +48,8 @@
 /** What the user says of a field of the experiment: a value, or a proposal that was taken over.
  * @typedef {string | {value: string, origin: "suggested"}} Said */
 /** @typedef {Record<string, Said>} Experiment */
-/** A measurement file or preset. @typedef {{id: string, name: string, use: Use, experiment?: Experiment}} Chosen */
+/** A measurement file or preset; `prepare`: the steps that prepare its data, in their order.
+ * @typedef {{id: string, name: string, use: Use, experiment?: Experiment, prepare?: string[]}} Chosen */
 /** Errors of fitted values: effect -> parameter -> standard error, and whether the fit stopped at a bound.
  * @typedef {Record<string, Record<string, {stderr: number | null, at_bound: boolean}>>} Fit */
 /** What is said of the data: the files with their experiments, and the decisions about doubtful entries.

@@ -27,7 +27,7 @@ function spread(values) {
   return there.length ? Math.max(...there) - Math.min(...there) : 0;
 }
 
-/** Which channels are drawn over which. @param {Preview} p
+/** Which channels are drawn over which. @param {Pick<Preview, "points" | "kind">} p
  * @returns {{x: string, ys: string[]} | null} null: there is nothing to draw */
 export function axesOf(p) {
   const { points } = p;
@@ -68,8 +68,11 @@ function axis(values, si, system, from, to) {
   return { at: (/** @type {number} */ v) => at(toShown(v, s)), ticks, tickAt: at, unit: s.unit };
 }
 
-/** @param {Preview} p @param {System} system */
-export function picture(p, system) {
+/** What a picture is made of. @typedef {Pick<Preview, "points" | "kind" | "channel_choices">} Drawn */
+
+/** @param {Drawn} p @param {System} system
+ * @param {Drawn["points"]} [before] of the same channels, drawn pale: the readings before a preparation */
+export function picture(p, system, before = {}) {
   const axes = axesOf(p), colours = palette.value;
   const svg = shape("svg", { viewBox: `0 0 ${WIDTH} ${HEIGHT}`, class: "thumbnail", role: "img" });
   svg.setAttribute("aria-label", axes ? `${titleOf(axes)} of the file` : "Nothing to draw yet");
@@ -81,12 +84,13 @@ export function picture(p, system) {
   }
   const { points } = p;
   const si = (/** @type {string} */ name) => p.channel_choices.find((c) => c.name === name)?.si_unit ?? "1";
-  const across = axis(points[axes.x], si(axes.x), system, LEFT, WIDTH - RIGHT);
+  const both = (/** @type {string} */ name) => [...points[name], ...before[name] ?? []];
+  const across = axis(both(axes.x), si(axes.x), system, LEFT, WIDTH - RIGHT);
   const height = (HEIGHT - TOP - BOTTOM - 8 * (axes.ys.length - 1)) / axes.ys.length;
   const pressure = points.pressure, range = pressure ? spread(pressure) : 0;
   const lowest = pressure ? Math.min(...pressure.flatMap((v) => v === null ? [] : [v])) : 0;
   axes.ys.forEach((name, i) => {
-    const top = TOP + i * (height + 8), up = axis(points[name], si(name), system, top + height, top);
+    const top = TOP + i * (height + 8), up = axis(both(name), si(name), system, top + height, top);
     for (const tick of up.ticks) {
       const y = up.tickAt(tick);
       svg.append(
@@ -107,6 +111,12 @@ export function picture(p, system) {
         `${NAMES[name] ?? name}${up.unit ? ` (${up.unit})` : ""}`,
       ),
     );
+    before[name]?.forEach((value, k) => {
+      const x = before[axes.x]?.[k] ?? null;
+      if (value === null || x === null) return;
+      const place = { cx: across.at(x).toFixed(1), cy: up.at(value).toFixed(1), r: 1.6 };
+      svg.append(shape("circle", { ...place, class: "before" }));
+    });
     points[name].forEach((value, k) => {
       const x = points[axes.x][k], level = pressure?.[k];
       if (value === null || x === null) return;

@@ -37,5 +37,9 @@ export const keep = (file, mapping = {}) =>
   untilAnswered(() => sendFile("PUT", `/api/measurements${query(file, mapping)}`, file));
 
 /** A kept file with its columns. @param {string} id @param {AbortSignal} [signal]
+ * @param {string[]} [steps] that prepare it
  * @returns {Promise<S["MeasurementDetails"]>} */
-export const measurement = (id, signal) => get(`/api/measurements/${id}`, signal);
+export const measurement = (id, signal, steps = []) => {
+  const asked = steps.map((step) => `prepare=${encodeURIComponent(step)}`).join("&");
+  return get(`/api/measurements/${id}${asked && `?${asked}`}`, signal);
+};

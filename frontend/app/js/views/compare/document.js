@@ -84,7 +84,8 @@ const isSaid = (x) => isText(x) || (isObject(x) && isText(x.value) && x.origin =
 /** @param {unknown} x */
 const isChosen = (x) =>
   isObject(x) && isText(x.id) && isText(x.name) && ["fit", "validation", "off"].includes(x.use) &&
-  (x.experiment === undefined || (isObject(x.experiment) && Object.values(x.experiment).every(isSaid)));
+  (x.experiment === undefined || (isObject(x.experiment) && Object.values(x.experiment).every(isSaid))) &&
+  (x.prepare === undefined || isTexts(x.prepare));
 /** @param {unknown} x */
 const isFiles = (x) => Array.isArray(x) && x.length <= MOST_FILES && x.every(isChosen);
 /** @param {unknown} x */

@@ -38,10 +38,11 @@ export function modelBody(c, model = { effects: c.effects, freed: c.freed, value
   return {
     ...(c.drive ? { drive: { schema: 1, ...c.drive, muscle } } : { muscle }),
     effects: model.effects,
-    measurements: used({ files }).map(({ id, use, experiment }) => ({
+    measurements: used({ files }).map(({ id, use, experiment, prepare }) => ({
       id,
       use,
       ...(experiment ? { experiment: experimentInput(experiment) } : {}),
+      ...(prepare?.length ? { prepare } : {}),
     })),
     ...(c.free.length ? { free: c.free } : {}),
     ...(model.freed.length ? { freed: model.freed } : {}),

@@ -17,6 +17,7 @@ import {
   setUse,
 } from "./files.js";
 import { answer, chosen, fault, files, messageFor } from "../answers.js";
+import { preparation } from "./prepare.js";
 
 /** @typedef {import("../../../types.js").Chosen} Chosen */
 /** @typedef {import("../../../types.js").Use} Use */
@@ -114,6 +115,7 @@ function fileRow(file, index) {
         h("button", { type: "button", class: "link", onclick: () => importOnceMore(file.id, true) }, "Undo"),
       );
     },
+    preparation(file),
     h("p", { class: "error" }, () => messageFor(`measurements.${index}`) ?? ""),
     () =>
       messages().length

@@ -158,7 +158,9 @@ function withFile(c, { info, experiment }, instead) {
     ...(Object.keys(said).length ? { experiment: said } : {}),
   };
   if (instead) {
-    const list = c.files.map((f) => f.id === instead ? { ...added, use: f.use } : f);
+    const list = c.files.map((f) =>
+      f.id === instead ? { ...added, use: f.use, ...(f.prepare ? { prepare: f.prepare } : {}) } : f
+    );
     const files = list.filter((f, i) => list.findIndex((g) => g.id === f.id) === i);
     return { ...c, files, ...(files.length === 1 ? { muscle } : {}) };
   }
@@ -211,6 +213,21 @@ export function setUse(id, use) {
     `${file?.name ?? "file"}: ${
       use === "fit" ? "used for the fit" : use === "off" ? "not used" : "validation"
     }`,
+  );
+}
+
+/** @param {string} id @param {string[]} steps */
+export function setPreparation(id, steps) {
+  const file = files.peek().find((f) => f.id === id);
+  editCompare(
+    {
+      files: files.peek().map((f) => {
+        if (f.id !== id) return f;
+        const { prepare: _, ...rest } = f;
+        return steps.length ? { ...rest, prepare: steps } : rest;
+      }),
+    },
+    `${file?.name ?? "file"}: ${steps.length ? `prepared: ${steps.join(", ")}` : "as it was read"}`,
   );
 }
 
