@@ -56,7 +56,8 @@ Free = Annotated[
     typer.Option(
         "--free",
         metavar="NAME",
-        help="Geometry or constant to fit as well, braid_angle or EFFECT.CONSTANT; repeatable.",
+        help="What to fit as well: geometry (braid_angle), EFFECT.CONSTANT, or the start of runs (start); "
+        "repeatable.",
     ),
 ]
 SavedModelFile = Annotated[

@@ -29,6 +29,7 @@ from mckibben.application.compare.series import (
     series_of,
 )
 from mckibben.application.compare.specimens import Specimens
+from mckibben.application.compare.starts import start_messages
 from mckibben.application.compare.windows import WindowsResult, windows_result
 from mckibben.application.diagnose.doubts import with_accepted
 from mckibben.application.envelope import Envelope, MeasuredRange, beyond, envelope_of
@@ -252,6 +253,7 @@ def compared_whole(
         *question.unread_messages,
         *beyond(question.envelope, data),
         *comparison.messages,
+        *start_messages(comparison.fit),
         *absorbed_message(comparison.absorbed, predictor.unit),
     ]
     over_windows, why_none = windows_result(predictor, comparison.fit_model, question.noise)

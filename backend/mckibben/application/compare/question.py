@@ -21,7 +21,7 @@ from mckibben.documents.start_model import StartModel, StatedMuscle
 from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.entries import StatedEntry
 from mckibben.identification.predict import Predictor
-from mckibben.identification.predict.fit_model import LOAD, FitModel, Free, free_geometry
+from mckibben.identification.predict.fit_model import LOAD, START, FitModel, Free, free_geometry
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.points import Points
 from mckibben.physics.custom import CUSTOM, TERM
@@ -40,7 +40,7 @@ class ModelQuestion:
         start: muscle and effects; its length is that of the first measurement.
         specimens: data for fits, each measurement with its experiment.
         validation: data that models are not fitted to.
-        free: geometry fields that fits may change as well, within their tolerance.
+        free: geometry fields that fits may change as well, within their tolerance; `START`: starts of runs.
         freed: further constants that fits may change, as "effect.parameter".
         noise: standard deviation of the predicted channel, when it is known [SI].
         assumptions: what nobody said and was assumed.
@@ -153,8 +153,9 @@ class ModelQuestion:
             InputError: a name is not a geometry field, or its value is not known.
         """
         wrong = [entry.free for entry in self.accepted if entry.free is not None and entry.free.name != LOAD]
-        names = [name for name in self.free if name not in {free.name for free in wrong}]
-        return (*free_geometry(self.start.muscle, names, self.tolerance), *wrong)
+        names = [name for name in self.free if name not in {free.name for free in wrong} and name != START]
+        starts = self.predictor.free_starts() if START in self.free else ()
+        return (*free_geometry(self.start.muscle, names, self.tolerance), *wrong, *starts)
 
     @property
     def free_load(self) -> Free | None:

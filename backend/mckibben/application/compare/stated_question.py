@@ -14,6 +14,7 @@ from mckibben.application.measurement.files import OPTION
 from mckibben.documents.located import at_file
 from mckibben.documents.saved_model import SavedModel
 from mckibben.documents.studio import Studio
+from mckibben.identification.predict.fit_model import START
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY
@@ -82,6 +83,11 @@ def stated_question(
         if saved is not None and (error.field or "").startswith("freed."):
             raise at_file(saved.name, error.field, error.message, error.hint) from error
         raise
+    if START in geometry:
+        try:
+            question.predictor.free_starts()
+        except InputError as error:
+            raise InputError(f"{prefix}free start: {error.message}", field="free", hint=error.hint) from error
     for name in constants:
         effect = name.partition(".")[0]
         if effect not in question.start.effects:
@@ -119,8 +125,10 @@ def _freed(
         if "." in name and name not in constants:
             similar = [each for each in constants if each.startswith(name.partition(".")[0])] or constants
             raise InputError(f"{where}: there is no such constant", hint=did_you_mean(name, similar))
-        if "." not in name and name not in GEOMETRY:
-            raise InputError(f"{where}: there is no such geometry", hint=did_you_mean(name, GEOMETRY))
+        if "." not in name and name not in (*GEOMETRY, START):
+            raise InputError(
+                f"{where}: there is no such geometry", hint=did_you_mean(name, (*GEOMETRY, START))
+            )
     unique = tuple(dict.fromkeys(names))
     return tuple(name for name in unique if "." not in name), tuple(name for name in unique if "." in name)
 

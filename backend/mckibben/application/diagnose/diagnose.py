@@ -12,6 +12,7 @@ import numpy as np
 from mckibben.application.compare.compare import ModelDocument, checked
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.compare.reach import reach_of
+from mckibben.application.compare.starts import start_messages
 from mckibben.application.compare.stated_question import of_one_channel
 from mckibben.application.compare.windows import windows_result
 from mckibben.application.diagnose.doubts import (
@@ -271,6 +272,7 @@ def _result(
             *question.points.measurement.messages,
             *data.notes,
             *diagnosis.messages,
+            *start_messages(diagnosis.fit),
             *notes_of(diagnosis.context, titles),
             *absorbed_message(diagnosis.absorbed, predictor.unit),
             *([why_none] if why_none else []),

@@ -17,6 +17,11 @@ LOAD = "load_force"
 #: Name of the supply pressure over the stated one [-].
 SUPPLY = "supply_factor"
 
+#: What `free` calls the starts of runs; and begins of their names: how far the stroke at the start lies
+#: beyond its first reading [m], and the speed there [m/s]. A number follows where there are several runs.
+START = "start"
+START_STROKE, START_SPEED = "start_stroke", "start_speed"
+
 _UNITS = {name: "rad" if name == "braid_angle" else "m" for name in GEOMETRY} | {LOAD: "N"}
 # Tolerance of a geometry field when none is stated: angle in rad, others as a share of the value.
 _DEFAULT_TOLERANCE = {"braid_angle": 0.06, "nominal_length": 0.02}
@@ -27,7 +32,7 @@ _DEFAULT_SHARE = 0.10
 class FitModel:
     """A muscle, its effects and their values, some of which a fit may change.
 
-    Values are named "effect.parameter", by the field of the muscle, `LOAD` or `SUPPLY`.
+    Values are named "effect.parameter", by the field of the muscle, `LOAD`, `SUPPLY` or of a start.
 
     Attributes:
         muscle: geometry, SI.
@@ -38,6 +43,8 @@ class FitModel:
         supply_factor: supply pressure of a drive over the stated one [-].
         blocked_force: of the stated muscle at its highest pressure, with which the bounds of some parameters
             grow [N]; 0 = not known.
+        starts: of the runs of records in time, by their names; those left out begin at rest at the first
+            reading.
     """
 
     muscle: Muscle
@@ -47,8 +54,10 @@ class FitModel:
     assumed: frozenset[str] = frozenset()
     supply_factor: float = 1.0
     blocked_force: float = 0.0
+    starts: Mapping[str, float] = ()  # type: ignore
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "starts", dict(self.starts))
         object.__setattr__(self, "values", {name: dict(inner) for name, inner in dict(self.values).items()})
 
     def number(self, name: str) -> float:
@@ -57,6 +66,8 @@ class FitModel:
             return self.load
         if name == SUPPLY:
             return self.supply_factor
+        if is_start(name):
+            return self.starts.get(name, 0.0)
         if name in GEOMETRY:
             return float(getattr(self.muscle, name))
         effect, parameter = name.split(".")
@@ -66,19 +77,22 @@ class FitModel:
         """The same model with some values replaced."""
         values = {effect: dict(inner) for effect, inner in self.values.items()}
         geometry: dict[str, float] = {}
+        starts = dict(self.starts)
         load, supply = self.load, self.supply_factor
         for name, number in zip(names, numbers, strict=True):
             if name == LOAD:
                 load = float(number)
             elif name == SUPPLY:
                 supply = float(number)
+            elif is_start(name):
+                starts[name] = float(number)
             elif name in GEOMETRY:
                 geometry[name] = float(number)
             else:
                 effect, parameter = name.split(".")
                 values[effect][parameter] = float(number)
         muscle = self.muscle._replace(**geometry) if geometry else self.muscle
-        return replace(self, muscle=muscle, values=values, load=load, supply_factor=supply)
+        return replace(self, muscle=muscle, values=values, load=load, supply_factor=supply, starts=starts)
 
     def adding(self, effect: Effect, values: Mapping[str, float] | None = None) -> FitModel:
         """The model with one more effect, at its defaults unless values are given.
@@ -113,6 +127,11 @@ class FitModel:
         return tuple(effect.id for effect in self.effects)
 
 
+def is_start(name: str) -> bool:
+    """Whether a value is one of the start of a run."""
+    return name.startswith((START_STROKE, START_SPEED))
+
+
 def free_numbers(
     fit_model: FitModel,
     geometry: Iterable[Free] = (),
@@ -124,7 +143,7 @@ def free_numbers(
 
     Args:
         fit_model: the model; its values are the starts.
-        geometry: geometry fields with their bounds (`free_geometry`), or `SUPPLY`.
+        geometry: geometry fields with their bounds (`free_geometry`), `SUPPLY`, or starts of runs.
         freed: names of constants that are free in addition to those declared as fitted.
         load: the unknown load with its bounds.
     """

@@ -18,7 +18,7 @@ from typing import Self, TypeVar
 import numpy as np
 
 from mckibben.identification.predict.comparable_rows import records_of
-from mckibben.identification.predict.fit_model import FitModel, Free
+from mckibben.identification.predict.fit_model import START_SPEED, START_STROKE, FitModel, Free
 from mckibben.identification.predict.folds import FEWEST
 from mckibben.identification.predict.moving_records import (
     MOST_DRIVING,
@@ -31,6 +31,7 @@ from mckibben.identification.predict.moving_records import (
     thinned,
 )
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor, StoppedRun
+from mckibben.measurement.derivative import noise_of, rates
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.noise import noise_floor
 from mckibben.measurement.settled import settled
@@ -50,6 +51,8 @@ from mckibben.simulation.statics.model import StaticModel
 # 26 um after 200 swings of a load that nothing damps.
 _TOLERANCE = 1e-5
 _FEWEST_ROWS = 3  # of a run
+# How far a free start may lie from the first reading: share of the stroke, or deviations of its noise.
+_START_OFF, _START_NOISE = 0.1, 6.0
 _READINGS = {"pressure": "pressure_reading", "displacement": "stroke_reading", "force": "force_reading"}
 # Derivatives by runs that take the same steps: relative step, fewest parameters, and the number of runs for
 # derivatives of a structure after which its fits need them; so many segments of a command count as a run.
@@ -109,6 +112,8 @@ class TransientPredictor(Predictor):
         labels = records_of(measurement)
         runs = [np.flatnonzero((labels == label) & measurement.usable) for label in np.unique(labels)]
         self._records = [record_of(measurement, drive, rows) for rows in runs]
+        if len(runs) > 1:
+            self.number_runs(1)
         self._measurement, self._row_numbers = measurement, data.rows
         self.messages = (*measurement.messages, *([data.message] if data.message else []))
         if any(self._thinly_driven(rows) for rows in runs):
@@ -172,6 +177,32 @@ class TransientPredictor(Predictor):
         """The drive of each run: as documented, with the load, supply and command of the run."""
         return tuple(record.drive for record in self._records)
 
+    def free_starts(self) -> tuple[Free, ...]:
+        """As of the base class: within a tenth of the stroke, and up to the fastest measured speed."""
+        if self.commanded or "displacement" not in {name for name, *_ in self._recorded}:
+            return super().free_starts()
+        stroke, time = stroke_of(self._measurement, self._records[0].drive), self._measurement.columns["time"]
+        assert stroke is not None  # noqa: S101 - it is recorded
+        found = []
+        for record in self._records:
+            own = stroke[record.rows]
+            far = max(_START_OFF * float(np.ptp(own)), _START_NOISE * noise_of(own))
+            moving = rates(time[record.rows], own).value
+            fast = max(float(np.max(np.abs(moving), initial=0.0)), far / max(float(record.time[-1]), 1e-9))
+            # A fit begins where the model begins (`free_numbers`): at 0, of which no change is a share.
+            found += [
+                Free(f"{name}{record.number}", float("nan"), -most, most, unit, off=0.0, usual=0.1 * most)
+                for name, most, unit in ((START_STROKE, far, "m"), (START_SPEED, fast, "m/s"))
+            ]
+        return tuple(found)
+
+    def number_runs(self, first: int) -> None:
+        """Give the runs numbers from ``first`` on, unless they have some."""
+        if not any(record.number for record in self._records):
+            self._records = [
+                replace(record, number=f"_{number}") for number, record in enumerate(self._records, first)
+            ]
+
     @property
     def runs(self) -> int:
         """Number of uninterrupted records."""
@@ -201,9 +232,10 @@ class TransientPredictor(Predictor):
             run = whole_run(drive, record.pieces(drive), grid=grid, max_steps=record.most_steps)
             return run, readings
         driving = _driving(drive, record)
+        start = (record.begun_by([fit_model]).starts or ((0.0, 0.0),))[0]
         run = whole_motion(
-            drive, time=driving[0], pressure=driving[1], stroke=record.stroke, grid=grid,
-            tolerance=_TOLERANCE, max_steps=record.most_steps,
+            drive, time=driving[0], pressure=driving[1], stroke=record.stroke + start[0], speed=start[1],
+            grid=grid, tolerance=_TOLERANCE, max_steps=record.most_steps,
         )  # fmt: skip
         return run, readings
 
@@ -305,9 +337,10 @@ class TransientPredictor(Predictor):
     def _of_records(self, models: Sequence[FitModel]) -> list[Sequence[RecordedRun]]:
         """Of each record the runs of models with the same effects."""
         drives = [[_drive_with(model, record) for model in models] for record in self._records]
+        records = [record.begun_by(models) for record in self._records]
         # Counted here, so that it does not depend on which thread is first.
-        few = [self.commanded and self._few(*each) for each in zip(drives, self._records, strict=True)]
-        runs = list(zip(drives, self._records, few, strict=True))
+        few = [self.commanded and self._few(*each) for each in zip(drives, records, strict=True)]
+        runs = list(zip(drives, records, few, strict=True))
         return side_by_side(lambda run: self._runs(*run), runs)
 
     def within_fit(self, fit_model: FitModel, free: Sequence[Free]) -> np.ndarray:
@@ -477,6 +510,7 @@ class TransientPredictor(Predictor):
                 time=time,
                 pressure=pressure,
                 stroke=record.stroke,
+                starts=record.starts,
                 tolerance=_TOLERANCE,
                 grid=record.time,
                 max_steps=record.most_steps,
@@ -572,7 +606,7 @@ class KeptRuns:
 def _key(fit_model: FitModel) -> Hashable:
     """All that a run depends on."""
     values = frozenset((effect, *fit_model.values[effect.id].items()) for effect in fit_model.effects)
-    return fit_model.muscle, fit_model.supply_factor, values
+    return fit_model.muscle, fit_model.supply_factor, values, frozenset(fit_model.starts.items())
 
 
 @cache

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
 import numpy as np
 
+from mckibben.identification.predict.fit_model import START_SPEED, START_STROKE, FitModel
 from mckibben.identification.predict.input_noise import without_input_noise
 from mckibben.measurement.derivative import noise_of
 from mckibben.measurement.experiment import GRAVITY
@@ -68,6 +70,9 @@ class Record:
         stroke: of the drive at the first row [m].
         rows: the compared rows of the measurement.
         most_steps: accepted and rejected steps after which a run of the model stops.
+        number: what the names of its start end with, "_2"; "" of the only run.
+        starts: of runs that begin elsewhere than at rest at the first reading, of each how far beyond it [m],
+            and how fast [m/s]; None where all do.
     """
 
     drive: Drive
@@ -76,6 +81,8 @@ class Record:
     stroke: float
     rows: np.ndarray
     most_steps: int
+    number: str = ""
+    starts: tuple[tuple[float, float], ...] | None = None
     _pieces: dict[tuple[float, float], Pieces] = field(
         default_factory=dict, init=False, repr=False, compare=False
     )
@@ -95,6 +102,14 @@ class Record:
         assert self.driving is not None  # noqa: S101 - of a measured pressure
         time, pressure = self.driving
         return time, without_input_noise(time, pressure)
+
+    def begun_by(self, models: Sequence[FitModel]) -> Record:
+        """The run with the starts that these models give it."""
+        if not any(model.starts for model in models):
+            return self
+        names = f"{START_STROKE}{self.number}", f"{START_SPEED}{self.number}"
+        starts = tuple((model.number(names[0]), model.number(names[1])) for model in models)
+        return replace(self, starts=starts)
 
     def until(self, count: int) -> Record:
         """The first rows of the run."""

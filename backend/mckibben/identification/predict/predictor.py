@@ -15,6 +15,7 @@ from mckibben.facts.result import Number, result_class
 from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.reading_errors import ReadingError, ReadingWeights, reading_weights
 from mckibben.physics.effect import Effect
+from mckibben.physics.errors import InputError
 
 #: What went before a record, of `mckibben.identification.predict.memory.HISTORIES`, in words.
 _FRICTION = "friction depends on the motion before the record, which no file states: "
@@ -300,6 +301,18 @@ class Predictor(ABC):
         """The runs of a model that end before the last rows; a closed form has none."""
         del fit_model
         return ()
+
+    def free_starts(self) -> tuple[Free, ...]:
+        """The starts of the runs as parameters of a fit: stroke beyond the first reading, and speed.
+
+        Raises:
+            InputError: there are no runs that begin from a measured stroke under a measured pressure.
+        """
+        raise InputError(
+            "a start can be fitted to records of a stroke over time under a measured pressure only",
+            field="free",
+            hint="leave 'start' out; a run with a command begins at rest at its first pressure",
+        )
 
     def reached(self, fit_model: FitModel) -> Predictor:
         """This predictor of the rows alone that the runs of a model reach.

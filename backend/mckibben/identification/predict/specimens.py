@@ -15,6 +15,7 @@ import numpy as np
 
 from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.folds import folds_of
+from mckibben.identification.predict.moving import TransientPredictor
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor, Reversals, StoppedRun
 from mckibben.identification.predict.reading_errors import ReadingError
 from mckibben.measurement.kind import common_kind
@@ -55,6 +56,11 @@ class SpecimensPredictor(Predictor):
 
     def __init__(self, specimens: Sequence[SpecimenData], *, reference: Muscle) -> None:
         self._specimens, self._reference = tuple(specimens), reference
+        first_run = 1
+        for specimen in specimens:
+            if isinstance(specimen.predictor, TransientPredictor):
+                specimen.predictor.number_runs(first_run)
+                first_run += specimen.predictor.runs
         parts = [specimen.predictor for specimen in specimens]
         first = parts[0]
         kind = first.kind
@@ -152,6 +158,10 @@ class SpecimensPredictor(Predictor):
     def parts(self, fit_model: FitModel) -> list[tuple[Predictor, FitModel]]:
         """The predictor of each specimen, and the model with its muscle."""
         return [(each.predictor, self._own(fit_model, each)) for each in self._specimens]
+
+    def free_starts(self) -> tuple[Free, ...]:
+        """Those of all specimens."""
+        return tuple(free for each in self._specimens for free in each.predictor.free_starts())
 
     def without(self, number: int) -> SpecimensPredictor:
         """The data of all specimens but one, prepared alike; reading errors are to be allowed for again."""

@@ -45,7 +45,9 @@ MeasurementId = Annotated[
 ParameterPath = Annotated[
     str, StringConstraints(pattern=r"^[A-Za-z_][A-Za-z0-9_]*\.[A-Za-z_][A-Za-z0-9_]*$", max_length=128)
 ]
-FreeGeometry = Literal["nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter"]
+FreeGeometry = Literal[
+    "nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter", "start"
+]
 
 
 Steps = Annotated[
@@ -91,7 +93,10 @@ class ModelRequest(Strict):
         description="Measurements to fit to or to validate with, instead of 'measurement'.",
     )
     free: list[FreeGeometry] = Field(
-        default=[], max_length=5, description="Geometry to fit as well, within its tolerance."
+        default=[],
+        max_length=6,
+        description="Geometry to fit as well, within its tolerance; 'start': stroke and speed at the start "
+        "of each run under a measured pressure.",
     )
     freed: list[ParameterPath] = Field(
         default=[], max_length=64, description="Additional parameters to fit, as effect.parameter."

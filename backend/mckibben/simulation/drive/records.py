@@ -203,13 +203,20 @@ class BegunMotion(NamedTuple):
 
 
 def begun_motion(
-    drive: Drive, compiled: CompiledDrive, *, time: np.ndarray, pressure: np.ndarray, stroke: float
+    drive: Drive,
+    compiled: CompiledDrive,
+    *,
+    time: np.ndarray,
+    pressure: np.ndarray,
+    stroke: float,
+    speed: float = 0.0,
 ) -> BegunMotion:
-    """The start of `motion_of_record`, where the load is at rest.
+    """The start of `motion_of_record`, where the load is at rest unless a speed is given.
 
     Args:
         drive, time, pressure, stroke: as there.
         compiled: the equations of its motion.
+        speed: of the load there, along the stroke [m/s].
 
     Raises:
         InputError: times that do not ascend.
@@ -233,6 +240,11 @@ def begun_motion(
     held = np.zeros(len(compiled.model.switches))
     packed = np.concatenate([start, constants, at_rest])
     without_friction(compiled, held, lambda given: compiled.guards(packed, given))
+    if speed != 0.0:
+        start[names.index("speed")] = speed
+        rubs = [index for index, switch in enumerate(compiled.model.switches) if switch.slides]
+        for index in rubs if not any(held[index] for index in rubs) else ():
+            held[index] = float(compiled.model.switches[index].slides * speed > 0.0)
     return BegunMotion(start, held, constants, columns)
 
 
@@ -242,6 +254,7 @@ def motions_of_records(
     time: np.ndarray,
     pressure: np.ndarray,
     stroke: float,
+    starts: Sequence[tuple[float, float]] | None = None,
     tolerance: float = TOLERANCE,
     grid: np.ndarray | None = None,
     max_steps: int = MAX_STEPS,
@@ -251,6 +264,7 @@ def motions_of_records(
     Args:
         drives: of the same effects.
         time, pressure, stroke: see `motion_of_record`; every row of the record drives the motion.
+        starts: of each drive how far beyond the stroke it begins [m], and how fast [m/s]; None: at rest.
         tolerance: relative error per step.
         grid: ascending times within the record at which readings are wanted [s]; default: those of its rows.
         max_steps: most accepted and rejected steps of a run, which stops there.
@@ -261,19 +275,21 @@ def motions_of_records(
     grid = time if grid is None else grid
     first = drives[0]
     compiled = compiled_driven(first.model.effects, motion=True)
-    parameters, starts, switches, packed = [], [], [], []
+    parameters, states, switches, packed = [], [], [], []
     alike = all(drive.load is first.load for drive in drives)  # then one table of inputs serves them all
-    for drive in drives:
-        begun = begun_motion(drive, compiled, time=time, pressure=pressure, stroke=stroke)
+    for drive, (beyond, speed) in zip(drives, starts or [(0.0, 0.0)] * len(drives), strict=True):
+        begun = begun_motion(
+            drive, compiled, time=time, pressure=pressure, stroke=stroke + beyond, speed=speed
+        )
         switches.append(begun.switches)
         parameters.append(begun.parameters)
-        starts.append(begun.start)
+        states.append(begun.start)
         if not (alike and packed):
             packed.append(begun.inputs)
     solutions = integrate_many(
         compiled,
         parameters=np.array(parameters),
-        starts=np.array(starts),
+        starts=np.array(states),
         switches=np.array(switches),
         times=time,
         inputs=packed[0] if alike else np.array(packed),

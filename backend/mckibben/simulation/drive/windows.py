@@ -192,6 +192,7 @@ def whole_motion(
     time: np.ndarray,
     pressure: np.ndarray,
     stroke: float,
+    speed: float = 0.0,
     grid: np.ndarray,
     tolerance: float,
     max_steps: int = MAX_STEPS,
@@ -200,12 +201,13 @@ def whole_motion(
 
     Args:
         drive, time, pressure, stroke, grid, tolerance, max_steps: as `motions_of_records` takes them.
+        speed: at the start [m/s].
 
     Raises:
         InputError: times that do not ascend.
     """
     compiled = compiled_driven(drive.model.effects, motion=True)
-    begun = begun_motion(drive, compiled, time=time, pressure=pressure, stroke=stroke)
+    begun = begun_motion(drive, compiled, time=time, pressure=pressure, stroke=stroke, speed=speed)
     pieces = (np.asarray(time, dtype=float), begun.inputs)
     return _whole(
         drive, compiled, begun.parameters, pieces, (begun.start, begun.switches), grid, tolerance, max_steps
