@@ -111,6 +111,7 @@ class Measurement:
         source_rows: row of its file that each row comes from, from 0; None where they are the same.
         shared_noise: channel -> standard deviation of noise that neighbouring rows share, because a filter or
             another time step spread it over them [SI]; their differences do not show it.
+        cut_off: channel -> frequency up to which these steps let it pass [Hz].
     """
 
     name: str
@@ -136,6 +137,7 @@ class Measurement:
     prepared: tuple[PreparedStep, ...] = ()
     source_rows: NDArray[np.intp] | None = None
     shared_noise: Mapping[str, float] = field(default_factory=dict)
+    cut_off: Mapping[str, float] = field(default_factory=dict)
 
     @cached_property
     def usable(self) -> NDArray[np.bool_]:

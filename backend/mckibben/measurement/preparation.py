@@ -23,7 +23,7 @@ slack; faulty readings are bridged by a straight line before a filter and stay l
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, replace
 from types import MappingProxyType
 
@@ -49,7 +49,8 @@ STEPS = {
 _TWO_RESTS = "detrend force 0 s to 1 s, 59 s to 60 s"
 _UNFILTERED = frozenset({"time", "command", "direction", "group"})
 _HELD = frozenset({"command", "direction", "group"})  # take the last value when resampled
-_ORDER, _ALIAS_ORDER = 2, 8  # of a Butterworth filter that runs both ways
+#: Order of a low pass, a Butterworth filter that runs both ways; and before a longer time step.
+ORDER, _ALIAS_ORDER = 2, 8
 _ALIAS = 0.8  # cut-off before a longer step, over half its rate
 _UNEVEN = 0.1  # deviation of a time step from the usual one that a filter allows
 _FEWEST = 3  # rows that a range leaves at least
@@ -348,11 +349,10 @@ def _filtered(measurement: Measurement, name: str | None, cut_off: float) -> tup
     for each in chosen:
         columns[each] = measurement.columns[each].astype(float).copy()
         for part in parts:
-            columns[each][part] = low_passed(bad[each][part], cut_off, rate, _ORDER)
+            columns[each][part] = low_passed(bad[each][part], cut_off, rate, ORDER)
     gain = _gain(cut_off, rate)
-    changed = _with_shared_noise(
-        replace(measurement, columns=_frozen(columns)), measurement, dict.fromkeys(chosen, gain)
-    )
+    changed = replace(measurement, columns=_frozen(columns), cut_off=_lowest(measurement, chosen, cut_off))
+    changed = _with_shared_noise(changed, measurement, dict.fromkeys(chosen, gain))
     kept = [each for each in ("command",) if name is None and each in measurement.columns]
     also = f"; {kept[0]} is not filtered" if kept else ""
     return changed, (
@@ -380,11 +380,17 @@ def low_passed(values: Array, cut_off: float, rate: float, order: int) -> Array:
     return sosfiltfilt(sections, values, padlen=min(3 * settling, len(values) - 1))
 
 
+def _lowest(measurement: Measurement, channels: Iterable[str], cut_off: float) -> dict[str, float]:
+    """The cut-offs of a measurement after a low pass of some channels."""
+    before = measurement.cut_off
+    return {**before, **{name: min(before.get(name, cut_off), cut_off) for name in channels}}
+
+
 def _gain(cut_off: float, rate: float) -> float:
     """Standard deviation of white noise after a low pass, over that before it."""
     impulse = np.zeros(2 * int(np.ceil(10.0 * rate / cut_off)) + 1)
     impulse[len(impulse) // 2] = 1.0
-    return float(np.linalg.norm(low_passed(impulse, cut_off, rate, _ORDER)))
+    return float(np.linalg.norm(low_passed(impulse, cut_off, rate, ORDER)))
 
 
 def _with_shared_noise(changed: Measurement, before: Measurement, gains: dict[str, float]) -> Measurement:
@@ -512,6 +518,8 @@ def _resampled(measurement: Measurement, rate: float) -> tuple[Measurement, str]
         for name in columns
         if name not in _HELD | {"time"}
     }
+    if aliased:
+        changed = replace(changed, cut_off=_lowest(measurement, gains, 0.5 * _ALIAS * rate))
     changed = _with_shared_noise(changed, measurement, gains)
     low = f", after a low pass of {0.5 * _ALIAS * rate:.4g} Hz without delay" if aliased else ""
     held = "; the command keeps its last value" if "command" in columns else ""

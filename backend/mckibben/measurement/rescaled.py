@@ -46,6 +46,7 @@ def rescaled(
         ignored=measurement.ignored,
         prepared=measurement.prepared,
         source_rows=measurement.source_rows,
+        cut_off=measurement.cut_off,
         shared_noise={
             name: noise * (abs(factor) if name in names else 1.0)
             for name, noise in measurement.shared_noise.items()

@@ -204,6 +204,11 @@ class TransientPredictor(Predictor):
             ]
 
     @property
+    def prepared_from(self) -> Measurement:
+        """The measurement, which says what its preparation has done to noise."""
+        return self._measurement
+
+    @property
     def runs(self) -> int:
         """Number of uninterrupted records."""
         return len(self._records)

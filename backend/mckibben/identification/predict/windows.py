@@ -23,6 +23,7 @@ from mckibben.identification.predict.moving import TransientPredictor
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.measurement.derivative import noise_of, rates
+from mckibben.measurement.preparation import ORDER, low_passed
 from mckibben.physics.errors import InputError
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.simulation.drive.records import states_of_records
@@ -109,7 +110,7 @@ def _errors(records: Sequence[_Record], noise: float | None) -> WindowErrors | s
         whole = [{n: v[first + 1 : last + 1] for n, v in own.items()} for first, last in spans]
         of_run.append(record.scaled(whole, measured, spans))
         sigmas = record.noises(noise)
-        made = {n: v + random.normal(0.0, sigmas[n], len(v)) for n, v in own.items()}
+        made = {n: v + _noise(random, sigmas[n], record.grid, record.cut_off.get(n)) for n, v in own.items()}
         perfect.append(record.scaled(record.over_windows(made, spans), made, spans))
         noises.append(record.scaled(whole, made, spans))
         count += len(spans)
@@ -172,18 +173,22 @@ class _Record:
         edges = np.unique(np.minimum(edges, len(self.grid) - 1))
         return list(zip(edges[:-1].tolist(), edges[1:].tolist(), strict=True))
 
+    @property
+    def cut_off(self) -> Mapping[str, float]:
+        """Channel -> frequency up to which a preparation lets it pass [Hz]."""
+        return self._predictor.prepared_from.cut_off
+
     def noises(self, stated: float | None) -> dict[str, float]:
         """Standard deviation of the noise of each channel [SI]."""
         if stated is not None and len(self.names) == 1:
             return {self.names[0]: stated}
-        return {
-            channel.name: min(
-                channel.noise,
-                noise_of(self.readings[channel.name]),
-                noise_of(self.readings[channel.name] - self.own_readings[channel.name]),
-            )
-            for channel in self._predictor.channels
-        }
+        shared = self._predictor.prepared_from.shared_noise
+        found = {}
+        for name in self.names:
+            readings = self.readings[name]
+            seen = min(noise_of(readings), noise_of(readings - self.own_readings[name]))
+            found[name] = float(np.hypot(seen, shared.get(name, 0.0)))
+        return found
 
     def over_windows(
         self, readings: Mapping[str, np.ndarray], spans: Sequence[tuple[int, int]]
@@ -234,6 +239,16 @@ class _Record:
             model = np.concatenate([each[channel.name] for each in found])
             parts.append(((measured - model) / scale) ** 2)
         return np.concatenate(parts)
+
+
+def _noise(random: np.random.Generator, sigma: float, time: np.ndarray, cut_off: float | None) -> np.ndarray:
+    """Noise of these times: white, or what a low pass leaves of it."""
+    white = random.normal(0.0, sigma, len(time))
+    rate = (len(time) - 1) / float(time[-1] - time[0])
+    if cut_off is None or not 0.0 < cut_off < 0.5 * rate:
+        return white
+    passed = low_passed(white, cut_off, rate, ORDER)
+    return passed * (sigma / max(float(np.std(passed)), 1e-300))
 
 
 #: Channel -> output of a run that is its reading.
