@@ -266,8 +266,8 @@ def test_an_error_is_not_called_noise_where_the_noise_is_not_known():
     rows = [f"{p},{x},{300.0 + 250.0 * np.sin(2.3 * i)}" for i, (p, x) in enumerate(places)]
     found = diagnosis(csv(rows, "pressure_bar,length_mm,force_N", "kind: static"))
     assert found.noise is None
-    assert found.status == "unknown_effect"
-    assert "noise cannot be estimated" in sentence_of(found, {})
+    assert found.status == "undecided"
+    assert "the noise cannot be estimated and there are fewer than twenty rows" in sentence_of(found, {})
 
 
 # --- what nobody knows

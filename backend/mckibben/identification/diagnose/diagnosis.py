@@ -489,7 +489,7 @@ def _search(
             statements, fitter=fitter, first=begun.first, root=root, best=searched, stated_noise=noise
         )
     doubted = any(entry.stands for entry in context)
-    status = status_of(judgement, added, exchangeable, full_scale, doubted=doubted)
+    status = status_of(judgement, added, exchangeable, doubted=doubted)
     left = status == "unknown_effect"
     unlikely = not left and not doubted and none_likely(support)
     term = None

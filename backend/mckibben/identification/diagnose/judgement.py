@@ -37,6 +37,9 @@ _FEW_MEAN, _FEW_MEDIAN = 5.0, 2.0
 DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 _MEDIAN = 0.6745  # median magnitude of a standard normal deviate
 
+#: Whether a proof holds, None where it cannot be told; and why it does not.
+Proof = tuple[bool | None, str]
+
 
 @dataclass(frozen=True, eq=False)
 class Judgement:
@@ -84,14 +87,8 @@ class Judgement:
 
     @property
     def undecided(self) -> bool:
-        """Whether one test speaks for a structure and the other does not, or noise lasts for whole sweeps."""
-        if self.structured:
-            return False
-        if self.surface is None:
-            return self.noise is not None and self.rmse > max(AT_FLOOR * self.noise, self.least)
-        first = self.surface.gain_low[0]
-        gains = bool(np.isfinite(first)) and first > _GAIN
-        return self._above and (self.ratio > _RATIO or gains or self._lasting)
+        """Whether no structure is proved, nor that there is none: a proof of `proofs` does not hold."""
+        return not self.structured and any(holds is not True for holds, _ in self.proofs.values())
 
     @property
     def _lasting(self) -> bool:
@@ -110,28 +107,31 @@ class Judgement:
             return False
         return self.rmse > AT_FLOOR * max(self.surface.left, self.noise or 0.0)
 
-    @property
-    def proofs(self) -> dict[str, tuple[bool | None, str]]:
+    @cached_property
+    def proofs(self) -> dict[str, Proof]:
         """Each proof that nothing is missing: whether it holds, None where it cannot be told, and why not."""
-        surface, first = self.surface, np.nan if self.surface is None else self.surface.gain_low[0]
-        in_step = self.repeats is not None and self.repeats.in_step
-        lasts = "what is left lasts for a good part of a sweep, and is far above the scatter of neighbours"
-        more = "what is left repeats in step" if in_step else "a free surface explains more than noise does"
-        better = "a free surface predicts groups that were left out better than the model"
-        few = "fewer than twenty rows"
-        proofs = {
-            "noise_known": (True, "") if self.noise is not None else (None, "the noise cannot be estimated"),
-            "white": (not (in_step or (self._above and self.ratio > _RATIO)), more),
-            "no_outliers": (not self.outlying.rows, "rows do not fit beside the others"),
-            "rival_gains_nothing": (not (self._above and first > _GAIN), better),
-        }
-        if self._lasting:
-            proofs["noise_known"] = False, lasts
+        surface = self.surface
+        known: Proof = (True, "")
+        white, fit, gains = known, known, known
+        if self.noise is None:
+            known = None, "the noise cannot be estimated"
+        elif self._lasting:
+            known = False, "what is left lasts for a good part of a sweep, far above the scatter of neighbours"
+        elif surface is None and self.rmse > max(AT_FLOOR * self.noise, self.least):
+            known = False, "the error is above the noise"
+        if self.repeats is not None and self.repeats.in_step and self.rmse > self.least:
+            white = False, "what is left repeats in step"
+        elif self._above and self.ratio > _RATIO:
+            white = False, "a free surface explains more than noise does"
+        if self.outlying.rows:
+            fit = False, "rows do not fit beside the others"
         if surface is None:
-            proofs |= {"white": (None, few), "rival_gains_nothing": (None, few)}
-        elif not np.isfinite(first):
-            proofs["rival_gains_nothing"] = None, "too few groups to leave one out"
-        return proofs
+            white = gains = None, "there are fewer than twenty rows"
+        elif not np.isfinite(surface.gain_low[0]):
+            gains = None, "there are too few groups to leave one out"
+        elif self._above and surface.gain_low[0] > _GAIN:
+            gains = False, "a free surface predicts groups that were left out better than the model"
+        return {"noise_known": known, "white": white, "no_outliers": fit, "rival_gains_nothing": gains}
 
     @property
     def likeliest(self) -> Weighed | None:

@@ -17,7 +17,6 @@ from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.structure import ResidualStructure, structure
 from mckibben.physics.muscle import assumption
 
-_SMALL = 0.03  # error over full scale up to which a model is adequate when the noise is unknown
 
 
 class Interval(NamedTuple):
@@ -59,7 +58,6 @@ def status_of(
     judgement: Judgement,
     added: Sequence[str],
     others: Sequence[Alternative],
-    full_scale: float,
     *,
     doubted: bool = False,
 ) -> Status:
@@ -69,7 +67,6 @@ def status_of(
         judgement: on the best model.
         added: the missing effects.
         others: effects that could replace them.
-        full_scale: largest measured magnitude over the scale of the residual.
         doubted: whether a changed entry explains the data better: missing physics cannot be distinguished
             from it.
     """
@@ -79,8 +76,6 @@ def status_of(
         return "unknown_effect"
     if added:
         return "ambiguous" if others else "missing_effects"
-    if judgement.noise is None and judgement.surface is None:
-        return "adequate" if judgement.rmse <= _SMALL * full_scale else "unknown_effect"
     return "undecided" if judgement.undecided else "adequate"
 
 

@@ -101,10 +101,8 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
             unsure = "" if result.noise is not None else f" {_UNKNOWN_NOISE}"
             look = f" {where_to_look(result)}".rstrip()
             return f"No catalogued effect explains {error}: {rest}.{look}{unsure}"
-        if result.noise is None:
-            return f"No catalogued effect lowers {error}. {_UNKNOWN_NOISE}"
         if result.status == "undecided":
-            return f"No catalogued effect lowers {error}. {undecided_sentence(result)}"
+            return f"No effect is proved to be missing behind {error}. {undecided_sentence(result)}"
         of_noise = f"is of the size of the noise ({level})" if level else "is noise"
         return f"Nothing is missing: {error} {of_noise}."
     at_floor = highest is not None and after <= AT_FLOOR * highest
@@ -163,18 +161,28 @@ def _why_more(result: Diagnosis) -> str:
     return f"with what stays alike over about {max(best.noise.length, 1.0):.0f} rows"
 
 
+#: Proof that does not hold -> what would decide it.
+_DECIDED_BY = {
+    "noise_known": "State the noise.",
+    "no_outliers": "Look at these rows.",
+    "white": "Repeat the run: what is missing comes again, noise does not.",
+    "rival_gains_nothing": "Measure more, at other pressures or lengths.",
+}
+
+
 def undecided_sentence(result: Diagnosis) -> str:
-    """Why one test sees a structure in the rest and another does not."""
-    surface = None if result.judgement is None else result.judgement.surface
-    if surface is None:
-        return "Fewer than twenty rows cannot tell whether more is missing: the error is above their noise."
+    """Which proof that nothing more is missing does not hold, and what would decide it."""
+    judgement = result.judgement
+    if judgement is None or not judgement.undecided:
+        return ""
+    open_ = {name: why for name, (holds, why) in judgement.proofs.items() if holds is not True}
     unit, scale = _unit_of(result)
-    left = f"{brief(scale * surface.left)} {unit}"
-    return (
-        f"These data cannot tell whether more is missing: a free curve with {surface.numbers} numbers would "
-        f"leave {left}, and noise that lasts for many rows would look the same. Repeat the run: what is "
-        "missing comes again, noise does not."
-    )
+    text = f"These data cannot tell whether more is missing: {_joined(list(dict.fromkeys(open_.values())))}."
+    if judgement.surface is not None and judgement.proofs["white"][0] is False:
+        left = f"{brief(scale * judgement.surface.left)} {unit}"
+        text += f" A free curve with {judgement.surface.numbers} numbers would leave {left}."
+    advice = dict.fromkeys(_DECIDED_BY[name] for name in open_)
+    return " ".join([text, *advice])
 
 
 def _own_law(result: Diagnosis, titles: Mapping[str, str]) -> str:
