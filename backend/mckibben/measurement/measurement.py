@@ -56,6 +56,8 @@ class MeasuredChannel(NamedTuple):
 
 #: Begin of the key of a stated value that is the unit of a channel.
 UNIT_OF = "unit of "
+#: Among the words of a file: whether its pressure is gauge or absolute.
+REFERENCE = "reference"
 
 
 class StatedValue(NamedTuple):
@@ -105,6 +107,8 @@ class Measurement:
         unread: columns that nothing is read from, and why.
         undecided: those among them of which neither name nor unit tells what they are.
         stated: the conditions with their origin.
+        in_words: channels whose unit the file or the user says; `REFERENCE` where one of them says that the
+            pressure is gauge or absolute.
         questions: what the file leaves open.
         by_rows: without time, the order of the rows is that of the test.
         prepared: the steps of `mckibben.measurement.preparation` that made it, in their order.
@@ -132,6 +136,7 @@ class Measurement:
     unread: tuple[tuple[str, str], ...] = ()
     undecided: tuple[str, ...] = ()
     stated: tuple[StatedValue, ...] = ()
+    in_words: frozenset[str] = frozenset()
     questions: tuple[Question, ...] = ()
     by_rows: bool = False
     prepared: tuple[PreparedStep, ...] = ()

@@ -186,7 +186,12 @@ def joined(all_points: Sequence[Points]) -> Points:
         for name in dict.fromkeys(name for part in parts for name in part.shared_noise)
     }
     return Points(
-        replace(combined, messages=tuple(messages), shared_noise=shared),
+        replace(
+            combined,
+            messages=tuple(messages),
+            in_words=frozenset.intersection(*(part.in_words for part in parts)),
+            shared_noise=shared,
+        ),
         left_out,
         rest.pop() if len(rest) == 1 else None,
         parts=tuple(all_points),

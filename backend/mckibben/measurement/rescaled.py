@@ -51,4 +51,5 @@ def rescaled(
             name: noise * (abs(factor) if name in names else 1.0)
             for name, noise in measurement.shared_noise.items()
         },
+        in_words=measurement.in_words,
     )

@@ -1,9 +1,15 @@
-"""Wrong entry or missing physics: each statement that may be wrong competes with the effects.
+r"""Wrong entry or missing physics: each statement that may be wrong competes with the effects.
 
-Elasticity alone imitates a wrong rest length, so an entry is changed **together with** the effects: first in
-the start model, then in the best model of the search, and for the most promising entries in a search of their
-own. An entry stands when the best model with it comes closer to the noise than any model without it, by more
-than chance.
+Elasticity alone imitates a wrong rest length, so an entry is changed **together with** effects: first in the
+start model, then beside those of the best model, and for the most promising entries in a search of their own.
+Models with and without it are counted alike: the odds of the mistake and of each effect before any data, and
+the score of `mckibben.identification.diagnose.score`,
+
+.. math:: \ln\frac{P}{1-P} = \ln\pi + \sum_{e\in E}\ln o_e - \sum_{e\in D}\ln o_e + \tfrac12(S_D - S_E)
+
+An entry stands, and is asked about first, where it explains as much as the effects do with fewer of them: a
+caliper is cheaper than an experiment. What the file says in words stands against it only where the effects
+leave more than the noise.
 """
 
 from __future__ import annotations
@@ -15,6 +21,7 @@ from weakref import WeakKeyDictionary
 import numpy as np
 
 from mckibben.identification.diagnose.entries import StatedEntry, Statements, predicted_scale
+from mckibben.identification.diagnose.probability import log_odds
 from mckibben.identification.diagnose.score import AT_FLOOR, LEAST_SCORE, better, effective_rows, score
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.wrong_entry import WrongEntry, done_without
@@ -29,9 +36,9 @@ _SINGLES = 6  # effects that each entry is fitted with alone
 _LEAST_GAIN = 0.1  # least relative reduction of the error
 _LEAST_CHANGE = 0.01  # least relative change of a quantity; less is the accuracy of a ruler
 _CERTAIN = 0.98  # largest confidence: the models themselves are not exact
-_SURE = LEAST_SCORE  # advantage in score from which an entry stands
+_AS_MUCH = 2.0  # score that chance decides: an entry that is worse by less explains as much
 _AS_GOOD = 1.05  # error over that of the best model up to which an entry explains the data as well
-_NEAR = 1.5  # error over the noise up to which the effects may have reached it; it is an estimate
+_WITHIN_REACH = 2.0  # the same up to which a search may find the laws that the effects lack beside the entry
 _MUCH = 0.5  # share of the excess over the noise that an entry above the noise must explain
 
 
@@ -91,23 +98,13 @@ def contest(
         if trial is not None:
             trials.append(trial)
     rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
-    trials = [_with_effects(trial, best, root, added, rows) for trial in trials]
+    at_floor = noise is not None and best.rmse <= AT_FLOOR * noise
+    trials = [_with_effects(trial, best, root, added, rows, fewer=at_floor) for trial in trials]
     noise = _lowest_noise(noise, trials, best)
     here = score(best, rows=rows, noise=noise)
     trials.sort(key=lambda trial: trial.score(rows, noise))
-    if fitter.effort.thorough:
-        at_floor = noise is not None and best.rmse <= AT_FLOOR * noise
-        # Where the effects reach the noise, an entry as good with fewer of them may be the better one.
-        least = 0.0 if at_floor and len(added) > 1 else _SURE
-        close = [trial for trial in trials if trial.score(rows, noise) < here - least and not trial.done]
-        searched = close[:_SEARCHED]
-        if at_floor and len(added) > 1:
-            searched += [trial for trial in _ahead_of_singles(trials, fitter, first) if trial not in searched]
-        for trial in searched:
-            trials[trials.index(trial)] = _searched(trial)
-    else:
-        for trial in [trial for trial in trials if trial.score(rows, noise) < here - _SURE][:_SEARCHED]:
-            trials[trials.index(trial)] = _lighter(trial)
+    for trial in _promising(trials, best, added, fitter, at_floor=at_floor):
+        trials[trials.index(trial)] = _searched(trial) if fitter.effort.thorough else _lighter(trial)
     if trials:
         noise = _lowest_noise(noise, trials, best)
         best = _at_its_best(fitter, trials[:_SEARCHED], best, added, rows, noise)
@@ -122,7 +119,7 @@ def contest(
         replace(each, stands=False, kept=True) if each.entry.hypothesis in statements.kept else each
         for each in found
     ]
-    return tuple(sorted(found, key=lambda each: (not each.stands, not each.kept)))
+    return tuple(sorted(found, key=lambda each: (not each.stands, not each.kept, -each.confidence)))
 
 
 def _at_its_best(
@@ -160,22 +157,29 @@ def _at_its_best(
     return min(models, key=lambda model: score(model, rows=rows, noise=noise))
 
 
-def _ahead_of_singles(trials: Sequence[_Trial], fitter: Fitter, first: FitModel) -> list[_Trial]:
-    """The quantity that by itself explains most, if it explains more than any effect with one number does.
+def _promising(
+    trials: Sequence[_Trial], best: FittedModel, added: Sequence[str], fitter: Fitter, *, at_floor: bool
+) -> list[_Trial]:
+    """The trials that a search of their own may bring to do with fewer effects, the best first.
 
-    The effects of the best model do not fit beside it: they have taken its place, with more numbers.
+    Where the best model is at the noise with one effect, an entry has to do without any, and needs no search.
     """
-    quantities = [trial for trial in trials if trial.entry.free is not None and not trial.done]
-    leading = min(quantities, key=lambda trial: trial.root.rmse, default=None)
-    if leading is None:
+    if at_floor and len(added) < 2:
         return []
-    effects, numbers = len(first.ids) + 1, len(leading.root.free)
-    singles = [
-        model.rmse
-        for (ids, _), model in fitter.known.items()
-        if len(ids) == effects and len(model.free) <= numbers
-    ]
-    return [leading] if leading.root.rmse < min(singles, default=0.0) else []
+    open_ = [trial for trial in trials if not trial.done]
+    near = [trial for trial in open_ if trial.rmse < _WITHIN_REACH * best.rmse][:_SEARCHED]
+    quantities = [trial for trial in open_ if trial.entry.free is not None]
+    alone = min(quantities, key=lambda trial: trial.root.rmse, default=None)
+    if fitter.effort.thorough and alone is not None and alone not in near:
+        effects, numbers = len(best.fit_model.ids) - len(added) + 1, len(alone.root.free)
+        singles = [
+            model.rmse
+            for (ids, _), model in fitter.known.items()
+            if len(ids) == effects and len(model.free) <= numbers
+        ]
+        if alone.root.rmse < min(singles, default=0.0):
+            near.append(alone)
+    return near
 
 
 def _lowest_noise(noise: float | None, trials: Sequence[_Trial], best: FittedModel) -> float | None:
@@ -242,18 +246,24 @@ def _scaled(noise: float | None, scale: float) -> float | None:
 
 
 def _with_effects(
-    trial: _Trial, best: FittedModel, root: FittedModel, added: Sequence[str], rows: float
+    trial: _Trial,
+    best: FittedModel,
+    root: FittedModel,
+    added: Sequence[str],
+    rows: float,
+    *,
+    fewer: bool,
 ) -> _Trial:
-    """The entry with effects: all of the best model, all but one, and single ones that it needs."""
+    """The entry with effects: all but one of the best model, single ones, and all unless ``fewer``."""
     fitter = trial.fitter
     if trial.done or (trial.entry.free is None and trial.rmse > root.rmse):
         return trial
     models = [trial.root]
     best = _with_usual_constants(best, fitter)
     if added:
-        models.append(fitter.fit(best.fit_model, best.freed))
+        models += [] if fewer else [fitter.fit(best.fit_model, best.freed)]
         models += [fitter.dropping(best, name) for name in added] if len(added) > 1 else []
-    if fitter.effort.thorough:
+    if fitter.effort.thorough and not (fewer and len(added) < 2):
         promising = fitter.promising(trial.root, fitter.candidates)[:_SINGLES]
         models += [fitter.adding(trial.root, effect) for effect in promising]
     for model in models:
@@ -329,19 +339,17 @@ def _evidence(
     drop = here - trial.score(rows, noise)
     gain = 1.0 - trial.rmse / best.rmse if best.rmse > 0.0 else 0.0
     excess, left = (max(rmse**2 - floor**2, 0.0) for rmse in (best.rmse, trial.rmse))
-    odds = entry.prior * float(np.exp(np.clip(0.5 * drop, -50.0, 50.0)))
-    confidence = min(odds / (1.0 + odds), _CERTAIN)
+    odds = float(np.log(entry.prior)) + 0.5 * drop
+    odds += sum(map(log_odds, model.fit_model.effects)) - sum(map(log_odds, best.fit_model.effects))
+    confidence = min(float(1.0 / (1.0 + np.exp(-np.clip(odds, -50.0, 50.0)))), _CERTAIN)
     simpler = len(effects) < added
     # With as many effects it may need fewer numbers: an angle and two constants for six of two effects.
     leaner = simpler or (len(effects) == added and len(model.free) < len(best.free))
-    as_good = trial.rmse <= _AS_GOOD * best.rmse
-    reaches = trial.rmse <= AT_FLOOR * floor or (as_good and best.rmse <= _NEAR * floor)
     closer = gain > _LEAST_GAIN and left <= _MUCH * excess
-    # A way of reading has no number to fit: it need not be better by as much.
-    sure = _SURE if entry.free is not None or not simpler else 0.0
-    instead = simpler or (leaner and drop > 2.0 * _SURE)
-    stands = drop > sure and (closer or (reaches and instead))
-    if not (stands or (as_good and leaner and drop > -LEAST_SCORE)):
+    stands = (simpler and drop > -_AS_MUCH) or (drop > LEAST_SCORE and (leaner or closer))
+    if entry.in_words:
+        stands = stands and best.rmse > AT_FLOOR * floor
+    if not (stands or (trial.rmse <= _AS_GOOD * best.rmse and leaner and drop > -LEAST_SCORE)):
         return None
     whole = max(root.mean_square - floor**2, 1e-300)
     alone = max(trial.root.mean_square / trial.scale**2 - floor**2, 0.0)

@@ -14,7 +14,7 @@ import numpy as np
 
 from mckibben.identification.predict.fit_model import LOAD, SUPPLY, FitModel, Free
 from mckibben.identification.predict.predictor import Predictor
-from mckibben.measurement.measurement import STROKES, Measurement
+from mckibben.measurement.measurement import REFERENCE, STROKES, Measurement
 from mckibben.measurement.rescaled import rescaled
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
@@ -55,6 +55,7 @@ class StatedEntry:
         free: the quantity with its plausible range; None for a way of reading.
         reading: the other way of reading; None for a quantity.
         prior: odds of the mistake against none.
+        in_words: whether the file or the user says it in words, such as "N" or "gauge".
     """
 
     hypothesis: str
@@ -65,6 +66,7 @@ class StatedEntry:
     free: Free | None
     reading: OtherReading | None
     prior: float
+    in_words: bool = False
 
     def value(self, number: float) -> float:
         """The value of a quantity [SI] from the number of the fit."""
@@ -242,7 +244,7 @@ def _quantity(
 
 
 def _readings(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedEntry]:
-    columns = measurement.columns
+    columns, in_words = measurement.columns, measurement.in_words
     rest = fit_model.muscle.nominal_length
     if "pressure" in columns:
         for hypothesis, factor, offset, words, prior in (
@@ -259,7 +261,8 @@ def _readings(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedE
             true = factor * columns["pressure"] + offset
             lowest = -0.2e5 if offset else -0.5e5
             if float(np.min(true)) > lowest and _within(float(np.max(true)), _PRESSURES):
-                yield _reading(hypothesis, "pressure", "the pressure", factor, offset, words, prior)
+                said = (REFERENCE if offset else "pressure") in in_words
+                yield _reading(hypothesis, "pressure", "the pressure", factor, offset, words, prior, said)
     if "force" in columns:
         largest = float(np.max(columns["force"])), float(-np.min(columns["force"]))
         for hypothesis, factor, words in (
@@ -276,7 +279,8 @@ def _readings(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedE
                 continue
             size = largest[1] if factor < 0.0 else largest[0]
             if _within(abs(factor) * size, _FORCES):
-                yield _reading(hypothesis, "force", "the force", factor, 0.0, words, _RARE)
+                said = factor > 0.0 and "force" in in_words
+                yield _reading(hypothesis, "force", "the force", factor, 0.0, words, _RARE, said)
     stroke = next((columns[name] for name in STROKES if name in columns), None)
     if stroke is not None:
         share = "contraction" in columns and "length" not in columns
@@ -295,7 +299,8 @@ def _readings(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedE
             if factor < 0.0 and "length" in columns:
                 continue
             if _within(abs(factor) * size, _STROKES):
-                yield _reading(hypothesis, "stroke", "the displacement", factor, 0.0, words, _RARE)
+                said = factor > 0.0 and any(name in in_words for name in STROKES)
+                yield _reading(hypothesis, "stroke", "the displacement", factor, 0.0, words, _RARE, said)
     if "time" in columns and measurement.kind == "transient":
         lasting = float(np.ptp(columns["time"]))
         for hypothesis, factor, words in (
@@ -304,15 +309,16 @@ def _readings(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedE
             ("time_in_min", 60.0, "in minutes"),
         ):
             if _within(factor * lasting, _DURATIONS):
-                yield _reading(hypothesis, "time", "the time", factor, 0.0, words, _RARE)
+                said = "time" in in_words
+                yield _reading(hypothesis, "time", "the time", factor, 0.0, words, _RARE, said)
 
 
 def _reading(
-    hypothesis: str, channel: str, title: str, factor: float, offset: float, words: str, prior: float
-) -> StatedEntry:
-    return StatedEntry(
-        hypothesis, channel, title, None, "", None, OtherReading(channel, factor, offset, words), prior
-    )
+    hypothesis: str, channel: str, title: str, factor: float, offset: float, words: str, prior: float,
+    said: bool,
+) -> StatedEntry:  # fmt: skip
+    reading = OtherReading(channel, factor, offset, words)
+    return StatedEntry(hypothesis, channel, title, None, "", None, reading, prior, in_words=said)
 
 
 def _within(value: float, limits: tuple[float, float]) -> bool:

@@ -18,7 +18,6 @@ from mckibben.identification.residual.structure import ResidualStructure, struct
 from mckibben.physics.muscle import assumption
 
 
-
 class Interval(NamedTuple):
     """Lower and upper end."""
 

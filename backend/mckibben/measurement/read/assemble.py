@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from mckibben.measurement.kind import FORCE_KINDS, lifts_fast, starts_of_lifts, weights_of_runs
 from mckibben.measurement.measurement import (
     CHANNEL_UNITS,
+    REFERENCE,
     STROKES,
     UNIT_OF,
     Measurement,
@@ -261,6 +262,10 @@ def assemble(
         unread=unread_columns(source, meaning, reading.ignored),
         undecided=_undecided(source, meaning),
         stated=stated_values(source, meaning, conditions, correction),
+        in_words=frozenset({
+            *(use for use, column in by_use.items() if column.unit_origin in ("file", "you")),
+            *([REFERENCE] if (read := by_use.get("pressure")) and read.absolute is not None else []),
+        }),
         questions=tuple(questions),
     )
     return Read(measurement, list(by_use.values()), skipped, questions)
