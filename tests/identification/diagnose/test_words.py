@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 import pytest
 
+from mckibben.identification.diagnose.judgement import Judgement
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen
 from mckibben.identification.diagnose.repetition import Repetition
 from mckibben.identification.diagnose.verdict import Interval
@@ -25,6 +26,7 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.residual.structure import ResidualStructure
 from mckibben.physics.catalogue import default_catalogue
+from tests.identification.diagnose.test_judgement import judgement
 from tests.identification.synthetic import MUSCLE
 
 BUILT_IN = default_catalogue()
@@ -36,13 +38,13 @@ def result(
     status: str, before: float, after: float, *added: str, unit: str = "N", noise: float | None = 2.0,
     share: float = 0.05, alternatives: tuple[Any, ...] = (), refitted: float | None = None,
     highest: float | None = None, doubted: bool = False, term: object = None,
-    repetition: Repetition | None = None,
+    repetition: Repetition | None = None, judgement: Judgement | None = None,
 ) -> Any:  # fmt: skip
     return SimpleNamespace(
         status=status,
         none_likely=False,
         unfinished=None,
-        judgement=None,
+        judgement=judgement,
         with_them=None,
         superfluous=(),
         predictor=SimpleNamespace(unit=unit, channels=[SimpleNamespace(name="force" if unit == "N" else "")]),
@@ -105,8 +107,16 @@ SENTENCES = {
     "Nothing is missing: the error of 1.00 times the noise is noise.": result(
         "adequate", 1.0, 1.0, unit="1", noise=1.0
     ),
-    "No catalogued effect lowers the error of 5.00 N. The noise cannot be estimated from these data: "
-    "state it to know whether the error exceeds it.": result("adequate", 5.0, 5.0, noise=None),
+    "No effect is proved to be missing behind the error of 5.00 N. These data cannot tell whether more is "
+    "missing: the noise cannot be estimated and there are fewer than twenty rows. State the noise. Repeat the "
+    "run: what is missing comes again, noise does not. Measure more, at other pressures or lengths.": result(
+        "undecided", 5.0, 5.0, noise=None, judgement=judgement(noise=None, rows=False, rmse=5.0)
+    ),
+    "No effect is proved to be missing behind the error of 6.00 N. These data cannot tell whether more is "
+    "missing: a free surface explains more than noise does. A free curve with 9 numbers would leave 1.00 N. "
+    "Repeat the run: what is missing comes again, noise does not.": result(
+        "undecided", 6.0, 6.0, highest=6.0, judgement=judgement(ratio=20.0, rmse=6.0)
+    ),
     "Missing: Creep (probability 97 %). With it the error falls from 40.0 to 2.10 N, the noise of the data "
     "(2.00 N).": result("missing_effects", 40.0, 2.1, "creep"),
     "With the entries as stated, Creep would be missing, and the error would only fall from 40.0 to 9.00 N; "

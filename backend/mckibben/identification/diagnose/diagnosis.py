@@ -434,9 +434,8 @@ def _search(
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
     judgement = judged(best, predictor, fitter.noise)
     if fitter.noise is not None and not judgement.structured:
-        fitter.noise = max(
-            fitter.noise, best.rmse
-        )  # what is left is noise, whatever neighbouring readings share
+        # What is left may be noise, whatever neighbouring readings share: so much is asked of an effect.
+        fitter.noise = max(fitter.noise, best.rmse)
     level = max(fitter.noise or best.rmse, DIGITS * full_scale)
     progress.share, progress.end = 0.85, 0.95
     start_names = set(root.fit_model.ids)

@@ -116,7 +116,7 @@ class Judgement:
         if self.noise is None:
             known = None, "the noise cannot be estimated"
         elif self._lasting:
-            known = False, "what is left lasts for a good part of a sweep, far above the scatter of neighbours"
+            known = False, "what is left lasts for a good part of a sweep, above the scatter of neighbours"
         elif surface is None and self.rmse > max(AT_FLOOR * self.noise, self.least):
             known = False, "the error is above the noise"
         if self.repeats is not None and self.repeats.in_step and self.rmse > self.least:

@@ -84,7 +84,7 @@ def noise_interval(judgement: Judgement) -> Interval | None:
     Both are the same for white noise. The lower end does not see what neighbouring readings share, nor
     readings that are farther off than most.
     """
-    if judgement.noise is None or judgement.structured or judgement.undecided:
+    if judgement.noise is None or judgement.structured:
         return None
     return Interval(judgement.noise, max(judgement.noise, judgement.rmse))
 

@@ -84,8 +84,11 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     if noise is not None and highest is not None and not scaled:
         level = f"{brief(noise)} {unit}"
         if highest > AT_FLOOR * noise:
-            whole = f"{brief(highest)} {unit} {_why_more(result)}"
-            level = f"{brief(noise)} {unit} between neighbouring readings, {whole}"
+            level += " between neighbouring readings"
+            if result.judgement is not None and result.judgement.undecided:
+                highest = noise  # the rest may be noise, or not
+            else:
+                level += f", {brief(highest)} {unit} {_why_more(result)}"
     rest = _rest(result)
     if not result.added:
         if result.with_them is not None:
