@@ -262,10 +262,12 @@ def assemble(
         unread=unread_columns(source, meaning, reading.ignored),
         undecided=_undecided(source, meaning),
         stated=stated_values(source, meaning, conditions, correction),
-        in_words=frozenset({
-            *(use for use, column in by_use.items() if column.unit_origin in ("file", "you")),
-            *([REFERENCE] if (read := by_use.get("pressure")) and read.absolute is not None else []),
-        }),
+        in_words=frozenset(
+            {
+                *(use for use, column in by_use.items() if column.unit_origin in ("file", "you")),
+                *([REFERENCE] if (read := by_use.get("pressure")) and read.absolute is not None else []),
+            }
+        ),
         questions=tuple(questions),
     )
     return Read(measurement, list(by_use.values()), skipped, questions)
