@@ -35,7 +35,7 @@ PROMISED = {
     "kind", "rows", "predicted", "unit", "baseline", "noise_floor", "where", "candidates", "path", "verdict",
     "model", "rows_used", "excluded", "channels", "parameters", "correlations", "geometry", "freed",
     "messages", "not_tried", "experiment", "assumptions", "specimens", "absorbed", "suspect_rows",
-    "rivals", "context",
+    "rivals", "context", "windows", "validation",
 }  # fmt: skip
 STATUS = {"adequate", "missing_effects", "ambiguous", "unknown_effect", "undecided", "unfinished"}
 
