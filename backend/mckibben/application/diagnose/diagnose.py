@@ -41,6 +41,7 @@ from mckibben.application.diagnose.result import (
     TermProposal,
     Verdict,
 )
+from mckibben.application.diagnose.rivals import rival_sentence, rivals_beside
 from mckibben.application.envelope import Envelope, beyond, envelope_of
 from mckibben.application.measurement.specimen_result import (
     absorbed_message,
@@ -201,6 +202,7 @@ def _result(
 ) -> DiagnosisResult:
     titles = {name: effect.title for name, effect in catalogue.items()}
     predictor, best, start = diagnosis.predictor, diagnosis.best, question.start
+    rivals = rivals_beside(diagnosis)
     residual = diagnosis.path[-1].fitted_model.residual  # of the best model, as a comparison shows it
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
     muscle = best.fit_model.muscle
@@ -248,8 +250,8 @@ def _result(
             )
             for step in diagnosis.path
         ],
-        verdict=_verdict(question, diagnosis, catalogue, suspects),
-        rivals=_rivals(diagnosis),
+        verdict=_verdict(question, diagnosis, catalogue, suspects, rivals),
+        rivals=rivals,
         suspect_rows=suspects,
         parameters=parameter_table(best.fit_model, diagnosis.fit),
         correlations=correlations_of(diagnosis.fit),
@@ -309,16 +311,6 @@ def _model(question: ModelQuestion, fitted: FittedModel) -> ModelDocument:
     return ModelDocument(question.effect_document(fitted.fit_model))
 
 
-def _rivals(diagnosis: Diagnosis) -> list[Rival]:
-    """The free surface on the residual of the best model."""
-    surface = None if diagnosis.judgement is None else diagnosis.judgement.surface
-    if surface is None:
-        return []
-    gain, held = surface.gain[0], diagnosis.best.holdout_rmse
-    left_out = float(held * np.sqrt(max(1.0 - gain, 0.0))) if np.isfinite(gain) else None
-    return [Rival("free surface", surface.numbers, surface.left, left_out)]
-
-
 def _suspects(question: ModelQuestion, diagnosis: Diagnosis) -> list[SuspectRow]:
     """The rows that were set aside, with their files."""
     whole = diagnosis.with_them
@@ -363,6 +355,7 @@ def _verdict(
     diagnosis: Diagnosis,
     catalogue: Mapping[str, Effect],
     suspects: Sequence[SuspectRow],
+    rivals: Sequence[Rival],
 ) -> Verdict:
     titles = {name: effect.title for name, effect in catalogue.items()}
     bounds = bounds_sentence(diagnosis, catalogue)
@@ -404,6 +397,7 @@ def _verdict(
                 *(assumption.sentence for assumption in question.assumptions),
                 questions_of(diagnosis.context, titles),
                 sentence_of(diagnosis, catalogue),
+                rival_sentence(diagnosis, rivals),
                 aside_sentence(diagnosis, [each.place for each in suspects], catalogue),
                 bounds,
                 corrections_sentence(diagnosis, titles),

@@ -216,9 +216,13 @@ class Rival:
     numbers: int
     """Its effective number of free numbers [-]."""
     rmse: float
-    """Error of model and rival together, SI; in the noise of each channel where there are several."""
+    """Error that it leaves, SI; in the noise of each channel where there are several. A free surface is on
+    what the best model leaves, the others stand alone."""
     holdout_rmse: float | None
-    """The same on groups that were left out; None where there are too few."""
+    """The same on groups that were left out, over their rows within the range of the others; None where there
+    are too few."""
+    model_holdout_rmse: float | None
+    """Error of the best model on the same rows, left out likewise."""
 
 
 @result_class

@@ -124,6 +124,8 @@ class Surface:
         values: the surface at each value of the predictor, shape (values,).
         deviations: its standard deviation, shape (values,), if the noise were white.
         variables: the blocks that matter, the largest first, each with its share of the surface.
+        left_out: for each way, rms of model and surface over the rows inside; NaN likewise.
+        rows_inside: for each way, these rows, a mask.
     """
 
     left: float
@@ -136,6 +138,8 @@ class Surface:
     values: np.ndarray
     deviations: np.ndarray
     variables: tuple[tuple[str, float], ...]
+    left_out: tuple[float, ...] = ()
+    rows_inside: tuple[np.ndarray, ...] = ()
 
 
 @dataclass(frozen=True, eq=False)
@@ -428,7 +432,8 @@ def lagged(values: np.ndarray, time: np.ndarray, lag: float, records: np.ndarray
     return behind
 
 
-def _unit(values: np.ndarray) -> np.ndarray:
+def unit_range(values: np.ndarray) -> np.ndarray:
+    """The values from -1 to 1."""
     span = float(np.ptp(values))
     return 2.0 * (values - float(np.min(values))) / (span if span > 0.0 else 1.0) - 1.0
 
@@ -451,11 +456,11 @@ def ways_of(variables: Mapping[str, np.ndarray]) -> np.ndarray | None:
 
 def _single(name: str, values: np.ndarray, order: int, factor: np.ndarray | None = None) -> Block:
     order = min(order, max(2 * levels_of(values), 3))
-    return Block(name, _unit(values)[:, None], (order,), factor)
+    return Block(name, unit_range(values)[:, None], (order,), factor)
 
 
 def _pair(name: str, first: np.ndarray, second: np.ndarray, orders: tuple[int, int]) -> Block:
-    return Block(name, np.column_stack([_unit(first), _unit(second)]), orders)
+    return Block(name, np.column_stack([unit_range(first), unit_range(second)]), orders)
 
 
 def still_blocks(
@@ -615,7 +620,7 @@ def _blocks_of(
         blocks = still_blocks(variables, records if in_order(predictor) else None)
     else:
         blocks = moving_blocks(variables, time, records)
-    return blocks, [_unit(variables[name]) for name in _MAIN if name in variables]
+    return blocks, [unit_range(variables[name]) for name in _MAIN if name in variables]
 
 
 def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
@@ -665,6 +670,8 @@ def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
         gain=tuple(way.gain for way in ways),
         gain_low=tuple(way.interval[0] for way in ways),
         gain_high=tuple(way.interval[1] for way in ways),
+        left_out=tuple(way.left_out for way in ways),
+        rows_inside=tuple(way.inside for way in ways),
         inside=tuple(float(np.mean(way.inside)) for way in ways),
         independent=tuple(
             all(np.ptp(labels[sweep]) == 0 for sweep in predictor.sweeps if len(sweep)) for labels in foldings
@@ -725,9 +732,7 @@ class _Way:
     def __init__(self, fitted: Fitted, labels: np.ndarray) -> None:
         self.labels, self.folds = labels, np.unique(labels)
         self.refitted = {label: _without(fitted, labels == label) for label in self.folds}
-        self.model = np.zeros(len(labels))
-        for label, residual in self.refitted.items():
-            self.model[labels == label] = residual[labels == label]
+        self.model = _of_each_group(labels, self.refitted)
         self.rival, self.inside = self.model.copy(), np.zeros(len(labels), bool)
 
     def correct(self, part: _Part, rows: np.ndarray, edges: Sequence[np.ndarray]) -> None:
@@ -737,7 +742,7 @@ class _Way:
             out = labels == label
             if np.all(out):
                 continue
-            inside = out & np.all([_within(edge, out) for edge in edges], axis=0) if edges else out
+            inside = out & np.all([within_others(edge, ~out) for edge in edges], axis=0) if edges else out
             inside &= _same_ways(part.blocks, out)
             self.inside[rows[inside]] = True
             if not np.any(inside):
@@ -768,6 +773,12 @@ class _Way:
             return float("nan")
         return 1.0 - float(np.sum(after)) / max(float(np.sum(before)), 1e-300)
 
+    @property
+    def left_out(self) -> float:
+        """Rms over the rows inside, with the surface."""
+        some = self._squares[1]
+        return float(np.sqrt(np.sum(some) / np.sum(self.inside))) if len(some) >= _FEWEST_FOLDS else np.nan
+
     @cached_property
     def interval(self) -> tuple[float, float]:
         """90 % interval of the gain."""
@@ -794,9 +805,21 @@ def _without(fitted: Fitted, rows: np.ndarray) -> np.ndarray:
     return fitted.residual - jacobian @ np.clip(-inverse @ (out.T @ fitted.residual[rows] + pull), low, high)
 
 
-def _within(values: np.ndarray, out: np.ndarray) -> np.ndarray:
-    """Mask of the rows within the range that a variable has outside of ``out``."""
-    low, high = np.min(values[~out]), np.max(values[~out])
+def left_out_residual(fitted: Fitted, labels: np.ndarray) -> np.ndarray:
+    """Residual of each group with the constants refitted without it, to first order, shape (values,)."""
+    return _of_each_group(labels, {label: _without(fitted, labels == label) for label in np.unique(labels)})
+
+
+def _of_each_group(labels: np.ndarray, residuals: Mapping[int, np.ndarray]) -> np.ndarray:
+    found = np.zeros(len(labels))
+    for label, residual in residuals.items():
+        found[labels == label] = residual[labels == label]
+    return found
+
+
+def within_others(values: np.ndarray, others: np.ndarray) -> np.ndarray:
+    """Mask of the rows within the range that a variable has in others (a mask)."""
+    low, high = np.min(values[others]), np.max(values[others])
     return (values >= low - 2.0 * _BESIDE) & (values <= high + 2.0 * _BESIDE)
 
 
