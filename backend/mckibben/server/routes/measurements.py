@@ -84,7 +84,7 @@ _Muscle = Annotated[
 _Step = Annotated[str, StringConstraints(min_length=1, max_length=LONGEST)]
 _Prepare = Query(
     max_length=MOST,
-    description="Steps that prepare the data, in their order, as '--prepare' of the command line takes them.",
+    description="Steps that prepare the data, in their order, as the command line takes them.",
     examples=[["low pass 20 Hz"]],
 )
 

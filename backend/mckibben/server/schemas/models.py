@@ -122,7 +122,7 @@ class ModelRequest(Strict):
     prepare: Steps = Field(
         default=[],
         description="Steps that prepare the data of every measurement that states none itself: a range, a "
-        "drift, a low pass, another time step, as '--prepare' of the command line.",
+        "drift, a low pass, another time step, as the command line does.",
     )
 
     use: list[Hypothesis] = Field(
