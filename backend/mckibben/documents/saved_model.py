@@ -42,7 +42,7 @@ class FittedFile(Strict):
         default_factory=dict, description="What it was made with, and who says it, in words."
     )
     prepared: list[Text] = Field(
-        default_factory=list, description="Steps that prepared it, in their order, as the option 'prepare' of the command line takes them."
+        default_factory=list, description="Steps that prepared it, in their order, as they are written."
     )
 
 
