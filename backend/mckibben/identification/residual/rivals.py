@@ -147,7 +147,7 @@ class _Plain:
         self.places = [unit_range(variables[name][rows]) for name in list(variables)[:2]]
         self.labels, self.groups = labels[rows], np.unique(labels[rows])
         self.model = left_out_residual(fitted, labels)[rows]
-        most = [min(order, levels_of(place) - 2) for place, order in zip(self.places, _ORDERS, strict=False)]
+        most = [min(order, levels_of(place) - 1) for place, order in zip(self.places, _ORDERS, strict=False)]
         self.most = [max(order, 1) for order in most]
         tables = [
             np.polynomial.legendre.legvander(place, order)
