@@ -124,8 +124,10 @@ def test_friction_is_seen_over_the_direction_and_in_the_loops(
         # After the first pressure 15 % of the first and of the last way are not counted, 7.5 % of all.
         assert 0.89 < loop["area"] / (2 * 2 * 15.0 * loop["span"]) < 1.03
     assert answer["whiteness"]["white"] is False
+    assert answer["verdict"]["status"] != "adequate"
     assert "direction" in answer["sentences"][0] or "lengthening" in answer["sentences"][0]
-    assert answer["sentences"][-1] == "the residual is not noise: it has structure"
+    assert answer["sentences"][-1] == answer["verdict"]["sentence"]
+    assert answer["sentences"][-1].startswith("What is left is no noise")
 
 
 def test_the_right_model_leaves_noise(shared_client: TestClient, rubbing: str) -> None:
@@ -134,8 +136,10 @@ def test_the_right_model_leaves_noise(shared_client: TestClient, rubbing: str) -
     assert answer["noise_floor"] == pytest.approx(1.0, rel=0.2)
     assert answer["noise_how"] == "third differences of the residual within sweeps"
     assert answer["whiteness"]["white"] is True
+    assert answer["verdict"]["status"] == "adequate"
+    assert set(answer["verdict"]["proofs"].values()) == {True}
     assert all(profile["share_explained"] < 0.1 for profile in answer["where"])
-    assert answer["sentences"] == ["the residual looks like noise"]
+    assert answer["sentences"] == ["Nothing is missing: the error of 0.994 N is noise."]
     assert all(abs(loop["area"]) < 0.2 for loop in answer["loops"])
 
 

@@ -302,7 +302,7 @@ RESIDUAL = Group(
         quantity="number",
     ),
     Figure(
-        "white", "", "1", "Looks like noise",
+        "white", "", "1", "Neighbouring rows are not correlated",
         "At most 15 % of the lags outside the band, and the sign changes within 3 standard deviations.",
         quantity="number",
     ),

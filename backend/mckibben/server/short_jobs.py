@@ -184,7 +184,13 @@ def _details(body: StoredMeasurement, _studio: Studio, store: MeasurementStore) 
 
 def _comparison(body: ComparisonRequest, studio: Studio, store: MeasurementStore) -> Prepared:
     return lambda _: answer_of(
-        compare(model_question(body, studio, store), fit=body.fit, within=body.within, explain=body.explain)
+        compare(
+            model_question(body, studio, store),
+            fit=body.fit,
+            within=body.within,
+            explain=body.explain,
+            judge=body.judge,
+        )
     )
 
 

@@ -109,7 +109,8 @@ SENTENCES = {
     ),
     "No effect is proved to be missing behind the error of 5.00 N. These data cannot tell whether more is "
     "missing: the noise cannot be estimated and there are fewer than twenty rows. State the noise. Repeat "
-    "the run: what is missing comes again, noise does not. Measure more, at other pressures or lengths.": result(
+    "the run: what is missing comes again, noise does not. Measure more, at other pressures or "
+    "lengths.": result(
         "undecided", 5.0, 5.0, noise=None, judgement=judgement(noise=None, rows=False, rmse=5.0)
     ),
     "No effect is proved to be missing behind the error of 6.00 N. These data cannot tell whether more is "

@@ -9,6 +9,14 @@ from typing import ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from mckibben.application.compare.judged import (
+    ComparedVerdict,
+    Rival,
+    SuspectRow,
+    compared_verdict,
+    rivals_beside,
+    suspects_of_comparison,
+)
 from mckibben.application.compare.question import EffectDocument, ModelQuestion
 from mckibben.application.compare.reach import RunReach, reach_of
 from mckibben.application.compare.residual_map import (
@@ -43,6 +51,7 @@ from mckibben.application.measurement.summary import UnreadColumn
 from mckibben.application.muscle_summary import GeometrySummary, Notice, geometry_of, start_notices
 from mckibben.facts.comparison import CHECK, COMPARISON, RESIDUAL, error_scale
 from mckibben.facts.result import Number, result_class
+from mckibben.identification.diagnose.judged import judged_comparison
 from mckibben.identification.fit.comparison import (
     ChannelMisfit,
     Comparison,
@@ -183,6 +192,12 @@ class ComparisonResult:
     """Errors of readings within the accuracy, which a fit allows for."""
     unread: list[UnreadColumn]
     """Columns of the files that nothing is read from, and why."""
+    verdict: ComparedVerdict | None
+    """What is left, and whether it is noise; None where a run stopped, or where it was not asked for."""
+    rivals: list[Rival]
+    """Models without physics on what the model leaves, the best on left-out groups first."""
+    suspect_rows: list[SuspectRow]
+    """Rows that do not fit, and count for nothing in the verdict; the figures count them."""
     run: RunReach
     """How far the runs of the model came."""
     stopped: list[StoppedRun]
@@ -212,9 +227,10 @@ def compare(
     fit: bool = False,
     within: Mapping[Over, Sequence[float]] | None = None,
     explain: bool = False,
+    judge: bool = True,
 ) -> ComparisonResult:
     """Compare a model with measurements; see `compared_whole`."""
-    return compared_whole(question, fit=fit, within=within, explain=explain).result
+    return compared_whole(question, fit=fit, within=within, explain=explain, judge=judge).result
 
 
 def compared_whole(
@@ -223,6 +239,7 @@ def compared_whole(
     fit: bool = False,
     within: Mapping[Over, Sequence[float]] | None = None,
     explain: bool = False,
+    judge: bool = True,
 ) -> Compared:
     """Compare a model with measurements.
 
@@ -231,6 +248,7 @@ def compared_whole(
         fit: fit the parameters that the effects declare as fitted, and those freed by the question.
         within: variable -> range whose rows the answer looks at by themselves, SI.
         explain: also what each effect of the model explains of them.
+        judge: also whether what is left is noise, which takes longer than the rest.
 
     Raises:
         InputError: the measurement does not allow the comparison, or a geometry field cannot be freed.
@@ -274,6 +292,10 @@ def compared_whole(
     where = profiles(residual, variables, predictor.folds[0])
     white = whiteness(residual, predictor.sweeps)
     closed = _loops(comparison, residual)
+    judged = judged_comparison(comparison) if judge and not comparison.stopped else None
+    suspects = [] if judged is None else suspects_of_comparison(question, judged)
+    rivals = [] if judged is None else rivals_beside(judged.model, judged.predictor, judged.judgement)
+    verdict = None if judged is None else compared_verdict(judged, suspects, rivals)
     result = ComparisonResult(
         kind=predictor.kind,
         rows=comparison.rows + left_out,
@@ -310,7 +332,8 @@ def compared_whole(
         sentences=[
             *(run.sentence for run in stopped),
             *([] if over_windows is None else [over_windows.sentence]),
-            *_sentences(where, white, predictor.unit),
+            *_sentences(where, predictor.unit),
+            *([] if verdict is None else [verdict.sentence]),
         ],
         series=series,
         reversals=reversals,
@@ -324,6 +347,9 @@ def compared_whole(
         assumptions=[assumption.message for assumption in question.assumptions],
         specimens=specimen_results(question, predictor, predictor.weighted(comparison.residual)),
         absorbed=list(comparison.absorbed),
+        verdict=verdict,
+        rivals=rivals,
+        suspect_rows=suspects,
         run=reach_of(comparison.stopped),
         stopped=stopped,
         windows=over_windows,
@@ -355,19 +381,15 @@ def _loops(comparison: Comparison, residual: Array) -> list[ResidualLoop]:
     return loops(residual, predictor.inputs["length"], predictor.groups, comparison.noise)
 
 
-def _sentences(where: list[Profile], white: Whiteness, unit: str) -> list[str]:
-    """Where the model fails, and whether the residual is noise, in words."""
+def _sentences(where: list[Profile], unit: str) -> list[str]:
+    """Where the model fails, in words."""
     scale, share = error_scale(unit), RESIDUAL["share_explained"].scale
-    words = [
+    return [
         f"{profile.worst}: {brief(scale.of(profile.rmse))} {scale.unit} rms; this variable alone predicts "
         f"{share.of(profile.share_explained):.0f} {share.unit} of the squared error"
         for profile in where[:3]
         if profile.share_explained > _TELLING
     ]
-    words.append(
-        "the residual looks like noise" if white.white else "the residual is not noise: it has structure"
-    )
-    return words
 
 
 def checked(

@@ -10,6 +10,14 @@ from typing import Literal
 import numpy as np
 
 from mckibben.application.compare.compare import ModelDocument, checked
+from mckibben.application.compare.judged import (
+    Rival,
+    SuspectRow,
+    proofs_of,
+    rival_sentence,
+    rivals_beside,
+    suspect_rows,
+)
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.compare.reach import reach_of
 from mckibben.application.compare.starts import start_messages
@@ -32,16 +40,12 @@ from mckibben.application.diagnose.result import (
     DiagnosisResult,
     NoiseFloor,
     PathPoint,
-    Proofs,
     RepetitionResult,
-    Rival,
     SamePeriod,
-    SuspectRow,
     TermCurve,
     TermProposal,
     Verdict,
 )
-from mckibben.application.diagnose.rivals import rival_sentence, rivals_beside
 from mckibben.application.envelope import Envelope, beyond, envelope_of
 from mckibben.application.measurement.specimen_result import (
     absorbed_message,
@@ -53,6 +57,7 @@ from mckibben.application.muscle_summary import geometry_of
 from mckibben.documents.studio import Studio
 from mckibben.identification.diagnose.diagnosis import FEWEST_VALUES, Diagnosis
 from mckibben.identification.diagnose.diagnosis import diagnose as search_effects
+from mckibben.identification.diagnose.judgement_words import open_proofs
 from mckibben.identification.diagnose.next_measurement import declared
 from mckibben.identification.diagnose.search import ended
 from mckibben.identification.diagnose.steps import SingleAddition
@@ -83,7 +88,6 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import Predictor
 from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.identification.residual.correlated import Noises
 from mckibben.identification.residual.profiles import variables_of
 from mckibben.identification.residual.term import SYMBOLS
@@ -202,7 +206,8 @@ def _result(
 ) -> DiagnosisResult:
     titles = {name: effect.title for name, effect in catalogue.items()}
     predictor, best, start = diagnosis.predictor, diagnosis.best, question.start
-    rivals = rivals_beside(diagnosis)
+    judgement = diagnosis.judgement
+    rivals = [] if judgement is None else rivals_beside(best, predictor, judgement)
     residual = diagnosis.path[-1].fitted_model.residual  # of the best model, as a comparison shows it
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
     muscle = best.fit_model.muscle
@@ -316,38 +321,9 @@ def _suspects(question: ModelQuestion, diagnosis: Diagnosis) -> list[SuspectRow]
     whole = diagnosis.with_them
     if whole is None or whole.judgement is None:
         return []
-    outlying, predictor = whole.judgement.outlying, whole.predictor
-    places = [_place_in_file(question, predictor, value) for value in aside_of(diagnosis).tolist()]
-    several = len(question.specimens.each) > 1
-    alone = outlying.place is None or len(outlying.rows) != len(aside_of(diagnosis))
-    why = "it does not fit beside the others" if alone or not outlying.place else outlying.place.sentence
-    return [
-        SuspectRow(
-            file=file,
-            row=row,
-            residual=float(size * predictor.scale[value]),
-            why=why,
-            place=f"row {row}{f' of {file}' if several else ''}",
-        )
-        for (file, row), value, size in zip(
-            places, aside_of(diagnosis).tolist(), suspects_of(diagnosis), strict=True
-        )
-    ]
-
-
-def _place_in_file(question: ModelQuestion, predictor: Predictor, value: int) -> tuple[str, int]:
-    """The file of a value of a predictor, and its row there, counted from 1 over the rows that were read."""
-    each = [specimen.points.measurement for specimen in question.specimens.each]
-    row = int(predictor.row_numbers[value])
-    if isinstance(predictor, SpecimensPredictor):
-        measurement = each[int(predictor.specimen[value])]
-    else:  # several files as one record
-        ends = np.cumsum([one.rows for one in each])
-        number = min(int(np.searchsorted(ends, row, side="right")), len(each) - 1)
-        measurement, row = each[number], row - int(ends[number] - each[number].rows)
-    if measurement.source_rows is not None and row < measurement.rows:
-        row = int(measurement.source_rows[row])
-    return measurement.name, row + 1
+    return suspect_rows(
+        question, whole.predictor, aside_of(diagnosis), suspects_of(diagnosis), whole.judgement.outlying
+    )
 
 
 def _verdict(
@@ -360,7 +336,6 @@ def _verdict(
     titles = {name: effect.title for name, effect in catalogue.items()}
     bounds = bounds_sentence(diagnosis, catalogue)
     judgement = diagnosis.judgement
-    proofs = {} if judgement is None else judgement.proofs
     return Verdict(
         status=diagnosis.status,
         title=title_of(
@@ -378,8 +353,8 @@ def _verdict(
             for item in diagnosis.corrections
         ],
         superfluous=[item.effect for item in diagnosis.superfluous],
-        proofs=None if judgement is None else Proofs(**{name: holds for name, (holds, _) in proofs.items()}),
-        why_not={name: why for name, (holds, why) in proofs.items() if not holds},
+        proofs=None if judgement is None else proofs_of(judgement),
+        why_not={} if judgement is None else open_proofs(judgement),
         unexplained_share=unexplained_share(
             diagnosis.status, diagnosis.best, diagnosis.noise, diagnosis.structure
         ),
@@ -397,7 +372,9 @@ def _verdict(
                 *(assumption.sentence for assumption in question.assumptions),
                 questions_of(diagnosis.context, titles),
                 sentence_of(diagnosis, catalogue),
-                rival_sentence(diagnosis, rivals),
+                ""
+                if judgement is None or diagnosis.status == "adequate"
+                else rival_sentence(diagnosis.best, diagnosis.predictor, judgement, rivals),
                 aside_sentence(diagnosis, [each.place for each in suspects], catalogue),
                 bounds,
                 corrections_sentence(diagnosis, titles),

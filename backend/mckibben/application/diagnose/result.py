@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.application.compare.compare import ModelDocument
+from mckibben.application.compare.judged import Proofs, Rival, SuspectRow
 from mckibben.application.compare.question import EffectDocument
 from mckibben.application.compare.reach import RunReach
 from mckibben.application.compare.windows import WindowsResult
@@ -194,38 +195,6 @@ class TermProposal:
 
 
 @result_class
-class Proofs:
-    """What "nothing is missing" rests on: whether each proof holds; None where it is not decided."""
-
-    noise_known: bool | None
-    """The noise is known apart from the model, and what is left does not last for whole sweeps."""
-    white: bool | None
-    """A free surface explains no more of what is left than noise does, and nothing repeats in step."""
-    no_outliers: bool | None
-    """Each row that counts fits beside the others."""
-    rival_gains_nothing: bool | None
-    """A free surface predicts groups that were left out no better than the model."""
-
-
-@result_class
-class Rival:
-    """A model without physics beside the best one."""
-
-    kind: str
-    """What it is."""
-    numbers: int
-    """Its effective number of free numbers [-]."""
-    rmse: float
-    """Error that it leaves, SI; in the noise of each channel where there are several. A free surface is on
-    what the best model leaves, the others stand alone."""
-    holdout_rmse: float | None
-    """The same on groups that were left out, over their rows within the range of the others; None where there
-    are too few."""
-    model_holdout_rmse: float | None
-    """Error of the best model on the same rows, left out likewise."""
-
-
-@result_class
 class Verdict:
     """Verdict of a diagnosis."""
 
@@ -278,22 +247,6 @@ class Verdict:
     """
     sentence: str
     """The verdict in one to four sentences."""
-
-
-@result_class
-class SuspectRow:
-    """A row that does not fit, and counts for nothing in the verdict."""
-
-    file: str
-    """Name of its measurement."""
-    row: int
-    """Its number among the rows of readings, from 1."""
-    residual: float
-    """Measured minus predicted by the best model, SI."""
-    why: str
-    """Why it is set aside."""
-    place: str
-    """The row in words."""
 
 
 @result_class

@@ -14,6 +14,7 @@ from mckibben.identification.diagnose.corrections import Correction, refined, wi
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
+from mckibben.identification.diagnose.judged import ROUNDS
 from mckibben.identification.diagnose.judgement import DIGITS, Judgement, judged
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.needed import pruned
@@ -70,7 +71,6 @@ from mckibben.simulation.outcome import Outcome, Watch
 
 #: Fewest values for a diagnosis: with fewer, many single effects fit them exactly.
 FEWEST_VALUES = 6
-_ROUNDS = 3  # in which rows are set aside: where one is far off, others show only without it
 _STOPS = "with it the model stops before the end of a run"
 
 
@@ -257,7 +257,7 @@ def diagnose(
     with threadpool_limits(1):
         whole = found = diagnosed(predictor)
         aside: list[int] = []
-        for _ in range(_ROUNDS):
+        for _ in range(ROUNDS):
             rows = () if found.judgement is None else found.judgement.outlying.rows
             # In a run, rows that do not fit are an event and no wrong readings.
             if not rows or predictor.simulated:

@@ -9,6 +9,7 @@ import numpy as np
 from mckibben.facts.units import probability_text
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis, Unfinished
+from mckibben.identification.diagnose.judgement_words import shown_unit, undecided_text
 from mckibben.identification.diagnose.probability import EVEN, instead_of
 from mckibben.identification.diagnose.repetition_words import repetition_text
 from mckibben.identification.diagnose.score import AT_FLOOR
@@ -105,7 +106,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
             look = f" {where_to_look(result)}".rstrip()
             return f"No catalogued effect explains {error}: {rest}.{look}{unsure}"
         if result.status == "undecided":
-            return f"No effect is proved to be missing behind {error}. {undecided_sentence(result)}"
+            return f"No effect is proved to be missing behind {error}. {_undecided(result)}"
         of_noise = f"is of the size of the noise ({level})" if level else "is noise"
         return f"Nothing is missing: {error} {of_noise}."
     at_floor = highest is not None and after <= AT_FLOOR * highest
@@ -137,7 +138,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     elif result.status == "unknown_effect":
         return f"{text} No catalogued effect explains the rest: {rest}. {where_to_look(result)}".rstrip()
     if result.judgement is not None and result.judgement.undecided:
-        text += f" {undecided_sentence(result)}"
+        text += f" {_undecided(result)}"
     unexplained = highest is not None and scale * result.best.rmse > AT_FLOOR * highest
     if unexplained and result.structure.share >= _WORTH_TELLING:
         text += f" Of the rest, {_structured(result)}."
@@ -164,28 +165,8 @@ def _why_more(result: Diagnosis) -> str:
     return f"with what stays alike over about {max(best.noise.length, 1.0):.0f} rows"
 
 
-#: Proof that does not hold -> what would decide it.
-_DECIDED_BY = {
-    "noise_known": "State the noise.",
-    "no_outliers": "Look at these rows.",
-    "white": "Repeat the run: what is missing comes again, noise does not.",
-    "rival_gains_nothing": "Measure more, at other pressures or lengths.",
-}
-
-
-def undecided_sentence(result: Diagnosis) -> str:
-    """Which proof that nothing more is missing does not hold, and what would decide it."""
-    judgement = result.judgement
-    if judgement is None or not judgement.undecided:
-        return ""
-    open_ = {name: why for name, (holds, why) in judgement.proofs.items() if holds is not True}
-    unit, scale = _unit_of(result)
-    text = f"These data cannot tell whether more is missing: {_joined(list(dict.fromkeys(open_.values())))}."
-    if judgement.surface is not None and judgement.proofs["white"][0] is False:
-        left = f"{brief(scale * judgement.surface.left)} {unit}"
-        text += f" A free curve with {judgement.surface.numbers} numbers would leave {left}."
-    advice = dict.fromkeys(_DECIDED_BY[name] for name in open_)
-    return " ".join([text, *advice])
+def _undecided(result: Diagnosis) -> str:
+    return "" if result.judgement is None else undecided_text(result.judgement, *_unit_of(result))
 
 
 def _own_law(result: Diagnosis, titles: Mapping[str, str]) -> str:
@@ -437,9 +418,7 @@ def where_to_look(result: Diagnosis) -> str:
 
 
 def _unit_of(result: Diagnosis) -> tuple[str, float]:
-    """Unit of the shown errors, and their factor from SI; lengths are shown in millimetres."""
-    unit = result.predictor.unit
-    return {"1": ("times the noise", 1.0), "m": ("mm", 1e3)}.get(unit, (unit, 1.0))
+    return shown_unit(result.predictor.unit)
 
 
 def repeats(result: Diagnosis) -> str:

@@ -40,6 +40,7 @@ class Comparison:
         noise: standard deviation of the noise; None when it cannot be estimated.
         noise_how: how the noise was obtained.
         fit: the fit; None when nothing was fitted.
+        free: the fitted parameters; their starts are the fitted values.
         rows: number of rows of the measurement.
         excluded: reason -> number of excluded rows.
         messages: notes for the user.
@@ -62,6 +63,7 @@ class Comparison:
     absorbed: tuple[AbsorbedError, ...] = ()
     stopped: tuple[StoppedRun, ...] = ()
     reversals: Reversals | None = None
+    free: tuple[Free, ...] = ()
 
     @property
     def residual(self) -> np.ndarray:
@@ -297,6 +299,7 @@ def compared(
         absorbed=absorbed_by(predictor, fit_model),
         stopped=stopped,
         reversals=reversals,
+        free=tuple(replace(p, start=fit_model.number(p.name)) for p in choice),
     )
 
 

@@ -54,10 +54,7 @@ def error_table(columns: Sequence[tuple[str, ComparisonResult]]) -> Html:
         of_all("over_noise"),
         of_all("fit_percent"),
         [COMPARISON["rows_used"].label, *(_rows(answer) for answer in answers)],
-        [
-            RESIDUAL["white"].label,
-            *("yes" if answer.whiteness.white else "no, it has structure" for answer in answers),
-        ],
+        ["Verdict", *("–" if answer.verdict is None else answer.verdict.title for answer in answers)],
     ]
     for name in first.channels:
         words, scale = variable(name)

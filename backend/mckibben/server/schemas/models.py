@@ -153,6 +153,9 @@ class ComparisonRequest(ModelRequest):
     explain: bool = Field(
         False, description="Also what each effect of the model explains in the range, in 'explains'."
     )
+    judge: bool = Field(
+        True, description="Also whether what is left is noise, in 'verdict'; takes longer than the rest."
+    )
 
 
 class DiagnosisRequest(ModelRequest):

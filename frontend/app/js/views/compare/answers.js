@@ -43,7 +43,8 @@ const GLANCE_MS = 90;
 const comparisons = new Memory(REMEMBERED);
 
 /** @param {string} text @param {boolean} fit @param {AbortSignal} [signal] @returns {Promise<Comparison>} */
-const comparisonOf = (text, fit, signal) => post("/api/comparisons", { ...JSON.parse(text), fit }, signal);
+const comparisonOf = (text, fit, signal) =>
+  post("/api/comparisons", { ...JSON.parse(text), fit, judge: false }, signal);
 
 /** @param {string} text @param {AbortSignal} [signal] */
 export const compareWith = (text, signal) => comparisonOf(text, false, signal);

@@ -137,8 +137,8 @@ const errorText = computed(() => {
 const errorQuestion = new Question(async (text, signal) => {
   const body = JSON.parse(text);
   const [model, ideal] = await Promise.all([
-    post("/api/comparisons", body, signal),
-    post("/api/comparisons", { ...body, effects: {} }, signal),
+    post("/api/comparisons", { ...body, judge: false }, signal),
+    post("/api/comparisons", { ...body, effects: {}, judge: false }, signal),
   ]);
   return /** @type {Errors} */ ({ model, ideal });
 });

@@ -99,7 +99,7 @@ export function autocorrelation(a) {
       h(
         "b",
         { id: "white", title: figure("residual.white").definition },
-        white ? "The residual looks like noise: " : "The residual is not only noise: ",
+        white ? "Neighbouring rows are not correlated: " : "Neighbouring rows are correlated: ",
       ),
       h("span", { title: SIGNS.definition }, `${lags}; ${inSentence(SIGNS.label)} ${brief(signs)}.`),
     ],

@@ -1,0 +1,72 @@
+"""The judgement on a model that was compared, by the same function that judges the models of a diagnosis."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from mckibben.identification.diagnose.judgement import Judgement, judged
+from mckibben.identification.fit.comparison import Comparison
+from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.predict.predictor import Predictor
+
+#: In which rows are set aside: where one is far off, others show only without it.
+ROUNDS = 3
+
+
+@dataclass(frozen=True)
+class JudgedModel:
+    """A compared model, and what speaks for and against it.
+
+    Attributes:
+        predictor: the data, with the rows that were set aside.
+        model: the model.
+        judgement: without the rows that were set aside.
+        first: with them; None where none were.
+    """
+
+    predictor: Predictor
+    model: FittedModel
+    judgement: Judgement
+    first: Judgement | None = None
+
+    @property
+    def aside(self) -> np.ndarray:
+        """The values that were set aside, as indices."""
+        return np.flatnonzero(np.zeros(0, bool) if self.predictor.aside is None else self.predictor.aside)
+
+
+def judged_comparison(comparison: Comparison) -> JudgedModel:
+    """The judgement on a compared model; its values stay as they are.
+
+    Rows that do not fit are named and set aside, as in a diagnosis; in a run they are an event.
+    """
+    predictor, model = comparison.predictor, _model(comparison)
+    first = found = judged(model, predictor, comparison.noise)
+    aside: list[int] = []
+    for _ in range(ROUNDS):
+        if not found.outlying.rows or predictor.simulated:
+            break
+        aside += found.outlying.rows
+        predictor = comparison.predictor.setting_aside(aside)
+        model = replace(model, aside=predictor.aside)
+        found = judged(model, predictor, comparison.noise)
+    return JudgedModel(predictor, model, found, first if aside else None)
+
+
+def _model(comparison: Comparison) -> FittedModel:
+    predictor, free = comparison.predictor, comparison.free
+    jacobian = np.empty((len(predictor.measured), 0))
+    if free:
+        jacobian = predictor.weighted(predictor.linearised(comparison.fit_model, free)[1])
+    return FittedModel(
+        comparison.fit_model,
+        free,
+        frozenset(),
+        predictor.weighted(comparison.residual),
+        jacobian,
+        predictor.folds,
+        noise_lines=predictor.noise_lines,
+        aside=predictor.aside,
+    )
