@@ -58,3 +58,14 @@ def test_a_row_that_does_not_fit_is_named_and_counts_for_nothing_in_the_verdict(
     found = _compared(situation, tmp_path)
     assert [row.row for row in found.suspect_rows]
     assert "does not fit beside the others" in found.verdict.sentence
+
+
+def test_forces_below_zero_are_set_aside_because_a_muscle_does_not_push(tmp_path: Path) -> None:
+    (situation,) = situations((1,), "bad rows/negative forces beyond the shortest length/20 mm")
+    found = _compared(situation, tmp_path)
+    pushing = [row for row in found.suspect_rows if "does not push" in row.why]
+    readings = [line.split(",") for line in situation.files[0].splitlines() if line[0].isdigit()]
+    assert pushing
+    assert all(float(readings[row.row - 1][-1]) < 0.0 for row in pushing)
+    assert found.verdict is not None
+    assert found.verdict.status == "adequate"

@@ -10,13 +10,12 @@ import numpy as np
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.facts.result import result_class
 from mckibben.identification.diagnose.judged import JudgedModel
-from mckibben.identification.diagnose.judgement import Judgement
+from mckibben.identification.diagnose.judgement import PUSHES, Judgement
 from mckibben.identification.diagnose.judgement_words import judged_text, open_proofs, shown_unit
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.identification.residual.digits import brief
-from mckibben.identification.residual.outlying import Outlying
 from mckibben.identification.residual.rivals import rivals_of
 
 #: What a comparison says of a model; without a search it does not know what is missing.
@@ -124,7 +123,7 @@ def rival_sentence(
     if best.kind == _SURFACE:
         where = " on what the model leaves"
     text = (
-        f"A {best.kind} with {best.numbers} numbers{where} would leave {left} {unit}, the "
+        f"A {best.kind} with {best.numbers} number{'' if best.numbers == 1 else 's'}{where} would leave {left} {unit}, the "
         f"model with its {len(model.free)} leaves {brief(scale * model.rmse)} {unit}"
     )
     if best.holdout_rmse is None or best.model_holdout_rmse is None:
@@ -161,7 +160,7 @@ def suspects_of_comparison(question: ModelQuestion, judged: JudgedModel) -> list
         return []
     predictor, rows = judged.predictor, judged.aside
     sizes = (predictor.residual(judged.model.fit_model) / predictor.scale)[rows]
-    return suspect_rows(question, predictor, rows, sizes.tolist(), judged.first.outlying)
+    return suspect_rows(question, predictor, rows, sizes.tolist(), judged.first)
 
 
 def suspect_rows(
@@ -169,7 +168,7 @@ def suspect_rows(
     predictor: Predictor,
     rows: np.ndarray,
     sizes: Sequence[float],
-    outlying: Outlying,
+    first: Judgement,
 ) -> list[SuspectRow]:
     """Rows that were set aside, with their files.
 
@@ -178,16 +177,18 @@ def suspect_rows(
         predictor: the data.
         rows: indices of the values.
         sizes: measured minus predicted, over the scale.
-        outlying: what was found with all rows.
+        first: the judgement with all rows.
     """
     several = len(question.specimens.each) > 1
+    outlying = first.outlying
     alone = outlying.place is None or len(outlying.rows) != len(rows)
     why = "it does not fit beside the others" if alone or not outlying.place else outlying.place.sentence
     found = []
     for value, size in zip(rows.tolist(), sizes, strict=True):
         file, row = _place_in_file(question, predictor, value)
         place = f"row {row}{f' of {file}' if several else ''}"
-        found.append(SuspectRow(file, row, float(size * predictor.scale[value]), why, place))
+        reason = PUSHES if value in first.pushing else why
+        found.append(SuspectRow(file, row, float(size * predictor.scale[value]), reason, place))
     return found
 
 

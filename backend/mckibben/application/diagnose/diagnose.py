@@ -322,7 +322,7 @@ def _suspects(question: ModelQuestion, diagnosis: Diagnosis) -> list[SuspectRow]
     if whole is None or whole.judgement is None:
         return []
     return suspect_rows(
-        question, whole.predictor, aside_of(diagnosis), suspects_of(diagnosis), whole.judgement.outlying
+        question, whole.predictor, aside_of(diagnosis), suspects_of(diagnosis), whole.judgement
     )
 
 

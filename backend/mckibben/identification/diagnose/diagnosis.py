@@ -258,7 +258,7 @@ def diagnose(
         whole = found = diagnosed(predictor)
         aside: list[int] = []
         for _ in range(ROUNDS):
-            rows = () if found.judgement is None else found.judgement.outlying.rows
+            rows = () if found.judgement is None else found.judgement.suspects
             # In a run, rows that do not fit are an event and no wrong readings.
             if not rows or predictor.simulated:
                 break

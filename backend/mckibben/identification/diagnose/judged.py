@@ -46,9 +46,9 @@ def judged_comparison(comparison: Comparison) -> JudgedModel:
     first = found = judged(model, predictor, comparison.noise)
     aside: list[int] = []
     for _ in range(ROUNDS):
-        if not found.outlying.rows or predictor.simulated:
+        if not found.suspects or predictor.simulated:
             break
-        aside += found.outlying.rows
+        aside += found.suspects
         predictor = comparison.predictor.setting_aside(aside)
         model = replace(model, aside=predictor.aside)
         found = judged(model, predictor, comparison.noise)

@@ -34,6 +34,8 @@ _NEAR = 0.1  # of the frequency that the noise swings with, within which that of
 # Error over noise, mean and median, beyond which rows too few for a surface show a structure; in the mean
 # also what is far above the scatter of neighbours.
 _FEW_MEAN, _FEW_MEDIAN = 5.0, 2.0
+_PUSHED = 4.0  # standard deviations of the noise below zero from which a force is no pull
+PUSHES = "the force is below zero, and a muscle does not push"
 DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 _MEDIAN = 0.6745  # median magnitude of a standard normal deviate
 
@@ -54,6 +56,7 @@ class Judgement:
         ratio: see the module; 0 for fewer than twenty rows, and where the error is no more than the noise.
         surface: the free surface on the residual; None for fewer than twenty rows.
         outlying: rows that do not fit.
+        pushing: values of a force that is below zero by more than noise where the model's is not.
         sweep: rows of a usual sweep.
         repeats: what is periodic in the residual beyond doubt: noise that swings in step, or what is the same
             over the length or the pressure in several sweeps; None without it.
@@ -69,6 +72,12 @@ class Judgement:
     outlying: Outlying
     repeats: Repetition | None
     sweep: float
+    pushing: tuple[int, ...] = ()
+
+    @property
+    def suspects(self) -> tuple[int, ...]:
+        """Values that another mechanism than the model's has made: they do not fit, or push."""
+        return tuple(sorted({*self.outlying.rows, *self.pushing}))
 
     @cached_property
     def _lowest_gain(self) -> float:
@@ -125,6 +134,8 @@ class Judgement:
             white = False, "a free surface explains more than noise does"
         if self.outlying.rows:
             fit = False, "rows do not fit beside the others"
+        elif self.pushing:
+            fit = False, PUSHES
         if surface is None:
             white = gains = None, "there are fewer than twenty rows"
         elif not np.isfinite(surface.gain_low[0]):
@@ -159,8 +170,21 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
         surface=surface,
         outlying=outlying_of(model, predictor),
         repeats=_repeats(model, predictor, surface),
+        pushing=_pushing(model, predictor, noise),
         sweep=float(np.median([len(sweep) for sweep in predictor.sweeps] or [len(model.residual)])),
     )
+
+
+def _pushing(model: FittedModel, predictor: Predictor, noise: float | None) -> tuple[int, ...]:
+    """Values of a force that a muscle cannot have: below zero, and below what the model predicts."""
+    found: list[int] = []
+    for channel in predictor.channels:
+        if channel.name == "force" and noise is not None:
+            rows = np.arange(len(model.residual))[channel.rows]
+            below = predictor.measured[rows] / predictor.scale[rows] < -_PUSHED * noise
+            found += rows[below & (model.residual[rows] < -_PUSHED * noise)].tolist()
+    counted = np.ones(len(model.residual), bool) if model.aside is None else ~model.aside
+    return tuple(row for row in found if counted[row])
 
 
 def _repeats(model: FittedModel, predictor: Predictor, surface: Surface | None) -> Repetition | None:

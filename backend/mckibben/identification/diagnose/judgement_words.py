@@ -59,7 +59,8 @@ def _free_curve(judgement: Judgement, unit: str, scale: float) -> str:
     if judgement.surface is None:
         return ""
     left = f"{brief(scale * judgement.surface.left)} {unit}"
-    return f" A free curve with {judgement.surface.numbers} numbers would leave {left}."
+    numbers = judgement.surface.numbers
+    return f" A free curve with {numbers} number{'' if numbers == 1 else 's'} would leave {left}."
 
 
 def _joined(proofs: dict[str, str]) -> str:

@@ -9,6 +9,7 @@ import numpy as np
 from mckibben.facts.units import probability_text
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis, Unfinished
+from mckibben.identification.diagnose.judgement import PUSHES
 from mckibben.identification.diagnose.judgement_words import shown_unit, undecided_text
 from mckibben.identification.diagnose.probability import EVEN, instead_of
 from mckibben.identification.diagnose.repetition_words import repetition_text
@@ -278,6 +279,9 @@ def aside_sentence(result: Diagnosis, places: Sequence[str], catalogue: Mapping[
     named = _joined([catalogue[name].title for name in whole.added if name in catalogue])
     other = f"{other[:1].lower()}{other[1:]}" + (f" ({named})" if named else "")
     which = "" if where is None else f" They are {where.sentence}: {rule}."
+    pushing = len(set(aside_of(result).tolist()) & set(whole.judgement.pushing))
+    if pushing:
+        which += f" In {pushing} of {'it' if len(away) == 1 else 'them'} {PUSHES}."
     return (
         f"Set aside, because {they} not fit: {shown}. The error without {these} is "
         f"{brief(scale * result.best.rmse)} {unit}.{which} With {these} the verdict would be: {other}."
