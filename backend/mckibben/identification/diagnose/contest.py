@@ -103,7 +103,12 @@ def contest(
     noise = _lowest_noise(noise, trials, best)
     here = score(best, rows=rows, noise=noise)
     trials.sort(key=lambda trial: trial.score(rows, noise))
-    for trial in _promising(trials, best, added, fitter, at_floor=at_floor):
+    if at_floor:
+        near = [trial for trial in trials if trial.rmse < _WITHIN_REACH * best.rmse]
+    else:
+        here = score(best, rows=rows, noise=noise)
+        near = [trial for trial in trials if trial.score(rows, noise) < here - LEAST_SCORE]
+    for trial in _promising(near, trials, best, added, fitter, at_floor=at_floor):
         trials[trials.index(trial)] = _searched(trial) if fitter.effort.thorough else _lighter(trial)
     if trials:
         noise = _lowest_noise(noise, trials, best)
@@ -158,19 +163,26 @@ def _at_its_best(
 
 
 def _promising(
-    trials: Sequence[_Trial], best: FittedModel, added: Sequence[str], fitter: Fitter, *, at_floor: bool
+    near: Sequence[_Trial],
+    trials: Sequence[_Trial],
+    best: FittedModel,
+    added: Sequence[str],
+    fitter: Fitter,
+    *,
+    at_floor: bool,
 ) -> list[_Trial]:
     """The trials that a search of their own may bring to do with fewer effects, the best first.
 
-    Where the best model is at the noise with one effect, an entry has to do without any, and needs no search.
+    ``near`` are those that come close to the best model without one; besides them the quantity that by itself
+    explains more than any effect with as few numbers does. Where the best model is at the noise with one effect, an entry has to do without any, and needs no search.
     """
     if at_floor and len(added) < 2:
         return []
     open_ = [trial for trial in trials if not trial.done]
-    near = [trial for trial in open_ if trial.rmse < _WITHIN_REACH * best.rmse][:_SEARCHED]
+    chosen = [trial for trial in near if not trial.done][:_SEARCHED]
     quantities = [trial for trial in open_ if trial.entry.free is not None]
     alone = min(quantities, key=lambda trial: trial.root.rmse, default=None)
-    if fitter.effort.thorough and alone is not None and alone not in near:
+    if at_floor and fitter.effort.thorough and alone is not None and alone not in chosen:
         effects, numbers = len(best.fit_model.ids) - len(added) + 1, len(alone.root.free)
         singles = [
             model.rmse
@@ -178,8 +190,8 @@ def _promising(
             if len(ids) == effects and len(model.free) <= numbers
         ]
         if alone.root.rmse < min(singles, default=0.0):
-            near.append(alone)
-    return near
+            chosen.append(alone)
+    return chosen
 
 
 def _lowest_noise(noise: float | None, trials: Sequence[_Trial], best: FittedModel) -> float | None:

@@ -10,6 +10,7 @@ from mckibben.identification.diagnose.judgement import Judgement, judged
 from mckibben.identification.fit.comparison import Comparison
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.residual.noise import noise_of
 
 #: In which rows are set aside: where one is far off, others show only without it.
 ROUNDS = 3
@@ -51,7 +52,8 @@ def judged_comparison(comparison: Comparison) -> JudgedModel:
         aside += found.suspects
         predictor = comparison.predictor.setting_aside(aside)
         model = replace(model, aside=predictor.aside)
-        found = judged(model, predictor, comparison.noise)
+        noise, _ = noise_of(predictor, comparison.residual / predictor.scale, comparison.stated_noise)
+        found = judged(model, predictor, noise)
     return JudgedModel(predictor, model, found, first if aside else None)
 
 

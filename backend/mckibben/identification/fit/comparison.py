@@ -41,6 +41,7 @@ class Comparison:
         noise_how: how the noise was obtained.
         fit: the fit; None when nothing was fitted.
         free: the fitted parameters; their starts are the fitted values.
+        stated_noise: as stated; None where it is estimated.
         rows: number of rows of the measurement.
         excluded: reason -> number of excluded rows.
         messages: notes for the user.
@@ -64,6 +65,7 @@ class Comparison:
     stopped: tuple[StoppedRun, ...] = ()
     reversals: Reversals | None = None
     free: tuple[Free, ...] = ()
+    stated_noise: float | None = None
 
     @property
     def residual(self) -> np.ndarray:
@@ -300,6 +302,7 @@ def compared(
         stopped=stopped,
         reversals=reversals,
         free=tuple(replace(p, start=fit_model.number(p.name)) for p in choice),
+        stated_noise=noise,
     )
 
 
