@@ -225,7 +225,7 @@ def test_compare_tells_where_the_model_fails(run: Run) -> None:
     assert code == 0
     assert "Noise" in out
     assert "rms; this variable alone predicts" in err
-    assert "the residual is not noise: it has structure" in err
+    assert "What is left is no noise" in err
     answer = json.loads(run("compare", "martens-dmsp-20-300", "--muscle", "DMSP-20", "--ideal", "--json")[1])
     assert {"where", "heat_map", "whiteness", "loops", "sentences", "channels", "validation"} <= answer.keys()
     assert answer["validation"] is None

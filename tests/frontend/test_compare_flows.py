@@ -268,7 +268,7 @@ def test_what_is_left_as_autocorrelation_and_loops(page: Page, sweeps: FilePaylo
     changed(page, page.locator("#add-all").click)
     expect(told).to_contain_text("within the noise")
     page.get_by_role("button", name="Autocorrelation of the residual").click()
-    expect(page.locator("#white")).to_contain_text("residual looks like noise")
+    expect(page.locator("#white")).to_contain_text("Neighbouring rows are not correlated")
 
 
 @pytest.mark.examination(

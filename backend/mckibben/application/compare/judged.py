@@ -122,8 +122,9 @@ def rival_sentence(
     left, where = brief(scale * best.rmse), ", without physics,"
     if best.kind == _SURFACE:
         where = " on what the model leaves"
+    numbers = f"{best.numbers} number{'' if best.numbers == 1 else 's'}"
     text = (
-        f"A {best.kind} with {best.numbers} number{'' if best.numbers == 1 else 's'}{where} would leave {left} {unit}, the "
+        f"A {best.kind} with {numbers}{where} would leave {left} {unit}, the "
         f"model with its {len(model.free)} leaves {brief(scale * model.rmse)} {unit}"
     )
     if best.holdout_rmse is None or best.model_holdout_rmse is None:

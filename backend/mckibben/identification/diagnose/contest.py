@@ -174,7 +174,8 @@ def _promising(
     """The trials that a search of their own may bring to do with fewer effects, the best first.
 
     ``near`` are those that come close to the best model without one; besides them the quantity that by itself
-    explains more than any effect with as few numbers does. Where the best model is at the noise with one effect, an entry has to do without any, and needs no search.
+    explains more than any effect with as few numbers does. Where the best model is at the noise with one
+    effect, an entry has to do without any, and needs no search.
     """
     if at_floor and len(added) < 2:
         return []

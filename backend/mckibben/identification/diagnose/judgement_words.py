@@ -47,9 +47,10 @@ def judged_text(judgement: Judgement, unit: str, scale: float) -> str:
     if judgement.structured:
         shows = {name: why for name, why in open_proofs(judgement).items() if name in _STRUCTURE}
         seen = "it is far above the noise" if judgement.surface is None else _joined(shows)
-        text = f"What is left is no noise: {seen}."
-        text += _free_curve(judgement, unit, scale)
-        return f"{text} A diagnosis tells which effect, constant or entry may be behind it."
+        return (
+            f"What is left is no noise: {seen}. A diagnosis tells which effect, constant or entry may be "
+            "behind it."
+        )
     if judgement.undecided:
         return undecided_text(judgement, unit, scale)
     return f"Nothing is missing: the error of {brief(scale * judgement.rmse)} {unit} is noise."

@@ -31,7 +31,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mckibben.identification.residual import whitening
 from mckibben.identification.residual.simplex import lowest
 
 #: Ways in which the rows of a channel may be lines of correlated noise: of each the lines of a `Chain`.
@@ -161,6 +160,8 @@ class Chain:
             table: of the rows that are there, shape (rows, columns).
             noises: the noises.
         """
+        from mckibben.identification.residual import whitening
+
         whiten = whitening.whiten.compiled()
         table = np.ascontiguousarray(table)
         rows, columns = table.shape
@@ -181,6 +182,8 @@ class Chain:
             table: of the rows that are there, shape (rows, columns).
             least: that the sum of squares can be.
         """
+        from mckibben.identification.residual import whitening
+
         compiled, table = whitening.misfit.compiled(), np.ascontiguousarray(table)
         room = np.empty_like(table)
 
