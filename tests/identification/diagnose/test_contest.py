@@ -115,10 +115,39 @@ def test_right_entries_are_not_doubted(c10: float, wave: float) -> None:
 
 
 def test_a_thicker_braid_is_a_twin_of_a_stronger_force() -> None:
-    """The ideal force goes with the square of the diameter: the data cannot tell the two."""
+    """The ideal force goes with the square of the diameter: the data cannot tell the two.
+
+    A caliper decides it, so it is asked first; its odds are those before any data, 0.1 against 0.3 / 0.7.
+    """
     result = diagnosis(replace_diameter(MUSCLE, 1.1))
     assert result.added == ("effectiveness",)
-    assert "braid_diameter" in {entry.entry.hypothesis for entry in result.context}
+    leading = result.context[0]
+    assert (leading.entry.hypothesis, leading.stands) == ("braid_diameter", True)
+    assert leading.confidence == pytest.approx(1.0 / (1.0 + 0.3 / 0.7 / 0.1), abs=0.03)
+
+
+@pytest.mark.parametrize(("head", "asked"), [("", True), ("# pressure: gauge", False)])
+def test_what_a_file_says_in_words_is_not_doubted_where_an_effect_explains_as_much(
+    head: str, asked: bool
+) -> None:
+    """Readings that are an atmosphere too high: absolute, or a bladder that meets the braid late."""
+    random = np.random.default_rng(4)
+    rows = [head] if head else []
+    rows += ["# kind: isobaric", "time_s,pressure_bar,length_mm,force_N"]
+    for pressure in (2e5, 3e5, 4e5, 5e5):
+        for share in (*np.linspace(0.0, 0.15, 20), *np.linspace(0.15, 0.0, 20)):
+            force = float(truth(pressure, 0.3 * (1.0 - share))) + NOISE * random.standard_normal()
+            time = 0.1 * (len(rows) - 2)
+            rows.append(f"{time:.1f},{(pressure + 101325.0) / 1e5:.5f},{300.0 * (1.0 - share):.4f},{force:.4f}")
+    measurement, start = read_measurement("\n".join(rows).encode(), "loops.csv"), FitModel(MUSCLE)
+
+    def predictor(readings: Sequence[OtherReading]) -> Predictor:
+        return predictor_of(read_otherwise(measurement, readings), MUSCLE)
+
+    stated = statements(measurement, start, predictor, elastic=CATALOGUE.values())
+    result = diagnose(predictor(()), start, catalogue=CATALOGUE, statements=stated)
+    assert result.added == ("threshold_pressure",)
+    assert ("absolute_pressure" in {e.entry.hypothesis for e in result.context if e.stands}) is asked
 
 
 @pytest.mark.examination("test_a_wrong_rest_length_beside_an_elastic_wall_is_asked_about_first")

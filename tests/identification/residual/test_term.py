@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.identification.residual.term import HALVED, TERMS, proposed_term
+from mckibben.identification.residual.term import HALVED, SMOOTH, TERMS, proposed_term
 from mckibben.physics.custom import custom_effect
 
 ROWS = 1200
@@ -173,3 +173,20 @@ def test_a_muscle_that_moves_at_few_rows_only_gives_no_warning():
         )
     assert term is not None
     assert term.formula == "c1*P"
+
+
+def test_a_rest_without_a_short_formula_is_described_by_a_smooth_one() -> None:
+    """A bump over the contraction that grows with the pressure: no three products halve it."""
+    kappa = VARIABLES["contraction"]
+    middle, width = float(np.mean(kappa)), 0.22 * float(np.ptp(kappa))
+    hidden = 30.0 * np.exp(-(((kappa - middle) / width) ** 2)) * PRESSURE / float(np.max(PRESSURE))
+    residual = hidden + 0.5 * NOISE
+    assert proposed_term(residual, VARIABLES, folds=FOLDS) is None
+    term = proposed_term(residual, VARIABLES, folds=FOLDS, smooth=True)
+    assert term is not None
+    assert term.smooth
+    assert HALVED < term.left_out <= SMOOTH or len(term.coefficients) > TERMS
+    left = float(np.sqrt(np.mean((residual - term.values) ** 2)))
+    # What it leaves in groups that its fit has not seen is more than what it leaves within.
+    assert left < term.band < float(np.sqrt(np.mean(residual**2)))
+    assert proposed_term(NOISE, VARIABLES, folds=FOLDS, smooth=True) is None

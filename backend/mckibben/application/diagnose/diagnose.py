@@ -373,7 +373,7 @@ def _verdict(
                 questions_of(diagnosis.context, titles),
                 sentence_of(diagnosis, catalogue),
                 ""
-                if judgement is None or diagnosis.status == "adequate"
+                if judgement is None or not open_proofs(judgement)
                 else rival_sentence(diagnosis.best, diagnosis.predictor, judgement, rivals),
                 aside_sentence(diagnosis, [each.place for each in suspects], catalogue),
                 bounds,
@@ -477,7 +477,9 @@ def _term(question: ModelQuestion, diagnosis: Diagnosis) -> TermProposal | None:
     return TermProposal(
         formula=formula,
         coefficients=coefficients,
+        kind="smooth" if term.smooth else "short",
         share=term.share,
+        band=term.band,
         model=ModelDocument({**effects, CUSTOM: {TERM: formula, **coefficients}}),
         curve=TermCurve(name, x[rows], term.values[rows], diagnosis.best.residual[rows]),
     )

@@ -185,9 +185,15 @@ class TermProposal:
 
     formula: str
     """The formula, as a custom effect takes it."""
+    kind: Literal["short", "smooth"]
+    """A short formula that halves the error on groups that were left out, or a smooth description of the
+    unexplained rest, which explains nothing.
+    """
     coefficients: dict[str, float]
     """Its constants, SI."""
     share: float
+    band: float
+    """Error with the term on groups that were left out, SI: how far it may be off within the data."""
     model: ModelDocument
     """The model with the term."""
     curve: TermCurve
@@ -232,7 +238,7 @@ class Verdict:
     repeats: RepetitionResult | None
     """What of it is periodic; None where nothing is beyond doubt, or no effect is unknown."""
     proposed_term: TermProposal | None
-    """A short formula for it that halves the error of the groups left out."""
+    """A formula for it: a short one, or else a smooth description."""
     where_to_look: str | None
     """Without a formula: the ranges in which the unexplained error is largest."""
     at_bounds: str | None

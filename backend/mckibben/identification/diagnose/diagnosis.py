@@ -129,7 +129,7 @@ class Diagnosis:
         alternatives: effects that could replace one of these.
         structure: the part of the last residual that a regression still predicts.
         repetition: what of the last residual of an unknown effect is periodic; None without it.
-        term: a short formula that halves the error of the folds left out; None without one.
+        term: a formula that lowers the error of the folds left out; None without one.
         proposals: experiments that would separate the alternatives.
         designs: for each group of alternatives the experiment of this rig that splits it best.
         messages: notes for the user.
@@ -493,10 +493,11 @@ def _search(
     unlikely = not left and not doubted and none_likely(support)
     term = None
     if left and is_force(predictor):
-        term = proposed_term(
-            best.residual, variables, folds=predictor.folds, basis=best.jacobian[:, best.inner],
-            weigh=predictor.weighted,
+        propose = partial(
+            proposed_term, best.residual, variables, folds=predictor.folds,
+            basis=best.jacobian[:, best.inner], weigh=predictor.weighted,
         )  # fmt: skip
+        term = propose() or propose(smooth=True)
     shown = partial(reweighted, predictor)
     designer = Designer.of(predictor, lean, level) if exchangeable else Designer((), level)
     pairs, designs = next_measurements(designer, lean, exchangeable, catalogue)

@@ -404,7 +404,7 @@ def where_to_look(result: Diagnosis) -> str:
     """The ranges in which a rest without a formula is largest, one sentence; empty where nothing is left, or
     most of it repeats.
     """
-    if result.status != "unknown_effect" or result.term is not None:
+    if result.status != "unknown_effect" or (result.term is not None and not result.term.smooth):
         return ""
     if result.structure.share < _WORTH_TELLING or _mostly_repeats(result):
         return ""
@@ -437,7 +437,7 @@ def _rest(result: Diagnosis) -> str:
             return repeats(result)
         return f"{_structured(result, ' of it')}; {repeats(result)}"
     if result.structure.share < _WORTH_TELLING:
-        if result.term is not None:
+        if result.term is not None and not result.term.smooth:
             return f"the proposed term takes {100.0 * result.term.share:.0f} % of it"
         return "it depends on no measured variable; repeat the run to see whether it recurs"
     return _structured(result, " of it")

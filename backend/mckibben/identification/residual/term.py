@@ -1,11 +1,12 @@
-r"""A short formula for a force residual that no catalogued effect explains.
+r"""A formula for a force residual that no catalogued effect explains: a short one, or a smooth description.
 
-The formula is a sum of at most three products
+The formula is a sum of products
 
 .. math:: c\,\kappa^a P^b\,g\,h,\qquad a \le 3,\; b \le 2,\; a + b \le 3
 
 with g one of 1, sign(v), abs(v), v and h one of 1 and :math:`1 - e^{-t/\tau}`. They are finite at rest and
-without pressure and bounded in time. A formula is proposed only if it halves the error on the folds left out.
+without pressure and bounded in time. A short one has at most three, and halves the error on the folds left out;
+where none does, a sum of more that takes a part of it describes the rest without a claim to explain it.
 """
 
 from __future__ import annotations
@@ -15,7 +16,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-TERMS = 3  # most terms of a proposal
+TERMS = 3  # most terms of a short proposal
+SMOOTH_TERMS, SMOOTH = 9, 0.8  # most terms of a description, and its largest error over that without it
 HALVED = 0.5  # largest error over the error without the term, on the folds left out
 _WORTH = 0.1  # least share by which a further term lowers the mean square of the folds left out
 _SIMPLER = 0.02  # a form of lower order is taken if its mean square is higher by at most this share
@@ -38,6 +40,8 @@ class Term:
         values: of the term at each row, shape (rows,).
         left_out: error with the term over the error without it, on the folds left out; of the way of folding
             with the largest.
+        band: error with it on these folds [N], the standard deviation of what it predicts elsewhere.
+        smooth: whether it only describes.
     """
 
     formula: str
@@ -45,6 +49,8 @@ class Term:
     share: float
     values: np.ndarray
     left_out: float
+    band: float = 0.0
+    smooth: bool = False
 
 
 @dataclass(frozen=True)
@@ -63,6 +69,7 @@ def proposed_term(
     folds: Sequence[np.ndarray],
     basis: np.ndarray | None = None,
     weigh: Callable[[np.ndarray], np.ndarray] = lambda columns: columns,
+    smooth: bool = False,
 ) -> Term | None:
     """The shortest sum of products that halves the error of the folds left out; None without one.
 
@@ -75,6 +82,7 @@ def proposed_term(
         folds: ways of folding, each a label per row; the error has to be halved for each way.
         basis: derivatives of the model by its free parameters; what these can fit is not proposed.
         weigh: weights of the residual, applied to the columns of the term.
+        smooth: a description of more products instead, which takes a part of the error.
     """
     forms = _library({symbol: variables[name] for symbol, name in SYMBOLS.items() if name in variables})
     ways = [labels for labels in folds if np.ptp(labels) > 0]
@@ -92,7 +100,7 @@ def proposed_term(
     first = own.shape[1]
     chosen: list[int] = list(range(first))
     without = here = sums.squares(np.array([chosen], dtype=int))[0]
-    for _ in range(TERMS):
+    for _ in range(SMOOTH_TERMS if smooth else TERMS):
         others = np.setdiff1d(np.arange(first, first + len(forms)), chosen)
         if not len(others):
             break
@@ -107,7 +115,7 @@ def proposed_term(
         chosen.append(int(others[best]))
         here = squares[best]
     left_out = float(np.sqrt(np.max(here / without)))
-    if len(chosen) == first or left_out > HALVED:
+    if len(chosen) == first or left_out > (SMOOTH if smooth else HALVED):
         return None
     picked = [n - first for n in chosen[first:]]
     design = np.column_stack([columns[:, picked], own])
@@ -125,6 +133,8 @@ def proposed_term(
         share=1.0 - float(left @ left) / float(before @ before),
         values=np.column_stack([forms[n].column for n in picked]) @ weights,
         left_out=left_out,
+        band=float(np.sqrt(np.max(here))),
+        smooth=smooth,
     )
 
 

@@ -157,8 +157,9 @@ def _unknown(verdict: Verdict) -> Html:
     values = [f"{name} = {plain(value, 4)}" for name, value in term.coefficients.items()]
     parts += [
         paragraph(
-            mark("Proposed term"), " (in SI; a description, not a cause). It explains ",
-            percent(term.share), " of the remaining squared error:",
+            mark("Smooth description" if term.kind == "smooth" else "Proposed term"),
+            " (in SI; a description, not a cause). It takes ", percent(term.share),
+            " of the remaining squared error:",
         ),
         tag("div", tag("code", term.formula), class_="equation"),
         paragraph(", ".join(values), note=True),

@@ -105,6 +105,19 @@ function showWorst(name) {
   });
 }
 
+/** What a formula for the rest is worth. @param {NonNullable<Diagnosis["verdict"]["proposed_term"]>} term
+ * @param {Diagnosis} result */
+function describes(term, result) {
+  const share = `${brief(100 * term.share)}\u00a0% of the remaining squared error`;
+  const band = errorText(term.band, result.unit, result.predicted, units.value);
+  return `${
+    term.kind === "smooth"
+      ? `No short formula is found. This smooth one follows ${share}`
+      : `This formula takes ${share}`
+  }, and leaves ${band} in the groups left out of its fit. It describes the unexplained rest, it does not ` +
+    "explain it, and holds inside the measured range only.";
+}
+
 /** @param {Diagnosis} result */
 export function unknown(result) {
   const { verdict } = result, a = answer.value;
@@ -184,14 +197,7 @@ export function unknown(result) {
         "section",
         { class: "list-part unknown", "aria-label": "Describe it for now" },
         h("h3", null, "Or describe it for now"),
-        h(
-          "p",
-          { class: "why" },
-          `This formula explains ${
-            brief(100 * term.share)
-          }\u00a0% of the remaining squared error, also in the groups left out of ` +
-            "its fit. It describes, it does not explain: it holds inside the measured range only.",
-        ),
+        h("p", { class: "why" }, describes(term, result)),
         term.curve ? termPlot() : null,
         proposedTerm(term, "Formula", true),
       )
