@@ -104,8 +104,8 @@ def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
         start = studio.start_model(stated_muscle(MuscleInput.model_validate(case.muscle)), case.effects)
         drive, model = None, studio.static_model(start)
     pressure = measurement.columns.get("pressure", np.zeros(1))
-    blocked = model.muscle.blocked_force(float(np.max(pressure)))
-    fit_model = FitModel(model.muscle, model.effects, model.values, blocked_force=blocked)
+    size = model.muscle.size._replace(force=model.muscle.blocked_force(float(np.max(pressure))))
+    fit_model = FitModel(model.muscle, model.effects, model.values, size=size)
     return predictor_of(measurement, fit_model.muscle, drive), fit_model
 
 

@@ -157,7 +157,7 @@ def _moved(model: StaticModel, name: str, change: float) -> tuple[StaticModel, f
     else:
         effect, parameter = name.split(".")
         declared = next(each for each in model.effects if each.id == effect).parameter(parameter)
-        lower, upper = declared.bounds(muscle.blocked_force())
+        lower, upper = declared.bounds(muscle.size)
         value = min(max(values[effect][parameter] + change, lower), upper)
         values = {**values, effect: {**values[effect], parameter: value}}
     return StaticModel.of(muscle, model.effects, values), value

@@ -15,6 +15,7 @@ from mckibben.physics.custom import CUSTOM, typed_effect
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY, Muscle
+from mckibben.physics.parameter import MuscleSize
 from mckibben.physics.units import si
 from mckibben.presets import MusclePreset, Quantity
 from mckibben.presets.fit import FitRecord
@@ -154,12 +155,12 @@ def preset_facts(preset: MusclePreset, catalogue: EffectCatalogue) -> PresetFact
         wall_thickness=0.0 if wall is None else wall.si("m"),
         inside_diameter=geometry.inside_diameter.si("m"),
     )
-    force = muscle.blocked_force()
+    size = muscle.size
     return PresetFacts(
         id=preset.id,
         muscle=muscle,
         effects={
-            name: catalogue[name].defaults_of(force) | values
+            name: catalogue[name].defaults_of(size) | values
             for name, values in preset.effect_values().items()
         },
         limits=MuscleLimits(
@@ -222,8 +223,8 @@ def start_model(
         effect, term = typed_effect(effects[CUSTOM])
         known = {**catalogue, CUSTOM: effect}
         effects = {name: values if name != CUSTOM else effect.defaults for name, values in effects.items()}
-    force = muscle.blocked_force()
-    chosen = {name: _effect_values(name, values, known, force) for name, values in effects.items()}
+    size = muscle.size
+    chosen = {name: _effect_values(name, values, known, size) for name, values in effects.items()}
     return _complete_model(StartModel(muscle, chosen, preset, stated.rhombus, known, term), stated)
 
 
@@ -318,7 +319,7 @@ def _by_thread(stated: StatedMuscle, base: Muscle | None, length: float) -> Musc
 
 
 def _effect_values(
-    effect_id: str, stated: Mapping[str, float | str], catalogue: Mapping[str, Effect], blocked_force: float
+    effect_id: str, stated: Mapping[str, float | str], catalogue: Mapping[str, Effect], size: MuscleSize
 ) -> dict[str, float]:
     """Every parameter of an effect in SI: the stated ones, defaults for this muscle for the rest."""
     path = f"effects.{effect_id}"
@@ -331,7 +332,7 @@ def _effect_values(
         )
     effect = catalogue[effect_id]
     units = {parameter.name: parameter.unit for parameter in effect.parameters}
-    values = effect.defaults_of(blocked_force)
+    values = effect.defaults_of(size)
     for name, value in stated.items():
         field = f"{path}.{name}"
         if name not in units:

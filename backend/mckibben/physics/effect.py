@@ -14,7 +14,7 @@ from typing import Literal
 from mckibben.facts.result import result_class
 from mckibben.physics.errors import InputError, error_text
 from mckibben.physics.ops import Value
-from mckibben.physics.parameter import Parameter, Source
+from mckibben.physics.parameter import MuscleSize, Parameter, Source
 from mckibben.physics.slots import SLOTS
 
 Kind = Literal["isobaric", "isometric", "isotonic", "diameter", "transient", "static"]
@@ -252,9 +252,9 @@ class Effect:
         """Parameter name -> default, SI."""
         return {parameter.name: parameter.default for parameter in self.parameters}
 
-    def defaults_of(self, blocked_force: float) -> dict[str, float]:
+    def defaults_of(self, size: MuscleSize) -> dict[str, float]:
         """The defaults for a muscle; see `mckibben.physics.parameter.Parameter.default_of`."""
-        return {parameter.name: parameter.default_of(blocked_force) for parameter in self.parameters}
+        return {parameter.name: parameter.default_of(size) for parameter in self.parameters}
 
     @property
     def off(self) -> dict[str, float]:

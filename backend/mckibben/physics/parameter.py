@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import NamedTuple
 
 from mckibben.facts.result import result_class
 
@@ -18,8 +19,38 @@ GRADES = {
 }
 UNVERIFIED_GRADES = frozenset({"M", "E"})
 
-#: Blocked force up to which bounds that grow hold as they are declared [N]: a muscle of 20 mm at 8 bar.
-USUAL_BLOCKED_FORCE = 2000.0
+
+class MuscleSize(NamedTuple):
+    """Size of a muscle, SI; 0 = not known.
+
+    Attributes:
+        force: blocked force at its highest pressure [N].
+        length: at rest [m].
+        diameter: of the braid at rest [m].
+    """
+
+    force: float = 0.0
+    length: float = 0.0
+    diameter: float = 0.0
+
+    def over_usual(self, powers: tuple[int, int, int]) -> float:
+        """Product of the three over those of `USUAL_SIZE`, each to a power; what is not known counts as 1."""
+        factor = 1.0
+        for own, usual, power in zip(self, USUAL_SIZE, powers, strict=True):
+            factor *= (own / usual) ** power if own > 0.0 else 1.0
+        return factor
+
+
+UNKNOWN_SIZE = MuscleSize()
+#: Of a muscle for which bounds hold as they are declared: 20 mm at 8 bar.
+USUAL_SIZE = MuscleSize(2000.0, 0.3, 0.02)
+#: Unit -> powers of force, length and diameter in which a quantity goes with the size of a muscle.
+_POWERS = {
+    "N": (1, 0, 0), "N/K": (1, 0, 0), "kg": (1, 0, 0), "m2": (1, 0, 0), "1/N": (-1, 0, 0),
+    "N/m": (1, -1, 0), "N*s/m": (1, -1, 0), "N*s/(m*Pa)": (1, -1, 0), "m/N": (-1, 1, 0),
+    "m": (0, 1, 0), "m/s": (0, 1, 0), "m3": (0, 1, 2), "m3/(s*Pa)": (0, 1, 2),
+}  # fmt: skip
+_ACROSS, _SAME, _AS_FORCE = (0, 0, 1), (0, 0, 0), (1, 0, 0)
 
 
 @result_class
@@ -65,8 +96,8 @@ class Parameter:
             None = the default.
         reference: whether it states for which muscle the other parameters hold; a search for the missing
             physics never frees it.
-        grows: whether the bounds are those of muscles of up to `USUAL_BLOCKED_FORCE`, and of a stronger one
-            the same share of its blocked force (`bounds`).
+        across: whether it is a length across the muscle, which goes with its diameter.
+        with_force: whether the bounds of a number without a unit go with the blocked force.
         default_at: blocked force at `mckibben.physics.muscle.HIGHEST_PRESSURE` of the muscle for which the
             default is stated [N]; that of another muscle is the same share of its own (`default_of`). None =
             the default is the same for all muscles.
@@ -85,27 +116,39 @@ class Parameter:
     natural: bool = False
     reference: bool = False
     usual: float | None = None
-    grows: bool = False
+    across: bool = False
+    with_force: bool = False
     default_at: float | None = None
 
-    def default_of(self, blocked_force: float) -> float:
-        """Default for a muscle of this blocked force at the highest pressure [N], to three digits.
+    @property
+    def powers(self) -> tuple[int, int, int]:
+        """Powers of force, length and diameter of the muscle in which the bounds go with its size."""
+        if self.across:
+            return _ACROSS
+        return _AS_FORCE if self.with_force else _POWERS.get(self.unit, _SAME)
 
-        0 = the force is not known: the default as it is declared.
+    @property
+    def grows(self) -> bool:
+        """Whether the bounds of a muscle of another size are others."""
+        return self.powers != _SAME
+
+    def default_of(self, size: MuscleSize) -> float:
+        """Default for a muscle of this size, to three digits.
+
+        Where its force is not known: the default as it is declared.
         """
-        if self.default_at is None or not blocked_force > 0.0:
+        if self.default_at is None or not size.force > 0.0:
             return self.default
-        lower, upper = self.bounds(blocked_force)
-        scaled = float(f"{self.default * blocked_force / self.default_at:.3g}")
+        lower, upper = self.bounds(size)
+        scaled = float(f"{self.default * size.force / self.default_at:.3g}")
         return min(max(scaled, lower), upper)
 
-    def bounds(self, blocked_force: float) -> tuple[float, float]:
-        """Bounds for a muscle of this blocked force at its highest pressure [N]; 0 = not known.
+    def bounds(self, size: MuscleSize = UNKNOWN_SIZE) -> tuple[float, float]:
+        """Bounds for a muscle of this size: the same shares of its force and dimensions.
 
-        Those of a parameter that `grows` move away from 0 in proportion to a blocked force above
-        `USUAL_BLOCKED_FORCE`, and never towards it.
+        They are declared for `USUAL_SIZE`, move away from 0 with the size, and never towards it.
         """
-        factor = max(1.0, blocked_force / USUAL_BLOCKED_FORCE) if self.grows else 1.0
+        factor = max(1.0, size.over_usual(self.powers))
         return min(self.lower, factor * self.lower), max(self.upper, factor * self.upper)
 
     def __post_init__(self) -> None:

@@ -10,7 +10,7 @@ from pydantic import Field, PrivateAttr
 from mckibben.facts.run import curve_fit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import Muscle
-from mckibben.physics.parameter import UNVERIFIED_GRADES, Parameter
+from mckibben.physics.parameter import UNKNOWN_SIZE, UNVERIFIED_GRADES, MuscleSize, Parameter
 from mckibben.presets.fit import FitRecord
 from mckibben.presets.quantity import (
     GRADES_IN_WORDS,
@@ -174,13 +174,11 @@ class _WithEffects(Preset):
                 continue
             for key, quantity in table.items():
                 known = None if effects is None else effects[name]
-                yield from _parameter_findings(
-                    f"effects.{name}.{key}", key, quantity, known, self._blocked_force()
-                )
+                yield from _parameter_findings(f"effects.{name}.{key}", key, quantity, known, self._size())
 
-    def _blocked_force(self) -> float:
-        """Of the muscle at the highest pressure of any [N]; 0 of another part."""
-        return 0.0
+    def _size(self) -> MuscleSize:
+        """Of the muscle; not known of another part."""
+        return UNKNOWN_SIZE
 
 
 class MusclePreset(_WithEffects):
@@ -215,12 +213,12 @@ class MusclePreset(_WithEffects):
         "have intervals and say where the muscle was not measured.",
     )
 
-    def _blocked_force(self) -> float:
+    def _size(self) -> MuscleSize:
         geometry = self.geometry
         stated = (geometry.nominal_length, "m"), (geometry.braid_diameter, "m"), (geometry.braid_angle, "rad")
         if any(si_unit(quantity.unit) != unit for quantity, unit in stated):
-            return 0.0  # which is found elsewhere
-        return Muscle(*(quantity.si(unit) for quantity, unit in stated)).blocked_force()
+            return UNKNOWN_SIZE  # which is found elsewhere
+        return Muscle(*(quantity.si(unit) for quantity, unit in stated)).size
 
     def findings(self, effects: EffectTable | None = None) -> Iterator[Finding]:
         """Adds: the braid is wider than the bore."""
@@ -239,13 +237,13 @@ def _parameter_findings(
     key: str,
     quantity: Quantity,
     known: Collection[str] | Mapping[str, Parameter] | None,
-    blocked_force: float,
+    size: MuscleSize,
 ) -> Iterator[Finding]:
     if known is not None and key not in known:
         yield Finding(path, f"the effect has no parameter '{key}'", did_you_mean(key, known))
     elif isinstance(known, Mapping):
         declared = known[key]
-        bounds = declared.bounds(blocked_force)
+        bounds = declared.bounds(size)
         yield from range_findings(path, quantity, Expected(declared.unit, *bounds))
     elif si_unit(quantity.unit) is None:
         yield Finding(f"{path}.unit", f"'{quantity.unit}' is not a known unit", "e.g. 'MPa'")

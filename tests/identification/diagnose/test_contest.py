@@ -138,7 +138,9 @@ def test_what_a_file_says_in_words_is_not_doubted_where_an_effect_explains_as_mu
         for share in (*np.linspace(0.0, 0.15, 20), *np.linspace(0.15, 0.0, 20)):
             force = float(truth(pressure, 0.3 * (1.0 - share))) + NOISE * random.standard_normal()
             time = 0.1 * (len(rows) - 2)
-            rows.append(f"{time:.1f},{(pressure + 101325.0) / 1e5:.5f},{300.0 * (1.0 - share):.4f},{force:.4f}")
+            rows.append(
+                f"{time:.1f},{(pressure + 101325.0) / 1e5:.5f},{300.0 * (1.0 - share):.4f},{force:.4f}"
+            )
     measurement, start = read_measurement("\n".join(rows).encode(), "loops.csv"), FitModel(MUSCLE)
 
     def predictor(readings: Sequence[OtherReading]) -> Predictor:

@@ -26,6 +26,7 @@ from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.points import Points
 from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.errors import InputError, did_you_mean
+from mckibben.physics.parameter import MuscleSize
 from mckibben.simulation.drive.parts import Drive
 
 #: Effects in the form of a request: effect id -> parameter -> value; a custom term with its text.
@@ -134,16 +135,16 @@ class ModelQuestion:
             start.effects,
             self.load_force,
             frozenset(start.assumed),
-            blocked_force=self._blocked_force,
+            size=self._size,
         )
 
     @property
-    def _blocked_force(self) -> float:
-        """Of the ideal muscle at the highest pressure that it is made for or was measured at [N]."""
+    def _size(self) -> MuscleSize:
+        """With the force of the ideal muscle at the highest pressure that it is made for or measured at."""
         limit = None if self.start.preset is None else self.start.preset.limits.max_pressure
         seen = [one.points.measurement.columns.get("pressure") for one in self.specimens.each]
         highest = max([limit or 0.0, *(float(np.max(pressure)) for pressure in seen if pressure is not None)])
-        return self.start.muscle.blocked_force(highest)
+        return self.start.muscle.size._replace(force=self.start.muscle.blocked_force(highest))
 
     def free_geometry(self) -> tuple[Free, ...]:
         """The freed geometry with its bounds: within the tolerance, or within what is plausible where an

@@ -170,9 +170,9 @@ class EffectSettings:
 
 def settings_of(model: StaticModel, start: StartModel) -> EffectSettings:
     """The effects of a model, and the defaults that its muscle has by its size."""
-    force = model.muscle.blocked_force()
+    size = model.muscle.size
     scaled = {
-        effect.id: {p.name: p.default_of(force) for p in effect.parameters if p.default_at is not None}
+        effect.id: {p.name: p.default_of(size) for p in effect.parameters if p.default_at is not None}
         for effect in start.catalogue.values()
     }
     return EffectSettings(model.values, {name: values for name, values in scaled.items() if values})

@@ -99,6 +99,7 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
                 for effect in fitter.promising(fitted_model, others)[: min(_TRIED, fitter.effort.tried)]
             ]
     best = _two_steps_on(fitter, _polished(fitter, best, root), root)
+    best = _with_fewer_effects(fitter, best, root)
     rows, known = _rows(fitter, best), fitter.known.values()
     start = root.fit_model.ids
     return reaching_farthest(best, known, fitter.predictor, rows=rows, noise=fitter.noise, start=start)
@@ -263,6 +264,24 @@ def _with_other_constants(fitter: Fitter, best: FittedModel, root: FittedModel) 
     anew = [m for m in _chosen_anew(fitter, best, root) if m.implausible <= best.implausible]
     other = min(anew, key=value, default=best)
     return lean(fitter, other, root) if value(other) < value(best) - LEAST_SCORE else best
+
+
+def _with_fewer_effects(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
+    """The best model, or one of fewer effects that the search has passed by with more constants than it needs.
+
+    One effect may do the work of two that were found one after the other: exchanging either of them alone
+    leads nowhere.
+    """
+    start = set(root.fit_model.ids)
+    nearest: dict[frozenset[str], FittedModel] = {}
+    for model in sorted(fitter.known.values(), key=lambda each: each.rmse, reverse=True):
+        effects = frozenset(model.fit_model.ids)
+        fewer = start < effects and len(effects) < len(best.fit_model.ids)
+        if fewer and model.implausible <= best.implausible and model.rmse < _WITHIN * best.rmse:
+            nearest[effects] = model
+    models = sorted(nearest.values(), key=lambda each: each.rmse)[:_BEAM]
+    value = partial(score, rows=_rows(fitter, best), noise=fitter.noise)
+    return min([best, *(lean(fitter, model, root) for model in models)], key=value)
 
 
 def _two_steps_on(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:

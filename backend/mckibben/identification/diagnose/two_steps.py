@@ -98,7 +98,7 @@ def _steps(fitter: Fitter, model: FittedModel, basis: np.ndarray) -> Iterator[_S
         if off:
             reach = np.array([between(effect, off)[name] - value for name, value in off.items()])
             ranges = [(effect.parameter(name), value) for name, value in off.items()]
-            bounds = np.array([p.bounds(model.fit_model.blocked_force) for p, _ in ranges])
+            bounds = np.array([p.bounds(model.fit_model.size) for p, _ in ranges])
             ends = (bounds - np.array([[value] for _, value in ranges])) / reach[:, None]
             yield from _step(effect, True, fitter.changes(model, effect), ends, basis)
     for effect in model.fit_model.effects:

@@ -10,7 +10,7 @@ import numpy as np
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.muscle import GEOMETRY, NEUTRAL_ANGLE, Muscle
-from mckibben.physics.parameter import Parameter
+from mckibben.physics.parameter import UNKNOWN_SIZE, MuscleSize, Parameter
 
 #: Name of the unknown load of a measurement [N].
 LOAD = "load_force"
@@ -41,8 +41,7 @@ class FitModel:
         load: the unknown load of a measurement [N].
         assumed: fields of the muscle that an effect needs and that are not stated; they hold a typical value.
         supply_factor: supply pressure of a drive over the stated one [-].
-        blocked_force: of the stated muscle at its highest pressure, with which the bounds of some parameters
-            grow [N]; 0 = not known.
+        size: of the stated muscle, with which the bounds of parameters go.
         starts: of the runs of records in time, by their names; those left out begin at rest at the first
             reading.
     """
@@ -53,7 +52,7 @@ class FitModel:
     load: float = 0.0
     assumed: frozenset[str] = frozenset()
     supply_factor: float = 1.0
-    blocked_force: float = 0.0
+    size: MuscleSize = UNKNOWN_SIZE
     starts: Mapping[str, float] = ()  # type: ignore
 
     def __post_init__(self) -> None:
@@ -150,7 +149,7 @@ def free_numbers(
     geometry = tuple(geometry)
     fixed = fixed_beside(geometry)
     of_effects = [
-        _free(effect.id, p, fit_model.values[effect.id][p.name], p.bounds(fit_model.blocked_force))
+        _free(effect.id, p, fit_model.values[effect.id][p.name], p.bounds(fit_model.size))
         for effect in fit_model.effects
         for p in effect.parameters
         if (p.fitted or f"{effect.id}.{p.name}" in freed) and f"{effect.id}.{p.name}" not in fixed

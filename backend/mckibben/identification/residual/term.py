@@ -1,12 +1,12 @@
 r"""A formula for a force residual that no catalogued effect explains: a short one, or a smooth description.
 
-The formula is a sum of products
+It is a sum of products
 
 .. math:: c\,\kappa^a P^b\,g\,h,\qquad a \le 3,\; b \le 2,\; a + b \le 3
 
 with g one of 1, sign(v), abs(v), v and h one of 1 and :math:`1 - e^{-t/\tau}`. They are finite at rest and
-without pressure and bounded in time. A short one has at most three, and halves the error on the folds left out;
-where none does, a sum of more that takes a part of it describes the rest without a claim to explain it.
+without pressure and bounded in time. A short one has at most three, and halves the error on the folds left
+out; where none does, a sum of more that takes a part of it describes the rest without a claim to explain it.
 """
 
 from __future__ import annotations

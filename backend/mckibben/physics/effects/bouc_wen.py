@@ -79,7 +79,6 @@ EFFECT = Effect(
             source=_RANGE,
             description="Friction after a long travel; with a power q, that at 3 bar.",
             off=0.0,
-            grows=True,
         ),
         Parameter(
             "break_strain",

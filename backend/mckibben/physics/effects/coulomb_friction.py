@@ -47,7 +47,6 @@ EFFECT = Effect(
             source=_RANGE,
             description="Half the width of the force loop; with a static excess, that at high speed.",
             off=0.0,
-            grows=True,
         ),
         Parameter(
             "static_share",

@@ -78,7 +78,6 @@ EFFECT = Effect(
             *("force", "F_c", "N", 10.0, 0.0, 200.0, _RANGE),
             description="Friction after a long travel; with a power q, that at 3 bar.",
             off=0.0,
-            grows=True,
         ),
         Parameter(
             *("break_strain", r"\varepsilon_b", "1", 0.002, 1.0e-4, 0.03, _WAY),

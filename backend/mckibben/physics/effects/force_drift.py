@@ -37,7 +37,6 @@ EFFECT = Effect(
             *("drift", "a", "N", 10.0, -200.0, 200.0, _RANGE),
             description="Change of the zero from the start of the record to the end of the warming.",
             off=0.0,
-            grows=True,
         ),
         Parameter(
             *("time", r"\tau", "s", 120.0, 10.0, 1e5, _TIME),

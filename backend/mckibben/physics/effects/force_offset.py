@@ -33,7 +33,6 @@ EFFECT = Effect(
             source=_RANGE,
             description="Reading of the sensor without the muscle.",
             off=0.0,
-            grows=True,
         ),
     ),
     slots={"force_sensor": force_sensor},

@@ -56,7 +56,6 @@ EFFECT = Effect(
             source=_RANGE,
             description="Friction at high speed.",
             off=0.0,
-            grows=True,
         ),
         Parameter(
             "coefficient",

@@ -87,7 +87,6 @@ EFFECT = Effect(
             *("force", "F_p", "N", 5.0, 0.0, 100.0, _LOOP),
             description="Half the width of the pressure loop; with a power q, that at 3 bar.",
             off=0.0,
-            grows=True,
         ),
         Parameter(
             *("break_pressure", "P_b", "Pa", 3.0e4, 1.0e3, 3.0e5, _WAY),

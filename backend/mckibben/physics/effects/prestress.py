@@ -35,7 +35,6 @@ EFFECT = Effect(
             source=_MAPS,
             description="Constant loss of tension; negative when the bladder pulls.",
             off=0.0,
-            grows=True,
             default_at=4195.0,  # the size 20 of the map
         ),
     ),

@@ -34,7 +34,7 @@ EFFECT = Effect(
             source=_RANGE,
             description="Conductance over that of the straight tube.",
             off=1.0,
-            grows=True,  # the tube of a large muscle is often wider than the one assumed
+            with_force=True,  # the tube of a large muscle is often wider than the one assumed
         ),
     ),
     slots={"tube_conductance": tube_conductance},

@@ -49,6 +49,7 @@ EFFECT = Effect(
             description="Thickness of wall and braid between gas and the braid diameter, the same at "
             "every length.",
             off=0.0,
+            across=True,
         ),
     ),
     slots={"shape": shape},

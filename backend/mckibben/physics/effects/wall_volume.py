@@ -39,6 +39,7 @@ EFFECT = Effect(
             source=Source("hand-made bladders 0.5-1.6 mm, moulded 1.3-2.2 mm, thick muscles more", "E"),
             description="Thickness at rest of what is between gas and braid.",
             off=0.0,
+            across=True,
         ),
     ),
     slots={"extra_volume": wall_volume},

@@ -34,7 +34,7 @@ class EffectParameter(Strict):
     lower: float = Field(description="Lower bound of the plausible range.")
     upper: float = Field(description="Upper bound of the plausible range.")
     grows: bool = Field(
-        description="Whether the bounds are those of usual muscles, and grow with the force of a large one."
+        description="Whether the bounds are those of a usual muscle, and go with the size of another one."
     )
     off: float | None = Field(description="The value at which the effect vanishes.")
     fitted: bool = Field(description="Whether a fit frees it by default.")

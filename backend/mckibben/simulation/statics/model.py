@@ -17,6 +17,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.model import ROOM_TEMPERATURE
 from mckibben.physics.muscle import Muscle
 from mckibben.physics.ops import Value
+from mckibben.physics.parameter import UNKNOWN_SIZE, MuscleSize
 from mckibben.simulation.statics.compiled import OUTPUTS, CompiledState, compiled_state
 from mckibben.simulation.statics.limits import MuscleLimits
 
@@ -63,7 +64,7 @@ class StaticModel:
         self.muscle = muscle.checked()
         self.limits = limits or MuscleLimits()
         known = default_catalogue() if catalogue is None else catalogue
-        self.values = checked_values(effects or {}, known, blocked_force=self.muscle.blocked_force())
+        self.values = checked_values(effects or {}, known, size=self.muscle.size)
         self.effects = tuple(known[effect_id] for effect_id in self.values)
         for effect in self.effects:
             for needed in effect.needs:
@@ -166,14 +167,14 @@ class StaticModel:
 
 
 def checked_values(
-    effects: EffectValues, catalogue: Mapping[str, Effect], *, blocked_force: float = 0.0
+    effects: EffectValues, catalogue: Mapping[str, Effect], *, size: MuscleSize = UNKNOWN_SIZE
 ) -> dict[str, dict[str, float]]:
     """Values of every parameter of the named effects, with defaults filled in; unknown names are refused.
 
     Args:
         effects: effect id -> parameter -> value [SI].
         catalogue: the known effects.
-        blocked_force: see `mckibben.physics.parameter.Parameter.bounds` and ``default_of``.
+        size: see `mckibben.physics.parameter.Parameter.bounds` and ``default_of``.
 
     Raises:
         InputError: an unknown parameter, or a value outside its bounds.
@@ -191,16 +192,16 @@ def checked_values(
                     hint=did_you_mean(name, known),
                 )
             parameter = known[name]
-            lower, upper = parameter.bounds(blocked_force)
+            lower, upper = parameter.bounds(size)
             if not isfinite(value) or not lower <= value <= upper:
                 unit = "" if parameter.unit == "1" else f" {parameter.unit}"
                 raise InputError(
                     f"{name.replace('_', ' ')} of '{effect_id}' is {value:g}{unit}, outside "
                     f"{lower:g} to {upper:g}{unit}",
                     field=field,
-                    hint=f"a typical value is {parameter.default_of(blocked_force):g}{unit}",
+                    hint=f"a typical value is {parameter.default_of(size):g}{unit}",
                 )
-        values[effect_id] = {**effect.defaults_of(blocked_force), **stated}
+        values[effect_id] = {**effect.defaults_of(size), **stated}
     return values
 
 
