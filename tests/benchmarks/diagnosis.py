@@ -103,9 +103,7 @@ def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
     else:
         start = studio.start_model(stated_muscle(MuscleInput.model_validate(case.muscle)), case.effects)
         drive, model = None, studio.static_model(start)
-    pressure = measurement.columns.get("pressure", np.zeros(1))
-    size = model.muscle.size._replace(force=model.muscle.blocked_force(float(np.max(pressure))))
-    fit_model = FitModel(model.muscle, model.effects, model.values, size=size)
+    fit_model = FitModel(model.muscle, model.effects, model.values, size=model.muscle.size)
     return predictor_of(measurement, fit_model.muscle, drive), fit_model
 
 

@@ -10,7 +10,7 @@ from mckibben.physics import ideal
 from mckibben.physics.braid import Braid, braid_from_diameter
 from mckibben.physics.errors import InputError
 from mckibben.physics.ops import Value
-from mckibben.physics.parameter import MuscleSize
+from mckibben.physics.parameter import USUAL_PRESSURE, MuscleSize
 
 # Fields that a fit may change; symbols of the compiled model.
 GEOMETRY = ("nominal_length", "braid_diameter", "braid_angle", "wall_thickness", "inside_diameter")
@@ -80,8 +80,10 @@ class Muscle(NamedTuple):
 
     @property
     def size(self) -> MuscleSize:
-        """With the blocked force at the highest pressure of any muscle."""
-        return MuscleSize(self.blocked_force(), float(self.nominal_length), float(self.braid_diameter))
+        """With the blocked force at `USUAL_PRESSURE`."""
+        return MuscleSize(
+            self.blocked_force(USUAL_PRESSURE), float(self.nominal_length), float(self.braid_diameter)
+        )
 
     def contraction(self, length: Value) -> Value:
         """Contraction ratio 1 - L/L0 of a length (positive = shorter)."""

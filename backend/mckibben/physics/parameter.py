@@ -24,7 +24,7 @@ class MuscleSize(NamedTuple):
     """Size of a muscle, SI; 0 = not known.
 
     Attributes:
-        force: blocked force at its highest pressure [N].
+        force: blocked force at `USUAL_PRESSURE` [N].
         length: at rest [m].
         diameter: of the braid at rest [m].
     """
@@ -42,7 +42,9 @@ class MuscleSize(NamedTuple):
 
 
 UNKNOWN_SIZE = MuscleSize()
-#: Of a muscle for which bounds hold as they are declared: 20 mm at 8 bar.
+#: Gauge pressure at which the force of a muscle counts as its size [Pa].
+USUAL_PRESSURE = 8e5
+#: Of a muscle for which bounds hold as they are declared: one of 20 mm.
 USUAL_SIZE = MuscleSize(2000.0, 0.3, 0.02)
 #: Unit -> powers of force, length and diameter in which a quantity goes with the size of a muscle.
 _POWERS = {
@@ -50,6 +52,7 @@ _POWERS = {
     "N/m": (1, -1, 0), "N*s/m": (1, -1, 0), "N*s/(m*Pa)": (1, -1, 0), "m/N": (-1, 1, 0),
     "m": (0, 1, 0), "m/s": (0, 1, 0), "m3": (0, 1, 2), "m3/(s*Pa)": (0, 1, 2),
 }  # fmt: skip
+_LENIENT = 1.5  # share of a bound that a change of the muscle's dimensions may make
 _ACROSS, _SAME, _AS_FORCE = (0, 0, 1), (0, 0, 0), (1, 0, 0)
 
 
@@ -98,9 +101,9 @@ class Parameter:
             physics never frees it.
         across: whether it is a length across the muscle, which goes with its diameter.
         with_force: whether the bounds of a number without a unit go with the blocked force.
-        default_at: blocked force at `mckibben.physics.muscle.HIGHEST_PRESSURE` of the muscle for which the
-            default is stated [N]; that of another muscle is the same share of its own (`default_of`). None =
-            the default is the same for all muscles.
+        default_at: blocked force at `USUAL_PRESSURE` of the muscle for which the default is stated [N]; that
+            of another muscle is the same share of its own (`default_of`). None = the default is the same for
+            all muscles.
     """
 
     name: str
@@ -150,6 +153,15 @@ class Parameter:
         """
         factor = max(1.0, size.over_usual(self.powers))
         return min(self.lower, factor * self.lower), max(self.upper, factor * self.upper)
+
+    def allowed(self, size: MuscleSize) -> tuple[float, float]:
+        """Range of values that are not refused: wider than the bounds where these go with the size.
+
+        A fit may have changed the dimensions that its bounds were made for.
+        """
+        lower, upper = self.bounds(size)
+        low, high = (_LENIENT * end for end in (lower, upper))
+        return low if lower < self.lower else lower, high if upper > self.upper else upper
 
     def __post_init__(self) -> None:
         if not self.name.isidentifier():

@@ -243,7 +243,7 @@ def _parameter_findings(
         yield Finding(path, f"the effect has no parameter '{key}'", did_you_mean(key, known))
     elif isinstance(known, Mapping):
         declared = known[key]
-        bounds = declared.bounds(size)
+        bounds = declared.allowed(size)
         yield from range_findings(path, quantity, Expected(declared.unit, *bounds))
     elif si_unit(quantity.unit) is None:
         yield Finding(f"{path}.unit", f"'{quantity.unit}' is not a known unit", "e.g. 'MPa'")

@@ -15,6 +15,7 @@ from mckibben.identification.diagnose.probability import (
     Evidence,
     Loss,
     entries_right,
+    known_beside,
     log_preference,
     log_weight,
     loss,
@@ -97,8 +98,12 @@ def test_a_loss_is_measured_in_noise_and_as_a_part_of_what_is_explained() -> Non
 
 
 def test_beside_an_unknown_effect_what_is_named_is_less_sure() -> None:
+    """Over a noise of 1: of 10 above it 6 are left, or 1."""
     alone = Evidence("creep", ("creep",), 1.0, Loss(20.0, 0.9))
-    assert replace(alone, beside_unknown=True).probability == pytest.approx(0.6 * alone.probability)
+    assert replace(alone, known=0.6).probability == pytest.approx(0.6 * alone.probability)
+    root = fitted(np.sqrt(101.0))
+    for left, known in ((6.0, 0.4**2), (1.0, 0.9**2), (0.0, 1.0)):
+        assert known_beside(fitted(np.sqrt(left**2 + 1.0)), root, noise=1.0) == pytest.approx(known, rel=1e-6)
 
 
 def test_a_wrong_entry_makes_the_effects_unlikely_that_its_correction_does_without() -> None:

@@ -97,7 +97,13 @@ SENTENCES = {
     "Missing: Creep (probability 97 %). With it the error falls from 40.0 to 9.00 N; the noise is 2.00 N. No "
     "catalogued effect explains the rest: 40 % of it depends on pressure and time; "
     f"{REPEATS.replace('62 %', '38 %')}.": result(
-        "unknown_effect", 40.0, 9.0, "creep", share=0.4, repetition=FAINT, term=object()
+        "unknown_effect",
+        40.0,
+        9.0,
+        "creep",
+        share=0.4,
+        repetition=FAINT,
+        term=SimpleNamespace(share=0.8, smooth=False),
     ),
     "Nothing is missing: the error of 2.00 N is of the size of the noise (2.00 N).": result(
         "adequate", 2.0, 2.0
@@ -126,7 +132,7 @@ SENTENCES = {
     "noise of the data (2.00 N).": result("ambiguous", 40.0, 2.1, "creep", doubted=True),
     "Missing: Creep (probability 97 %). With it the error falls from 40.0 to 9.00 N; the noise is 2.00 N. No "
     "catalogued effect explains the rest: the proposed term takes 80 % of it.": result(
-        "unknown_effect", 40.0, 9.0, "creep", term=SimpleNamespace(share=0.8)
+        "unknown_effect", 40.0, 9.0, "creep", term=SimpleNamespace(share=0.8, smooth=False)
     ),
     "Missing: Creep (probability 97 %) and Leak (97 %). "
     "With them the error falls from 4.00 to 1.02 times the noise.": result(
@@ -146,7 +152,7 @@ SENTENCES = {
     "formula halves it; look where it is largest: pressure 5.00 to 6.00 bar (52.0 N) and time 3.00 to 4.00 s "
     "(44.0 N).": result("unknown_effect", 40.0, 40.0, share=0.9),
     "No catalogued effect explains the error of 40.0 N: 90 % of it depends on pressure and time.": result(
-        "unknown_effect", 40.0, 40.0, share=0.9, term=object()
+        "unknown_effect", 40.0, 40.0, share=0.9, term=SimpleNamespace(share=0.8, smooth=False)
     ),
     "Missing: Creep (probability 97 %). "
     "With it the error falls from 40.0 to 10.0 mm; the noise is 2.00 mm. No catalogued effect "

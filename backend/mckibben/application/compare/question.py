@@ -6,8 +6,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import cached_property
 
-import numpy as np
-
 from mckibben.application.compare.specimens import Specimens
 from mckibben.application.envelope import Envelope
 from mckibben.application.measurement.experiment import (
@@ -26,7 +24,6 @@ from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.points import Points
 from mckibben.physics.custom import CUSTOM, TERM
 from mckibben.physics.errors import InputError, did_you_mean
-from mckibben.physics.parameter import MuscleSize
 from mckibben.simulation.drive.parts import Drive
 
 #: Effects in the form of a request: effect id -> parameter -> value; a custom term with its text.
@@ -135,16 +132,8 @@ class ModelQuestion:
             start.effects,
             self.load_force,
             frozenset(start.assumed),
-            size=self._size,
+            size=start.muscle.size,
         )
-
-    @property
-    def _size(self) -> MuscleSize:
-        """With the force of the ideal muscle at the highest pressure that it is made for or measured at."""
-        limit = None if self.start.preset is None else self.start.preset.limits.max_pressure
-        seen = [one.points.measurement.columns.get("pressure") for one in self.specimens.each]
-        highest = max([limit or 0.0, *(float(np.max(pressure)) for pressure in seen if pressure is not None)])
-        return self.start.muscle.size._replace(force=self.start.muscle.blocked_force(highest))
 
     def free_geometry(self) -> tuple[Free, ...]:
         """The freed geometry with its bounds: within the tolerance, or within what is plausible where an

@@ -100,7 +100,7 @@ class Plant:
         subject, drive = self.subject, self.drive
         said = {each.name: each for each in subject.about.constants}
         bounds = {
-            f"{effect.id}.{p.name}": p.bounds(subject.statics.muscle.size)
+            f"{effect.id}.{p.name}": p.allowed(subject.statics.muscle.size)
             for effect in subject.statics.effects
             for p in effect.parameters
         }

@@ -444,7 +444,8 @@ def _search(
     added = tuple(effect for effect in lean.fit_model.ids if effect not in start_names)
     corrected = {item.effect for item in corrections}
     lean, exchangeable = likeliest(fitter, lean, added, level, root=root, never=corrected)
-    likely = supported(fitter, lean, root, exchangeable, noise=level)
+    unknown = level if judgement.structured else None
+    likely = supported(fitter, lean, root, exchangeable, noise=level, unknown=unknown)
     exchangeable = [other for other in exchangeable if other.of in {item.effect for item in likely.evidence}]
     path = path_to(fitter, start, root, likely.firm, gauge_zero)
     added = tuple(step.added for step in path if step.added)
@@ -538,7 +539,7 @@ def _search(
         absorbed=absorbed_by(predictor, best.fit_model),
         corrections=corrections,
         superfluous=superfluous(fitter, best, root),
-        evidence=beside(support, context, unknown=left),
+        evidence=beside(support, context),
         weights=likely.weights,
         left_out=left_out_specimens(predictor, best) if isinstance(predictor, SpecimensPredictor) else (),
         none_likely=unlikely,

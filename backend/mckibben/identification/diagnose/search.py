@@ -267,7 +267,7 @@ def _with_other_constants(fitter: Fitter, best: FittedModel, root: FittedModel) 
 
 
 def _with_fewer_effects(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
-    """The best model, or one of fewer effects that the search has passed by with more constants than it needs.
+    """The best model, or one of fewer effects that the search passed by with more constants than it needs.
 
     One effect may do the work of two that were found one after the other: exchanging either of them alone
     leads nowhere.

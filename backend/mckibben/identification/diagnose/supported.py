@@ -7,7 +7,15 @@ from dataclasses import dataclass
 
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.needed import needed
-from mckibben.identification.diagnose.probability import LIKELY, Evidence, ModelWeights, loss, model_weights
+from mckibben.identification.diagnose.probability import (
+    EVEN,
+    LIKELY,
+    Evidence,
+    ModelWeights,
+    known_beside,
+    loss,
+    model_weights,
+)
 from mckibben.identification.diagnose.score import effective_rows
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
@@ -34,11 +42,18 @@ class Supported:
 
 
 def supported(
-    fitter: Fitter, model: FittedModel, root: FittedModel, others: Sequence[Alternative], *, noise: float
+    fitter: Fitter,
+    model: FittedModel,
+    root: FittedModel,
+    others: Sequence[Alternative],
+    *,
+    noise: float,
+    unknown: float | None = None,
 ) -> Supported:
     """The effects that the start model lacks, and those that are less likely than `LIKELY`.
 
-    The likeliest is always called missing: something is.
+    The likeliest is always called missing: something is. Beside a rest that no effect explains that is not
+    so, and an effect is called missing that is likelier there than not.
 
     Args:
         fitter: of the search.
@@ -46,7 +61,9 @@ def supported(
         root: the start model, fitted.
         others: effects that could replace its effects.
         noise: of the scaled residual.
+        unknown: noise over which a rest is left that no effect explains; None without one.
     """
+    known = 1.0 if unknown is None else known_beside(model, root, noise=unknown)
     predictor = fitter.predictor
     weights = model_weights(
         fitter.known.values(),
@@ -64,9 +81,10 @@ def supported(
             lost = loss(model, without, root, noise=noise)
             laws = rubbing.difference(model.fit_model.ids) if name in rubbing else frozenset()
             share = weights.share({*group, *laws}) * needed(model, without)
-            evidence.append(Evidence(name, group, share, lost))
+            evidence.append(Evidence(name, group, share, lost, known))
     ordered = sorted(evidence, key=lambda item: item.probability)
-    unlikely = [item for item in ordered[:-1] if item.probability < LIKELY]
+    some = ordered[:-1] if unknown is None else ordered
+    unlikely = [item for item in some if item.probability < (LIKELY if unknown is None else EVEN)]
     firm, steps, corrections = model, [], []
     for item in unlikely:
         without = fitter.dropping(firm, item.effect)

@@ -35,7 +35,7 @@ EFFECT = Effect(
             source=_MAPS,
             description="Constant loss of tension; negative when the bladder pulls.",
             off=0.0,
-            default_at=4195.0,  # the size 20 of the map
+            default_at=2097.5,  # the size 20 of the map
         ),
     ),
     slots={"elastomer": elastomer},

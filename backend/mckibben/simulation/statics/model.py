@@ -193,7 +193,8 @@ def checked_values(
                 )
             parameter = known[name]
             lower, upper = parameter.bounds(size)
-            if not isfinite(value) or not lower <= value <= upper:
+            least, most = parameter.allowed(size)
+            if not isfinite(value) or not least <= value <= most:
                 unit = "" if parameter.unit == "1" else f" {parameter.unit}"
                 raise InputError(
                     f"{name.replace('_', ' ')} of '{effect_id}' is {value:g}{unit}, outside "
