@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from types import SimpleNamespace
-from typing import cast
+from typing import Any, cast
 
 import numpy as np
 
@@ -16,7 +16,9 @@ from tests.identification.diagnose.test_probability import fitted
 from tests.identification.synthetic import CATALOGUE
 
 
-def asked(model: FittedModel, *others: FittedModel, alternatives: tuple[Alternative, ...] = ()) -> Supported:
+def asked(
+    model: FittedModel, *others: FittedModel, alternatives: tuple[Alternative, ...] = (), **beside: Any
+) -> Supported:
     """What of a model is called missing, among these visited ones."""
     visited = {frozenset(each.fit_model.ids): each for each in (model, *others)}
 
@@ -31,7 +33,7 @@ def asked(model: FittedModel, *others: FittedModel, alternatives: tuple[Alternat
         dropping=dropping,
         candidates=tuple(CATALOGUE.values()),
     )
-    return supported(cast(Fitter, fits), model, visited[frozenset()], alternatives, noise=1.0)
+    return supported(cast(Fitter, fits), model, visited[frozenset()], alternatives, noise=1.0, **beside)
 
 
 def test_an_effect_that_the_visited_models_hardly_hold_is_kept_and_not_called_missing() -> None:
@@ -102,3 +104,21 @@ def test_other_laws_of_dry_friction_speak_for_the_one_of_the_model() -> None:
     both = fitted(1.2, "coulomb_friction", "dahl")
     beside = asked(both, fitted(10.0), fitted(6.0, "coulomb_friction"), fitted(0.8, "dahl"))
     assert [item.effect for item in beside.evidence] == ["dahl"]
+
+
+def test_beside_a_rest_that_nothing_explains_an_effect_must_be_likelier_than_not() -> None:
+    """Half of the error is left, so the effect that takes the other half may only imitate what acts there."""
+    half = fitted(5.0, "creep")
+    alone = asked(half, fitted(10.0))
+    assert [item.effect for item in alone.evidence] == ["creep"]
+    beside = asked(half, fitted(10.0), unknown=1.0, enough=False)
+    assert beside.evidence == ()
+    assert [item.effect for item in beside.corrections] == ["creep"]
+    nearly_all = asked(fitted(1.2, "creep"), fitted(10.0), unknown=1.0, enough=False)
+    assert [item.effect for item in nearly_all.evidence] == ["creep"]
+
+
+def test_where_the_data_decide_nothing_no_effect_is_named_that_is_hardly_likely() -> None:
+    small = fitted(9.99, "creep")
+    assert [item.effect for item in asked(small, fitted(10.0)).evidence] == ["creep"]
+    assert asked(small, fitted(10.0), enough=False).evidence == ()

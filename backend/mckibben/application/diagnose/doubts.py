@@ -8,6 +8,7 @@ from typing import ClassVar
 
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.compare.specimens import Specimens
+from mckibben.documents.start_model import StartModel
 from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.result import result_class
 from mckibben.identification.diagnose.entries import (
@@ -20,7 +21,7 @@ from mckibben.identification.diagnose.entries import (
 from mckibben.identification.diagnose.entry_words import sentence_of
 from mckibben.identification.diagnose.wrong_entry import WrongEntry
 from mckibben.identification.predict import Predictor
-from mckibben.identification.predict.fit_model import FitModel
+from mckibben.identification.predict.fit_model import GEOMETRY, FitModel
 from mckibben.measurement.experiment import Experiment, ExperimentValue
 
 _EXPERIMENT_FIELDS = {"muscle.nominal_length": "rest_length", "load": "load"}
@@ -98,10 +99,20 @@ def statements_of(question: ModelQuestion, most_rows: int | None = None) -> Stat
         predictor,
         supply=None if question.drive is None else float(question.drive.supply_pressure),
         elastic=question.start.catalogue.values(),
+        catalogued=_catalogued(question.start),
     )
     settled = {entry.field for entry in question.accepted}
     entries = tuple(entry for entry in found.entries if entry.field not in settled)
     return replace(found, entries=entries, kept=question.kept)
+
+
+def _catalogued(start: StartModel) -> list[str]:
+    """The fields of a muscle that are those of its preset; its length is chosen by the user."""
+    if start.preset is None:
+        return []
+    own = start.preset.muscle
+    names = [name for name in GEOMETRY if name != "nominal_length"]
+    return [name for name in names if getattr(own, name) == getattr(start.muscle, name)]
 
 
 def _read_otherwise(specimens: Specimens, readings: Sequence[OtherReading]) -> Specimens:

@@ -8,8 +8,8 @@ the score of `mckibben.identification.diagnose.score`,
 .. math:: \ln\frac{P}{1-P} = \ln\pi + \sum_{e\in E}\ln o_e - \sum_{e\in D}\ln o_e + \tfrac12(S_D - S_E)
 
 An entry stands, and is asked about first, where it explains as much as the effects do with fewer of them: a
-caliper is cheaper than an experiment. What the file says in words stands against it only where the effects
-leave more than the noise.
+caliper is cheaper than an experiment. What the file says in words, or the catalogue of the muscle, stands
+against it unless the effects leave more than the noise.
 """
 
 from __future__ import annotations
@@ -360,7 +360,7 @@ def _evidence(
     leaner = simpler or (len(effects) == added and len(model.free) < len(best.free))
     closer = gain > _LEAST_GAIN and left <= _MUCH * excess
     stands = (simpler and drop > -_AS_MUCH) or (drop > LEAST_SCORE and (leaner or closer))
-    if entry.in_words:
+    if entry.vouched:
         stands = stands and best.rmse > AT_FLOOR * floor
     if not (stands or (trial.rmse <= _AS_GOOD * best.rmse and leaner and drop > -LEAST_SCORE)):
         return None

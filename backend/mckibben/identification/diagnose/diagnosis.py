@@ -445,7 +445,10 @@ def _search(
     corrected = {item.effect for item in corrections}
     lean, exchangeable = likeliest(fitter, lean, added, level, root=root, never=corrected)
     unknown = level if judgement.structured else None
-    likely = supported(fitter, lean, root, exchangeable, noise=level, unknown=unknown)
+    likely = supported(
+        fitter, lean, root, exchangeable, noise=level, unknown=unknown,
+        enough=not (judgement.structured or judgement.undecided),
+    )  # fmt: skip
     exchangeable = [other for other in exchangeable if other.of in {item.effect for item in likely.evidence}]
     path = path_to(fitter, start, root, likely.firm, gauge_zero)
     added = tuple(step.added for step in path if step.added)

@@ -7,7 +7,7 @@ effect of the catalogue and not listed here.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -55,7 +55,8 @@ class StatedEntry:
         free: the quantity with its plausible range; None for a way of reading.
         reading: the other way of reading; None for a quantity.
         prior: odds of the mistake against none.
-        in_words: whether the file or the user says it in words, such as "N" or "gauge".
+        vouched: whether more than the user's entry stands behind it: words of the file, such as "N" or
+            "gauge", or the catalogue that the muscle is from.
     """
 
     hypothesis: str
@@ -66,7 +67,7 @@ class StatedEntry:
     free: Free | None
     reading: OtherReading | None
     prior: float
-    in_words: bool = False
+    vouched: bool = False
 
     def value(self, number: float) -> float:
         """The value of a quantity [SI] from the number of the fit."""
@@ -166,6 +167,7 @@ def statements(
     *,
     supply: float | None = None,
     elastic: Iterable[Effect] = (),
+    catalogued: Collection[str] = (),
 ) -> Statements:
     """Everything stated about a measurement that may be wrong.
 
@@ -175,6 +177,7 @@ def statements(
         predictor: the data with some channels read in other ways.
         supply: stated supply pressure of a drive whose command was measured [Pa].
         elastic: effects whose force is in proportion to the wall, where that is stated.
+        catalogued: fields of the muscle that are those of a catalogue.
     """
     entries = (
         *_quantities(measurement, fit_model),
@@ -182,7 +185,10 @@ def statements(
         *_of_wall(fit_model, elastic),
         *_readings(measurement, fit_model),
     )
-    return Statements(entries, predictor)
+    fields = {f"muscle.{name}" for name in catalogued}
+    return Statements(
+        tuple(replace(entry, vouched=entry.vouched or entry.field in fields) for entry in entries), predictor
+    )
 
 
 def _quantities(measurement: Measurement, fit_model: FitModel) -> Iterator[StatedEntry]:
@@ -318,7 +324,7 @@ def _reading(
     said: bool,
 ) -> StatedEntry:  # fmt: skip
     reading = OtherReading(channel, factor, offset, words)
-    return StatedEntry(hypothesis, channel, title, None, "", None, reading, prior, in_words=said)
+    return StatedEntry(hypothesis, channel, title, None, "", None, reading, prior, vouched=said)
 
 
 def _within(value: float, limits: tuple[float, float]) -> bool:

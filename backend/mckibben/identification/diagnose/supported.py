@@ -49,11 +49,12 @@ def supported(
     *,
     noise: float,
     unknown: float | None = None,
+    enough: bool = True,
 ) -> Supported:
     """The effects that the start model lacks, and those that are less likely than `LIKELY`.
 
-    The likeliest is always called missing: something is. Beside a rest that no effect explains that is not
-    so, and an effect is called missing that is likelier there than not.
+    Where the model with them leaves noise alone, the likeliest is always called missing: something is. Beside
+    a rest that no effect explains, an effect is called missing that is likelier there than not.
 
     Args:
         fitter: of the search.
@@ -62,6 +63,7 @@ def supported(
         others: effects that could replace its effects.
         noise: of the scaled residual.
         unknown: noise over which a rest is left that no effect explains; None without one.
+        enough: whether what the model leaves is proved to be noise.
     """
     known = 1.0 if unknown is None else known_beside(model, root, noise=unknown)
     predictor = fitter.predictor
@@ -83,14 +85,18 @@ def supported(
             share = weights.share({*group, *laws}) * needed(model, without)
             evidence.append(Evidence(name, group, share, lost, known))
     ordered = sorted(evidence, key=lambda item: item.probability)
-    some = ordered[:-1] if unknown is None else ordered
+    some = ordered[:-1] if enough else ordered
     unlikely = [item for item in some if item.probability < (LIKELY if unknown is None else EVEN)]
+    # Where the data decide nothing, the model keeps nothing that is not called missing.
+    kept = len(unlikely) < len(evidence) or unknown is not None
     firm, steps, corrections = model, [], []
     for item in unlikely:
         without = fitter.dropping(firm, item.effect)
-        steps.insert(0, (item.effect, firm))
+        if kept:
+            steps.insert(0, (item.effect, firm))
+        share = item.share * item.known
         corrections.append(
-            Correction(item.effect, without.rmse, firm.rmse, item.loss, kept=True, share=item.share)
+            Correction(item.effect, without.rmse, firm.rmse, item.loss, kept=kept, share=share)
         )
         firm = without
     firmly = tuple(item for item in evidence if item not in unlikely)

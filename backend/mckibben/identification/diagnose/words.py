@@ -237,6 +237,13 @@ def corrections_sentence(result: Diagnosis, titles: Mapping[str, str]) -> str:
 
     kept = [item for item in result.corrections if item.kept]
     others = [item for item in result.corrections if not item.kept and item.after < item.before]
+    if not result.added:
+        which = listed(kept)
+        return (
+            f"Not called missing, but kept in the model, which predicts better with it: {which}."
+            if kept
+            else ""
+        )
     texts = []
     if kept:
         texts.append(

@@ -133,7 +133,7 @@ def where_it_fails(answer: ComparisonResult, first: ComparisonResult) -> Html:
         for profile in answer.where[:_MOST_SENTENCES]
         if profile.share_explained > _LEAST_SHARE
     ]  # fmt: skip
-    parts: list[Child] = [bullets([*words, f"{answer.sentences[-1]}."])]
+    parts: list[Child] = [bullets([*words, f"{answer.sentences[-1].removesuffix('.')}."])]
     drawn = residual_drawing(answer, first)
     if drawn is not None:
         parts.append(drawn)

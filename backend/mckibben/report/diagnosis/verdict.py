@@ -260,7 +260,7 @@ def _verdict(material: DiagnosisMaterial) -> Html:
         figures.append((of["nrmse_percent"].label, figure(share, of["nrmse_percent"].scale, 3)))
     noise = COMPARISON["noise_floor"].label
     if diagnosis is None:
-        parts = [callout("Comparison", f"{sentence}.") for sentence in answer.sentences[-1:]]
+        parts = [callout("Comparison", f"{each.removesuffix('.')}.") for each in answer.sentences[-1:]]
         figures.append((noise, figure(answer.noise_floor, scale, 3)))
         return html(parts, tiles(figures))
     verdict = diagnosis.verdict
