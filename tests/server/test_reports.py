@@ -121,7 +121,9 @@ def test_figures_are_those_of_the_comparison(diagnosed: tuple[str, dict, dict]) 
 def test_verdict_path_and_parameters_are_those_of_the_diagnosis(diagnosed: tuple[str, dict, dict]) -> None:
     text, _, diagnosis = diagnosed
     rows = tables(text)
-    assert html.escape(diagnosis["verdict"]["sentence"], quote=False) in text
+    # A report is read by users of the command line.
+    said = re.sub(r'"(use|keep)": \["(\w+)"\]', r"--\1 \2", diagnosis["verdict"]["sentence"])
+    assert html.escape(said, quote=False) in text
     steps = diagnosis["path"]
     assert len(steps) > 1
     assert exact(rows["this model"][0][1]) == pytest.approx(steps[0]["rmse"])

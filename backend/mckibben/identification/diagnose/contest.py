@@ -7,9 +7,9 @@ the score of `mckibben.identification.diagnose.score`,
 
 .. math:: \ln\frac{P}{1-P} = \ln\pi + \sum_{e\in E}\ln o_e - \sum_{e\in D}\ln o_e + \tfrac12(S_D - S_E)
 
-An entry stands, and is asked about first, where it explains as much as the effects do with fewer of them: a
-caliper is cheaper than an experiment. What the file says in words, or the catalogue of the muscle, stands
-against it unless the effects leave more than the noise.
+An entry stands, and is asked about first, where it explains the data to the noise as effects do, with fewer
+of them: a caliper is cheaper than an experiment. What the file says in words, or the catalogue of the
+muscle, stands against it unless the effects leave more than the noise.
 """
 
 from __future__ import annotations
@@ -118,7 +118,10 @@ def contest(
     found = [
         entry
         for trial in trials
-        if (entry := _evidence(trial, first, root, best, rows=rows, noise=noise, here=here)) is not None
+        if (
+            entry := _evidence(trial, first, root, best, rows=rows, noise=noise, here=here, at_floor=at_floor)
+        )
+        is not None
     ]
     found = [
         replace(each, stands=False, kept=True) if each.entry.hypothesis in statements.kept else each
@@ -331,6 +334,7 @@ def _evidence(
     rows: float,
     noise: float | None,
     here: float,
+    at_floor: bool,
 ) -> WrongEntry | None:
     """The entry with its evidence; None where it explains nothing."""
     entry, model = trial.entry, trial.best
@@ -359,7 +363,8 @@ def _evidence(
     # With as many effects it may need fewer numbers: an angle and two constants for six of two effects.
     leaner = simpler or (len(effects) == added and len(model.free) < len(best.free))
     closer = gain > _LEAST_GAIN and left <= _MUCH * excess
-    stands = (simpler and drop > -_AS_MUCH) or (drop > LEAST_SCORE and (leaner or closer))
+    reaches = trial.rmse <= (_AS_GOOD * best.rmse if at_floor else AT_FLOOR * floor)
+    stands = (simpler and reaches and drop > -_AS_MUCH) or (drop > LEAST_SCORE and (leaner or closer))
     if entry.vouched:
         stands = stands and best.rmse > AT_FLOOR * floor
     if not (stands or (trial.rmse <= _AS_GOOD * best.rmse and leaner and drop > -LEAST_SCORE)):
