@@ -7,6 +7,12 @@ own. A line shows the answer, the truth and what is wrong; a table by kind ends 
 statics and transients, the surplus effects and wrongly asked entries over all cases, the Brier score and a
 reliability table of the stated probabilities. ``--list`` prints rules and truths, ``--read`` reads the files
 and compares kind and number of rows with what was meant; neither diagnoses anything.
+
+First scores, 28 November 2026, seed 1, opened once: 92 of 101. Single 28 of 30, pairs and triples 12 of 12,
+nothing hidden 14 of 14, unknown 4 of 8, held out 8 of 10, wrong entry 10 of 10, right entry 3 of 3, bad rows
+6 of 6, start model 4 of 4, scaling 3 of 4; surplus effects 11; Brier score 0.087; processor time of statics
+1.6 s in the median and 34 s at most, of transients 4.8 s and 33.5 s. With what that taught, and other draws
+of the same kinds (seed 2): 94; unknown 5, held out 10, scaling 4 of 4, surplus 8, Brier score 0.066.
 """
 
 from __future__ import annotations

@@ -192,3 +192,11 @@ def test_nothing_free_is_the_model_as_it_is():
 
 def test_a_magnitude_that_matters_is_a_hundredth_of_the_range():
     assert Free("x.b", 1.0, -50.0, 50.0, "N").typical == 1.0
+
+
+def test_numbers_that_the_data_cannot_separate_have_no_standard_error():
+    """A third column is the sum of two others, to rounding; a number that does nothing is none of them."""
+    design = np.column_stack([DESIGN[:, :2], DESIGN[:, 0] + DESIGN[:, 1]])
+    node = linear_node(MEASURED, design, FOLDS)
+    assert node.standard_errors_under(()) == [None, None, None]
+    assert all(error is not None for error in linear_node(MEASURED, DESIGN, FOLDS).standard_errors_under(()))

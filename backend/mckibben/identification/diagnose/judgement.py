@@ -227,6 +227,10 @@ def _line(model: FittedModel, predictor: Predictor) -> Repetition | None:
         numbers = np.diff(predictor.row_numbers[rows])
         steps = np.diff(place)[numbers > 0] / numbers[numbers > 0]  # within records
         period, amplitude = _in_step(model.residual[rows], place, noise.period * float(np.median(steps)))
+        # What swings for long without keeping step is noise.
+        share = min(share, 0.5 * amplitude**2 / max(float(np.mean(model.residual[rows] ** 2)), 1e-300))
+        if share < _LINE_SHARE:
+            continue
         line = Repetition(
             over=over, period=period, share=share, amplitude=amplitude, grows=False, left_out=share, parts=1,
             shown=1, in_step=True,

@@ -9,6 +9,7 @@ from functools import cached_property
 import numpy as np
 
 from mckibben.identification.fit.effort import FitEffort, search_effort
+from mckibben.identification.fit.least_squares import separable
 from mckibben.identification.fit.misfit import Misfit, penalised
 from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.predictor import Predictor
@@ -134,7 +135,7 @@ class FittedModel:
         inner = [i for i in self.inner if not self.at_bound[i]]
         if not inner or self.implausible:
             return errors
-        if len(self.residual) > len(inner):
+        if len(self.residual) > len(inner) and separable(self.jacobian[:, inner]):
             matrix = covariance(self.jacobian[:, inner], self.residual, noises=noises or None)
             for place, index in enumerate(inner):
                 errors[index] = float(np.sqrt(max(matrix[place, place], 0.0)))

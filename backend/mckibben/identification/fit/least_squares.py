@@ -96,6 +96,15 @@ def least_squares_fit(
     return best
 
 
+def separable(jacobian: np.ndarray) -> bool:
+    """Whether columns are far enough from being combinations of each other for errors of their numbers."""
+    scale = np.linalg.norm(jacobian, axis=0)
+    if not np.all(scale > 0.0):
+        return False
+    unit = jacobian / scale
+    return bool(np.linalg.cond(unit.T @ unit) <= _UNDETERMINED)
+
+
 def fit_report(
     numbers: np.ndarray,
     jacobian: np.ndarray,
@@ -143,13 +152,13 @@ def fit_report(
     if freedom <= 0:
         messages.append(f"{len(residuals)} values cannot determine {len(free)} parameters")
     elif len(inner):
-        unit = jacobian[:, inner] / scale
-        normal = unit.T @ unit
-        if np.linalg.cond(normal) > _UNDETERMINED:
+        if not separable(jacobian[:, inner]):
             alike = ", ".join(free[index].name for index in inner)
             messages.append(f"the data cannot separate {alike}: no standard errors are given")
         else:
             matrix = covariance_of(jacobian[:, inner], residuals, noise_lines)
+            unit = jacobian[:, inner] / scale
+            normal = unit.T @ unit
             deviation = np.sqrt(np.diag(matrix))
             names = [free[index].name for index in inner]
             covariance = FittedCovariance(names, matrix.tolist())
