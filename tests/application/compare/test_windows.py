@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from pathlib import Path
+
 import pytest
 
+import mckibben as mk
 from mckibben.application.compare.windows import windows_result
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.windows import WindowErrors
@@ -11,6 +14,7 @@ from tests.identification.predict.test_moving import HIDDEN, drive, fit_model, m
 from tests.identification.synthetic import MUSCLE
 
 NOISE = 1e-4  # m
+LOST = Path(__file__).parents[4] / "shared/data/failing/lost_run_3Hz.csv"
 
 
 @pytest.mark.parametrize(
@@ -40,3 +44,12 @@ def test_without_windows_the_reason_is_said():
     result, why = windows_result(predictor, fit_model(HIDDEN), None)
     assert result is None
     assert "no pressure was measured" in why
+
+
+@pytest.mark.skipif(not LOST.exists(), reason="the measured record is not at hand")
+def test_few_rows_a_swing_tell_no_noise_and_so_no_perfect_model() -> None:
+    """Third differences of 14 rows a second at 3 Hz would make 17 mm of a stroke of 90 mm."""
+    model = mk.Model.preset("DMSP-20", length="400 mm")
+    found = model.compare(mk.read(LOST, rest_length="400 mm", load="5 kg"))
+    assert found.windows is None
+    assert any("too few rows a swing" in message for message in found.messages)

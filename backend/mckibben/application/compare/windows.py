@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import ClassVar
 
+import numpy as np
+
 from mckibben.facts.comparison import WINDOWS, error_scale
 from mckibben.facts.result import Number, result_class
 from mckibben.identification.predict.fit_model import FitModel
@@ -12,6 +14,7 @@ from mckibben.identification.predict.windows import WindowErrors, window_errors
 from mckibben.identification.residual.digits import brief
 
 _AT_NOISE = 1.3  # error over that of a perfect model, up to which it shows nothing else
+_MOST_NOISE = 0.05  # of the largest reading; more from row to row is motion, of which few rows show a swing
 _FAR_LESS = 0.5  # of the error of the run beyond noise; windows that have less do not have what builds up
 
 
@@ -44,6 +47,9 @@ def windows_result(
     found = window_errors(predictor, fit_model, noise)
     if not isinstance(found, WindowErrors):
         return None, found or ""
+    largest = float(np.max(np.abs(predictor.measured / predictor.scale)))
+    if noise is None and found.noise > _MOST_NOISE * largest:
+        return None, "no windows: too few rows a swing to tell noise from motion; state the noise"
     sentence = _sentence(found, predictor.unit)
     return WindowsResult(found.length, found.count, found.rmse, found.perfect, found.of_run, sentence), ""
 
