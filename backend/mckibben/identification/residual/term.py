@@ -6,7 +6,11 @@ It is a sum of products
 
 with g one of 1, sign(v), abs(v), v and h one of 1 and :math:`1 - e^{-t/\tau}`. They are finite at rest and
 without pressure and bounded in time. A short one has at most three, and halves the error on the folds left
-out; where none does, a sum of more that takes a part of it describes the rest without a claim to explain it.
+out. Where none does, a sum of bells over contraction and pressure,
+
+.. math:: c\,e^{-((\kappa-\kappa_i)/w)^2}\,g,\qquad g \in \{1, P, \mathrm{sign}\,v\},
+
+describes a part of the rest without a claim to explain it; outside the measured range they vanish.
 """
 
 from __future__ import annotations
@@ -22,6 +26,8 @@ HALVED = 0.5  # largest error over the error without the term, on the folds left
 _WORTH = 0.1  # least share by which a further term lowers the mean square of the folds left out
 _SIMPLER = 0.02  # a form of lower order is taken if its mean square is higher by at most this share
 _CONTRACTION, _PRESSURE, _ORDER = 3, 2, 3  # highest powers, and their highest sum
+_BELLS, _WIDTH = 9, 1.2  # most bells over a variable, and their half width over the distance of two
+_FEWEST_LEVELS = 4  # of a variable with bells
 _SETTLING = (0.1, 0.3, 1.0)  # time constants, shares of the duration
 _CUTOFF = 1e-11  # share of the largest eigenvalue below which a direction is not determined
 _SAME = 1e-5  # share of a column that is not a combination of others, below which it is one
@@ -84,7 +90,8 @@ def proposed_term(
         weigh: weights of the residual, applied to the columns of the term.
         smooth: a description of more products instead, which takes a part of the error.
     """
-    forms = _library({symbol: variables[name] for symbol, name in SYMBOLS.items() if name in variables})
+    symbols = {symbol: variables[name] for symbol, name in SYMBOLS.items() if name in variables}
+    forms = _bells(symbols) if smooth else _library(symbols)
     ways = [labels for labels in folds if np.ptp(labels) > 0]
     if not forms or not ways or not np.any(residual):
         return None
@@ -214,6 +221,28 @@ def _library(symbols: Mapping[str, np.ndarray]) -> list[_Form]:
     ]
     kept = [form for form in forms if form.text == "1" or np.ptp(form.column) > 0.0]
     return sorted(kept, key=lambda form: form.order)
+
+
+def _bells(symbols: Mapping[str, np.ndarray]) -> list[_Form]:
+    """Bells over contraction and pressure, alone, in proportion to the pressure and with the motion."""
+    forms: list[_Form] = []
+    for symbol in ("kappa", "P"):
+        values = symbols.get(symbol)
+        if values is None or len(np.unique(values)) < _FEWEST_LEVELS:
+            continue
+        levels = min(_BELLS, len(np.unique(values)))
+        centres = np.linspace(np.min(values), np.max(values), levels)
+        width = float(f"{_WIDTH * (centres[1] - centres[0]):.2g}")
+        for centre in centres.tolist():
+            place = float(f"{centre:.3g}")
+            bell = f"exp(-(({symbol} - {place:g})/{width:g})**2)"
+            column = np.exp(-(((values - place) / width) ** 2))
+            forms.append(_Form(bell, 1, column))
+            if symbol == "kappa" and "P" in symbols and np.ptp(symbols["P"]) > 0.0:
+                forms.append(_Form(f"P*{bell}", 2, symbols["P"] * column))
+            if "s" in symbols:
+                forms.append(_Form(f"sign(v)*{bell}", 2, symbols["s"] * column))
+    return [form for form in forms if np.ptp(form.column) > 0.0]
 
 
 def _power(
