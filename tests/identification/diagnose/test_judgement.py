@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from types import SimpleNamespace
 from typing import Any, cast
 
@@ -9,6 +10,7 @@ import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.judgement import Judgement, judged
+from mckibben.identification.diagnose.judgement_words import undecided_text
 from mckibben.identification.residual.correlated import WHITE, Chain, Noise, Weighed
 from mckibben.identification.residual.outlying import Outlying
 from mckibben.identification.residual.surface import Surface
@@ -110,3 +112,12 @@ def _lined(model: Any, rig: Any) -> Any:
     from dataclasses import replace
 
     return cast(Any, replace(model, noise_lines=rig.noise_lines))
+
+
+def test_a_surface_that_interpolates_is_not_quoted() -> None:
+    """Of 60 rows: 9 numbers say something of the rest, 31 go through the points."""
+    found = judgement(ratio=20.0)
+    assert found.surface is not None
+    assert "A free curve with 9 numbers would leave 1.00 N." in undecided_text(found, "N", 1.0)
+    dense = replace(found, surface=replace(found.surface, numbers=31))
+    assert "free curve" not in undecided_text(dense, "N", 1.0)

@@ -160,7 +160,7 @@ class ComparisonResult:
     parts: list[ResidualPart]
     """What the squared residual is made of; the shares add up to 1."""
     whiteness: Whiteness
-    """Autocorrelation and sign changes of the residual: that is, whether it looks like noise."""
+    """Autocorrelation and sign changes of the residual; whether it is noise, the verdict says."""
     cross: list[CrossCorrelation]
     """Correlation of the residual with the input that drove the test, of rows with times."""
     loops: list[ResidualLoop]

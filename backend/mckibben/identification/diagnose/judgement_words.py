@@ -57,7 +57,7 @@ def judged_text(judgement: Judgement, unit: str, scale: float) -> str:
 
 
 def _free_curve(judgement: Judgement, unit: str, scale: float) -> str:
-    if judgement.surface is None:
+    if judgement.surface is None or not judgement.surface.sparing:
         return ""
     left = f"{brief(scale * judgement.surface.left)} {unit}"
     numbers = judgement.surface.numbers

@@ -109,7 +109,7 @@ def _range(name: str, low: float, high: float) -> str:
 
 @result_class
 class Whiteness:
-    """Whether a residual looks like noise."""
+    """Whether neighbouring rows of a residual are correlated; what is left is judged by the verdict."""
 
     FIGURES: ClassVar = RESIDUAL.name
 

@@ -28,6 +28,7 @@ from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.profiles import variables_of
 from mckibben.identification.residual.surface import (
     FEWEST_ROWS,
+    PER_NUMBER,
     Fitted,
     Surface,
     foldings_of,
@@ -42,7 +43,6 @@ from mckibben.identification.residual.surface import (
 
 _VARIABLES = ("pressure", "contraction", "load")  # of a polynomial, the first two that change
 _ORDERS = 3, 5  # highest powers of the first and the second variable
-_PER_NUMBER = 2  # rows for each number, at least
 _FEWEST_GROUPS = 3  # with rows within the others, as of a surface
 _SIMPLER = 1.02  # error over the smallest one up to which fewer numbers are taken
 _RIDGE = 1e-10  # of the mean square of the columns
@@ -83,7 +83,7 @@ def rivals_of(fitted: Fitted, predictor: Predictor, surface: Surface | None) -> 
         surface: on the residual of the model.
     """
     found = plain_rivals(fitted, predictor)
-    if surface is not None:
+    if surface is not None and surface.sparing:
         left_out = model = None
         if np.isfinite(surface.gain[0]):
             own = left_out_residual(fitted, foldings_of(predictor)[0])[surface.rows_inside[0]]
@@ -196,7 +196,7 @@ class _Plain:
         found = {}
         for powers in self.candidates:
             used = np.array(powers)
-            if _PER_NUMBER * len(used) > min(count for *_, count in parts):
+            if PER_NUMBER * len(used) > min(count for *_, count in parts):
                 continue
             square = rows = 0.0
             for normal, right, inside, _ in parts:

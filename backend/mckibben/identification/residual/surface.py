@@ -107,6 +107,10 @@ class Fitted(Protocol):
         ...
 
 
+#: Rows for each number of a model without physics, at least.
+PER_NUMBER = 2
+
+
 @dataclass(frozen=True, eq=False)
 class Surface:
     """A free surface on the residual of a model.
@@ -140,6 +144,11 @@ class Surface:
     variables: tuple[tuple[str, float], ...]
     left_out: tuple[float, ...] = ()
     rows_inside: tuple[np.ndarray, ...] = ()
+
+    @property
+    def sparing(self) -> bool:
+        """Whether it has so few numbers that what it leaves says something: with more it interpolates."""
+        return PER_NUMBER * self.numbers <= len(self.values)
 
 
 @dataclass(frozen=True, eq=False)
