@@ -256,7 +256,7 @@ def judged(asked: tuple[str, str, int]) -> Line:
         named=result.added,
         doubted=tuple(each.entry.hypothesis for each in result.context if each.stands),
         error=float("nan") if result.noise is None else result.best.rmse / result.noise,
-        structure=result.structure.share,
+        structure=0.0 if result.judgement is None else result.judgement.predictable,
     )
 
 

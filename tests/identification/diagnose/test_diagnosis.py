@@ -87,7 +87,7 @@ def test_noise_alone_is_adequate(measurement):
     assert found.noise == pytest.approx(2.0, rel=0.35)
     assert found.best.rmse == pytest.approx(2.0, rel=0.2)
     assert [step.added for step in found.path] == [None]
-    assert found.structure.share < 0.3
+    assert found.judgement.predictable < 0.3
 
 
 def test_a_right_model_with_effects_is_adequate():
@@ -277,8 +277,8 @@ def test_a_ripple_is_an_unknown_effect_told_with_its_period_but_without_a_formul
     found = diagnosis(cycles(ripple, noise=1.0, each=40))
     assert found.status == "unknown_effect"
     assert found.added == ()
-    assert found.structure.share > 0.8
-    assert found.structure.variables[0][0] == "contraction"
+    assert found.judgement.predictable > 0.8
+    assert found.judgement.depends_on[0] == "contraction"
     assert found.term is None
     said = sentence_of(found, {})
     period = float(said.split("it repeats every ")[1].split(" mm of length")[0])
@@ -366,7 +366,7 @@ def test_a_diagnosis_is_repeatable():
     first, second = of_friction(1.0), of_friction.__wrapped__(1.0)
     assert first.added == second.added
     assert first.best.rmse == second.best.rmse
-    assert first.structure == second.structure
+    assert first.judgement.surface.variables == second.judgement.surface.variables
 
 
 def test_progress_and_candidates_are_told():

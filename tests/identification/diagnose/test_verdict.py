@@ -60,7 +60,7 @@ def test_noise_of_another_kind_is_no_unknown_effect(noise, seed: int) -> None:
 def test_a_structure_is_one_and_has_no_interval_of_noise() -> None:
     found = diagnosed(lambda random, count: random.standard_normal(count), 0, ripple=12.0)
     assert found.status == "unknown_effect"
-    assert found.structure.share > 0.3
+    assert found.judgement.predictable > 0.3
     assert found.noise_interval is None
     # Four periods of 2 pi/150 of the contraction, in all sweeps.
     assert found.repetition is not None
@@ -84,7 +84,7 @@ def test_only_the_channel_with_the_largest_rest_is_looked_at_and_only_its_rows()
 
 def test_what_is_left_of_an_unknown_effect_is_all_above_the_noise() -> None:
     found = diagnosed(lambda random, count: random.standard_normal(count), 0, ripple=12.0)
-    left = unexplained_share(found.status, found.best, found.noise, found.structure)
+    left = unexplained_share(found.status, found.best, found.noise, found.judgement)
     assert found.noise is not None
     assert left >= 0.95 * (1.0 - (found.noise / found.best.rmse) ** 2)
     assert left > 0.8

@@ -24,7 +24,6 @@ from mckibben.identification.diagnose.words import (
 )
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
-from mckibben.identification.residual.structure import ResidualStructure
 from mckibben.physics.catalogue import default_catalogue
 from tests.identification.diagnose.test_judgement import judgement
 from tests.identification.synthetic import MUSCLE
@@ -44,7 +43,14 @@ def result(
         status=status,
         none_likely=False,
         unfinished=None,
-        judgement=judgement,
+        judgement=judgement
+        or SimpleNamespace(
+            predictable=share,
+            depends_on=("pressure", "time", "velocity"),
+            surface=object(),
+            undecided=False,
+            likeliest=None,
+        ),
         with_them=None,
         superfluous=(),
         predictor=SimpleNamespace(unit=unit, channels=[SimpleNamespace(name="force" if unit == "N" else "")]),
@@ -75,7 +81,6 @@ def result(
             SimpleNamespace(over="time", worst="time 3.00 to 4.00 s", rmse=11.0 * after / 10.0),
             SimpleNamespace(over="pressure", worst="pressure 5.00 to 6.00 bar", rmse=13.0 * after / 10.0),
         ),
-        structure=ResidualStructure(share, (("pressure", 0.5), ("time", 0.2), ("velocity", 0.1))),
     )
 
 

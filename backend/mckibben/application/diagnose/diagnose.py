@@ -355,10 +355,8 @@ def _verdict(
         superfluous=[item.effect for item in diagnosis.superfluous],
         proofs=None if judgement is None else proofs_of(judgement),
         why_not={} if judgement is None else open_proofs(judgement),
-        unexplained_share=unexplained_share(
-            diagnosis.status, diagnosis.best, diagnosis.noise, diagnosis.structure
-        ),
-        unexplained_in=[name for name, _ in diagnosis.structure.variables],
+        unexplained_share=unexplained_share(diagnosis.status, diagnosis.best, diagnosis.noise, judgement),
+        unexplained_in=[] if judgement is None else list(judgement.depends_on),
         repeats=_repetition(diagnosis),
         proposed_term=_term(question, diagnosis),
         where_to_look=where_to_look(diagnosis) or None,
@@ -468,7 +466,7 @@ def _term(question: ModelQuestion, diagnosis: Diagnosis) -> TermProposal | None:
         formula, coefficients = _joined(effects[CUSTOM], formula, coefficients)
     variables = variables_of(diagnosis.predictor, diagnosis.best.fit_model)
     name = next(
-        (n for n, _ in diagnosis.structure.variables if n in SYMBOLS.values()),
+        (n for n in (diagnosis.judgement.depends_on if diagnosis.judgement else ()) if n in SYMBOLS.values()),
         next(n for n in SYMBOLS.values() if n in variables),
     )
     x = variables[name]

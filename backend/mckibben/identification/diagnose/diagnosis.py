@@ -14,8 +14,7 @@ from mckibben.identification.diagnose.corrections import Correction, refined, wi
 from mckibben.identification.diagnose.design import DesignedExperiment, Designer
 from mckibben.identification.diagnose.entries import Statements
 from mckibben.identification.diagnose.gauge_zero import GaugeZero, vented
-from mckibben.identification.diagnose.judged import ROUNDS
-from mckibben.identification.diagnose.judgement import DIGITS, Judgement, judged
+from mckibben.identification.diagnose.judgement import DIGITS, Judgement, judged, without_suspects
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.needed import pruned
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
@@ -47,7 +46,6 @@ from mckibben.identification.diagnose.verdict import (
     Interval,
     Status,
     is_force,
-    left_structure,
     messages,
     noise_interval,
     status_of,
@@ -63,7 +61,6 @@ from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
 from mckibben.identification.residual.profiles import Profile, profiles, variables_of
-from mckibben.identification.residual.structure import ResidualStructure
 from mckibben.identification.residual.term import Term, proposed_term
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
@@ -127,7 +124,6 @@ class Diagnosis:
         status: adequate, missing_effects, ambiguous, unknown_effect, undecided, or unfinished.
         added: effects of the best model that the start model does not have.
         alternatives: effects that could replace one of these.
-        structure: the part of the last residual that a regression still predicts.
         repetition: what of the last residual of an unknown effect is periodic; None without it.
         term: a formula that lowers the error of the folds left out; None without one.
         proposals: experiments that would separate the alternatives.
@@ -165,7 +161,6 @@ class Diagnosis:
     status: Status
     added: tuple[str, ...]
     alternatives: tuple[Alternative, ...]
-    structure: ResidualStructure
     repetition: Repetition | None
     term: Term | None
     proposals: tuple[SeparatingExperiment, ...]
@@ -253,25 +248,20 @@ def diagnose(
                 raise
             return _so_far(begun, watch.time_limit)
 
+    def again(without: Predictor) -> Diagnosis | None:
+        try:
+            found = diagnosed(without)
+        except CancelledError as end:
+            if end.outcome is not Outcome.TIMED_OUT:
+                raise
+            return None
+        return found if found.unfinished is None else None  # what was found before is whole
+
     # The matrices are small: several linear-algebra threads would be slower than one.
     with threadpool_limits(1):
-        whole = found = diagnosed(predictor)
-        aside: list[int] = []
-        for _ in range(ROUNDS):
-            rows = () if found.judgement is None else found.judgement.suspects
-            # In a run, rows that do not fit are an event and no wrong readings.
-            if not rows or predictor.simulated:
-                break
-            try:
-                without = diagnosed(predictor.setting_aside([*aside, *rows]))
-            except CancelledError as end:
-                if end.outcome is not Outcome.TIMED_OUT:
-                    raise
-                break
-            if without.unfinished is not None:
-                break  # the time is over: what was found before is whole
-            aside, found = [*aside, *rows], without
-        return _with_all_rows(found, whole) if aside else whole
+        whole = diagnosed(predictor)
+        found = without_suspects(predictor, whole, again, lambda diagnosis: diagnosis.judgement)
+        return whole if found is whole else _with_all_rows(found, whole)
 
 
 def _with_all_rows(without: Diagnosis, whole: Diagnosis) -> Diagnosis:
@@ -485,7 +475,6 @@ def _search(
         ),
         key=lambda candidate: candidate.score,
     )
-    remaining = left_structure(predictor, best.residual, variables)
     context = ()
     if statements is not None:
         context = contest(
@@ -525,7 +514,6 @@ def _search(
         status="unknown_effect" if unlikely else status,
         added=added,
         alternatives=tuple(exchangeable),
-        structure=remaining,
         repetition=judgement.repeats if left else None,
         term=term,
         proposals=tuple(pairs),
@@ -584,7 +572,6 @@ def _so_far(begun: _Begun, limit: float) -> Diagnosis:
         status="unfinished",
         added=added,
         alternatives=(),
-        structure=left_structure(predictor, best.residual, begun.variables),
         repetition=None,
         term=None,
         proposals=(),

@@ -6,14 +6,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from mckibben.identification.diagnose.judgement import Judgement, judged
+from mckibben.identification.diagnose.judgement import Judgement, judged, without_suspects
 from mckibben.identification.fit.comparison import Comparison
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.noise import noise_of
-
-#: In which rows are set aside: where one is far off, others show only without it.
-ROUNDS = 3
 
 
 @dataclass(frozen=True)
@@ -44,17 +41,14 @@ def judged_comparison(comparison: Comparison) -> JudgedModel:
     Rows that do not fit are named and set aside, as in a diagnosis; in a run they are an event.
     """
     predictor, model = comparison.predictor, _model(comparison)
-    first = found = judged(model, predictor, comparison.noise)
-    aside: list[int] = []
-    for _ in range(ROUNDS):
-        if not found.suspects or predictor.simulated:
-            break
-        aside += found.suspects
-        predictor = comparison.predictor.setting_aside(aside)
-        model = replace(model, aside=predictor.aside)
-        noise, _ = noise_of(predictor, comparison.residual / predictor.scale, comparison.stated_noise)
-        found = judged(model, predictor, noise)
-    return JudgedModel(predictor, model, found, first if aside else None)
+    first = JudgedModel(predictor, model, judged(model, predictor, comparison.noise))
+
+    def again(without: Predictor) -> JudgedModel:
+        rest = replace(model, aside=without.aside)
+        noise, _ = noise_of(without, comparison.residual / without.scale, comparison.stated_noise)
+        return JudgedModel(without, rest, judged(rest, without, noise), first.judgement)
+
+    return without_suspects(predictor, first, again, lambda found: found.judgement)
 
 
 def _model(comparison: Comparison) -> FittedModel:

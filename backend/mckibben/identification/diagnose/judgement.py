@@ -9,8 +9,10 @@ do, or in the same places of several sweeps, is no noise. Rows that do not fit a
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TypeVar
 
 import numpy as np
 
@@ -35,9 +37,12 @@ _NEAR = 0.1  # of the frequency that the noise swings with, within which that of
 # also what is far above the scatter of neighbours.
 _FEW_MEAN, _FEW_MEDIAN = 5.0, 2.0
 _PUSHED = 4.0  # standard deviations of the noise below zero from which a force is no pull
+_ROUNDS = 3  # in which rows are set aside
 PUSHES = "the force is below zero, and a muscle does not push"
 DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 _MEDIAN = 0.6745  # median magnitude of a standard normal deviate
+
+Found = TypeVar("Found")
 
 #: Whether a proof holds, None where it cannot be told; and why it does not.
 Proof = tuple[bool | None, str]
@@ -83,6 +88,19 @@ class Judgement:
     def _lowest_gain(self) -> float:
         gains = [] if self.surface is None else [low for low in self.surface.gain_low if np.isfinite(low)]
         return max(gains, default=0.0)
+
+    @property
+    def predictable(self) -> float:
+        """Share of the mean square that the surface takes off groups that were left out, at best."""
+        gains = [] if self.surface is None else [gain for gain in self.surface.gain if np.isfinite(gain)]
+        return max(0.0, *gains) if gains else 0.0
+
+    @property
+    def depends_on(self) -> tuple[str, ...]:
+        """The channels that the rest is predictable from, the most important first."""
+        if self.surface is None or not self.predictable > _GAIN:
+            return ()
+        return tuple(name for name, _ in self.surface.variables)
 
     @property
     def structured(self) -> bool:
@@ -173,6 +191,33 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
         pushing=_pushing(model, predictor, noise),
         sweep=float(np.median([len(sweep) for sweep in predictor.sweeps] or [len(model.residual)])),
     )
+
+
+def without_suspects(
+    predictor: Predictor,
+    first: Found,
+    again: Callable[[Predictor], Found | None],
+    of: Callable[[Found], Judgement | None],
+) -> Found:
+    """What is found when the rows that do not fit are set aside, again as others show only without these.
+
+    In a run, rows that do not fit are an event and no wrong readings.
+
+    Args:
+        predictor: the data, with all rows.
+        first: what is found with them.
+        again: finds the same of other rows; None where it cannot.
+        of: the judgement in it.
+    """
+    found, aside = first, list[int]()
+    for _ in range(0 if predictor.simulated else _ROUNDS):
+        judgement = of(found)
+        rows = () if judgement is None else judgement.suspects
+        without = again(predictor.setting_aside([*aside, *rows])) if rows else None
+        if without is None:
+            break
+        aside, found = [*aside, *rows], without
+    return found
 
 
 def _pushing(model: FittedModel, predictor: Predictor, noise: float | None) -> tuple[int, ...]:

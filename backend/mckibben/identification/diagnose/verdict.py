@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from typing import Literal, NamedTuple
-
-import numpy as np
 
 from mckibben.identification.diagnose.judgement import Judgement
 from mckibben.identification.diagnose.twins import Alternative
@@ -14,7 +12,6 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.fit.least_squares import FitResult
 from mckibben.identification.predict.predictor import Predictor
-from mckibben.identification.residual.structure import ResidualStructure, structure
 from mckibben.physics.muscle import assumption
 
 
@@ -27,30 +24,6 @@ class Interval(NamedTuple):
 
 #: What a diagnosis ends with; `mckibben.identification.diagnose.words` says what each means.
 Status = Literal["adequate", "missing_effects", "ambiguous", "unknown_effect", "undecided", "unfinished"]
-
-
-def left_structure(
-    predictor: Predictor, residual: np.ndarray, variables: Mapping[str, np.ndarray]
-) -> ResidualStructure:
-    """The variables that the residual depends on; channels are weighted by their mean squares.
-
-    Args:
-        predictor: the data.
-        residual: scaled, shape (values,).
-        variables: that it may depend on.
-    """
-    parts = []
-    for channel in predictor.channels:
-        channel_variables = {name: values[channel.rows] for name, values in variables.items()}
-        left = residual[channel.rows]
-        parts.append((float(np.mean(left**2)), structure(left, channel_variables)))
-    whole = sum(size for size, _ in parts) or 1.0
-    lost: dict[str, float] = {}
-    for size, part in parts:
-        for name, share in part.variables:
-            lost[name] = lost.get(name, 0.0) + share * size / whole
-    order = tuple(sorted(lost.items(), key=lambda pair: -pair[1]))
-    return ResidualStructure(sum(size * part.share for size, part in parts) / whole, order)
 
 
 def status_of(
@@ -90,14 +63,15 @@ def noise_interval(judgement: Judgement) -> Interval | None:
 
 
 def unexplained_share(
-    status: Status, best: FittedModel, noise: float | None, rest: ResidualStructure
+    status: Status, best: FittedModel, noise: float | None, judgement: Judgement | None
 ) -> float:
-    """Share of the last mean square that is left to explain: its structure; of an unknown effect at least
-    all above the noise.
+    """Share of the last mean square that is left to explain: what is predictable of it; of an unknown effect
+    at least all above the noise.
     """
+    predictable = 0.0 if judgement is None else judgement.predictable
     if status != "unknown_effect" or noise is None or not best.mean_square > 0.0:
-        return rest.share
-    return max(rest.share, 1.0 - min(noise**2 / best.mean_square, 1.0))
+        return predictable
+    return max(predictable, 1.0 - min(noise**2 / best.mean_square, 1.0))
 
 
 def is_force(predictor: Predictor) -> bool:

@@ -141,7 +141,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     if result.judgement is not None and result.judgement.undecided:
         text += f" {_undecided(result)}"
     unexplained = highest is not None and scale * result.best.rmse > AT_FLOOR * highest
-    if unexplained and result.structure.share >= _WORTH_TELLING:
+    if unexplained and _predictable(result) >= _WORTH_TELLING:
         text += f" Of the rest, {_structured(result)}."
     if result.alternatives:
         pairs = []
@@ -413,13 +413,13 @@ def where_to_look(result: Diagnosis) -> str:
     """
     if result.status != "unknown_effect" or (result.term is not None and not result.term.smooth):
         return ""
-    if result.structure.share < _WORTH_TELLING or _mostly_repeats(result):
+    if _predictable(result) < _WORTH_TELLING or _mostly_repeats(result):
         return ""
     unit, scale = _unit_of(result)
     profiles = {profile.over: profile for profile in result.left_where}
     ranges = [
         f"{profiles[name].worst} ({brief(scale * profiles[name].rmse)} {unit})"
-        for name, _ in result.structure.variables[:2]
+        for name in _depends_on(result)
         if name in profiles
     ]
     if not ranges:
@@ -440,10 +440,12 @@ def repeats(result: Diagnosis) -> str:
 def _rest(result: Diagnosis) -> str:
     """The variables that the last residual depends on, and what of it repeats."""
     if result.repetition is not None:
-        if result.structure.share < _WORTH_TELLING or _mostly_repeats(result):
+        if _predictable(result) < _WORTH_TELLING or _mostly_repeats(result):
             return repeats(result)
         return f"{_structured(result, ' of it')}; {repeats(result)}"
-    if result.structure.share < _WORTH_TELLING:
+    if result.judgement is not None and result.judgement.surface is None:
+        return "there are too few rows to tell what it depends on"
+    if _predictable(result) < _WORTH_TELLING:
         if result.term is not None and not result.term.smooth:
             return f"the proposed term takes {100.0 * result.term.share:.0f} % of it"
         return "it depends on no measured variable; repeat the run to see whether it recurs"
@@ -456,8 +458,17 @@ def _mostly_repeats(result: Diagnosis) -> bool:
 
 
 def _structured(result: Diagnosis, of: str = "") -> str:
-    variables = [name for name, _ in result.structure.variables[:2]]
-    return f"{100.0 * result.structure.share:.0f} %{of} depends on {_joined(variables) or 'a pattern'}"
+    variables = _depends_on(result)
+    return f"{100.0 * _predictable(result):.0f} %{of} depends on {_joined(variables) or 'a pattern'}"
+
+
+def _predictable(result: Diagnosis) -> float:
+    return 0.0 if result.judgement is None else result.judgement.predictable
+
+
+def _depends_on(result: Diagnosis) -> list[str]:
+    """The two channels that the rest depends on most."""
+    return [] if result.judgement is None else list(result.judgement.depends_on[:2])
 
 
 def _joined(names: list[str], word: str = "and") -> str:

@@ -64,7 +64,7 @@ _FEWEST_FOLDS = 3  # groups with rows inside; with less the gain has no interval
 _BLOCKS, _BLOCK_FOLDS = 40, 8  # short blocks of each run, left out in turn in so many folds
 _DRAWS, _SEED = 2000, 0  # of the bootstrap over groups
 _INTERVAL = (0.05, 0.95)
-_MATTERS = 0.02  # share of the surface below which a block is not named
+_MATTERS = 0.02  # share of the surface below which a channel is not named
 
 _AMPLITUDES = np.geomspace(1e-6, 1e4, 31)  # variance of the effect over that of the noise
 _ROUGHNESSES = (0.2, 0.7)  # lengths of the processes whose columns are tried, of variables in -1 ... 1
@@ -127,7 +127,8 @@ class Surface:
             goes on from the rows of one group to those of the next one, and a gain proves nothing by itself.
         values: the surface at each value of the predictor, shape (values,).
         deviations: its standard deviation, shape (values,), if the noise were white.
-        variables: the blocks that matter, the largest first, each with its share of the surface.
+        variables: the channels that matter, the most important first, each with the share of the surface
+            that the blocks of it have.
         left_out: for each way, rms of model and surface over the rows inside; NaN likewise.
         rows_inside: for each way, these rows, a mask.
     """
@@ -156,16 +157,18 @@ class Block:
     """A Gaussian process of one or two variables.
 
     Attributes:
-        name: in words.
+        over: the channels that it is a function of.
         places: the variables, each from -1 to 1, shape (rows, variables).
         orders: functions of each variable.
         factor: that multiplies it, such as the sign of motion, shape (rows,).
+        late: whether it is a function of what a channel was before.
     """
 
-    name: str
+    over: tuple[str, ...]
     places: np.ndarray
     orders: tuple[int, ...]
     factor: np.ndarray | None = None
+    late: bool = False
 
     @cached_property
     def waves(self) -> np.ndarray:
@@ -463,13 +466,26 @@ def ways_of(variables: Mapping[str, np.ndarray]) -> np.ndarray | None:
     return sign if both else None
 
 
-def _single(name: str, values: np.ndarray, order: int, factor: np.ndarray | None = None) -> Block:
+def _single(
+    over: tuple[str, ...],
+    values: np.ndarray,
+    order: int,
+    factor: np.ndarray | None = None,
+    *,
+    late: bool = False,
+) -> Block:
     order = min(order, max(2 * levels_of(values), 3))
-    return Block(name, unit_range(values)[:, None], (order,), factor)
+    return Block(_channels(over), unit_range(values)[:, None], (order,), factor, late)
 
 
-def _pair(name: str, first: np.ndarray, second: np.ndarray, orders: tuple[int, int]) -> Block:
-    return Block(name, np.column_stack([unit_range(first), unit_range(second)]), orders)
+def _pair(over: tuple[str, ...], first: np.ndarray, second: np.ndarray, orders: tuple[int, int]) -> Block:
+    return Block(_channels(over), np.column_stack([unit_range(first), unit_range(second)]), orders)
+
+
+def _channels(names: tuple[str, ...]) -> tuple[str, ...]:
+    """Of a run's own variables the channels that they are predictions of."""
+    of_runs = {"stroke": "displacement", "speed": "velocity"}
+    return tuple(of_runs.get(name, name) for name in names)
 
 
 def still_blocks(
@@ -486,14 +502,14 @@ def still_blocks(
     blocks = []
     if len(main) > 1:
         first, second = list(main)[:2]
-        blocks.append(_pair(f"{first} and {second}", main[first], main[second], (pair, pair)))
+        blocks.append(_pair((first, second), main[first], main[second], (pair, pair)))
     for name, values in main.items():
-        blocks.append(_single(name, values, _FINE if levels_of(values) > _LEVELS else _LEVEL))
+        blocks.append(_single((name,), values, _FINE if levels_of(values) > _LEVELS else _LEVEL))
     sign = ways_of(variables)
     if sign is not None:
         for name, values in list(main.items())[:2]:
             order = _SIGNED if levels_of(values) > _LEVELS else _SIGNED_LEVEL
-            blocks.append(_single(f"direction and {name}", values, order, sign))
+            blocks.append(_single(("direction", name), values, order, sign))
     if records is not None:
         blocks += _plays(main, records)
     return blocks
@@ -510,12 +526,12 @@ def _plays(main: Mapping[str, np.ndarray], records: np.ndarray) -> list[Block]:
             ahead = values - play(values, share * span, records)
             if np.ptp(ahead) < share * span:
                 continue
-            words = f"play of {name}"
+            over = (name, "direction")
             if beside in main:
                 order = min(_WITH_PLAY, levels_of(main[beside]))
-                blocks.append(_pair(words, ahead, main[beside], (_PLAY, order)))
+                blocks.append(_pair(over, ahead, main[beside], (_PLAY, order)))
             else:
-                blocks.append(_single(words, ahead, _PLAY))
+                blocks.append(_single(over, ahead, _PLAY))
     return blocks
 
 
@@ -533,16 +549,16 @@ def moving_blocks(
     blocks = []
     names = [name for name in ("stroke", "speed", "pressure", "command") if name in variables]
     for name in names:
-        blocks.append(_single(name, variables[name], _LEVEL))
+        blocks.append(_single((name,), variables[name], _LEVEL))
     for first, second in (("stroke", "speed"), ("pressure", "stroke"), ("command", "pressure")):
         if first in variables and second in variables:
             pair = variables[first], variables[second]
-            blocks.append(_pair(f"{first} and {second}", *pair, (_MOVING_PAIR, _MOVING_PAIR)))
+            blocks.append(_pair((first, second), *pair, (_MOVING_PAIR, _MOVING_PAIR)))
     sign = ways_of(variables)
     if sign is not None:
         for name in ("stroke", "pressure"):
             if name in variables:
-                blocks.append(_single(f"direction and {name}", variables[name], _SIGNED_LEVEL, sign))
+                blocks.append(_single(("direction", name), variables[name], _SIGNED_LEVEL, sign))
     if not late:
         return blocks
     duration = max(float(np.ptp(time[records == label])) for label in np.unique(records))
@@ -557,12 +573,12 @@ def moving_blocks(
                 continue
             behind = values - lagged(values, time, lag, records)
             if np.ptp(behind) > 1e-6 * np.ptp(values):
-                blocks.append(_single(f"late {name}", behind, _PLAY))
+                blocks.append(_single((name, "time"), behind, _PLAY, late=True))
     if "stroke" in variables:
         values = variables["stroke"]
         for share in _PLAYS[1:]:
             ahead = values - play(values, share * float(np.ptp(values)), records)
-            blocks.append(_single("play of stroke", ahead, _PLAY))
+            blocks.append(_single(("stroke", "direction"), ahead, _PLAY))
     return blocks
 
 
@@ -646,7 +662,9 @@ def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
     """
     count = len(fitted.residual)
     values, deviations = np.zeros(count), np.zeros(count)
-    square, numbers, shares = 0.0, 0, {}
+    square, numbers = 0.0, 0
+    whole = 0.0
+    shares: dict[str, float] = {}
     foldings = foldings_of(predictor)
     ways = [_Way(fitted, labels) for labels in foldings]
     found = False
@@ -665,13 +683,14 @@ def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
         rest = float(np.sum((fitted.residual[rows] - part.values) ** 2))
         square += rest * len(rows) / max(len(rows) - part.freedom, 1.0)
         numbers += int(np.ceil(part.freedom))
-        for name, share in part.shares.items():
-            shares[name] = shares.get(name, 0.0) + share
+        for block, share in part.shares:
+            whole += share
+            for name in block.over:
+                shares[name] = shares.get(name, 0.0) + share
         for way in ways:
             way.correct(part, rows, edges)
     if not found:
         return None
-    whole = sum(shares.values()) or 1.0
     order = sorted(shares.items(), key=lambda pair: -pair[1])
     return Surface(
         left=float(np.sqrt(square / count)),
@@ -726,13 +745,13 @@ class _Part:
         self.values = self.columns @ weights
         scaled = self.columns * roots
         self.deviations = np.sqrt(np.maximum(noise * np.sum((scaled @ inverse) * scaled, axis=1), 0.0))
-        self.shares: dict[str, float] = {}
+        self.shares: list[tuple[Block, float]] = []
         place = 0
         for block in blocks:
             own = slice(place, place + len(block.waves))
             place = own.stop
             share = max(float(self.columns[:, own] @ weights[own] @ self.values), 0.0)
-            self.shares[block.name] = self.shares.get(block.name, 0.0) + share
+            self.shares.append((block, share))
 
 
 class _Way:
@@ -993,7 +1012,7 @@ def _gained(square: float, inner: np.ndarray, moment: np.ndarray, freedom: int) 
 
 def _surfaces(blocks: Sequence[Block]) -> list[np.ndarray]:
     """Prior standard deviations of the columns, of processes of one length and one variance; 0 for none."""
-    late = [block.name.startswith("late") for block in blocks]
+    late = [block.late for block in blocks]
     kinds = [(length, [True] * len(blocks)) for length in _ROUGHNESSES]
     if any(late):
         kinds.append((_LATE, late))
