@@ -22,8 +22,8 @@ from mckibben.identification.diagnose.swept_rows import Over
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.correlated import Noises, Weighed
-from mckibben.identification.residual.outlying import Outlying, outlying_of
-from mckibben.identification.residual.surface import Surface, likelihood_ratio, surface_of
+from mckibben.identification.residual.outlying import NOTHING_OUTLYING, Outlying, outlying_of
+from mckibben.identification.residual.surface import Surface, likelihood_ratio, residual_without, surface_of
 
 # Twice the gain in log likelihood from which a surface is more than correlated noise; of 170 files with noise
 # of eleven kinds the largest had 9.
@@ -171,11 +171,32 @@ class Judgement:
 def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Judgement:
     """The judgement on a fitted model.
 
+    Rows that do not fit are named where the model fits the others: where a structure stays without them, it is
+    the model that does not fit, and its worst rows are no accidents.
+
     Args:
         model: the model.
         predictor: the data.
         noise: of the scaled residual.
     """
+    found = _judged(model, predictor, noise, outlying_of(model, predictor))
+    rows = found.outlying.rows
+    if rows and found.structured:
+        without = predictor.setting_aside(rows)
+        aside = np.isin(np.arange(len(model.residual)), rows)
+        rest = replace(
+            model,
+            residual=np.where(aside, 0.0, residual_without(model, aside)),
+            jacobian=np.where(aside[:, None], 0.0, model.jacobian),
+            noise_lines=without.noise_lines,
+            aside=without.aside,
+        )
+        if _judged(rest, without, noise, NOTHING_OUTLYING).structured:
+            return replace(found, outlying=NOTHING_OUTLYING)
+    return found
+
+
+def _judged(model: FittedModel, predictor: Predictor, noise: float | None, outlying: Outlying) -> Judgement:
     surface = surface_of(model, predictor)
     above = noise is None or model.rmse > AT_FLOOR * noise
     return Judgement(
@@ -186,7 +207,7 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
         noises=model.noises,
         ratio=likelihood_ratio(model, predictor) if above else 0.0,
         surface=surface,
-        outlying=outlying_of(model, predictor),
+        outlying=outlying,
         repeats=_repeats(model, predictor, surface),
         pushing=_pushing(model, predictor, noise),
         sweep=float(np.median([len(sweep) for sweep in predictor.sweeps] or [len(model.residual)])),

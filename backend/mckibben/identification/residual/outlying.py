@@ -33,6 +33,7 @@ from mckibben.identification.residual.surface import (
     moving_blocks,
     still_blocks,
     surface_variables,
+    values_of,
 )
 
 _SHARE = 0.05  # of rows that may be anything, before any is seen
@@ -120,7 +121,8 @@ class Outlying:
     place: Place | None = None
 
 
-_NONE = Outlying((), 0.0, (), (), surface=False)
+#: No row of these data.
+NOTHING_OUTLYING = Outlying((), 0.0, (), (), surface=False)
 
 
 def outlying_of(fitted: Fitted, predictor: Predictor) -> Outlying:
@@ -130,9 +132,9 @@ def outlying_of(fitted: Fitted, predictor: Predictor) -> Outlying:
         fitted: the model.
         predictor: the data.
     """
-    best = _NONE
+    best = NOTHING_OUTLYING
     for channel in predictor.channels:
-        rows = np.arange(len(fitted.residual))[channel.rows]
+        rows = values_of(fitted, channel)
         if fitted.lost or len(rows) < _FEWEST_ROWS:
             continue
         variables, time = surface_variables(fitted, predictor, rows)
@@ -148,7 +150,7 @@ def outlying_of(fitted: Fitted, predictor: Predictor) -> Outlying:
         if noise is not None:
             table = _Table(fitted.jacobian[rows], residual, blocks, span, noise)
         found = table.outlying()
-        if not found.rows and best is not _NONE:
+        if not found.rows and best is not NOTHING_OUTLYING:
             continue
         place = np.full(len(predictor.measured), -1)
         place[rows] = np.arange(len(rows))
@@ -163,7 +165,7 @@ def outlying_of(fitted: Fitted, predictor: Predictor) -> Outlying:
             surface=found.surface,
             place=common_place(found.rows, variables, sweeps, way),
         )
-        if best is _NONE or told.gain > best.gain:
+        if best is NOTHING_OUTLYING or told.gain > best.gain:
             best = told
     return best
 
@@ -284,7 +286,7 @@ class _Table:
         """The rows that do not fit."""
         most = self.most_candidates
         if most < 1 or not np.any(self.given):
-            return _NONE
+            return NOTHING_OUTLYING
         orders = [self.order(most, None)]
         if self.blocks and self.first.pays:
             orders.append(self.order(most, self.first.likeliest))

@@ -26,7 +26,7 @@ from typing import Any, NamedTuple, Protocol
 import numpy as np
 
 from mckibben.identification.predict.fit_model import FitModel
-from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.residual.correlated import Chain, Noise, Ways, tried_noises
 from mckibben.identification.residual.profiles import variables_of
 
@@ -94,6 +94,11 @@ class Fitted(Protocol):
     @property
     def jacobian(self) -> np.ndarray:
         """Derivatives of the prediction, weighted likewise, shape (values, free)."""
+        ...
+
+    @property
+    def aside(self) -> np.ndarray | None:
+        """Mask of values that were set aside; None for none."""
         ...
 
     @property
@@ -648,6 +653,12 @@ def _blocks_of(
     return blocks, [unit_range(variables[name]) for name in _MAIN if name in variables]
 
 
+def values_of(fitted: Fitted, channel: PredictedChannel) -> np.ndarray:
+    """Indices of the values of a channel that were not set aside."""
+    rows = np.arange(len(fitted.residual))[channel.rows]
+    return rows if fitted.aside is None else rows[~fitted.aside[rows]]
+
+
 def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
     """The free surface on the residual of a fitted model; None below twenty rows and after a stopped run.
 
@@ -662,14 +673,15 @@ def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
     """
     count = len(fitted.residual)
     values, deviations = np.zeros(count), np.zeros(count)
-    square, numbers = 0.0, 0
+    square, numbers, counted = 0.0, 0, 0
     whole = 0.0
     shares: dict[str, float] = {}
     foldings = foldings_of(predictor)
     ways = [_Way(fitted, labels) for labels in foldings]
     found = False
     for channel in predictor.channels:
-        rows = np.arange(count)[channel.rows]
+        rows = values_of(fitted, channel)
+        counted += len(rows)
         if len(rows) < FEWEST_ROWS or fitted.lost or not np.any(fitted.residual[rows]):
             square += float(np.sum(fitted.residual[rows] ** 2))
             continue
@@ -693,7 +705,7 @@ def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
         return None
     order = sorted(shares.items(), key=lambda pair: -pair[1])
     return Surface(
-        left=float(np.sqrt(square / count)),
+        left=float(np.sqrt(square / counted)),
         numbers=numbers,
         gain=tuple(way.gain for way in ways),
         gain_low=tuple(way.interval[0] for way in ways),
@@ -759,7 +771,7 @@ class _Way:
 
     def __init__(self, fitted: Fitted, labels: np.ndarray) -> None:
         self.labels, self.folds = labels, np.unique(labels)
-        self.refitted = {label: _without(fitted, labels == label) for label in self.folds}
+        self.refitted = {label: residual_without(fitted, labels == label) for label in self.folds}
         self.model = _of_each_group(labels, self.refitted)
         self.rival, self.inside = self.model.copy(), np.zeros(len(labels), bool)
 
@@ -820,7 +832,7 @@ class _Way:
         return float(low), float(high)
 
 
-def _without(fitted: Fitted, rows: np.ndarray) -> np.ndarray:
+def residual_without(fitted: Fitted, rows: np.ndarray) -> np.ndarray:
     """Residual of all rows with the constants refitted without some (a mask), to first order.
 
     As `FittedModel.square_without`, which returns the mean square of the rows left out.
@@ -835,7 +847,7 @@ def _without(fitted: Fitted, rows: np.ndarray) -> np.ndarray:
 
 def left_out_residual(fitted: Fitted, labels: np.ndarray) -> np.ndarray:
     """Residual of each group with the constants refitted without it, to first order, shape (values,)."""
-    return _of_each_group(labels, {label: _without(fitted, labels == label) for label in np.unique(labels)})
+    return _of_each_group(labels, {label: residual_without(fitted, labels == label) for label in np.unique(labels)})
 
 
 def _of_each_group(labels: np.ndarray, residuals: Mapping[int, np.ndarray]) -> np.ndarray:
@@ -877,7 +889,7 @@ def likelihood_ratio(fitted: Fitted, predictor: Predictor) -> float:
     """
     largest = 0.0
     for channel, channel_lines in zip(predictor.channels, predictor.noise_lines, strict=True):
-        rows = np.arange(len(fitted.residual))[channel.rows]
+        rows = values_of(fitted, channel)
         if len(rows) < FEWEST_ROWS or fitted.lost or not np.any(fitted.residual[rows]):
             continue
         blocks, _ = _blocks_of(fitted, predictor, rows)
