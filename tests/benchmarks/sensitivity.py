@@ -4,7 +4,7 @@
         [--without NAME ... | --thresholds TEXT] [--keep FILE]
 
 A variation replaces a function of the diagnosis by the answer it has where it does nothing, or multiplies one
-constant by 0.8 or by 1.2, wherever it is imported. All cases of `tests.benchmarks.strangers` are asked with it
+constant by 0.8 or 1.2, wherever it is imported. All cases of `tests.benchmarks.strangers` are asked with it
 in a process forked for it. A line shows the cases that are right, those whose answer changes (status, effects
 named, entries asked, rows set aside), and the processor time, beside the same without a variation. A step
 that changes nothing is superfluous; a threshold that changes nothing is not tuned.
@@ -38,14 +38,14 @@ STEPS: Mapping[str, tuple[str, str, Callable[..., Any]]] = {
     "ends of the data": ("diagnose.search", "reaching_farthest", lambda best, *_, **__: best),
     "usual values": ("diagnose.twins", "as_usual", lambda fitter, best, *_, **__: best),
     "two for one": ("diagnose.twins", "_by_two", lambda *_: []),
-    "from another start": ("diagnose.twins", "_in_its_place", lambda fitter, kept, effect, exchange: exchange),
+    "from another start": ("diagnose.twins", "_in_its_place", lambda fitter, kept, effect, other: other),
     "own law": ("diagnose.twins", "_with_own_law", lambda fitter, best, effect, exchange: exchange),
     "imitation": ("diagnose.twins", "_imitates", lambda *_: False),
     "pruning by noise": ("diagnose.diagnosis", "pruned", lambda fitter, best, root: best),
     "corrections": ("diagnose.diagnosis", "without_corrections", lambda fitter, best, *_: (best, ())),
     "kept corrections": ("diagnose.diagnosis", "refined", lambda fitter, lean, searched, found: ([], found)),
     "vented gauge": ("diagnose.diagnosis", "vented", lambda *_: None),
-    "best with entries as stated": ("diagnose.contest", "_at_its_best", lambda fitter, trials, best, *_: best),
+    "best with entries as stated": ("diagnose.contest", "_at_its_best", lambda fitter, _, best, *__: best),
     "entries beside single effects": ("diagnose.contest", "_with_effects", lambda trial, *_, **__: trial),
     "reading errors": ("diagnose.diagnosis", "absorbed_by", lambda *_: ()),
 }  # fmt: skip

@@ -79,6 +79,27 @@ def test_a_pitch_is_found_in_all_records_and_grows_with_the_pressure() -> None:
     assert found.also == ()  # one speed there and back: time has another phase on the way back
 
 
+def test_a_thread_is_the_same_throughout_and_a_frame_rings_after_each_turn() -> None:
+    thread = 3.0 * np.sin(2.0 * np.pi * FILES.length / 4e-3 + 0.7)
+    way = np.where(np.arange(FILES.size) // 240 % 2 == 0, 0.26 - FILES.length, FILES.length - 0.20)
+    ringing = 9.0 * np.exp(-way / 0.015) * np.cos(2.0 * np.pi * way / 4e-3)
+    for wave, fades, said in (
+        (thread, False, "a thread, rack"),
+        (ringing, True, "what rings after each turn"),
+    ):
+        found = FILES.found(wave + noise(FILES.size, 5))
+        assert found is not None
+        assert (found.over, found.fades) == ("length", fades)
+        assert f"): {said}" in repetition_text(found, "N", 1.0)
+
+
+def test_one_pull_in_one_direction_does_not_tell_a_thread_from_ringing() -> None:
+    pull = Pulls(*LAYOUTS["one"])
+    found = pull.found(3.0 * np.sin(2.0 * np.pi * pull.length / 4.3e-3) + noise(pull.size, 6))
+    assert found is not None
+    assert found.fades is None
+
+
 def test_a_wave_of_one_size_does_not_grow() -> None:
     found = FILES.found(2.0 * np.sin(2.0 * np.pi * FILES.length / 6e-3) + noise(FILES.size, 1))
     assert found is not None

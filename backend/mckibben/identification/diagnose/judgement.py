@@ -171,8 +171,8 @@ class Judgement:
 def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Judgement:
     """The judgement on a fitted model.
 
-    Rows that do not fit are named where the model fits the others: where a structure stays without them, it is
-    the model that does not fit, and its worst rows are no accidents.
+    Rows that do not fit are named where the model fits the others. Where a structure stays without them, it
+    is the model that does not fit, and its worst rows are no accidents.
 
     Args:
         model: the model.

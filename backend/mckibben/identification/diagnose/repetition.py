@@ -20,7 +20,7 @@ from math import exp, lgamma, log
 import numpy as np
 
 from mckibben.identification.diagnose.score import effective_rows
-from mckibben.identification.diagnose.swept_rows import COORDINATES, Coordinate, Over, SweptRows
+from mckibben.identification.diagnose.swept_rows import COORDINATES, FEWEST_ROWS, Coordinate, Over, SweptRows
 
 _FALSE_ALARM = 1e-4  # chance of noise, over all periods tried, below which a repetition is told
 _SHARE = 0.2  # least share of the rest
@@ -39,6 +39,10 @@ _FASTER = 10.0  # than that a repetition in time is: multiples of what drives th
 _MOVES = 1e-2  # share of its range: less is no change of a quantity within a record
 _THIRDS, _EVERYWHERE = 3, 0.2  # parts of the range; least share in each of them, over that on all rows
 _SHOWN = 2.0 / 3.0  # least share of the records, or sweeps, that the others predict
+_TURNS = 0.05  # way back, over the range, from which the motion has turned
+_REACHES = (0.1, 0.2, 0.4)  # ways within which a ringing fades to 37 %, over the longest sweep
+_PERIOD_BESIDE = np.linspace(0.94, 1.06, 13)  # periods that are compared, over the one that was found
+_LIKELIER = 4.0  # difference of log likelihoods from which one of the two courses is told
 _ALIKE = 0.9  # share over the best one, from which data do not tell the coordinates apart
 
 
@@ -56,6 +60,8 @@ class Repetition:
         parts, shown: number of records, and of those that a fit to the others explains.
         of_sweeps: whether the parts are sweeps: in time, and where there is one record.
         in_step: whether it swings in step throughout the file, as no noise does.
+        fades: whether it begins anew at each turn of the motion and fades; None where the data cannot tell
+            that from what is the same throughout.
         also: the same repetition over other coordinates, which these data cannot tell from it.
     """
 
@@ -69,6 +75,7 @@ class Repetition:
     shown: int
     of_sweeps: bool = False
     in_step: bool = False
+    fades: bool | None = None
     also: tuple[tuple[Coordinate, float], ...] = ()
 
 
@@ -100,7 +107,36 @@ def repetition(
         for each in sorted(found, key=lambda each: each.share)
         if each.over != best.over and each.share > _ALIKE * best.share
     }
-    return replace(best, also=tuple(alike.items()))
+    return replace(best, fades=_fades(rows, best), also=tuple(alike.items()))
+
+
+def _fades(rows: SweptRows, found: Repetition) -> bool | None:
+    """Whether a repetition begins anew at each turn and fades, by the likelihood of both courses."""
+    x = rows.inputs[found.over]
+    since = np.empty(len(x))
+    for label in np.unique(rows.record):
+        inside = rows.record == label
+        since[inside] = _since_turn(x[inside], _TURNS * float(np.ptp(x)))
+    after = np.isfinite(since)
+    if np.count_nonzero(after) < FEWEST_ROWS:
+        return None
+    since, here = np.where(after, since, 0.0), rows.left[after]
+    square = float(here @ here)
+
+    def left(place: np.ndarray, reach: float) -> float:
+        of_periods = []
+        for factor in _PERIOD_BESIDE:
+            angle = 2.0 * np.pi * factor / found.period * place
+            waves = np.column_stack([np.sin(angle), np.cos(angle)]) * np.exp(-since / reach)[:, None]
+            columns = rows.projected(np.where(after[:, None], waves, 0.0))[after]
+            weights, *_ = np.linalg.lstsq(columns, here, rcond=None)
+            of_periods.append(square - float(here @ (columns @ weights)))
+        return max(min(of_periods), 1e-12 * square)
+
+    steady, fading = left(x, np.inf), min(left(since, share * float(np.max(since))) for share in _REACHES)
+    share = effective_rows(rows.left, rows.lines, ()) / len(rows.left)
+    likelier = 0.5 * share * len(here) * log(steady / fading)
+    return None if abs(likelier) < _LIKELIER else likelier > 0.0
 
 
 @dataclass(frozen=True)
@@ -154,6 +190,26 @@ def _growths(rows: SweptRows, name: Coordinate) -> Iterator[tuple[bool, np.ndarr
         mean = float(np.mean(pressure))
         if np.ptp(pressure) > 0.2 * mean > 0.0:
             yield True, pressure / mean
+
+
+def _since_turn(x: np.ndarray, least: float) -> np.ndarray:
+    """Way since the last turn, an extreme that the course leaves by ``least``; NaN before the first one."""
+    since = np.full(len(x), np.nan)
+    start, extreme = None, 0
+    way = 0.0  # sign of the motion, once it is known
+    for row, value in enumerate(x):
+        if way == 0.0:
+            way = float(np.sign(value - x[0])) if abs(value - x[0]) > least else 0.0
+            extreme = row
+        elif way * (value - x[extreme]) >= 0.0:
+            extreme = row
+        elif way * (x[extreme] - value) > least:
+            start, way = extreme, -way
+            since[start:row] = np.abs(x[start:row] - x[start])
+            extreme = row
+        if start is not None:
+            since[row] = abs(value - x[start])
+    return since
 
 
 def _gap(x: np.ndarray) -> float:

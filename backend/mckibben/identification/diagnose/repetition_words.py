@@ -53,7 +53,8 @@ def how_often(over: str, period: float) -> str:
 
 def _cause(found: Repetition) -> str:
     if found.over == "length":
-        return "a thread, rack or weave with that pitch, or what rings after each turn of the motion"
+        fades, pitch = "what rings after each turn of the motion", "a thread, rack or weave with that pitch"
+        return f"{pitch}, or {fades}" if found.fades is None else fades if found.fades else pitch
     if found.over == "pressure":
         return "steps of that size in the regulator, the sensor or its converter"
     if found.over == "rows":

@@ -847,7 +847,9 @@ def residual_without(fitted: Fitted, rows: np.ndarray) -> np.ndarray:
 
 def left_out_residual(fitted: Fitted, labels: np.ndarray) -> np.ndarray:
     """Residual of each group with the constants refitted without it, to first order, shape (values,)."""
-    return _of_each_group(labels, {label: residual_without(fitted, labels == label) for label in np.unique(labels)})
+    return _of_each_group(
+        labels, {label: residual_without(fitted, labels == label) for label in np.unique(labels)}
+    )
 
 
 def _of_each_group(labels: np.ndarray, residuals: Mapping[int, np.ndarray]) -> np.ndarray:
