@@ -3,11 +3,11 @@
     python -m tests.benchmarks.sensitivity [--seed N] [--only TEXT] [--cheap S]
         [--without NAME ... | --thresholds TEXT] [--keep FILE]
 
-A variation replaces a function of the diagnosis by the answer it has where it does nothing, or multiplies one
-constant by 0.8 or 1.2, wherever it is imported. All cases of `tests.benchmarks.strangers` are asked with it
-in a process forked for it. A line shows the cases that are right, those whose answer changes (status, effects
-named, entries asked, rows set aside), and the processor time, beside the same without a variation. A step
-that changes nothing is superfluous; a threshold that changes nothing is not tuned.
+A variation replaces a function of the diagnosis by the answer it has where it does nothing, or multiplies
+one of `mckibben.identification.thresholds` by 0.8 or 1.2. All cases of `tests.benchmarks.strangers` are asked
+with it in a process forked for it. A line shows the cases that are right, those whose answer changes (status,
+effects named, entries asked, rows set aside), and the processor time, beside the same without a variation. A
+step that changes nothing is superfluous; a threshold that changes nothing is not tuned.
 """
 
 from __future__ import annotations
@@ -18,11 +18,13 @@ import pickle
 import sys
 import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import fields, is_dataclass
 from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from mckibben.identification import thresholds
 from tests.benchmarks.strangers import Line, asked
 from tests.benchmarks.strangers_cases import Stranger, strangers
 
@@ -52,7 +54,7 @@ STEPS: Mapping[str, tuple[str, str, Callable[..., Any]]] = {
 
 
 class Variation(NamedTuple):
-    """A step left out (``factor`` is None), or a constant multiplied."""
+    """A step of a module left out (``factor`` is None), or a threshold of a group multiplied."""
 
     name: str
     module: str
@@ -75,34 +77,27 @@ NOTHING = Variation("nothing", "", "", 1.0)
 
 
 def constants(text: str) -> Iterator[Variation]:
-    """Each number in capitals of a module whose name contains a text, more and less."""
-    for name, module in sorted(sys.modules.items()):
-        if not name.startswith(HOUSE) or text not in name:
-            continue
-        source = Path(module.__file__ or "").read_text(encoding="utf-8")
-        for attribute, value in vars(module).items():
-            own = f"\n{attribute} = " in source or f", {attribute}" in source.partition("\n\n\n")[0]
-            number = isinstance(value, int | float) and not isinstance(value, bool) and value != 0
-            if attribute.isupper() and number and own and f"\n{attribute} = " in source:
+    """Each threshold of a group whose name contains a text, less and more."""
+    for name, group in sorted(vars(thresholds).items()):
+        if is_dataclass(group) and not isinstance(group, type) and text in name:
+            for each in fields(group):
                 for factor in FACTORS:
-                    yield Variation(f"{name[len(HOUSE) :]}.{attribute}", name, attribute, factor)
+                    yield Variation(f"{name}.{each.name}", name, each.name, factor)
 
 
 def varied(variation: Variation) -> None:
-    """Replace what a variation is about in this process, wherever it was imported."""
+    """Replace what a variation is about, in this process."""
     if variation is NOTHING:
         return
-    module = sys.modules[variation.module]
-    before = getattr(module, variation.attribute)
     if variation.factor is None:
-        setattr(module, variation.attribute, STEPS[variation.name][2])
+        setattr(sys.modules[variation.module], variation.attribute, STEPS[variation.name][2])
         return
+    group = getattr(thresholds, variation.module)
+    before = getattr(group, variation.attribute)
     after = before * variation.factor
     if isinstance(before, int):
-        after = max(1, before - 1 if variation.factor < 1.0 else before + 1)
-    for name, other in sorted(sys.modules.items()):
-        if name.startswith(HOUSE) and vars(other).get(variation.attribute) is before:
-            setattr(other, variation.attribute, after)
+        after = max(1, min(before - 1, round(after))) if after < before else max(before + 1, round(after))
+    object.__setattr__(group, variation.attribute, after)  # for all of the house, in this process alone
 
 
 def told(line: Line, seconds: float) -> Told:
@@ -159,7 +154,7 @@ def main() -> None:
     parser.add_argument("--only", default="", help="part of the name of the cases")
     parser.add_argument("--cheap", type=float, default=np.inf, help="only cases that need fewer seconds")
     parser.add_argument("--without", nargs="*", help="names of steps; all of them without a name")
-    parser.add_argument("--thresholds", help="part of the name of the modules whose constants are varied")
+    parser.add_argument("--thresholds", help="part of the name of their group")
     parser.add_argument("--keep", type=Path, help="file that keeps the answers")
     given = parser.parse_args()
     cases = strangers(given.seed, given.only)

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.corrections import Correction, refined, without_corrections
-from mckibben.identification.diagnose.probability import LIKELY, Loss
+from mckibben.identification.diagnose.probability import Loss
 from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.thresholds import PROBABILITY
 from mckibben.physics.effect import Effect
 from tests.identification.diagnose.test_diagnosis import diagnosis
 from tests.identification.diagnose.test_probability import fitted
@@ -96,7 +97,7 @@ def test_what_is_left_out_is_said_and_the_error_stays_near_the_noise() -> None:
     for item in found.corrections:
         assert item.effect not in found.added
         assert item.before > item.after
-        assert 0.0 <= found.probability_of(item.effect) < LIKELY
+        assert 0.0 <= found.probability_of(item.effect) < PROBABILITY.likely
     assert found.probability_of(found.added[0]) > 0.9
     assert all(0.0 <= found.probability_of(c.effect.id) <= 1.0 for c in found.candidates)
     assert np.isclose(found.probability_of("prestress"), found.probability_of("force_offset"))

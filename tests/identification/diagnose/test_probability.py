@@ -11,7 +11,6 @@ import numpy as np
 import pytest
 
 from mckibben.identification.diagnose.probability import (
-    LIKELY,
     Evidence,
     Loss,
     entries_right,
@@ -25,6 +24,7 @@ from mckibben.identification.diagnose.probability import (
 from mckibben.identification.diagnose.score import score
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.fit_model import FitModel, Free
+from mckibben.identification.thresholds import PROBABILITY
 from mckibben.physics.effect import Prior
 from tests.identification.synthetic import CATALOGUE, MUSCLE
 
@@ -129,7 +129,7 @@ def test_a_wrong_entry_makes_the_effects_unlikely_that_its_correction_does_witho
 def test_a_large_effect_is_likely_and_a_small_correction_is_not() -> None:
     """Sizes as they occur in `tests.truth`: an effect of 20 times the noise, and 3 % of it at the noise."""
     assert Loss(20.0, 1.0).probability > 0.99
-    assert Loss(0.6, 0.03).probability < LIKELY
+    assert Loss(0.6, 0.03).probability < PROBABILITY.likely
     sizes = np.geomspace(0.1, 10.0, 9)
     assert np.all(np.diff([Loss(size, 0.1).probability for size in sizes]) > 0.0)
     assert np.all(np.diff([Loss(2.0, part).probability for part in sizes / 10.0]) > 0.0)

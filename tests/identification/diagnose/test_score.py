@@ -8,14 +8,9 @@ from math import log
 import numpy as np
 import pytest
 
-from mckibben.identification.diagnose.score import (
-    LEAST_GAIN,
-    LEAST_SCORE,
-    better,
-    effective_rows,
-    score,
-)
+from mckibben.identification.diagnose.score import better, effective_rows, score
 from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.thresholds import SCORE
 from tests.identification.synthetic import linear_node
 
 ROWS = 40_000
@@ -105,10 +100,10 @@ def test_a_model_must_earn_its_numbers():
     # 20 ln 90 is more than 90 ln 2: twenty numbers for half of the square are too many.
     assert not better(node_of([0.5, 0.5, 0.5], free=20), before, rows=rows, noise=None)
     # A gain below the least one, however sure.
-    tiny = (1.0 - 0.5 * LEAST_GAIN) ** 2
+    tiny = (1.0 - 0.5 * SCORE.least_gain) ** 2
     assert not better(node_of([tiny] * 3), before, rows=1e6, noise=None)
     # A gain that few rows cannot prove.
-    small = float(np.exp(-0.9 * LEAST_SCORE / 9.0))
+    small = float(np.exp(-0.9 * SCORE.least_score / 9.0))
     assert not better(node_of([small] * 3), before, rows=9.0, noise=None)
     assert better(node_of([small] * 3), before, rows=12.0, noise=None)
 

@@ -7,11 +7,11 @@ from typing import Any, cast
 
 import numpy as np
 
-from mckibben.identification.diagnose.probability import LIKELY
 from mckibben.identification.diagnose.supported import Supported, supported
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.thresholds import PROBABILITY
 from tests.identification.diagnose.test_probability import fitted
 from tests.identification.synthetic import CATALOGUE
 
@@ -46,7 +46,7 @@ def test_an_effect_that_the_visited_models_hardly_hold_is_kept_and_not_called_mi
     assert (correction.effect, correction.before, correction.after, correction.kept) == (
         "leak", creep.rmse, both.rmse, True,
     )  # fmt: skip
-    assert correction.probability < LIKELY < found.evidence[0].probability
+    assert correction.probability < PROBABILITY.likely < found.evidence[0].probability
 
 
 def test_effects_that_are_needed_are_all_called_missing() -> None:
@@ -72,7 +72,7 @@ def test_the_likeliest_stays_however_unlikely_it_is() -> None:
     leak = fitted(9.99, "leak")
     found = asked(leak, fitted(10.0), fitted(1.0, "creep"))
     assert [item.effect for item in found.evidence] == ["leak"]
-    assert found.evidence[0].probability < LIKELY
+    assert found.evidence[0].probability < PROBABILITY.likely
     assert not found.corrections
 
 

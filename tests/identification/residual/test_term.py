@@ -5,7 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.identification.residual.term import HALVED, SMOOTH, TERMS, proposed_term
+from mckibben.identification.residual.term import proposed_term
+from mckibben.identification.thresholds import TERM
 from mckibben.physics.custom import custom_effect
 
 ROWS = 1200
@@ -97,7 +98,7 @@ def test_less_than_half_gets_no_formula():
     assert proposed_term(hidden / np.sqrt(2.0) + NOISE, VARIABLES, folds=FOLDS) is None
     twice = proposed_term(4.0 * hidden + NOISE, VARIABLES, folds=FOLDS)
     assert twice is not None
-    assert twice.left_out < HALVED
+    assert twice.left_out < TERM.halved
 
 
 def test_noise_and_nothing_have_no_term():
@@ -157,7 +158,7 @@ def test_at_most_three_terms():
     )  # fmt: skip
     term = proposed_term(hidden + 0.1 * NOISE, VARIABLES, folds=FOLDS)
     assert term is not None
-    assert len(term.coefficients) == TERMS
+    assert len(term.coefficients) == TERM.terms
 
 
 def test_a_muscle_that_moves_at_few_rows_only_gives_no_warning():
@@ -185,7 +186,7 @@ def test_a_rest_without_a_short_formula_is_described_by_a_smooth_one() -> None:
     term = proposed_term(residual, VARIABLES, folds=FOLDS, smooth=True)
     assert term is not None
     assert term.smooth
-    assert term.left_out <= SMOOTH
+    assert term.left_out <= TERM.smooth
     assert term.share > 0.95
     # Typed as a custom term it means what it says, and says nothing far outside the measured range.
     effect = custom_effect(term.formula, term.coefficients)

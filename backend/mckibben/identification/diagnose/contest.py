@@ -22,24 +22,15 @@ import numpy as np
 
 from mckibben.identification.diagnose.entries import StatedEntry, Statements, predicted_scale
 from mckibben.identification.diagnose.probability import log_odds
-from mckibben.identification.diagnose.score import AT_FLOOR, LEAST_SCORE, better, effective_rows, score
+from mckibben.identification.diagnose.score import better, effective_rows, score
 from mckibben.identification.diagnose.search import search
 from mckibben.identification.diagnose.wrong_entry import WrongEntry, done_without
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.predict.fit_model import FitModel, fixed_beside
 from mckibben.identification.residual.noise import allowing_for_errors, noise_of
+from mckibben.identification.thresholds import ENTRIES, SCORE
 from mckibben.physics.errors import InputError
-
-_SEARCHED = 2  # entries with a search of their own
-_SINGLES = 6  # effects that each entry is fitted with alone
-_LEAST_GAIN = 0.1  # least relative reduction of the error
-_LEAST_CHANGE = 0.01  # least relative change of a quantity; less is the accuracy of a ruler
-_CERTAIN = 0.98  # largest confidence: the models themselves are not exact
-_AS_MUCH = 2.0  # score that chance decides: an entry that is worse by less explains as much
-_AS_GOOD = 1.05  # error over that of the best model up to which an entry explains the data as well
-_WITHIN_REACH = 2.0  # the same up to which a search may find the laws that the effects lack beside the entry
-_MUCH = 0.5  # share of the excess over the noise that an entry above the noise must explain
 
 
 @dataclass(frozen=True)
@@ -61,7 +52,7 @@ class _Trial:
     def done(self) -> bool:
         """Whether it reaches the noise with the start model's effects alone: nothing is left to search."""
         noise = self.fitter.noise
-        return self.best is self.root and noise is not None and self.root.rmse <= AT_FLOOR * noise
+        return self.best is self.root and noise is not None and self.root.rmse <= SCORE.at_floor * noise
 
     @property
     def rmse(self) -> float:
@@ -90,7 +81,7 @@ def contest(
     """
     added = [name for name in best.fit_model.ids if name not in set(first.ids)]
     noise = fitter.noise
-    if noise is not None and best.rmse <= AT_FLOOR * noise and not added:
+    if noise is not None and best.rmse <= SCORE.at_floor * noise and not added:
         return ()  # nothing is missing, so nothing is wrong
     trials = []
     for entry in statements.entries:
@@ -98,21 +89,21 @@ def contest(
         if trial is not None:
             trials.append(trial)
     rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
-    at_floor = noise is not None and best.rmse <= AT_FLOOR * noise
+    at_floor = noise is not None and best.rmse <= SCORE.at_floor * noise
     trials = [_with_effects(trial, best, root, added, rows, fewer=at_floor) for trial in trials]
     noise = _lowest_noise(noise, trials, best)
     here = score(best, rows=rows, noise=noise)
     trials.sort(key=lambda trial: trial.score(rows, noise))
     if at_floor:
-        near = [trial for trial in trials if trial.rmse < _WITHIN_REACH * best.rmse]
+        near = [trial for trial in trials if trial.rmse < ENTRIES.within_reach * best.rmse]
     else:
         here = score(best, rows=rows, noise=noise)
-        near = [trial for trial in trials if trial.score(rows, noise) < here - LEAST_SCORE]
+        near = [trial for trial in trials if trial.score(rows, noise) < here - SCORE.least_score]
     for trial in _promising(near, trials, best, added, fitter, at_floor=at_floor):
         trials[trials.index(trial)] = _searched(trial) if fitter.effort.thorough else _lighter(trial)
     if trials:
         noise = _lowest_noise(noise, trials, best)
-        best = _at_its_best(fitter, trials[:_SEARCHED], best, added, rows, noise)
+        best = _at_its_best(fitter, trials[: ENTRIES.searched], best, added, rows, noise)
         here = score(best, rows=rows, noise=noise)
         trials.sort(key=lambda trial: trial.score(rows, noise))
     found = [
@@ -183,7 +174,7 @@ def _promising(
     if at_floor and len(added) < 2:
         return []
     open_ = [trial for trial in trials if not trial.done]
-    chosen = [trial for trial in near if not trial.done][:_SEARCHED]
+    chosen = [trial for trial in near if not trial.done][: ENTRIES.searched]
     quantities = [trial for trial in open_ if trial.entry.free is not None]
     alone = min(quantities, key=lambda trial: trial.root.rmse, default=None)
     if at_floor and fitter.effort.thorough and alone is not None and alone not in chosen:
@@ -280,7 +271,7 @@ def _with_effects(
         models += [] if fewer else [fitter.fit(best.fit_model, best.freed)]
         models += [fitter.dropping(best, name) for name in added] if len(added) > 1 else []
     if fitter.effort.thorough and not (fewer and len(added) < 2):
-        promising = fitter.promising(trial.root, fitter.candidates)[:_SINGLES]
+        promising = fitter.promising(trial.root, fitter.candidates)[: ENTRIES.singles]
         models += [fitter.adding(trial.root, effect) for effect in promising]
     for model in models:
         if model.rmse <= min(other.rmse for other in models):
@@ -348,7 +339,7 @@ def _evidence(
         stderr = model.standard_errors[place]
         if stderr is not None:
             stderr = abs(entry.value(number + stderr) - value)
-        if abs(value - stated) < _LEAST_CHANGE * abs(stated):
+        if abs(value - stated) < ENTRIES.least_change * abs(stated):
             return None
     floor = noise or 0.0
     effects = tuple(name for name in model.fit_model.ids if name not in set(first.ids))
@@ -358,16 +349,18 @@ def _evidence(
     excess, left = (max(rmse**2 - floor**2, 0.0) for rmse in (best.rmse, trial.rmse))
     odds = float(np.log(entry.prior)) + 0.5 * drop
     odds += sum(map(log_odds, model.fit_model.effects)) - sum(map(log_odds, best.fit_model.effects))
-    confidence = min(float(1.0 / (1.0 + np.exp(-np.clip(odds, -50.0, 50.0)))), _CERTAIN)
+    confidence = min(float(1.0 / (1.0 + np.exp(-np.clip(odds, -50.0, 50.0)))), ENTRIES.certain)
     simpler = len(effects) < added
     # With as many effects it may need fewer numbers: an angle and two constants for six of two effects.
     leaner = simpler or (len(effects) == added and len(model.free) < len(best.free))
-    closer = gain > _LEAST_GAIN and left <= _MUCH * excess
-    reaches = trial.rmse <= (_AS_GOOD * best.rmse if at_floor else AT_FLOOR * floor)
-    stands = (simpler and reaches and drop > -_AS_MUCH) or (drop > LEAST_SCORE and (leaner or closer))
+    closer = gain > ENTRIES.least_gain and left <= ENTRIES.much * excess
+    reaches = trial.rmse <= (ENTRIES.as_good * best.rmse if at_floor else SCORE.at_floor * floor)
+    stands = (simpler and reaches and drop > -ENTRIES.as_much) or (
+        drop > SCORE.least_score and (leaner or closer)
+    )
     if entry.vouched:
-        stands = stands and best.rmse > AT_FLOOR * floor
-    if not (stands or (trial.rmse <= _AS_GOOD * best.rmse and leaner and drop > -LEAST_SCORE)):
+        stands = stands and best.rmse > SCORE.at_floor * floor
+    if not (stands or (trial.rmse <= ENTRIES.as_good * best.rmse and leaner and drop > -SCORE.least_score)):
         return None
     whole = max(root.mean_square - floor**2, 1e-300)
     alone = max(trial.root.mean_square / trial.scale**2 - floor**2, 0.0)

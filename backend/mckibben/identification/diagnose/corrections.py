@@ -13,10 +13,11 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
-from mckibben.identification.diagnose.probability import LIKELY, Loss, loss
+from mckibben.identification.diagnose.probability import Loss, loss
 from mckibben.identification.diagnose.score import better, effective_rows
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.thresholds import PROBABILITY
 
 _IN_TIME = frozenset({"rate", "dynamic"})  # types of effects that depend on speed or time
 
@@ -67,7 +68,7 @@ def without_corrections(
         trials = {name: fitter.dropping(best, name) for name in names}
         losses = {name: loss(best, without, root, noise=noise) for name, without in trials.items()}
         least = min(names, key=lambda name: losses[name].probability)
-        if losses[least].probability >= LIKELY:
+        if losses[least].probability >= PROBABILITY.likely:
             return best, tuple(corrections)
         corrections.append(Correction(least, trials[least].rmse, best.rmse, losses[least]))
         best = trials[least]

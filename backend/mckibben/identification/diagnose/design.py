@@ -26,18 +26,18 @@ import numpy as np
 from mckibben.identification.diagnose.adapting import left_after_refit
 from mckibben.identification.diagnose.drive_protocol import drive_protocols
 from mckibben.identification.diagnose.protocol import Protocol, Rig, Schedule, protocols, rig_of
-from mckibben.identification.diagnose.twins import SAME
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.moving import TransientPredictor
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
 from mckibben.identification.predict.specimens import SpecimensPredictor
+from mckibben.identification.thresholds import TWINS
 from mckibben.physics.errors import InputError
 
 DECISIVE = 3.0  # separation [sigma] from which an experiment decides
 #: Separation [sigma] from which an experiment tells two effects apart: twice what a diagnosis counts as the
 #: same, because the noise and the form of the laws take their part of it.
-APART = 2.0 * SAME
+APART = 2.0 * TWINS.same
 _FEWEST = 8  # values that a run needs
 _TENSE = 0.1  # share of the rows under tension without which a reader cannot know the others as slack
 _MOST_MODELS = 5  # of a group that are simulated, the likeliest

@@ -18,14 +18,7 @@ from mckibben.identification.diagnose.judgement import DIGITS, Judgement, judged
 from mckibben.identification.diagnose.left_out import LeftOutSpecimen, left_out_specimens
 from mckibben.identification.diagnose.needed import pruned
 from mckibben.identification.diagnose.next_measurement import SeparatingExperiment, next_measurements
-from mckibben.identification.diagnose.probability import (
-    LIKELY,
-    Evidence,
-    ModelWeights,
-    beside,
-    loss,
-    none_likely,
-)
+from mckibben.identification.diagnose.probability import Evidence, ModelWeights, beside, loss, none_likely
 from mckibben.identification.diagnose.progress import Progress
 from mckibben.identification.diagnose.reason import traits_of
 from mckibben.identification.diagnose.repetition import Repetition
@@ -62,6 +55,7 @@ from mckibben.identification.predict.specimens import SpecimensPredictor
 from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
 from mckibben.identification.residual.profiles import Profile, profiles, variables_of
 from mckibben.identification.residual.term import Term, proposed_term
+from mckibben.identification.thresholds import PROBABILITY
 from mckibben.physics.effect import Effect
 from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Outcome, Watch
@@ -185,7 +179,7 @@ class Diagnosis:
         if of_group:
             return max(of_group)
         visited = 0.0 if self.weights is None else self.weights.share([effect])
-        return max([LIKELY * visited, *of_correction])
+        return max([PROBABILITY.likely * visited, *of_correction])
 
 
 def diagnose(

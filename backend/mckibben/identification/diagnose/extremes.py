@@ -11,15 +11,12 @@ from collections.abc import Iterable, Sequence
 
 import numpy as np
 
-from mckibben.identification.diagnose.score import LEAST_SCORE, score
+from mckibben.identification.diagnose.score import score
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.thresholds import ENDS, SCORE
 
 _INPUTS = ("pressure", "length", "velocity", "load", "time")
-_SHARE = 0.15  # of the rows at each end of an input
-_MOST = 0.5  # of the rows; an end with more of them is not an end
-_ALIKE = 1.03  # ratio of errors up to which models fit alike
-_LEAST = 0.10  # decrease of the mean logarithm of the squares at the ends that counts
 
 
 def ends_of(predictor: Predictor) -> list[np.ndarray]:
@@ -29,12 +26,12 @@ def ends_of(predictor: Predictor) -> list[np.ndarray]:
         values = predictor.inputs.get(name)
         if values is None or not np.ptp(values) > 0.0:
             continue
-        low, high = np.quantile(values, [_SHARE, 1.0 - _SHARE])
+        low, high = np.quantile(values, [ENDS.share, 1.0 - ENDS.share])
         if name == "velocity":
-            ends.append(np.abs(values) >= np.quantile(np.abs(values), 1.0 - _SHARE))
+            ends.append(np.abs(values) >= np.quantile(np.abs(values), 1.0 - ENDS.share))
         else:
             ends += [values <= low, values >= high]
-    return [end for end in ends if 0 < np.count_nonzero(end) <= _MOST * len(end)]
+    return [end for end in ends if 0 < np.count_nonzero(end) <= ENDS.most * len(end)]
 
 
 def reaching_farthest(
@@ -60,7 +57,7 @@ def reaching_farthest(
     if not ends or not best.free:
         return best
     floor = (noise or 0.0) ** 2 + 1e-300
-    limit = score(best, rows=rows, noise=noise) + LEAST_SCORE
+    limit = score(best, rows=rows, noise=noise) + SCORE.least_score
 
     def at_ends(model: FittedModel) -> float:
         return float(np.mean([np.log(max(model.square_without(end), floor)) for end in ends]))
@@ -72,8 +69,8 @@ def reaching_farthest(
         and len(model.fit_model.ids) <= len(best.fit_model.ids)
         and set(start) <= set(model.fit_model.ids)
         and model.implausible <= best.implausible
-        and model.rmse <= _ALIKE * best.rmse
+        and model.rmse <= ENDS.alike * best.rmse
         and score(model, rows=rows, noise=noise) <= limit
     ]
     farthest = min(alike, key=at_ends, default=best)
-    return farthest if at_ends(farthest) < at_ends(best) - _LEAST else best
+    return farthest if at_ends(farthest) < at_ends(best) - ENDS.least else best

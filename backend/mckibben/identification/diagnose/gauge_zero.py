@@ -12,11 +12,8 @@ from typing import NamedTuple
 
 import numpy as np
 
+from mckibben.identification.thresholds import GAUGE
 from mckibben.physics.effect import Effect
-
-_LEAST = 5e3  # Pa below zero; less may be noise or a change of the barometric pressure
-_PLATEAU = 3e3  # Pa; readings within this distance of the lowest form the plateau
-_ROWS = 4  # fewest rows of a plateau
 
 
 class GaugeZero(NamedTuple):
@@ -44,9 +41,9 @@ def vented(pressure: np.ndarray, candidates: Iterable[Effect]) -> GaugeZero | No
         candidates: effects that could be added.
     """
     lowest = float(np.min(pressure))
-    plateau = pressure[pressure <= lowest + _PLATEAU]
+    plateau = pressure[pressure <= lowest + GAUGE.plateau]
     value = float(np.median(plateau))
-    if value > -_LEAST or len(plateau) < _ROWS:
+    if value > -GAUGE.least or len(plateau) < GAUGE.rows:
         return None
     for effect in candidates:
         if "pressure_sensor" not in effect.slots:

@@ -17,27 +17,15 @@ from typing import TypeVar
 import numpy as np
 
 from mckibben.identification.diagnose.repetition import Repetition, repetition
-from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.swept_rows import Over
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.correlated import Noises, Weighed
 from mckibben.identification.residual.outlying import NOTHING_OUTLYING, Outlying, outlying_of
 from mckibben.identification.residual.surface import Surface, likelihood_ratio, residual_without, surface_of
+from mckibben.identification.thresholds import JUDGED, SCORE
 
-# Twice the gain in log likelihood from which a surface is more than correlated noise; of 170 files with noise
-# of eleven kinds the largest had 9.
-_RATIO = 16.0
-_GAIN = 0.1  # lower end of the gain on left-out groups from which the surface says something of them
-_LASTING = 0.5  # rows over which noise is alike, over those of a sweep: what is missing may look so
-_IN_STEP = 5.0  # rows over which a swing stays in step, over those of the longest line: then it is one
-_LINE_SHARE = 0.2  # least share of the variance
 _NEAR = 0.1  # of the frequency that the noise swings with, within which that of the line is looked for
-# Error over noise, mean and median, beyond which rows too few for a surface show a structure; in the mean
-# also what is far above the scatter of neighbours.
-_FEW_MEAN, _FEW_MEDIAN = 5.0, 2.0
-_PUSHED = 4.0  # standard deviations of the noise below zero from which a force is no pull
-_ROUNDS = 3  # in which rows are set aside
 PUSHES = "the force is below zero, and a muscle does not push"
 DIGITS = 1e-9  # numerical resolution of noise-free data, share of the largest value
 _MEDIAN = 0.6745  # median magnitude of a standard normal deviate
@@ -98,7 +86,7 @@ class Judgement:
     @property
     def depends_on(self) -> tuple[str, ...]:
         """The channels that the rest is predictable from, the most important first."""
-        if self.surface is None or not self.predictable > _GAIN:
+        if self.surface is None or not self.predictable > JUDGED.gain:
             return ()
         return tuple(name for name, _ in self.surface.variables)
 
@@ -109,8 +97,12 @@ class Judgement:
             return True
         if self.surface is None:
             floor = self.noise or np.inf
-            return self.rmse > _FEW_MEAN * floor and self.typical > _FEW_MEDIAN * floor
-        return self._above and self._lowest_gain > _GAIN and (self.ratio > _RATIO or self.repeats is not None)
+            return self.rmse > JUDGED.few_mean * floor and self.typical > JUDGED.few_median * floor
+        return (
+            self._above
+            and self._lowest_gain > JUDGED.gain
+            and (self.ratio > JUDGED.ratio or self.repeats is not None)
+        )
 
     @property
     def undecided(self) -> bool:
@@ -120,19 +112,19 @@ class Judgement:
     @property
     def _lasting(self) -> bool:
         """Whether the rest is far above the scatter of neighbours, and alike over a good part of a sweep."""
-        if self.noise is None or not self.rmse > _FEW_MEAN * self.noise:
+        if self.noise is None or not self.rmse > JUDGED.few_mean * self.noise:
             return False
         longest = max(
             (max(weighed, key=lambda each: each.weight).noise.length for weighed in self.noises), default=0.0
         )
-        return longest > _LASTING * self.sweep
+        return longest > JUDGED.lasting * self.sweep
 
     @property
     def _above(self) -> bool:
         """Whether the error is above what a surface would leave, and above the noise."""
         if self.surface is None or not self.rmse > self.least:
             return False
-        return self.rmse > AT_FLOOR * max(self.surface.left, self.noise or 0.0)
+        return self.rmse > SCORE.at_floor * max(self.surface.left, self.noise or 0.0)
 
     @cached_property
     def proofs(self) -> dict[str, Proof]:
@@ -144,11 +136,11 @@ class Judgement:
             known = None, "the noise cannot be estimated"
         elif self._lasting:
             known = False, "what is left lasts for a good part of a sweep, above the scatter of neighbours"
-        elif surface is None and self.rmse > max(AT_FLOOR * self.noise, self.least):
+        elif surface is None and self.rmse > max(SCORE.at_floor * self.noise, self.least):
             known = False, "the error is above the noise"
         if self.repeats is not None and self.repeats.in_step and self.rmse > self.least:
             white = False, "what is left repeats in step"
-        elif self._above and self.ratio > _RATIO:
+        elif self._above and self.ratio > JUDGED.ratio:
             white = False, "a free surface explains more than noise does"
         if self.outlying.rows:
             fit = False, "rows do not fit beside the others"
@@ -158,7 +150,7 @@ class Judgement:
             white = gains = None, "there are fewer than twenty rows"
         elif not np.isfinite(surface.gain_low[0]):
             gains = None, "there are too few groups to leave one out"
-        elif self._above and surface.gain_low[0] > _GAIN:
+        elif self._above and surface.gain_low[0] > JUDGED.gain:
             gains = False, "a free surface predicts groups that were left out better than the model"
         return {"noise_known": known, "white": white, "no_outliers": fit, "rival_gains_nothing": gains}
 
@@ -198,7 +190,7 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
 
 def _judged(model: FittedModel, predictor: Predictor, noise: float | None, outlying: Outlying) -> Judgement:
     surface = surface_of(model, predictor)
-    above = noise is None or model.rmse > AT_FLOOR * noise
+    above = noise is None or model.rmse > SCORE.at_floor * noise
     return Judgement(
         rmse=model.rmse,
         least=DIGITS * float(np.max(np.abs(predictor.measured / predictor.scale))),
@@ -231,7 +223,7 @@ def without_suspects(
         of: the judgement in it.
     """
     found, aside = first, list[int]()
-    for _ in range(0 if predictor.simulated else _ROUNDS):
+    for _ in range(0 if predictor.simulated else JUDGED.rounds):
         judgement = of(found)
         rows = () if judgement is None else judgement.suspects
         without = again(predictor.setting_aside([*aside, *rows])) if rows else None
@@ -247,8 +239,8 @@ def _pushing(model: FittedModel, predictor: Predictor, noise: float | None) -> t
     for channel in predictor.channels:
         if channel.name == "force" and noise is not None:
             rows = np.arange(len(model.residual))[channel.rows]
-            below = predictor.measured[rows] / predictor.scale[rows] < -_PUSHED * noise
-            found += rows[below & (model.residual[rows] < -_PUSHED * noise)].tolist()
+            below = predictor.measured[rows] / predictor.scale[rows] < -JUDGED.pushed * noise
+            found += rows[below & (model.residual[rows] < -JUDGED.pushed * noise)].tolist()
     counted = np.ones(len(model.residual), bool) if model.aside is None else ~model.aside
     return tuple(row for row in found if counted[row])
 
@@ -284,7 +276,11 @@ def _line(model: FittedModel, predictor: Predictor) -> Repetition | None:
         best = max(weighed, key=lambda each: each.weight)
         noise, rows = best.noise, best.chain.rows
         share = 1.0 - noise.white
-        if not noise.second or noise.length < _IN_STEP * best.chain.longest or share < _LINE_SHARE:
+        if (
+            not noise.second
+            or noise.length < JUDGED.in_step * best.chain.longest
+            or share < JUDGED.line_share
+        ):
             continue
         over: Over = "time" if "time" in predictor.inputs else "rows"
         place = (
@@ -295,7 +291,7 @@ def _line(model: FittedModel, predictor: Predictor) -> Repetition | None:
         period, amplitude = _in_step(model.residual[rows], place, noise.period * float(np.median(steps)))
         # What swings for long without keeping step is noise.
         share = min(share, 0.5 * amplitude**2 / max(float(np.mean(model.residual[rows] ** 2)), 1e-300))
-        if share < _LINE_SHARE:
+        if share < JUDGED.line_share:
             continue
         line = Repetition(
             over=over, period=period, share=share, amplitude=amplitude, grows=False, left_out=share, parts=1,

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from mckibben.identification.diagnose.probability import LIKELY, log_odds
+from mckibben.identification.diagnose.probability import log_odds
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.thresholds import PROBABILITY
 
 
 def needed(after: FittedModel, before: FittedModel) -> float:
@@ -43,6 +44,6 @@ def pruned(fitter: Fitter, model: FittedModel, root: FittedModel) -> FittedModel
         added = [name for name in model.fit_model.ids if name not in root.fit_model.ids]
         without = [fitter.dropping(model, name) for name in added]
         least = min(without, key=lambda less: needed(model, less), default=None)
-        if least is None or needed(model, least) >= LIKELY:
+        if least is None or needed(model, least) >= PROBABILITY.likely:
             return model
         model = least

@@ -23,6 +23,7 @@ import numpy as np
 from mckibben.identification.diagnose.score import score, score_within
 from mckibben.identification.diagnose.wrong_entry import WrongEntry
 from mckibben.identification.fit.fitted_model import FittedModel
+from mckibben.identification.thresholds import PROBABILITY
 from mckibben.physics.effect import Effect
 
 _TINY = 1e-12
@@ -94,16 +95,9 @@ def log_odds(effect: Effect) -> float:
     return float(np.log(effect.prior.share / (1.0 - effect.prior.share)))
 
 
-#: Probability below which an effect is not called missing. An effect that is called missing by mistake costs
-#: less than one that is overlooked, because the next experiment shows it.
-LIKELY = 0.3
-#: Probability below which an effect is missing only perhaps: it is less likely than not.
-EVEN = 0.5
 #: Logistic regression of "the effect is really missing" on the logarithms of its size and part, fitted by
 #: `python -m tests.benchmarks.probabilities` to half of the cases; the other half shows how well it holds.
 _CONSTANT, _BY_SIZE, _BY_PART = 1.97, 1.17, 1.14
-#: Probability of an effect that is read from the data, without a fit that could mistake it for another one.
-_READ = 0.99
 
 
 @dataclass(frozen=True)
@@ -133,7 +127,7 @@ class Evidence:
     def probability(self) -> float:
         """Probability that one of the group is really missing."""
         if self.read:
-            return _READ
+            return PROBABILITY.read
         return self.share * self.loss.probability * self.known * self.entries_right
 
 
@@ -227,4 +221,7 @@ def none_likely(evidence: Collection[Evidence]) -> bool:
 
     Their probabilities count as independent: of two that each explain most of the error, one is missing.
     """
-    return bool(evidence) and float(np.prod([1.0 - item.probability for item in evidence])) > 1.0 - EVEN
+    return (
+        bool(evidence)
+        and float(np.prod([1.0 - item.probability for item in evidence])) > 1.0 - PROBABILITY.even
+    )

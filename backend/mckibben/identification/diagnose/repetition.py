@@ -21,29 +21,16 @@ import numpy as np
 
 from mckibben.identification.diagnose.score import effective_rows
 from mckibben.identification.diagnose.swept_rows import COORDINATES, FEWEST_ROWS, Coordinate, Over, SweptRows
+from mckibben.identification.thresholds import REPETITION
 
-_FALSE_ALARM = 1e-4  # chance of noise, over all periods tried, below which a repetition is told
-_SHARE = 0.2  # least share of the rest
-_PERIODS = 3.0  # fewest in the range
-_HOLDS = 0.5  # least share on the half that was left out, over that on all rows
-_SLOWER = 0.5  # a period twice as long or longer explains at most this much of it: else it is a smooth course
-_FIRST, _FAR = 1.0, 0.6  # cycles from which slower courses are looked at, and up to which share of the found
 _MOST_CYCLES = 600
 _GAPS = 2.5  # gaps between readings in the shortest period
 _GRID = 8  # cells in the shortest period
 _BETWEEN = 2.5  # chances between two independent frequencies, at each of which the best is taken
 _FINER = 4  # frequencies per independent one
 _BESIDE = 13  # exact periods tried around the best of the scan
-_DRIVEN = 0.75  # share of the power of what drives the test, in time
-_FASTER = 10.0  # than that a repetition in time is: multiples of what drives the test are no hum
-_MOVES = 1e-2  # share of its range: less is no change of a quantity within a record
-_THIRDS, _EVERYWHERE = 3, 0.2  # parts of the range; least share in each of them, over that on all rows
-_SHOWN = 2.0 / 3.0  # least share of the records, or sweeps, that the others predict
-_TURNS = 0.05  # way back, over the range, from which the motion has turned
 _REACHES = (0.1, 0.2, 0.4)  # ways within which a ringing fades to 37 %, over the longest sweep
 _PERIOD_BESIDE = np.linspace(0.94, 1.06, 13)  # periods that are compared, over the one that was found
-_LIKELIER = 4.0  # difference of log likelihoods from which one of the two courses is told
-_ALIKE = 0.9  # share over the best one, from which data do not tell the coordinates apart
 
 
 @dataclass(frozen=True)
@@ -105,7 +92,7 @@ def repetition(
     alike = {
         each.over: each.period
         for each in sorted(found, key=lambda each: each.share)
-        if each.over != best.over and each.share > _ALIKE * best.share
+        if each.over != best.over and each.share > REPETITION.alike * best.share
     }
     return replace(best, fades=_fades(rows, best), also=tuple(alike.items()))
 
@@ -116,7 +103,7 @@ def _fades(rows: SweptRows, found: Repetition) -> bool | None:
     since = np.empty(len(x))
     for label in np.unique(rows.record):
         inside = rows.record == label
-        since[inside] = _since_turn(x[inside], _TURNS * float(np.ptp(x)))
+        since[inside] = _since_turn(x[inside], REPETITION.turns * float(np.ptp(x)))
     after = np.isfinite(since)
     if np.count_nonzero(after) < FEWEST_ROWS:
         return None
@@ -136,7 +123,7 @@ def _fades(rows: SweptRows, found: Repetition) -> bool | None:
     steady, fading = left(x, np.inf), min(left(since, share * float(np.max(since))) for share in _REACHES)
     share = effective_rows(rows.left, rows.lines, ()) / len(rows.left)
     likelier = 0.5 * share * len(here) * log(steady / fading)
-    return None if abs(likelier) < _LIKELIER else likelier > 0.0
+    return None if abs(likelier) < REPETITION.likelier else likelier > 0.0
 
 
 @dataclass(frozen=True)
@@ -165,7 +152,7 @@ def _scans(rows: SweptRows, name: Coordinate) -> Iterator[_Scan]:
     if not span > 0.0:
         return
     cycles = min(float(_MOST_CYCLES), span / (_GAPS * max(_gap(x[group]) for group in groups)))
-    if cycles <= _PERIODS:
+    if cycles <= REPETITION.periods:
         return
     cells = int(np.ceil(_GRID * cycles)) + 1
     size = 1 << int(np.ceil(np.log2(_FINER * cells)))
@@ -221,25 +208,27 @@ def _gap(x: np.ndarray) -> float:
 
 def _judged(rows: SweptRows, scan: _Scan, tried: float) -> Repetition | None:
     """The best period of a scan, where it stands every test."""
-    fast = np.flatnonzero(scan.frequencies >= _PERIODS)
+    fast = np.flatnonzero(scan.frequencies >= REPETITION.periods)
     if not len(fast):
         return None
     place = fast[np.argmax(scan.shares[fast])]
     peak = float(scan.shares[place])
-    slow = (scan.frequencies >= _FIRST) & (scan.frequencies <= _FAR * scan.frequencies[place])
+    slow = (scan.frequencies >= REPETITION.first) & (
+        scan.frequencies <= REPETITION.far * scan.frequencies[place]
+    )
     before = (scan.frequencies >= scan.frequencies[place] - 1.0) & (np.arange(len(scan.shares)) < place)
     if (
-        peak < 0.5 * _SHARE
-        or np.any(scan.shares[slow] > _SLOWER * peak)
+        peak < 0.5 * REPETITION.share
+        or np.any(scan.shares[slow] > REPETITION.slower * peak)
         or np.any(scan.shares[before] > peak)  # it is still falling where the scan begins
     ):
         return None
     beside = scan.frequencies[place] + np.linspace(-0.5, 0.5, _BESIDE)
-    fits = [(_Fit.of(rows, scan, each), float(each)) for each in beside if each >= _PERIODS]
+    fits = [(_Fit.of(rows, scan, each), float(each)) for each in beside if each >= REPETITION.periods]
     fit, cycles = max(fits, key=lambda pair: pair[0].explained)
     square = float(rows.left @ rows.left)
     share, of_left = fit.explained / rows.whole, fit.explained / square
-    if share < _SHARE:
+    if share < REPETITION.share:
         return None
     labels = np.zeros(len(rows.left), dtype=np.intp) if scan.over != "time" else rows.record
     pairs = int(labels.max()) + 1
@@ -247,12 +236,14 @@ def _judged(rows: SweptRows, scan: _Scan, tried: float) -> Repetition | None:
     independent = effective_rows(rows.own - fit.values, rows.lines, ())
     chance = _BETWEEN * tried * _chance(share, independent, pairs)
     left_out = min(fit.left_out(rows, way) for way in _ways(rows, scan.over))
-    if chance > _FALSE_ALARM or left_out < _HOLDS * of_left:
+    if chance > REPETITION.false_alarm or left_out < REPETITION.holds * of_left:
         return None
     records = int(rows.record.max()) + 1  # of a map each row is one
     by_record = scan.over != "time" and 1 < records <= len(rows.parts)
     parts, shown = _shown(rows, fit, rows.record if by_record else rows.sweep)
-    if shown < _SHOWN * parts or not _is_everywhere(rows, scan, fit, _EVERYWHERE * of_left):
+    if shown < REPETITION.shown * parts or not _is_everywhere(
+        rows, scan, fit, REPETITION.everywhere * of_left
+    ):
         return None
     return Repetition(
         scan.over, scan.span / cycles, share, fit.amplitude, scan.grows,
@@ -358,10 +349,10 @@ def _shown(rows: SweptRows, fit: _Fit, parts: np.ndarray) -> tuple[int, int]:
 def _is_everywhere(rows: SweptRows, scan: _Scan, fit: _Fit, least: float) -> bool:
     """Whether each third of the range shows it: one bump is no repetition."""
     place = (scan.x - np.min(scan.x)) / max(float(np.ptp(scan.x)), 1e-300)
-    third = np.minimum((_THIRDS * place).astype(int), _THIRDS - 1)
+    third = np.minimum((REPETITION.parts * place).astype(int), REPETITION.parts - 1)
     error = (rows.left - fit.values) ** 2
-    squares = np.bincount(third, rows.left**2, minlength=_THIRDS)
-    return bool(np.all(np.bincount(third, error, minlength=_THIRDS) <= (1.0 - least) * squares))
+    squares = np.bincount(third, rows.left**2, minlength=REPETITION.parts)
+    return bool(np.all(np.bincount(third, error, minlength=REPETITION.parts) <= (1.0 - least) * squares))
 
 
 def _chance(share: float, rows: float, pairs: int) -> float:
@@ -393,9 +384,9 @@ def _is_driven(rows: SweptRows, period: float) -> bool:
             grid = np.linspace(time[inside[0]], time[inside[-1]], 2 * len(inside))
             line = np.interp(grid, time[inside], values[inside])
             line -= np.polynomial.Polynomial.fit(grid, line, 1)(grid)
-            if np.ptp(line) > _MOVES * np.ptp(values):
+            if np.ptp(line) > REPETITION.moves * np.ptp(values):
                 power = np.cumsum(np.abs(np.fft.rfft(line)) ** 2)
-                cycles = float(np.searchsorted(power, _DRIVEN * power[-1]))
-                if float(np.ptp(grid)) / period < _FASTER * cycles:
+                cycles = float(np.searchsorted(power, REPETITION.driven * power[-1]))
+                if float(np.ptp(grid)) / period < REPETITION.faster * cycles:
                     return True
     return False

@@ -8,8 +8,8 @@ with the mean square :math:`h_g` of fold g when it is left out, its share :math:
 k of free parameters, and the effective number of rows :math:`n_e`. The sum is averaged over the ways of
 folding. :math:`n_e` is below the number of rows because the residuals of an incomplete model are
 autocorrelated. A parameter at a bound of its plausible range, or one that the data cannot separate from
-others, costs `LEAST_SCORE`. The logarithm gives every fold the same weight: without it, an effect that grows
-with pressure would be judged by the highest pressure alone.
+others, costs `SCORE.least_score`. The logarithm gives every fold the same weight: without it, an effect that
+grows with pressure would be judged by the highest pressure alone.
 """
 
 from __future__ import annotations
@@ -19,20 +19,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from mckibben.identification.fit.fitted_model import FittedModel, counts
+from mckibben.identification.thresholds import SCORE
 
-#: Least reduction of the score by a better model: between "strong" (6) and "very strong" (10) evidence on
-#: the scale of Kass & Raftery (1995).
-LEAST_SCORE = 8.0
-#: Least relative reduction of the rms error by an additional parameter.
-LEAST_GAIN = 0.02
-#: The same where the error is within 15 % of the noise. The rest may only be the inexact form of a
-#: correct effect.
-LEAST_GAIN_AT_FLOOR = 0.05
-#: An error of at most this many times the noise has reached the noise, which is itself an estimate.
-AT_FLOOR = 1.15
 _ORDER = {"static": 0, "rate": 1, "dynamic": 1, "hysteretic": 2, "measurement": 3}
 _SIMPLER = 1e-2  # penalty per step of `_ORDER`; small, so that it decides ties only
-_BELOW_FLOOR = 0.5  # smallest error of a fold that counts, share of the noise; less is chance
 
 
 def effective_rows(residual: np.ndarray, sweeps: Sequence[np.ndarray], folds: Sequence[np.ndarray]) -> float:
@@ -59,7 +49,7 @@ def effective_rows(residual: np.ndarray, sweeps: Sequence[np.ndarray], folds: Se
 
 def score(fitted_model: FittedModel, *, rows: float, noise: float | None) -> float:
     """Score S as defined in the docstring of this module."""
-    floor = (_BELOW_FLOOR * (noise or 0.0)) ** 2 + 1e-300
+    floor = (SCORE.below_floor * (noise or 0.0)) ** 2 + 1e-300
     ways = [
         float(np.average(np.log(np.maximum(squares, floor)), weights=counts(labels)))
         for squares, labels in zip(fitted_model.fold_squares, fitted_model.folds, strict=True)
@@ -79,7 +69,7 @@ def score_within(fitted_model: FittedModel, *, rows: float, noise: float | None)
 def _penalty(fitted_model: FittedModel, rows: float) -> float:
     """Of free parameters, implausible ones and less simple kinds of effects."""
     free = len(fitted_model.free) * float(np.log(rows))
-    return free + LEAST_SCORE * fitted_model.implausible + _complexity(fitted_model)
+    return free + SCORE.least_score * fitted_model.implausible + _complexity(fitted_model)
 
 
 def _complexity(fitted_model: FittedModel) -> float:
@@ -92,6 +82,6 @@ def better(after: FittedModel, before: FittedModel, *, rows: float, noise: float
     if after.implausible > before.implausible:
         return False
     gain = 1.0 - after.rmse / before.rmse if before.rmse > 0.0 else 0.0
-    least = LEAST_GAIN_AT_FLOOR if before.rmse < AT_FLOOR * (noise or 0.0) else LEAST_GAIN
+    least = SCORE.least_gain_at_floor if before.rmse < SCORE.at_floor * (noise or 0.0) else SCORE.least_gain
     drop = score(before, rows=rows, noise=noise) - score(after, rows=rows, noise=noise)
-    return gain > least and drop > LEAST_SCORE
+    return gain > least and drop > SCORE.least_score

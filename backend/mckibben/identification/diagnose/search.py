@@ -17,25 +17,12 @@ from functools import partial
 import numpy as np
 
 from mckibben.identification.diagnose.extremes import reaching_farthest
-from mckibben.identification.diagnose.score import LEAST_SCORE, better, effective_rows, score, score_within
+from mckibben.identification.diagnose.score import better, effective_rows, score, score_within
 from mckibben.identification.diagnose.two_steps import two_steps_ahead
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.thresholds import SCORE, SEARCH
 from mckibben.physics.effect import Effect
-
-_BEAM = 4  # models kept in each round
-_FIRST = 6  # the same while nothing has proved better than the start: the half of a pair may look poor
-_TRIED = 8  # candidates fitted per model: those with the largest first-order gain
-_FLEXIBLE = 2  # effects tried in exchange for the sake of their further constants
-_PATIENCE = 2  # rounds without a better model after which the search stops; one where predictions are costly
-_ALIKE = 0.02  # share of the mean square; models whose residuals differ by less are merged
-_EXACTLY = 1e-4  # the same where effects that differ but little may lead on to different ones
-_DEEPEST = 7  # most effects added
-_NOTHING_LEFT = 1.05  # error over noise below which the search stops
-_RANG = 0.7  # error over that of the start model below which a single effect shows less noise
-_WITHIN = 1.15  # error over the best error above which a model is dropped near the noise
-_FAR = 1.5  # error over noise above which two steps are tried at once
-_OF_TWO = 0.75  # largest share of the mean square that they may leave; less gain may follow an unknown effect
 
 
 def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel]) -> FittedModel:
@@ -49,12 +36,12 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
     best, idle = root, 0
     # A simulation that rings seems to be noise: what an effect takes away was none.
     nearest = min(singles, key=lambda single: single.rmse, default=root)
-    if nearest.rmse < _RANG * root.rmse:
+    if nearest.rmse < SEARCH.rang * root.rmse:
         fitter.update_noise(nearest)
     if _at_floor(fitter, root):
         return root
     children = list(singles)
-    for _ in range(_DEEPEST):
+    for _ in range(SEARCH.deepest):
         each = {child.key: child for child in children}.values()
         children = [child for child in each if not child.lost and child.rmse < root.rmse]
         if not children:
@@ -66,8 +53,10 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
         if _at_floor(fitter, first) and better(first, best, rows=_rows(fitter, first), noise=fitter.noise):
             best = first
             break
-        beam = [with_further_constants(fitter, n, _examined(fitter, n, root)) for n in children[: 2 * _BEAM]]
-        wide = _FIRST if fitter.effort.thorough and best is root else _BEAM
+        beam = [
+            with_further_constants(fitter, n, _examined(fitter, n, root)) for n in children[: 2 * SEARCH.beam]
+        ]
+        wide = SEARCH.first if fitter.effort.thorough and best is root else SEARCH.beam
         beam = _different(beam)[:wide]
         leader = min(
             beam,
@@ -86,17 +75,17 @@ def search(fitter: Fitter, root: FittedModel, *, singles: Sequence[FittedModel])
         if better(leader, best, rows=_rows(fitter, leader), noise=fitter.noise):
             best, idle = leader, 0
         costly = not fitter.effort.thorough and fitter.near_floor(best)
-        if idle >= (1 if costly else _PATIENCE) or _at_floor(fitter, best):
+        if idle >= (1 if costly else SEARCH.patience) or _at_floor(fitter, best):
             break
         if fitter.near_floor(best):  # a model far above the noise cannot become the best any more
-            beam = [fitted_model for fitted_model in beam if fitted_model.rmse < _WITHIN * best.rmse]
+            beam = [fitted_model for fitted_model in beam if fitted_model.rmse < SEARCH.within * best.rmse]
         children = []
         for fitted_model in beam:
             inside = set(fitted_model.fit_model.ids)
             others = [effect for effect in fitter.candidates if effect.id not in inside]
             children += [
                 fitter.adding(fitted_model, effect)
-                for effect in fitter.promising(fitted_model, others)[: min(_TRIED, fitter.effort.tried)]
+                for effect in fitter.promising(fitted_model, others)[: min(SEARCH.tried, fitter.effort.tried)]
             ]
     best = _two_steps_on(fitter, _polished(fitter, best, root), root)
     best = _with_fewer_effects(fitter, best, root)
@@ -216,7 +205,7 @@ def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedMod
     """Drop effects that are not needed and exchange effects for better ones, until nothing changes."""
     start = set(root.fit_model.ids)
     best = lean(fitter, best, root)
-    for _ in range(_DEEPEST):
+    for _ in range(SEARCH.deepest):
         rows = _rows(fitter, best)
         before = best
         for effect_id in best.fit_model.ids:
@@ -231,9 +220,9 @@ def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedMod
                 continue
             inside = set(best.fit_model.ids)
             others = [effect for effect in fitter.candidates if effect.id not in inside]
-            tried = fitter.promising(less, others)[:_BEAM]
+            tried = fitter.promising(less, others)[: SEARCH.beam]
             if fitter.effort.thorough:
-                tried += [e for e in fitter.flexible(less, others, _FLEXIBLE) if e not in tried]
+                tried += [e for e in fitter.flexible(less, others, SEARCH.flexible) if e not in tried]
             swaps = [exchanged(fitter, less, effect) for effect in tried]
             swaps = [
                 lean(fitter, fitted_model, root) if _as_good(fitted_model, best) else fitted_model
@@ -246,7 +235,7 @@ def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedMod
                 key=lambda fitted_model: score(fitted_model, rows=rows, noise=fitter.noise),
                 default=best,
             )
-            if score(candidate, rows=rows, noise=fitter.noise) < here - LEAST_SCORE:
+            if score(candidate, rows=rows, noise=fitter.noise) < here - SCORE.least_score:
                 best = candidate
                 break
         if best is before:
@@ -263,7 +252,7 @@ def _with_other_constants(fitter: Fitter, best: FittedModel, root: FittedModel) 
     value = partial(score, rows=_rows(fitter, best), noise=fitter.noise)
     anew = [m for m in _chosen_anew(fitter, best, root) if m.implausible <= best.implausible]
     other = min(anew, key=value, default=best)
-    return lean(fitter, other, root) if value(other) < value(best) - LEAST_SCORE else best
+    return lean(fitter, other, root) if value(other) < value(best) - SCORE.least_score else best
 
 
 def _with_fewer_effects(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
@@ -277,9 +266,9 @@ def _with_fewer_effects(fitter: Fitter, best: FittedModel, root: FittedModel) ->
     for model in sorted(fitter.known.values(), key=lambda each: each.rmse, reverse=True):
         effects = frozenset(model.fit_model.ids)
         fewer = start < effects and len(effects) < len(best.fit_model.ids)
-        if fewer and model.implausible <= best.implausible and model.rmse < _WITHIN * best.rmse:
+        if fewer and model.implausible <= best.implausible and model.rmse < SEARCH.within * best.rmse:
             nearest[effects] = model
-    models = sorted(nearest.values(), key=lambda each: each.rmse)[:_BEAM]
+    models = sorted(nearest.values(), key=lambda each: each.rmse)[: SEARCH.beam]
     value = partial(score, rows=_rows(fitter, best), noise=fitter.noise)
     return min([best, *(lean(fitter, model, root) for model in models)], key=value)
 
@@ -291,10 +280,12 @@ def _two_steps_on(fitter: Fitter, best: FittedModel, root: FittedModel) -> Fitte
     model there leaves out groups at least as well; half of the evidence is the error within the data.
     """
     start = set(root.fit_model.ids)
-    while best is not root and fitter.effort.thorough and fitter.noise and best.rmse > _FAR * fitter.noise:
+    while (
+        best is not root and fitter.effort.thorough and fitter.noise and best.rmse > SEARCH.far * fitter.noise
+    ):
         rows = _rows(fitter, best)
         value = partial(score, rows=rows, noise=fitter.noise)
-        limit = value(best) + LEAST_SCORE
+        limit = value(best) + SCORE.least_score
         near = [
             model
             for model in fitter.known.values()
@@ -302,16 +293,16 @@ def _two_steps_on(fitter: Fitter, best: FittedModel, root: FittedModel) -> Fitte
             and model.implausible <= best.implausible
             and value(model) <= limit
         ]
-        near = _different(sorted([best, *near], key=value), _EXACTLY)[: 2 * _BEAM]
+        near = _different(sorted([best, *near], key=value), SEARCH.exactly)[: 2 * SEARCH.beam]
         anew = [other for model in near for other in _chosen_anew(fitter, model, root)]
         near += [model for model in anew if value(model) <= limit]
-        near = _different(sorted(near, key=value), _EXACTLY)[: 3 * _BEAM]
+        near = _different(sorted(near, key=value), SEARCH.exactly)[: 3 * SEARCH.beam]
         ahead = [lean(fitter, model, root) for model in two_steps_ahead(fitter, near)]
         ahead = [
             model
             for model in ahead
             if model.implausible <= best.implausible
-            and model.mean_square < _OF_TWO * best.mean_square
+            and model.mean_square < SEARCH.of_two * best.mean_square
             and value(model) <= value(best)
         ]
 
@@ -320,7 +311,7 @@ def _two_steps_on(fitter: Fitter, best: FittedModel, root: FittedModel) -> Fitte
             return 0.5 * (within + score(model, rows=rows, noise=fitter.noise))
 
         farther = min(ahead, key=evidence, default=best)
-        if evidence(farther) >= evidence(best) - LEAST_SCORE:
+        if evidence(farther) >= evidence(best) - SCORE.least_score:
             break
         fitter.update_noise(farther)
         best = _polished(fitter, farther, root)
@@ -338,10 +329,10 @@ def _chosen_anew(fitter: Fitter, model: FittedModel, root: FittedModel) -> list[
 
 
 def _as_good(fitted_model: FittedModel, best: FittedModel) -> bool:
-    return fitted_model.mean_square < (1.0 + _ALIKE) * best.mean_square
+    return fitted_model.mean_square < (1.0 + SEARCH.alike) * best.mean_square
 
 
-def _different(fitted_models: Sequence[FittedModel], alike: float = _ALIKE) -> list[FittedModel]:
+def _different(fitted_models: Sequence[FittedModel], alike: float = SEARCH.alike) -> list[FittedModel]:
     """The models without those that predict the same as an earlier one."""
     kept: list[FittedModel] = []
     for fitted_model in fitted_models:
@@ -358,4 +349,4 @@ def _rows(fitter: Fitter, fitted_model: FittedModel) -> float:
 
 
 def _at_floor(fitter: Fitter, fitted_model: FittedModel) -> bool:
-    return fitter.noise is not None and fitted_model.rmse <= _NOTHING_LEFT * fitter.noise
+    return fitter.noise is not None and fitted_model.rmse <= SEARCH.nothing_left * fitter.noise

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from mckibben.identification.diagnose.score import LEAST_GAIN, better, effective_rows
+from mckibben.identification.diagnose.score import better, effective_rows
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.thresholds import SCORE
 
 
 @dataclass(frozen=True)
@@ -45,7 +46,7 @@ def superfluous(fitter: Fitter, model: FittedModel, root: FittedModel) -> tuple[
             for name, less in without.items()
             if not less.lost
             and less.implausible <= model.implausible
-            and less.rmse <= (1.0 + LEAST_GAIN) * model.rmse
+            and less.rmse <= (1.0 + SCORE.least_gain) * model.rmse
             and not better(model, less, rows=rows, noise=fitter.noise)
         }
         if not spared:

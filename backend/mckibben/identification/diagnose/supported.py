@@ -8,8 +8,6 @@ from dataclasses import dataclass
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.needed import needed
 from mckibben.identification.diagnose.probability import (
-    EVEN,
-    LIKELY,
     Evidence,
     ModelWeights,
     known_beside,
@@ -20,6 +18,7 @@ from mckibben.identification.diagnose.score import effective_rows
 from mckibben.identification.diagnose.twins import Alternative
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
+from mckibben.identification.thresholds import PROBABILITY
 
 
 @dataclass(frozen=True)
@@ -51,7 +50,7 @@ def supported(
     unknown: float | None = None,
     enough: bool = True,
 ) -> Supported:
-    """The effects that the start model lacks, and those that are less likely than `LIKELY`.
+    """The effects that the start model lacks, and those that are less likely than `PROBABILITY.likely`.
 
     Where the model with them leaves noise alone, the likeliest is always called missing: something is. Beside
     a rest that no effect explains, an effect is called missing that is likelier there than not.
@@ -86,7 +85,11 @@ def supported(
             evidence.append(Evidence(name, group, share, lost, known))
     ordered = sorted(evidence, key=lambda item: item.probability)
     some = ordered[:-1] if enough else ordered
-    unlikely = [item for item in some if item.probability < (LIKELY if unknown is None else EVEN)]
+    unlikely = [
+        item
+        for item in some
+        if item.probability < (PROBABILITY.likely if unknown is None else PROBABILITY.even)
+    ]
     # Where the data decide nothing, the model keeps nothing that is not called missing.
     kept = len(unlikely) < len(evidence) or unknown is not None
     firm, steps, corrections = model, [], []

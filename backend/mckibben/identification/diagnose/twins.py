@@ -18,21 +18,8 @@ from mckibben.identification.fit.misfit import penalised
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.predict.specimens import SpecimensPredictor
+from mckibben.identification.thresholds import TWINS
 from mckibben.physics.effect import Effect
-
-#: Fitted predictions that differ by less than this share of the noise count as the same. An inexact
-#: functional form of a correct effect causes differences of this size.
-SAME = 0.5
-#: The same for an effect that can act as another one: it imitates it closely, with further constants.
-_IMITATED = 0.5 * SAME
-_COSINE = 0.99  # between sensitivities, above which they count as parallel
-_AS_GOOD = 1.05  # largest rmse of an exchange with parallel sensitivity, over that of the best model
-_HALVES, _SECONDS = 4, 2  # effects tried as the first of two in the place of one, and second ones of each
-_NEAR = 1.5  # error over that of the best model of an exchange whose own law may bring it there
-_TRIED = 8  # exchanges always fitted per effect
-_PROMISE = 0.3  # first-order gain, as a share of the largest one, from which further ones are fitted
-#: Difference of -2 log likelihood below which two models count as equally likely: three standard deviations.
-UNDECIDED = 9.0
 
 
 @dataclass(frozen=True)
@@ -72,17 +59,19 @@ def alternatives(fitter: Fitter, best: FittedModel, added: Sequence[str], noise:
         kept = _unfitted(fitter, best.fit_model.without(effect_id), less)
         for effect in _worth_fitting(fitter, less, others):
             fitted_model = exchanged(fitter, less, effect)
-            if fitted_model.rmse > _AS_GOOD * best.rmse:
+            if fitted_model.rmse > TWINS.as_good * best.rmse:
                 fitted_model = _in_its_place(fitter, kept, effect, fitted_model)
-            if _AS_GOOD * best.rmse < fitted_model.rmse < _NEAR * best.rmse:
+            if TWINS.as_good * best.rmse < fitted_model.rmse < TWINS.near * best.rmse:
                 fitted_model = _with_own_law(fitter, best, effect, fitted_model)
             difference = _difference(fitted_model, best, fitter.predictor) / noise
             cosine = _cosine(sensitivity, fitter.changes(less, effect))
-            parallel = abs(cosine) > _COSINE and fitted_model.rmse <= _AS_GOOD * best.rmse
+            parallel = abs(cosine) > TWINS.cosine and fitted_model.rmse <= TWINS.as_good * best.rmse
             excess = (fitted_model.mean_square - best.mean_square) / noise**2
-            if not (difference < SAME or parallel or rows * excess < UNDECIDED):
+            if not (difference < TWINS.same or parallel or rows * excess < TWINS.undecided):
                 continue
-            if difference < _IMITATED and _imitates(fitter, best, fitted_model, fitter.adding(less, effect)):
+            if difference < TWINS.imitated and _imitates(
+                fitter, best, fitted_model, fitter.adding(less, effect)
+            ):
                 continue
             equivalent.append(Alternative(effect_id, effect.id, difference, fitted_model))
         if fitter.effort.thorough and _beyond_declared(best, replaced):
@@ -152,12 +141,12 @@ def _by_two(
     others = [effect for effect in fitter.candidates if effect.id not in inside]
     ones = [(effect, exchanged(fitter, less, effect)) for effect in _worth_fitting(fitter, less, others)]
     pairs = []
-    for first, one in sorted(ones, key=lambda pair: pair[1].rmse)[:_HALVES]:
-        for second in fitter.promising(one, [e for e in others if e is not first])[:_SECONDS]:
+    for first, one in sorted(ones, key=lambda pair: pair[1].rmse)[: TWINS.halves]:
+        for second in fitter.promising(one, [e for e in others if e is not first])[: TWINS.seconds]:
             both = fitter.adding(one, second)
             excess = (both.mean_square - best.mean_square) / noise**2
             lean_enough = both.implausible <= best.implausible and len(both.free) <= len(best.free) + 1
-            if lean_enough and rows * excess < UNDECIDED:
+            if lean_enough and rows * excess < TWINS.undecided:
                 difference = _difference(both, best, fitter.predictor) / noise
                 pairs.append(Alternative(of, first.id, difference, both))
                 break
@@ -178,7 +167,8 @@ def _imitates(fitter: Fitter, best: FittedModel, other: FittedModel, declared: F
     rows = effective_rows(best.residual, fitter.predictor.sweeps, fitter.predictor.folds)
     excess = (declared.mean_square - best.mean_square) / fitter.noise**2
     refuted = (
-        rows * excess >= UNDECIDED and _difference(declared, best, fitter.predictor) >= SAME * fitter.noise
+        rows * excess >= TWINS.undecided
+        and _difference(declared, best, fitter.predictor) >= TWINS.same * fitter.noise
     )
     weights = [log_weight(model, rows=rows, noise=fitter.noise) for model in (other, best)]
     return refuted and weights[0] <= weights[1]
@@ -262,9 +252,11 @@ def _with(fitter: Fitter, fitted_model: FittedModel, corrections: Collection[str
 def _worth_fitting(fitter: Fitter, less: FittedModel, others: Sequence[Effect]) -> list[Effect]:
     """Effects in the place of a dropped one whose first-order gain is large, at least the first ones."""
     gains = fitter.gains(less, others)
-    least = _PROMISE * max(gains.values(), default=0.0)
+    least = TWINS.promise * max(gains.values(), default=0.0)
     ordered = sorted(others, key=lambda effect: -gains[effect.id])
-    return [effect for place, effect in enumerate(ordered) if place < _TRIED or gains[effect.id] >= least]
+    return [
+        effect for place, effect in enumerate(ordered) if place < TWINS.tried or gains[effect.id] >= least
+    ]
 
 
 def same_predictions(fitted_models: Sequence[tuple[str, FittedModel]], noise: float) -> dict[str, list[str]]:
@@ -280,7 +272,7 @@ def same_predictions(fitted_models: Sequence[tuple[str, FittedModel]], noise: fl
 
 def same(one: FittedModel, two: FittedModel, noise: float) -> bool:
     """Whether the predictions of two fitted models are the same within the noise."""
-    return bool(np.mean((one.residual - two.residual) ** 2) < (SAME * noise) ** 2)
+    return bool(np.mean((one.residual - two.residual) ** 2) < (TWINS.same * noise) ** 2)
 
 
 def _cosine(first: np.ndarray, second: np.ndarray) -> float:

@@ -23,11 +23,9 @@ import numpy as np
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter, between, gain, unexplained_by
 from mckibben.identification.predict.fit_model import free_numbers
+from mckibben.identification.thresholds import PAIRS
 from mckibben.physics.effect import Effect
 
-_FITTED = 12  # most pairs fitted
-_TOGETHER = 1.5  # least gain of a pair over that of its better step
-_LEAST = 0.05  # least gain of a step that counts for that, share of the sum of squares
 _DISTINCT = 1e-3  # share of a column beside the basis below which the free parameters do the same
 
 
@@ -61,7 +59,7 @@ def two_steps_ahead(fitter: Fitter, models: Sequence[FittedModel]) -> list[Fitte
         models: from which to go on.
     """
     pairs = sorted((pair for model in models for pair in _pairs(fitter, model)), key=lambda pair: pair.left)
-    return [fitted for pair in pairs[:_FITTED] for fitted in _fitted(fitter, pair)]
+    return [fitted for pair in pairs[: PAIRS.fitted] for fitted in _fitted(fitter, pair)]
 
 
 def _pairs(fitter: Fitter, model: FittedModel) -> Iterator[_Pair]:
@@ -72,7 +70,7 @@ def _pairs(fitter: Fitter, model: FittedModel) -> Iterator[_Pair]:
     for first, second in combinations(steps, 2):
         # The bounds only raise what is left, so the pairs that promise nothing without them are done with.
         columns = np.hstack([first.columns, second.columns])
-        least = _TOGETHER * max(alone[first], alone[second], _LEAST * whole)
+        least = PAIRS.together * max(alone[first], alone[second], PAIRS.least * whole)
         if gain(columns, basis, unexplained) <= least:
             continue
         left = _left([first, second], unexplained)

@@ -11,10 +11,7 @@ from collections.abc import Callable, Collection
 
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.fitter import Fitter
-
-_TOLD = 4.0  # difference of scores, two standard deviations, from which data tell a constant
-# The same as a ratio of errors: many rows seem to tell more than a form that is not quite right can.
-_ALIKE = 1.001
+from mckibben.identification.thresholds import USUAL
 
 
 def as_usual(
@@ -32,7 +29,7 @@ def as_usual(
         if best.fit_model.number(name) == usual:
             continue
         other = fitter.at_constant(best, name, usual)
-        alike = value(other) < value(best) + _TOLD or other.rmse < _ALIKE * best.rmse
+        alike = value(other) < value(best) + USUAL.told or other.rmse < USUAL.alike * best.rmse
         if alike and other.implausible <= best.implausible:
             best = fitter.known[other.key] = other
     return best

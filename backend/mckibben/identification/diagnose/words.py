@@ -11,20 +11,14 @@ from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.diagnosis import Diagnosis, Unfinished
 from mckibben.identification.diagnose.judgement import PUSHES
 from mckibben.identification.diagnose.judgement_words import shown_unit, undecided_text
-from mckibben.identification.diagnose.probability import EVEN, instead_of
+from mckibben.identification.diagnose.probability import instead_of
 from mckibben.identification.diagnose.repetition_words import repetition_text
-from mckibben.identification.diagnose.score import AT_FLOOR
 from mckibben.identification.diagnose.verdict import Status, is_force
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.residual.digits import brief
+from mckibben.identification.thresholds import PROBABILITY, SCORE, WORDS
 from mckibben.physics.effect import Effect
 
-_REFITTED = 0.98  # error over the error before, below which the refit of the start model is mentioned
-_WORTH_TELLING = 0.15  # share of the residual that depends on variables, above which it is mentioned
-_DIFFERENT = 2.0  # left-out specimen over left-out groups above which the specimens differ
-_MOST = 0.5  # share of the rest that repeats, from which the variables that it depends on are not told
-_MOSTLY_WHITE = 0.8  # share of white noise from which the rest is not told
-_SWINGS = 0.5  # periods over which noise stays in step, from which it swings
 _ROWS = 5  # rows that are listed
 _FEW = 3  # alternatives that are listed without grouping them
 _UNKNOWN_NOISE = (
@@ -85,7 +79,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
     level = ""
     if noise is not None and highest is not None and not scaled:
         level = f"{brief(noise)} {unit}"
-        if highest > AT_FLOOR * noise:
+        if highest > SCORE.at_floor * noise:
             level += " between neighbouring readings"
             if result.judgement is not None and result.judgement.undecided:
                 highest = noise  # the rest may be noise, or not
@@ -98,7 +92,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
         error = f"the error of {brief(after)} {unit}"
         if result.with_them is not None:
             error += " of the other rows"
-        elif after < _REFITTED * before:
+        elif after < WORDS.refitted * before:
             error += f" (with the numbers of the model refitted; before {brief(before)} {unit})"
         if doubted:
             return f"With the entries as stated no catalogued effect explains {error}."
@@ -110,7 +104,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
             return f"No effect is proved to be missing behind {error}. {_undecided(result)}"
         of_noise = f"is of the size of the noise ({level})" if level else "is noise"
         return f"Nothing is missing: {error} {of_noise}."
-    at_floor = highest is not None and after <= AT_FLOOR * highest
+    at_floor = highest is not None and after <= SCORE.at_floor * highest
     # A scaled error is a multiple of the noise already.
     floor = (
         "" if not level else f", the noise of the data ({level})" if at_floor else f"; the noise is {level}"
@@ -124,7 +118,7 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
         )
     falls = f"the error falls from {brief(before)} to {brief(after)} {unit}{floor}."
     text = f"Missing: {names}. With {these} {falls}"
-    if result.root.free and refitted < _REFITTED * before:
+    if result.root.free and refitted < WORDS.refitted * before:
         text = (
             f"Missing: {names}. The model's own numbers, refitted{_own_law(result, titles)}, lower the error "
             f"from {brief(before)} to {brief(refitted)} {unit}; with {these} the error falls to "
@@ -140,8 +134,8 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
         return f"{text} No catalogued effect explains the rest: {rest}. {where_to_look(result)}".rstrip()
     if result.judgement is not None and result.judgement.undecided:
         text += f" {_undecided(result)}"
-    unexplained = highest is not None and scale * result.best.rmse > AT_FLOOR * highest
-    if unexplained and _predictable(result) >= _WORTH_TELLING:
+    unexplained = highest is not None and scale * result.best.rmse > SCORE.at_floor * highest
+    if unexplained and _predictable(result) >= WORDS.worth_telling:
         text += f" Of the rest, {_structured(result)}."
     if result.alternatives:
         pairs = []
@@ -159,9 +153,9 @@ def sentence_of(result: Diagnosis, catalogue: Mapping[str, Effect]) -> str:
 def _why_more(result: Diagnosis) -> str:
     """Why the error is above the scatter of neighbouring readings although it is noise."""
     best = None if result.judgement is None else result.judgement.likeliest
-    if best is None or best.noise.white > _MOSTLY_WHITE:
+    if best is None or best.noise.white > WORDS.mostly_white:
         return "with the rows that are farther off than most"
-    if best.noise.second and best.noise.length > _SWINGS * best.noise.period:
+    if best.noise.second and best.noise.length > WORDS.swings * best.noise.period:
         return f"with what swings over about {best.noise.period:.0f} rows"
     return f"with what stays alike over about {max(best.noise.length, 1.0):.0f} rows"
 
@@ -369,7 +363,7 @@ def left_out_sentence(result: Diagnosis) -> str:
         errors = [f"each of the {len(errors)} to at most {brief(scale * worst.rmse)} {unit}"]
     text = f"Fitted to the other specimens alone, the model predicts {_joined(errors)}."
     groups = result.best.holdout_rmse
-    if worst.rmse > _DIFFERENT * max(groups, result.noise or 0.0):
+    if worst.rmse > WORDS.different * max(groups, result.noise or 0.0):
         text += (
             f" On left-out groups of the same ones it errs by {brief(scale * groups)} {unit}: they differ by "
             "more than the model says."
@@ -398,7 +392,7 @@ def _likely(result: Diagnosis, effect: str, titles: Mapping[str, str], *, first:
     if evidence is not None and evidence.read:
         return f"{title} (read from the data)"
     probability = 1.0 if evidence is None else evidence.probability
-    perhaps = "perhaps " if probability < EVEN else ""
+    perhaps = "perhaps " if probability < PROBABILITY.even else ""
     figure = f"{'probability ' if first else ''}{probability_text(probability)}"
     instead = [] if evidence is None else instead_of(result.context, evidence.group)
     if instead:
@@ -413,7 +407,7 @@ def where_to_look(result: Diagnosis) -> str:
     """
     if result.status != "unknown_effect" or (result.term is not None and not result.term.smooth):
         return ""
-    if _predictable(result) < _WORTH_TELLING or _mostly_repeats(result):
+    if _predictable(result) < WORDS.worth_telling or _mostly_repeats(result):
         return ""
     unit, scale = _unit_of(result)
     profiles = {profile.over: profile for profile in result.left_where}
@@ -440,12 +434,12 @@ def repeats(result: Diagnosis) -> str:
 def _rest(result: Diagnosis) -> str:
     """The variables that the last residual depends on, and what of it repeats."""
     if result.repetition is not None:
-        if _predictable(result) < _WORTH_TELLING or _mostly_repeats(result):
+        if _predictable(result) < WORDS.worth_telling or _mostly_repeats(result):
             return repeats(result)
         return f"{_structured(result, ' of it')}; {repeats(result)}"
     if result.judgement is not None and result.judgement.surface is None:
         return "there are too few rows to tell what it depends on"
-    if _predictable(result) < _WORTH_TELLING:
+    if _predictable(result) < WORDS.worth_telling:
         if result.term is not None and not result.term.smooth:
             return f"the proposed term takes {100.0 * result.term.share:.0f} % of it"
         return "it depends on no measured variable; repeat the run to see whether it recurs"
@@ -454,7 +448,7 @@ def _rest(result: Diagnosis) -> str:
 
 def _mostly_repeats(result: Diagnosis) -> bool:
     """Whether the repetition says more than the variables: a ripple depends on the contraction anyway."""
-    return result.repetition is not None and result.repetition.share >= _MOST
+    return result.repetition is not None and result.repetition.share >= WORDS.most
 
 
 def _structured(result: Diagnosis, of: str = "") -> str:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 
 from mckibben.identification.predict.reading_errors import AbsorbedError, absorbed_errors
+from mckibben.identification.thresholds import NOISE
 from mckibben.measurement.noise import CHI2_MEDIAN, SHORTEST_SWEEP, noise_floor
 
 if TYPE_CHECKING:
@@ -16,9 +17,7 @@ if TYPE_CHECKING:
     from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 
 _PLACE = ("pressure", "length", "load", "direction")  # coordinates of a scattered point
-_FEWEST = 30  # third differences; with fewer, near neighbours give the better estimate
 _NEIGHBOURS, _WIDE = 8, 16  # numbers of neighbours of the estimate and of its check
-_SAME = 1.25  # largest ratio of the estimates from 16 and from 8 neighbours
 _MOST_POINTS = 4000  # more are thinned
 _ROUNDING = 1e-9  # of full scale; smaller values are rounding errors
 _BY_ACCURACY = "the accuracy of the sensors and the scatter of the readings"
@@ -44,12 +43,12 @@ def neighbour_noise(values: np.ndarray, coordinates: np.ndarray) -> float | None
 
     spread = np.ptp(coordinates, axis=0)
     places = coordinates[:, spread > 0.0] / spread[spread > 0.0]
-    if len(values) < _FEWEST or not places.shape[1]:
+    if len(values) < NOISE.fewest or not places.shape[1]:
         return None
     chosen = np.unique(np.linspace(0, len(values) - 1, min(len(values), _MOST_POINTS)).astype(int))
     tree = KDTree(places)
     near, wide = (_beside_planes(values, places, chosen, tree, count) for count in (_NEIGHBOURS, _WIDE))
-    return near if wide < _SAME * near else None
+    return near if wide < NOISE.same * near else None
 
 
 def _beside_planes(
@@ -97,7 +96,7 @@ def channel_noise(
     sweeps = [sweep[inside[sweep]] for sweep in predictor.sweeps]
     differences = sum(len(rows) - 3 for rows in sweeps if len(rows) >= SHORTEST_SWEEP)
     coordinates = [predictor.inputs[name] for name in _PLACE if name in predictor.inputs]
-    if differences < _FEWEST and coordinates:
+    if differences < NOISE.fewest and coordinates:
         # Cycles that change with time, as a muscle that warms up, are smooth only beside those next to them.
         time = [[], *([[predictor.inputs["time"]]] if "time" in predictor.inputs else [])]
         found = [neighbour_noise(values[rows], np.column_stack([*coordinates, *each])[rows]) for each in time]

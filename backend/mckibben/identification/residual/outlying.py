@@ -35,27 +35,19 @@ from mckibben.identification.residual.surface import (
     surface_variables,
     values_of,
 )
+from mckibben.identification.thresholds import ROWS
 
-_SHARE = 0.05  # of rows that may be anything, before any is seen
-_PER_ROW = 1.0  # log evidence that each row set aside has to gain: e times likelier than with it
 # Log evidence that the search of another surface is given at most, and for each row set aside.
 _FURTHER, _FURTHER_PER_ROW = 4.0, 2.0
-_SURFACE_PAYS = 3.0  # log evidence from which a surface is there: 20 times likelier than none
-_FEWEST_ROWS = 8  # below, nothing can be said
 _PART, _MOST, _MOST_OF_MANY, _MANY = 4, 12, 20, 1000  # candidates: n/4, at most 12, of 1000 rows and more 20
 _LEVERAGE = 0.999  # of a row that determines a constant alone, so that it fits by itself
 _ALIKE = 1e-7  # singular value of the normalised Jacobian below which a direction is no constant
 _ROUNDING = 1e-9  # of the range; smaller residuals are rounding errors
 _PAIR = 5  # functions of each variable of a pair, with which a surface costs little
-_CHANCE = 0.05  # probability that rows anywhere lie at any of the places, below which the place tells
 # Noise that grows with the reading: its logarithm over that of the size of the prediction, from logarithms of
 # the residual, whose standard deviation is 1.11 for normal noise. Few rows that do not fit change it little.
 _LOG_SCATTER = 1.11
-_GROWS = 3.0  # standard errors of the slope from which the noise grows
-_STEEPEST = 1.0  # slope of noise in proportion to the reading
 _LEAST_SIZE = 0.05  # of the largest prediction; the noise of smaller ones is that of this one
-_BESIDE = 3  # rows from a row that does not fit to the next one, up to which both are in a row
-_MANY_LEVELS = 0.5  # of the rows; with more levels a variable has no places that rows share
 
 Kind = Literal[
     "after a turn", "before a turn", "first of a sweep", "last of a sweep", "in a row", "sweep", "level"
@@ -135,7 +127,7 @@ def outlying_of(fitted: Fitted, predictor: Predictor) -> Outlying:
     best = NOTHING_OUTLYING
     for channel in predictor.channels:
         rows = values_of(fitted, channel)
-        if fitted.lost or len(rows) < _FEWEST_ROWS:
+        if fitted.lost or len(rows) < ROWS.fewest:
             continue
         variables, time = surface_variables(fitted, predictor, rows)
         if time is None:
@@ -221,7 +213,7 @@ class _Evidence:
 
     @property
     def pays(self) -> bool:
-        return self.beside > self.without + _SURFACE_PAYS
+        return self.beside > self.without + ROWS.surface_pays
 
 
 @dataclass(frozen=True, eq=False)
@@ -273,7 +265,7 @@ class _Table:
     def most_candidates(self) -> int:
         """At most a quarter of the rows, and as many as leave two degrees of freedom."""
         most = _MOST if self.rows < _MANY else _MOST_OF_MANY
-        if self.rows < _FEWEST_ROWS:
+        if self.rows < ROWS.fewest:
             return 0
         return max(min(most, self.rows // _PART, self.rows - self.constants - 2), 0)
 
@@ -311,13 +303,13 @@ class _Table:
         size = size - np.mean(size)
         spread = float(np.sqrt(np.sum(size**2)))
         rest = np.log(np.maximum(np.abs(rest), _ROUNDING * self.span) + 1e-300)
-        if not spread > 0.0 or self.rows < _FEWEST_ROWS:
+        if not spread > 0.0 or self.rows < ROWS.fewest:
             return None
         slope = float(size @ (rest - np.mean(rest))) / spread**2
         scatter = max(_LOG_SCATTER, float(np.std(rest - slope * size)))
-        if slope * spread < _GROWS * scatter:
+        if slope * spread < ROWS.grows * scatter:
             return None
-        return np.exp(min(slope, _STEEPEST) * size)
+        return np.exp(min(slope, ROWS.steepest) * size)
 
     def rest(self) -> np.ndarray:
         """Residual over its deviation by constants and surface that are fitted to it, shape (rows,)."""
@@ -375,7 +367,9 @@ class _Table:
         moved = -basis.T @ gone
         square = self.square - float(gone @ gone) - float(moved @ inverse @ moved)
         square = max(square, count * (_ROUNDING * self.span) ** 2)
-        odds = len(out) * np.log(_SHARE / (2.0 * self.span)) + (self.rows - len(out)) * np.log1p(-_SHARE)
+        odds = len(out) * np.log(ROWS.share / (2.0 * self.span)) + (self.rows - len(out)) * np.log1p(
+            -ROWS.share
+        )
         odds += float(np.sum(self.log_noise[out]))
         fixed = odds - 0.5 * float(np.linalg.slogdet(kept)[1])
         without = fixed - 0.5 * count * (np.log(2.0 * np.pi * square / count) + 1.0)
@@ -399,7 +393,7 @@ class _Table:
         found = [self.first]
         best = 0
         for count in range(1, len(order) + 1):
-            enough = found[best].best + _PER_ROW * (count - best)
+            enough = found[best].best + ROWS.per_row * (count - best)
             further = _FURTHER + _FURTHER_PER_ROW * (count - best)
             found.append(self.evidence(order[:count], found[-1], enough - further))
             if found[count].best > enough:
@@ -446,7 +440,7 @@ def common_place(
         places.append(("in a row", "", np.nan, beside, 1))
     for name, values in variables.items():
         count = levels_of(values)
-        if name == "direction" or not 1 < count <= _MANY_LEVELS * len(values):
+        if name == "direction" or not 1 < count <= ROWS.many_levels * len(values):
             continue
         near = np.abs(values - values[named[0]]) <= 1e-3 * float(np.ptp(values))
         places.append(("level", name, float(values[named[0]]), set(np.flatnonzero(near).tolist()), count))
@@ -460,7 +454,7 @@ def common_place(
             found.append(
                 Place(kind, name, value, len(wanted), len(inside), float(min(kinds * ways * odds, 1.0)))
             )
-    found = [place for place in found if place.chance < _CHANCE]
+    found = [place for place in found if place.chance < ROWS.chance]
     # Rows in a row are one event each time, wherever it is.
     return min(found, key=lambda place: (place.kind != "in a row", place.chance), default=None)
 
@@ -471,14 +465,14 @@ def _neighbours(named: set[int], sweeps: Sequence[np.ndarray]) -> set[int]:
     for sweep in sweeps:
         inside = np.flatnonzero(np.isin(sweep, list(named)))
         for before, after in pairwise(inside):
-            if after - before <= _BESIDE:
+            if after - before <= ROWS.beside:
                 found.update(sweep[before : after + 1].tolist())
     return found
 
 
 def _odds_of_neighbours(named: int, rows: int) -> float:
     """Bound of the probability that each of some rows anywhere has another one beside it."""
-    return float((2 * _BESIDE * named / rows) ** -(-named // 2))
+    return float((2 * ROWS.beside * named / rows) ** -(-named // 2))
 
 
 def _odds(named: int, inside: int, rows: int) -> float:

@@ -27,8 +27,6 @@ import numpy as np
 from mckibben.identification.predict.predictor import Predictor
 from mckibben.identification.residual.profiles import variables_of
 from mckibben.identification.residual.surface import (
-    FEWEST_ROWS,
-    PER_NUMBER,
     Fitted,
     Surface,
     foldings_of,
@@ -40,6 +38,7 @@ from mckibben.identification.residual.surface import (
     ways_of,
     within_others,
 )
+from mckibben.identification.thresholds import SURFACE
 
 _VARIABLES = ("pressure", "contraction", "load")  # of a polynomial, the first two that change
 _ORDERS = 3, 5  # highest powers of the first and the second variable
@@ -96,7 +95,12 @@ def plain_rivals(fitted: Fitted, predictor: Predictor) -> list[Rival]:
     """The polynomial, and for loops the operator with plays; none for runs and for less than twenty rows."""
     counted = np.ones(len(predictor.measured), bool) if predictor.aside is None else ~predictor.aside
     rows = np.flatnonzero(counted)
-    if predictor.kind == "transient" or len(predictor.channels) > 1 or len(rows) < FEWEST_ROWS or fitted.lost:
+    if (
+        predictor.kind == "transient"
+        or len(predictor.channels) > 1
+        or len(rows) < SURFACE.fewest
+        or fitted.lost
+    ):
         return []
     known = variables_of(predictor, fitted.fit_model)
     variables = {name: known[name] for name in _VARIABLES if name in known}
@@ -196,7 +200,7 @@ class _Plain:
         found = {}
         for powers in self.candidates:
             used = np.array(powers)
-            if PER_NUMBER * len(used) > min(count for *_, count in parts):
+            if SURFACE.per_number * len(used) > min(count for *_, count in parts):
                 continue
             square = rows = 0.0
             for normal, right, inside, _ in parts:

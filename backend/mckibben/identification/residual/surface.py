@@ -29,8 +29,8 @@ from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.identification.residual.correlated import Chain, Noise, Ways, tried_noises
 from mckibben.identification.residual.profiles import variables_of
+from mckibben.identification.thresholds import SURFACE
 
-FEWEST_ROWS = 20  # below, a surface says nothing: 17 rows of a joint gave no gain whatever was hidden
 _MOST_ROWS = 2000  # for amplitudes, lengths and noise; more rows are thinned evenly
 
 _EDGE = 1.5  # c: the basis ends half a half-width beyond the rows, where it would be 0
@@ -47,7 +47,6 @@ _PAIR, _FINE, _LEVEL, _SIGNED, _SIGNED_LEVEL, _PLAY = 8, 30, 12, 20, 8, 5
 _WITH_PLAY = 3  # functions of the level that a play goes with
 _MOVING_PAIR = 6  # functions of a pair in a transient
 _LEVELS = 12  # levels of a swept variable from which a fine block pays
-_FEWEST_OF_A_WAY = 4  # rows of either direction of motion, from which its sign is a variable
 _PLAYS = (0.03, 0.1, 0.25)  # half widths of the plays, share of the range of their variable
 _LAGS = (0.02, 0.06, 0.2, 0.6, 2.0)  # s; times of the lagged variables of a transient
 
@@ -60,11 +59,9 @@ _MAIN = (
     "command",
 )  # no surface beyond their range
 _BESIDE = 1e-3  # of the range; so far beyond the other rows is still within
-_FEWEST_FOLDS = 3  # groups with rows inside; with less the gain has no interval
 _BLOCKS, _BLOCK_FOLDS = 40, 8  # short blocks of each run, left out in turn in so many folds
 _DRAWS, _SEED = 2000, 0  # of the bootstrap over groups
 _INTERVAL = (0.05, 0.95)
-_MATTERS = 0.02  # share of the surface below which a channel is not named
 
 _AMPLITUDES = np.geomspace(1e-6, 1e4, 31)  # variance of the effect over that of the noise
 _ROUGHNESSES = (0.2, 0.7)  # lengths of the processes whose columns are tried, of variables in -1 ... 1
@@ -112,10 +109,6 @@ class Fitted(Protocol):
         ...
 
 
-#: Rows for each number of a model without physics, at least.
-PER_NUMBER = 2
-
-
 @dataclass(frozen=True, eq=False)
 class Surface:
     """A free surface on the residual of a model.
@@ -154,7 +147,7 @@ class Surface:
     @property
     def sparing(self) -> bool:
         """Whether it has so few numbers that what it leaves says something: with more it interpolates."""
-        return PER_NUMBER * self.numbers <= len(self.values)
+        return SURFACE.per_number * self.numbers <= len(self.values)
 
 
 @dataclass(frozen=True, eq=False)
@@ -467,7 +460,7 @@ def ways_of(variables: Mapping[str, np.ndarray]) -> np.ndarray | None:
     if direction is None:
         return None
     sign = np.sign(direction)
-    both = min(np.count_nonzero(sign > 0.0), np.count_nonzero(sign < 0.0)) >= _FEWEST_OF_A_WAY
+    both = min(np.count_nonzero(sign > 0.0), np.count_nonzero(sign < 0.0)) >= SURFACE.fewest_of_a_way
     return sign if both else None
 
 
@@ -682,7 +675,7 @@ def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
     for channel in predictor.channels:
         rows = values_of(fitted, channel)
         counted += len(rows)
-        if len(rows) < FEWEST_ROWS or fitted.lost or not np.any(fitted.residual[rows]):
+        if len(rows) < SURFACE.fewest or fitted.lost or not np.any(fitted.residual[rows]):
             square += float(np.sum(fitted.residual[rows] ** 2))
             continue
         blocks, edges = _blocks_of(fitted, predictor, rows)
@@ -718,7 +711,7 @@ def surface_of(fitted: Fitted, predictor: Predictor) -> Surface | None:
         ),
         values=values,
         deviations=deviations,
-        variables=tuple((name, share / whole) for name, share in order if share > _MATTERS * whole),
+        variables=tuple((name, share / whole) for name, share in order if share > SURFACE.matters * whole),
     )
 
 
@@ -809,7 +802,7 @@ class _Way:
     def gain(self) -> float:
         """1 - MSE(model + surface)/MSE(model) over the rows inside."""
         before, after = self._squares
-        if len(before) < _FEWEST_FOLDS:
+        if len(before) < SURFACE.fewest_groups:
             return float("nan")
         return 1.0 - float(np.sum(after)) / max(float(np.sum(before)), 1e-300)
 
@@ -817,14 +810,18 @@ class _Way:
     def left_out(self) -> float:
         """Rms over the rows inside, with the surface."""
         some = self._squares[1]
-        return float(np.sqrt(np.sum(some) / np.sum(self.inside))) if len(some) >= _FEWEST_FOLDS else np.nan
+        return (
+            float(np.sqrt(np.sum(some) / np.sum(self.inside)))
+            if len(some) >= SURFACE.fewest_groups
+            else np.nan
+        )
 
     @cached_property
     def interval(self) -> tuple[float, float]:
         """90 % interval of the gain."""
         before, after = self._squares
         groups = len(before)
-        if groups < _FEWEST_FOLDS:
+        if groups < SURFACE.fewest_groups:
             return float("nan"), float("nan")
         drawn = np.random.default_rng(_SEED).integers(0, groups, (_DRAWS, groups))
         gains = 1.0 - after[drawn].sum(axis=1) / np.maximum(before[drawn].sum(axis=1), 1e-300)
@@ -892,7 +889,7 @@ def likelihood_ratio(fitted: Fitted, predictor: Predictor) -> float:
     largest = 0.0
     for channel, channel_lines in zip(predictor.channels, predictor.noise_lines, strict=True):
         rows = values_of(fitted, channel)
-        if len(rows) < FEWEST_ROWS or fitted.lost or not np.any(fitted.residual[rows]):
+        if len(rows) < SURFACE.fewest or fitted.lost or not np.any(fitted.residual[rows]):
             continue
         blocks, _ = _blocks_of(fitted, predictor, rows)
         if not blocks:

@@ -20,11 +20,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-TERMS = 3  # most terms of a short proposal
-SMOOTH_TERMS, SMOOTH = 9, 0.8  # most terms of a description, and its largest error over that without it
-HALVED = 0.5  # largest error over the error without the term, on the folds left out
-_WORTH = 0.1  # least share by which a further term lowers the mean square of the folds left out
-_SIMPLER = 0.02  # a form of lower order is taken if its mean square is higher by at most this share
+from mckibben.identification.thresholds import TERM
+
 _CONTRACTION, _PRESSURE, _ORDER = 3, 2, 3  # highest powers, and their highest sum
 _BELLS, _WIDTH = 9, 1.2  # most bells over a variable, and their half width over the distance of two
 _FEWEST_LEVELS = 4  # of a variable with bells
@@ -107,7 +104,7 @@ def proposed_term(
     first = own.shape[1]
     chosen: list[int] = list(range(first))
     without = here = sums.squares(np.array([chosen], dtype=int))[0]
-    for _ in range(SMOOTH_TERMS if smooth else TERMS):
+    for _ in range(TERM.smooth_terms if smooth else TERM.terms):
         others = np.setdiff1d(np.arange(first, first + len(forms)), chosen)
         if not len(others):
             break
@@ -115,14 +112,14 @@ def proposed_term(
         # The mean over the ways of folding, each relative to its error without a term.
         size = np.mean(squares / without, axis=1)
         order = np.array([forms[n - first].order for n in others])
-        near = np.flatnonzero(size <= (1.0 + _SIMPLER) * np.min(size))
+        near = np.flatnonzero(size <= (1.0 + TERM.simpler) * np.min(size))
         best = near[np.lexsort((size[near], order[near]))[0]]
-        if size[best] > (1.0 - _WORTH) * np.mean(here / without):
+        if size[best] > (1.0 - TERM.worth) * np.mean(here / without):
             break
         chosen.append(int(others[best]))
         here = squares[best]
     left_out = float(np.sqrt(np.max(here / without)))
-    if len(chosen) == first or left_out > (SMOOTH if smooth else HALVED):
+    if len(chosen) == first or left_out > (TERM.smooth if smooth else TERM.halved):
         return None
     picked = [n - first for n in chosen[first:]]
     design = np.column_stack([columns[:, picked], own])
