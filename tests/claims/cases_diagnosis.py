@@ -567,7 +567,9 @@ def says_superfluous(*words: str) -> Rule:
             return False, f"names {', '.join(wrong)}"
         if one.status == "unknown_effect":
             return False, "unknown effect"
-        sentences = re.split(r"(?<=[.:;])\s|\n(?=[a-z])", one.text)
+        # A console breaks its lines anywhere: a line of its own is one only where the text says so.
+        texts = (one.text, " ".join(one.text.split()))
+        sentences = [each for text in texts for each in re.split(r"(?<=[.:;])\s|\n(?=[a-z])", text)]
         for sentence in sentences:
             flat = " ".join(sentence.split())
             if _SUPERFLUOUS.search(flat) and any(word.lower() in flat.lower() for word in words):

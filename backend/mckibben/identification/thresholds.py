@@ -255,6 +255,10 @@ class Rows:
     """Share of rows that may be anything, before any is seen."""
     per_row: float = 1.0
     """Log evidence that each row set aside has to gain: e times likelier than with it."""
+    beyond_noise: float = 8.0
+    """Log likelihood of the others, with noise that may be correlated, that it has to gain: a row that is
+    four standard deviations off.
+    """
     surface_pays: float = 3.0
     """Log evidence from which a surface is there: 20 times likelier than none."""
     fewest: int = 8

@@ -413,13 +413,9 @@ def _search(
     progress.share, progress.end = 0.45, 0.85
     best = search(fitter, root, singles=[fitted_model for _, fitted_model in fitted_singles])
     best = pruned(fitter, best, root)
-    fitter.noise, how = noise_of(predictor, best.residual, noise)
     # Simulated data have no noise: differences below their numerical resolution do not count.
     full_scale = float(np.max(np.abs(predictor.measured / predictor.scale)))
-    judgement = judged(best, predictor, fitter.noise)
-    if fitter.noise is not None and not judgement.structured:
-        # What is left may be noise, whatever neighbouring readings share: so much is asked of an effect.
-        fitter.noise = max(fitter.noise, best.rmse)
+    judgement, how = _judged(fitter, best, noise)
     level = max(fitter.noise or best.rmse, DIGITS * full_scale)
     progress.share, progress.end = 0.85, 0.95
     start_names = set(root.fit_model.ids)
@@ -433,14 +429,23 @@ def _search(
         fitter, lean, root, exchangeable, noise=level, unknown=unknown,
         enough=not (judgement.structured or judgement.undecided),
     )  # fmt: skip
+    if unknown is None and none_likely(likely.evidence):
+        # Noise may look so, too, where what the start model leaves is not proved to be more.
+        of_root = judged(root, predictor, noise_of(predictor, root.residual, noise)[0])
+        likely = likely if of_root.structured else likely.without_any(root)
     exchangeable = [other for other in exchangeable if other.of in {item.effect for item in likely.evidence}]
     path = path_to(fitter, start, root, likely.firm, gauge_zero)
     added = tuple(step.added for step in path if step.added)
-    refinements, corrections = refined(fitter, lean, searched, corrections)
+    refinements: list[tuple[str, FittedModel]] = []
+    base = likely.steps[-1][1] if likely.steps else likely.firm
+    if likely.evidence or likely.steps or searched is root:
+        refinements, corrections = refined(fitter, base, searched, corrections)
     kept = (*likely.steps, *refinements)
     path += tuple(PathStep(name, model, correction=True) for name, model in kept)
     corrections = (*likely.corrections, *corrections)
-    best = kept[-1][1] if kept else lean
+    best = kept[-1][1] if kept else likely.firm
+    if best is not searched:
+        judgement, how = _judged(fitter, best, noise)
     if any(step.fitted_model.lost for step in path):
         raise InputError(
             "no diagnosis can be made: the model stops before the end of a run with some of the effects that "
@@ -529,6 +534,16 @@ def _search(
         left_out=left_out_specimens(predictor, best) if isinstance(predictor, SpecimensPredictor) else (),
         none_likely=unlikely,
     )
+
+
+def _judged(fitter: Fitter, model: FittedModel, stated_noise: float | None) -> tuple[Judgement, str]:
+    """The judgement on a model, by the noise of what it leaves, and how that was obtained."""
+    fitter.noise, how = noise_of(fitter.predictor, model.residual, stated_noise)
+    judgement = judged(model, fitter.predictor, fitter.noise)
+    if fitter.noise is not None and not judgement.structured:
+        # What is left may be noise, whatever neighbouring readings share: so much is asked of an effect.
+        fitter.noise = max(fitter.noise, model.rmse)
+    return judgement, how
 
 
 def _so_far(begun: _Begun, limit: float) -> Diagnosis:

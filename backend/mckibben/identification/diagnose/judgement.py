@@ -9,7 +9,7 @@ do, or in the same places of several sweeps, is no noise. Rows that do not fit a
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeVar
@@ -20,10 +20,10 @@ from mckibben.identification.diagnose.repetition import Repetition, repetition
 from mckibben.identification.diagnose.swept_rows import Over
 from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.predictor import Predictor
-from mckibben.identification.residual.correlated import Noises, Weighed
+from mckibben.identification.residual.correlated import Noises, Weighed, log_likelihood
 from mckibben.identification.residual.outlying import NOTHING_OUTLYING, Outlying, outlying_of
 from mckibben.identification.residual.surface import Surface, likelihood_ratio, residual_without, surface_of
-from mckibben.identification.thresholds import JUDGED, SCORE
+from mckibben.identification.thresholds import JUDGED, ROWS, SCORE
 
 _NEAR = 0.1  # of the frequency that the noise swings with, within which that of the line is looked for
 PUSHES = "the force is below zero, and a muscle does not push"
@@ -163,7 +163,8 @@ class Judgement:
 def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Judgement:
     """The judgement on a fitted model.
 
-    Rows that do not fit are named where the model fits the others. Where a structure stays without them, it
+    Rows that do not fit are named where they are no noise either that may be correlated, and where the model
+    fits the others. Where a structure stays without them, it
     is the model that does not fit, and its worst rows are no accidents.
 
     Args:
@@ -171,7 +172,9 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
         predictor: the data.
         noise: of the scaled residual.
     """
-    found = _judged(model, predictor, noise, outlying_of(model, predictor))
+    outlying = outlying_of(model, predictor)
+    outlying = replace(outlying, rows=_beyond_noise(model, outlying.rows))
+    found = _judged(model, predictor, noise, outlying)
     rows = found.outlying.rows
     if rows and found.structured:
         without = predictor.setting_aside(rows)
@@ -186,6 +189,27 @@ def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Jud
         if _judged(rest, without, noise, NOTHING_OUTLYING).structured:
             return replace(found, outlying=NOTHING_OUTLYING)
     return found
+
+
+def _beyond_noise(model: FittedModel, rows: tuple[int, ...]) -> tuple[int, ...]:
+    """Those of some rows that each raise the likelihood of the others by much when they are set aside."""
+    jacobian, left = model.jacobian[:, model.inner], list(rows)
+
+    def likelihood(aside: Sequence[int]) -> float:
+        own = np.zeros((len(model.residual), len(aside)))
+        own[list(aside), np.arange(len(aside))] = 1.0
+        columns = np.hstack([jacobian, own])
+        numbers, *_ = np.linalg.lstsq(columns, model.residual, rcond=None)
+        return log_likelihood(columns, model.residual - columns @ numbers, model.noise_lines)
+
+    while left:
+        whole = likelihood(left)
+        gains = {row: whole - likelihood([other for other in left if other != row]) for row in left}
+        least = min(left, key=gains.__getitem__)
+        if gains[least] > ROWS.beyond_noise:
+            break
+        left.remove(least)
+    return tuple(left)
 
 
 def _judged(model: FittedModel, predictor: Predictor, noise: float | None, outlying: Outlying) -> Judgement:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from mckibben.identification.diagnose.corrections import Correction
 from mckibben.identification.diagnose.needed import needed
@@ -38,6 +38,15 @@ class Supported:
     steps: tuple[tuple[str, FittedModel], ...]
     corrections: tuple[Correction, ...]
     weights: ModelWeights
+
+    def without_any(self, root: FittedModel) -> Supported:
+        """The same where none of its effects is called missing, nor held by the model."""
+        further = tuple(
+            Correction(item.effect, root.rmse, self.firm.rmse, item.loss, share=item.share * item.known)
+            for item in self.evidence
+        )
+        dropped = tuple(replace(each, kept=False) for each in self.corrections)
+        return replace(self, firm=root, evidence=(), steps=(), corrections=(*further, *dropped))
 
 
 def supported(
