@@ -275,7 +275,9 @@ class Effect:
 
     @property
     def dry_friction(self) -> bool:
-        """Whether it is a law of the muscle's dry friction: odd, not zero however slow the motion is."""
+        """Whether it is a law of dry friction, of muscle or guide: odd, not zero however slow the motion is."""
+        if "guide" in self.slots:
+            return True
         slow = "friction" in self.slots and "direction" in self.wanted("friction")
         slow = slow or any(state.sliding for state in self.states)
         return self.family == "friction" and slow and "no_motion" in self.signature.zero_at
