@@ -275,7 +275,7 @@ class Effect:
 
     @property
     def dry_friction(self) -> bool:
-        """Whether it is a law of dry friction, of muscle or guide: odd, not zero however slow the motion is."""
+        """Whether it is dry friction, of muscle or guide: odd, not zero however slow the motion is."""
         if "guide" in self.slots:
             return True
         slow = "friction" in self.slots and "direction" in self.wanted("friction")

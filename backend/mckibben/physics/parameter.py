@@ -97,6 +97,8 @@ class Parameter:
             one is then not a sign of an implausible value.
         usual: the value that muscles mostly have; a diagnosis takes it where the data do not tell it.
             None = the default.
+        measured: range of the values that real muscles were found to have, where the bounds are wider: a fit
+            may go beyond it, and its value is implausible then.
         reference: whether it states for which muscle the other parameters hold; a search for the missing
             physics never frees it.
         across: whether it is a length across the muscle, which goes with its diameter.
@@ -119,6 +121,7 @@ class Parameter:
     natural: bool = False
     reference: bool = False
     usual: float | None = None
+    measured: tuple[float, float] | None = None
     across: bool = False
     with_force: bool = False
     default_at: float | None = None
@@ -180,5 +183,8 @@ class Parameter:
             raise ValueError(
                 f"parameter '{self.name}': default {self.default} is outside [{self.lower}, {self.upper}]"
             )
+        low, high = self.measured or (self.lower, self.upper)
+        if not self.lower <= low <= self.default <= high <= self.upper:
+            raise ValueError(f"parameter '{self.name}': measured range without default or beyond the bounds")
         if self.off is not None and not self.lower <= self.off <= self.upper:
             raise ValueError(f"parameter '{self.name}': off value {self.off} is outside its bounds")

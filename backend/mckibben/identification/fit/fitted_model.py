@@ -23,6 +23,7 @@ from mckibben.identification.residual.correlated import (
 )
 
 _NEAR_BOUND = 1e-6  # share of the range; nearer to a bound a parameter cannot move
+_BESIDE = 0.01  # of a range; so far beyond its end is still within
 _AT_BOUND = 1e-3  # share of the range; nearer to a bound a parameter counts as being at it
 _COLLINEAR = 3e-3  # singular value of the normalised Jacobian below which parameters are not separable
 _CUTOFF = 1e-13  # share of the largest singular value below which a direction is not determined
@@ -103,15 +104,18 @@ class FittedModel:
 
     @cached_property
     def implausible(self) -> int:
-        """Number of parameters that are at a bound or not separable from others; many where a run stopped."""
+        """Number of parameters at a bound, beyond what muscles were found to have, or not separable from
+        others; many where a run stopped.
+        """
         if self.lost:
             return _STOPPED
+        beyond = sum(p.measured is not None and not _within(p.start, p.measured) for p in self.free)
         inner = self.jacobian[:, ~self.at_bound & ~self.idle]
         if not inner.shape[1]:
-            return int(np.count_nonzero(self.at_bound))
+            return beyond + int(np.count_nonzero(self.at_bound))
         scale = np.linalg.norm(inner, axis=0)
         weak = np.linalg.svd(inner / np.where(scale > 0.0, scale, 1.0), compute_uv=False) < _COLLINEAR
-        return int(np.count_nonzero(self.at_bound) + np.count_nonzero(weak))
+        return beyond + int(np.count_nonzero(self.at_bound) + np.count_nonzero(weak))
 
     @cached_property
     def noises(self) -> list[list[Weighed]]:
@@ -192,6 +196,12 @@ class FittedModel:
     def holdout_rmse(self) -> float:
         """Root of `holdout_square`."""
         return float(np.sqrt(self.holdout_square))
+
+
+def _within(value: float, measured: tuple[float, float]) -> bool:
+    """Whether a value is in a range, up to a hundredth of its width beyond it."""
+    low, high = measured
+    return low - _BESIDE * (high - low) <= value <= high + _BESIDE * (high - low)
 
 
 def _over_decades(p: Free) -> bool:

@@ -178,6 +178,7 @@ def _free(effect: str, p: Parameter, value: float, bounds: tuple[float, float]) 
         off=p.off,
         usual=usual or None,
         natural=p.natural,
+        measured=p.measured,
     )
 
 
@@ -216,8 +217,9 @@ def free_geometry(muscle: Muscle, names: Iterable[str], tolerance: Mapping[str, 
 class Free:
     """A free parameter: name, start, bounds, SI unit, the value at which it has no effect, a usual change.
 
-    ``natural``: its bounds are those of its definition, such as 0 and 1 of a share. ``fixes``: constants of
-    effects that act exactly as it does, and so keep their values beside it.
+    ``natural``: its bounds are those of its definition, such as 0 and 1 of a share. ``measured``: the range
+    beyond which its value is implausible, where the bounds are wider. ``fixes``: constants of effects that
+    act exactly as it does, and so keep their values beside it.
     """
 
     name: str
@@ -228,6 +230,7 @@ class Free:
     off: float | None = None
     usual: float | None = None
     natural: bool = False
+    measured: tuple[float, float] | None = None
     fixes: frozenset[str] = frozenset()
 
     @property

@@ -99,6 +99,7 @@ EFFECT = Effect(
             description="Contraction of the cylindrical middle over that of the whole muscle; the value at "
             "high pressure if it depends on pressure.",
             off=1.0,
+            measured=(1.0, 2.5),
         ),
         Parameter(
             *("excess", "a_k", "1"),

@@ -50,6 +50,7 @@ EFFECT = Effect(
             source=_RANGE,
             description="Real over ideal force at high pressure.",
             off=1.0,
+            measured=(0.6, 1.05),
         ),
         Parameter(
             "threshold",
