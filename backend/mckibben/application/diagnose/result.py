@@ -22,7 +22,7 @@ from mckibben.application.muscle_summary import GeometrySummary
 from mckibben.facts.comparison import CHECK, NOISE
 from mckibben.facts.diagnosis import DIAGNOSIS
 from mckibben.facts.result import Number, Series, result_class
-from mckibben.identification.diagnose.diagnosis import NotTried
+from mckibben.identification.diagnose.stages import NotTried
 from mckibben.identification.diagnose.swept_rows import Coordinate, Over
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.identification.fit.comparison import ChannelMisfit, Correlation, ParameterTable, ParameterValue
