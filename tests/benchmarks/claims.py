@@ -6,8 +6,8 @@ The files come from `tests.claims.cases_diagnosis`; they are asked as a user of 
 a part of a name, such as ``null/``, ``effect/Coulomb`` or ``interval/``. A line shows what was said, what is
 true, and why the answer is wrong where it is. A table by kind ends it. *noise figure*: of the files with
 nothing hidden, whether the stated noise, from its lower to its upper end, holds the true one within a
-quarter. *comparison*: whether the error of the start model is the noise where it should be, and whether the
-residual is rightly said to look like noise. Intervals are the share of fitted
+quarter. *comparison*: whether the error of the start model is the noise where it should be, and whether its
+verdict is true. Intervals are the share of fitted
 constants whose truth lies within value +- 1.96 standard errors, wanted 0.90 to 0.98; constants without a
 standard error are counted apart. Thirty seeds of each noise, whatever ``--seeds`` says.
 
@@ -126,7 +126,7 @@ def compared(situation: Situation, folder: Path) -> Compared:
     path.write_text(situation.files[0])
     data = mk.read(path, **situation.options)
     found = mk.Model(**situation.muscle, effects=situation.effects).compare(data)
-    return Compared(float(found.rmse), bool(found.whiteness.white), str(found))
+    return Compared(float(found.rmse), found.verdict.status, str(found))
 
 
 def examined(situation: Situation) -> list[Line]:

@@ -362,10 +362,10 @@ class Said:
 
 @dataclass(frozen=True)
 class Compared:
-    """What a comparison with the start model says; ``white``: that the residual looks like noise."""
+    """What a comparison with the start model says; ``status``: of its verdict."""
 
     rmse: float
-    white: bool
+    status: str
     text: str
 
 
@@ -448,12 +448,15 @@ def the_effect(situation: Situation, said: list[Said]) -> Judgement:
 
 
 def the_comparison(situation: Situation, compared: Compared) -> Judgement:
-    """Where nothing is hidden the error is the noise and looks like it; elsewhere it does not."""
+    """Where nothing is hidden the error is the noise, and none else is proved; elsewhere it is not noise."""
     if situation.kind not in ("null", "true model"):
-        return (False, "says that the residual looks like noise") if compared.white else (True, "")
+        adequate = compared.status == "adequate"
+        return (False, "says that nothing is missing") if adequate else (True, "")
     if not 0.85 * situation.rms <= compared.rmse <= 1.15 * situation.rms:
         return False, f"error {compared.rmse:.4g}, noise {situation.rms:.4g}"
-    return (True, "") if compared.white else (False, "says that noise has structure")
+    periodic = "repeats every" in compared.text or "repeats " in compared.text
+    proved = compared.status == "structure_left" and not periodic
+    return (False, "says that noise has structure") if proved else (True, "")
 
 
 def unknown(situation: Situation, said: list[Said]) -> Judgement:

@@ -177,6 +177,8 @@ class Judged:
     """Median error over the noise from which they do."""
     pushed: float = 4.0
     """Standard deviations of the noise below zero from which a force is no pull."""
+    turning: float = 5.0
+    """Error over the noise from which a row at a reversal is off."""
     rounds: int = 3
     """Rounds in which rows are set aside."""
 

@@ -51,6 +51,8 @@ class Judgement:
         outlying: rows that do not fit.
         pushing: values of a force that is below zero by more than noise where the model's is not.
         sweep: rows of a usual sweep.
+        turning: number of rows at reversals, which are counted apart, that are far from all that the model
+            allows there.
         repeats: what is periodic in the residual beyond doubt: noise that swings in step, or what is the same
             over the length or the pressure in several sweeps; None without it.
     """
@@ -66,6 +68,7 @@ class Judgement:
     repeats: Repetition | None
     sweep: float
     pushing: tuple[int, ...] = ()
+    turning: int = 0
 
     @property
     def suspects(self) -> tuple[int, ...]:
@@ -146,6 +149,11 @@ class Judgement:
             fit = False, "rows do not fit beside the others"
         elif self.pushing:
             fit = False, PUSHES
+        elif self.turning:
+            fit = (
+                False,
+                f"{self.turning} of the rows at reversals, which are counted apart, lie off the model",
+            )
         if surface is None:
             white = gains = None, "there are fewer than twenty rows"
         elif not np.isfinite(surface.gain_low[0]):
@@ -226,6 +234,7 @@ def _judged(model: FittedModel, predictor: Predictor, noise: float | None, outly
         outlying=outlying,
         repeats=_repeats(model, predictor, surface),
         pushing=_pushing(model, predictor, noise),
+        turning=_turning(model, predictor, noise),
         sweep=float(np.median([len(sweep) for sweep in predictor.sweeps] or [len(model.residual)])),
     )
 
@@ -267,6 +276,14 @@ def _pushing(model: FittedModel, predictor: Predictor, noise: float | None) -> t
             found += rows[below & (model.residual[rows] < -JUDGED.pushed * noise)].tolist()
     counted = np.ones(len(model.residual), bool) if model.aside is None else ~model.aside
     return tuple(row for row in found if counted[row])
+
+
+def _turning(model: FittedModel, predictor: Predictor, noise: float | None) -> int:
+    """Number of rows at reversals that are far from all that the model allows there."""
+    reversals = predictor.at_reversals(model.fit_model)
+    if reversals is None or noise is None:
+        return 0
+    return int(np.count_nonzero(reversals.distance > JUDGED.turning * max(noise, model.rmse)))
 
 
 def _repeats(model: FittedModel, predictor: Predictor, surface: Surface | None) -> Repetition | None:

@@ -86,6 +86,7 @@ class StoppedRun:
 
 
 _MOST_MISSING = 20  # rows that are not compared, over which noise is followed
+_LISTED = 8  # rows that are listed
 _BEYOND_CHANCE = 3.0  # standard deviations of the noise from which a reading lies outside of a range
 
 
@@ -94,7 +95,8 @@ class Reversals:
     """Readings of force at which the motion turns.
 
     Dry friction holds or slides there, in either direction: the model allows every force between those of its
-    two branches. Such rows are counted apart, each by its distance from that range.
+    two branches, which are one without friction. Such rows are counted apart, each by its distance from that
+    range.
 
     Attributes:
         measured: shape (rows,), SI.
@@ -102,6 +104,7 @@ class Reversals:
         high: the greatest one.
         inputs: of the same rows, as those of `Predictor`, which may hold fewer.
         muscle_length: rest length of the muscle of each row [m].
+        rows: index of each row in its measurement.
     """
 
     measured: np.ndarray
@@ -109,6 +112,7 @@ class Reversals:
     high: np.ndarray
     inputs: Mapping[str, np.ndarray]
     muscle_length: np.ndarray
+    rows: np.ndarray
 
     @property
     def distance(self) -> np.ndarray:
@@ -116,19 +120,32 @@ class Reversals:
         return np.maximum(np.maximum(self.low - self.measured, self.measured - self.high), 0.0)
 
     def outside(self, noise: float | None) -> int:
-        """Number of readings farther outside than three standard deviations of the noise."""
+        """Number of readings farther outside than three standard deviations of the noise; without friction of
+        the model 0 where the noise is not known.
+        """
+        if noise is None and not self._rub:
+            return 0
         return int(np.count_nonzero(self.distance > _BEYOND_CHANCE * (noise or 0.0)))
 
+    @property
+    def _rub(self) -> bool:
+        """Whether the model has friction, so that there is a range."""
+        return bool(np.any(self.high > self.low))
+
     def sentence(self, noise: float | None) -> str:
-        """What they say of the model."""
+        """What they say of the model; empty where they fit a model without friction."""
         outside, rows = self.outside(noise), len(self.measured)
-        told = "all lie within it"
-        if outside:
-            told = f"{outside} lie outside of it, by up to {np.max(self.distance):.3g} N"
-        return (
-            f"{rows} rows at reversals are counted apart: dry friction may have any value of its range "
-            f"there; {told}"
+        farthest = np.argsort(-self.distance, kind="stable")[: min(outside, _LISTED)]
+        names = ", ".join(f"row {self.rows[row] + 1}" for row in np.sort(farthest))
+        more = f" and {outside - _LISTED} more" if outside > _LISTED else ""
+        off = f"by up to {np.max(self.distance):.3g} N: {names}{more}"
+        apart = (
+            f"{rows} rows at reversals are counted apart: dry friction may have any value of its range there"
         )
+        if self._rub:
+            return f"{apart}; {f'{outside} lie outside of it, {off}' if outside else 'all lie within it'}"
+        lie = "lies" if outside == 1 else "lie"
+        return f"{apart}; {outside} {lie} off the model, which has none, {off}" if outside else ""
 
     @staticmethod
     def together(parts: Sequence[Reversals]) -> Reversals | None:
@@ -146,6 +163,7 @@ class Reversals:
             joined(lambda part: part.high),
             {name: joined(lambda part, name=name: part.inputs[name]) for name in names},
             joined(lambda part: part.muscle_length),
+            joined(lambda part: part.rows),
         )
 
 

@@ -231,7 +231,7 @@ class QuasistaticPredictor(Predictor):
     def at_reversals(self, fit_model: FitModel) -> Reversals | None:
         """As of the base class: the range lies between the forces of both directions of motion."""
         rows, task = self.task.reversing, self.task
-        if rows is None or task.channel != "force" or not any(map(rubs, fit_model.effects)):
+        if rows is None or task.channel != "force":
             return None
         at_once = _at_once(fit_model)
         state = self._evaluation.state(at_once)
@@ -246,6 +246,7 @@ class QuasistaticPredictor(Predictor):
             high=np.maximum(*ends)[rows],
             inputs={name: values[rows] for name, values in {**task.state, **time}.items()},
             muscle_length=np.full(int(np.count_nonzero(rows)), float(fit_model.muscle.nominal_length)),
+            rows=task.rows[rows],
         )
 
     def lost(self, fit_model: FitModel) -> tuple[int, int]:
