@@ -57,7 +57,7 @@ def test_a_limit_that_ends_the_second_look_keeps_the_first(
     from mckibben.identification.fit.fitter import CancelledError
     from mckibben.simulation.outcome import Outcome
 
-    begin, looks = diagnosis._begin, []
+    begin, looks = diagnosis.prepare, []
 
     def timed(*given: object, **more: object) -> object:
         looks.append(given)
@@ -65,7 +65,7 @@ def test_a_limit_that_ends_the_second_look_keeps_the_first(
             raise CancelledError(Outcome.TIMED_OUT)
         return begin(*given, **more)  # type: ignore[arg-type]
 
-    monkeypatch.setattr(diagnosis, "_begin", timed)
+    monkeypatch.setattr(diagnosis, "prepare", timed)
     found = model().diagnose(mk.read(spoilt(tmp_path / "loops.csv", {100: 60.0})))
     assert len(looks) == 2
     assert found.suspect_rows == []

@@ -57,8 +57,26 @@ def test_a_reading_beyond_both_branches_is_told(at: float, beyond: float) -> Non
 def test_without_dry_friction_nothing_is_said_of_a_range() -> None:
     _, data, _ = loops(0.0)
     found = mk.Model(**BRAID, effects={}).compare(data)
-    assert found.reversals is None
+    assert found.reversals is not None
+    assert found.reversals.outside == 0  # friction is missing everywhere, and no more there
     assert not any("reversals" in message for message in found.messages)
+
+
+def test_rows_at_reversals_that_lie_off_a_model_without_friction_are_named_and_no_proof_holds() -> None:
+    _, data, places = loops(0.0)
+    columns = {name: np.array(values) for name, values in data.columns.items() if name != "group"}
+    scatter = np.random.default_rng(5).normal(size=len(columns["force"]))
+    columns["force"] = truth(columns["pressure"], 0.3 - columns["displacement"]) + scatter
+    columns["force"][places] += 40.0
+    found = mk.Model(**BRAID, effects={}).compare(mk.Measurement.from_arrays(columns, rest_length="300 mm"))
+    assert found.rmse == pytest.approx(1.0, rel=0.1)
+    rows = ", ".join(f"row {place + 1}" for place in places)
+    assert any(
+        "3 lie off the model, which has none, by up to 39.7 N" in text and rows in text
+        for text in found.messages
+    )
+    assert found.verdict.status == "undecided"
+    assert found.verdict.why_not["no_outliers"].startswith("3 of the rows at reversals")
 
 
 @pytest.mark.parametrize("noise", [0.0, 2e-5, 1e-4])

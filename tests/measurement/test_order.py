@@ -164,10 +164,13 @@ def test_what_lies_outside_of_the_range_at_a_reversal_is_told(wrong: float) -> N
     fit_model = FitModel(MUSCLE, (friction,), {"coulomb_friction": {**friction.defaults, "force": 25.0}})
     found = predictor.at_reversals(fit_model)
     assert found is not None
-    told, rows = found.sentence(0.01), np.count_nonzero(predictor.task.reversing)
-    assert found.outside(0.01) == (1 if wrong else 0)
+    told, rows = found.sentence(0.01, 0.01), np.count_nonzero(predictor.task.reversing)
+    assert found.outside(0.01, 0.01) == (1 if wrong else 0)
     assert np.max(found.distance) == pytest.approx(wrong, abs=1e-3)
     assert found.high - found.low == pytest.approx(np.full(rows, 50.0))
     assert told.startswith(f"{rows} rows at reversals are counted apart")
-    assert told.endswith("1 lie outside of it, by up to 30 N" if wrong else "all lie within it")
-    assert predictor.at_reversals(FitModel(MUSCLE)) is None
+    assert told.endswith("1 lie outside of it, by up to 30 N: row 81" if wrong else "all lie within it")
+    bare = predictor.at_reversals(FitModel(MUSCLE))
+    assert bare is not None
+    assert np.array_equal(bare.low, bare.high)
+    assert bare.sentence(0.01, 100.0) == ""  # no farther off than all other rows are without friction

@@ -107,6 +107,30 @@ def test_correlated_noise_is_no_structure() -> None:
         assert not judged(_lined(model, rig), rig, 0.5).structured
 
 
+def test_rows_that_do_not_fit_are_named_beside_noise_alone() -> None:
+    """Three rows that are far off: named beside noise, and not where the model fits no row."""
+    rng = np.random.default_rng(4)
+    white = rng.standard_normal(len(CONTRACTION))
+    bad = [70, 150, 260]
+    for step, named in ((0.0, True), (40.0, False)):
+        extra = white + step * (CONTRACTION > 0.1)  # a step that no smooth surface follows
+        extra[bad] += 15.0 * np.array([1.0, -1.0, 1.0])
+        model, rig = loops(extra)
+        found = judged(_lined(model, rig), rig, 1.0)
+        assert set(found.outlying.rows) == (set(bad) if named else set())
+        assert found.structured is not named
+
+
+def test_a_row_that_correlated_noise_explains_is_not_named() -> None:
+    rng = np.random.default_rng(5)
+    noise = correlated(rng, 0.98, len(CONTRACTION))[: len(CONTRACTION)].ravel()
+    for jump, named in ((0.0, ()), (12.0, (150,))):
+        extra = noise.copy()
+        extra[150] += jump * np.std(np.diff(noise))
+        model, rig = loops(extra)
+        assert judged(_lined(model, rig), rig, None).outlying.rows == named
+
+
 def _lined(model: Any, rig: Any) -> Any:
     """The fitted subject with the lines of its data."""
     from dataclasses import replace

@@ -49,6 +49,15 @@ def test_an_effect_that_the_visited_models_hardly_hold_is_kept_and_not_called_mi
     assert correction.probability < PROBABILITY.likely < found.evidence[0].probability
 
 
+def test_where_noise_may_be_all_nothing_is_called_missing_and_nothing_held() -> None:
+    creep, bare = fitted(1.0, "creep"), fitted(10.0)
+    found = asked(creep, bare).without_any(bare)
+    assert (found.firm, found.evidence, found.steps) == (bare, (), ())
+    (correction,) = found.corrections
+    assert (correction.effect, correction.kept) == ("creep", False)
+    assert correction.probability == asked(creep, bare).evidence[0].probability
+
+
 def test_effects_that_are_needed_are_all_called_missing() -> None:
     both = fitted(1.0, "creep", "leak")
     found = asked(both, fitted(5.0, "creep"), fitted(9.0, "leak"), fitted(10.0))

@@ -200,3 +200,15 @@ def test_numbers_that_the_data_cannot_separate_have_no_standard_error():
     node = linear_node(MEASURED, design, FOLDS)
     assert node.standard_errors_under(()) == [None, None, None]
     assert all(error is not None for error in linear_node(MEASURED, DESIGN, FOLDS).standard_errors_under(()))
+
+
+def test_a_number_beyond_what_muscles_were_found_to_have_is_implausible():
+    fitted_model = linear_node(MEASURED, DESIGN, FOLDS)
+    start = fitted_model.free[0].start
+    for measured, implausible in (
+        ((start - 1.0, start + 1.0), 0),
+        ((start - 1.0, start - 0.005), 0),  # a hundredth of the range beside it is still within
+        ((start + 0.1, start + 1.0), 1),
+        (None, 0),
+    ):
+        assert with_free(fitted_model, {"measured": measured}, {}, {}).implausible == implausible

@@ -190,7 +190,7 @@ def reversals_of(comparison: Comparison) -> tuple[ComparedReversals | None, bool
     length = found.inputs["length"]
     result = ComparedReversals(
         rows=len(found.measured),
-        outside=found.outside(comparison.noise),
+        outside=found.outside(comparison.noise, comparison.rmse),
         distance=float(np.max(found.distance)),
         time=None if time is None else time[rows],
         contraction=(1.0 - length / found.muscle_length)[rows],

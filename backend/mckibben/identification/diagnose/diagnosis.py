@@ -320,7 +320,11 @@ def _whole(
         messages=(
             *([] if prepared.gauge_zero is None else [prepared.gauge_zero.message]),
             *messages(fitter, best, fit, missing.added),
-            *([] if reversals is None else filter(None, [reversals.sentence(judgement.noise)])),
+            *(
+                []
+                if reversals is None
+                else filter(None, [reversals.sentence(judgement.noise, judgement.rmse)])
+            ),
             *predictor.assumed_history(best.fit_model),
             *sign_changes(fitter, fit_model, best),
         ),

@@ -294,7 +294,7 @@ def compared(
         excluded=predictor.excluded,
         messages=(
             *messages,
-            *([] if reversals is None else filter(None, [reversals.sentence(floor)])),
+            *([] if reversals is None else filter(None, [reversals.sentence(floor, rmse)])),
             *predictor.assumed_history(fit_model),
             *(result.messages if result else ()),
         ),

@@ -119,22 +119,26 @@ class Reversals:
         """How far each reading lies outside of its range; 0 within."""
         return np.maximum(np.maximum(self.low - self.measured, self.measured - self.high), 0.0)
 
-    def outside(self, noise: float | None) -> int:
-        """Number of readings farther outside than three standard deviations of the noise; without friction of
-        the model 0 where the noise is not known.
+    def outside(self, noise: float | None, error: float) -> int:
+        """Number of readings farther outside than three standard deviations of the noise.
+
+        Without friction of the model they have to be farther off than the others, too.
+
+        Args:
+            noise: where it is known.
+            error: of the other rows.
         """
-        if noise is None and not self._rub:
-            return 0
-        return int(np.count_nonzero(self.distance > _BEYOND_CHANCE * (noise or 0.0)))
+        level = (noise or 0.0) if self._rub else max(noise or 0.0, error)
+        return int(np.count_nonzero(self.distance > _BEYOND_CHANCE * level))
 
     @property
     def _rub(self) -> bool:
         """Whether the model has friction, so that there is a range."""
         return bool(np.any(self.high > self.low))
 
-    def sentence(self, noise: float | None) -> str:
-        """What they say of the model; empty where they fit a model without friction."""
-        outside, rows = self.outside(noise), len(self.measured)
+    def sentence(self, noise: float | None, error: float) -> str:
+        """What they say of the model; empty where they fit a model without friction. See `outside`."""
+        outside, rows = self.outside(noise, error), len(self.measured)
         farthest = np.argsort(-self.distance, kind="stable")[: min(outside, _LISTED)]
         names = ", ".join(f"row {self.rows[row] + 1}" for row in np.sort(farthest))
         more = f" and {outside - _LISTED} more" if outside > _LISTED else ""
