@@ -85,6 +85,7 @@ def test_a_default_of_one_muscle_is_the_same_share_of_the_force_of_another() -> 
         ({"default": -1.0}, r"'force': default -1.0 is outside \[0.0, 200.0\]"),
         ({"default": 201.0}, r"'force': default 201.0 is outside"),
         ({"off": -5.0}, r"'force': off value -5.0 is outside its bounds"),
+        ({"measured": (0.0, 1e9)}, r"'force': measured range without default or beyond the bounds"),
         ({"default": float("nan")}, r"'force': .* must be finite"),
         ({"upper": float("inf")}, r"'force': .* must be finite"),
         ({"off": float("nan")}, r"'force': .* must be finite"),
