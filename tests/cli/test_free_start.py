@@ -41,6 +41,17 @@ def test_a_comparison_fits_and_says_the_start(run: Run, file: str) -> None:
     assert mine.rmse == pytest.approx(answer["rmse"], rel=1e-9)
 
 
+def test_a_diagnosis_begins_with_the_error_of_a_comparison_without_a_fit(file: str) -> None:
+    model = mk.Model(**BRAID).with_effect("viscous_damping", coefficient=5.0)
+    shown = model.compare(mk.read(file), free="start")
+    resting = model.compare(mk.read(file))
+    assert shown.rmse == pytest.approx(NOISE, rel=0.1)
+    assert resting.rmse > 20.0 * NOISE
+    assert any(each.startswith("start of the run, fitted:") for each in shown.messages)
+    found = model.diagnose(mk.read(file), free="start")
+    assert found.baseline.rmse == pytest.approx(shown.rmse, rel=1e-3)
+
+
 def test_a_file_without_a_run_has_no_start(run: Run, file: str) -> None:
     del file
     map_ = write(

@@ -311,7 +311,7 @@ class Model(Exportable):
             data: a measurement, the path of a file, or a list; several are several specimens.
             fit: fit the parameters of the effects.
             free: geometry, constants as "effect.parameter", or "start" (stroke and speed at the start of runs
-                under a measured pressure), to be fitted as well.
+                under a measured pressure; found without ``fit`` too), to be fitted as well.
             use, keep: entries that are wrong, or right, as stated: an answer to ``doubts`` of a diagnosis.
             drive: a `mckibben.Drive`: valve, tube, supply and load of a transient measurement.
             validate: measurements to check the model on, which it is not fitted to; see ``validation``.

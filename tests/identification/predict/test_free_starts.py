@@ -72,6 +72,24 @@ def test_a_start_in_the_middle_of_a_swing_is_found_and_frees_the_constants_of_it
     assert freed.parameters["geometry"][START_SPEED].unit == "m/s"
 
 
+def test_without_a_fit_the_start_alone_is_found() -> None:
+    """It belongs to the run, not to the model, whose values stay as they are."""
+    measurement, stroke, speed = swinging()
+    predictor = predictor_of(measurement, MUSCLE)
+    shown = compared(
+        predictor, fit_model(WEAK), rows=measurement.rows, geometry=predictor.free_starts()
+    )  # with the true damping
+    assert shown.rmse == pytest.approx(NOISE, rel=0.1)
+    assert shown.fit_model.values == fit_model(WEAK).values
+    assert not any("no fit was requested" in message for message in shown.messages)
+    assert shown.fit is not None
+    found = {each.name: each for each in shown.fit.parameters}
+    first = float(measurement.columns["displacement"][0])
+    for name, truth in ((START_STROKE, stroke - first), (START_SPEED, speed)):
+        assert found[name].stderr is not None
+        assert abs(found[name].value - truth) < 4.0 * found[name].stderr
+
+
 def test_each_run_has_a_start_of_its_own() -> None:
     measurement, _, speed = swinging(count=2)
     predictor = predictor_of(measurement, MUSCLE)

@@ -29,6 +29,7 @@ from mckibben.identification.diagnose.steps import (
 )
 from mckibben.identification.diagnose.supported import supported
 from mckibben.identification.diagnose.twins import Alternative, likeliest, same, same_predictions
+from mckibben.identification.fit.comparison import with_found_starts
 from mckibben.identification.fit.effort import SearchEffort
 from mckibben.identification.fit.fitted_model import FittedModel, unfitted
 from mckibben.identification.fit.fitter import Fitter
@@ -206,6 +207,7 @@ def prepare(
         before_fit=progress.count_fit,
         estimate=lambda fitted_model: noise_of(predictor, fitted_model.residual, noise)[0],
     )
+    fit_model = with_found_starts(predictor, fit_model, geometry)
     start = unfitted(predictor, fit_model)
     readings = predictor.inputs.get("pressure")
     gauge_zero = None if readings is None else vented(readings, candidates)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import partial
 from typing import ClassVar
 
 import numpy as np
@@ -15,7 +16,7 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.fit.least_squares import FitResult
 from mckibben.identification.fit.misfit import Misfit
 from mckibben.identification.predict import Predictor
-from mckibben.identification.predict.fit_model import FitModel, Free, free_numbers
+from mckibben.identification.predict.fit_model import FitModel, Free, free_numbers, is_start
 from mckibben.identification.predict.predictor import PredictedChannel, Reversals, StoppedRun
 from mckibben.identification.predict.reading_errors import AbsorbedError
 from mckibben.identification.residual.noise import absorbed_by, allowing_for_errors, noise_of
@@ -251,7 +252,8 @@ def compared(
         fit_model: the model.
         rows: number of rows of the measurement.
         fit: fit the parameters that the effects declare as fitted.
-        geometry: geometry fields to fit as well.
+        geometry: geometry fields to fit as well. Starts of runs are no part of the model: where they are free
+            they are fitted without ``fit`` too, alone.
         freed: further constants to fit, as "effect.parameter".
         noise: standard deviation of the predicted channel, when it is known.
 
@@ -260,15 +262,19 @@ def compared(
     """
     check_finite(predictor, fit_model)
     messages = list(predictor.messages)
-    choice = _chosen(predictor, fit_model, geometry, freed) if fit else ()
-    if geometry and not fit:
+    if fit:
+        chosen: _Chosen = partial(_of_fit, geometry=geometry, freed=freed)
+    else:
+        chosen = partial(_of_runs, geometry=geometry)
+    choice = chosen(fit_model, predictor)
+    if len(geometry) > len(choice) and not fit:
         messages.append("geometry fields were freed or accepted as wrong, but no fit was requested")
     if fit and not choice:
         messages.append("nothing to fit: the model has no effects and no geometry was freed")
     whole, result = predictor, None
     predictor = allowing_for_errors(whole.reached(fit_model), fit_model)
     if choice:
-        predictor, fit_model, result = _fitted(whole, predictor, fit_model, geometry, freed)
+        predictor, fit_model, result = _fitted(whole, predictor, fit_model, chosen)
     stopped = whole.stopped(fit_model)
     predicted = predictor.predict(fit_model)
     rmse = predictor.rmse(predictor.measured - predicted)
@@ -306,28 +312,43 @@ def compared(
     )
 
 
-def _chosen(
-    predictor: Predictor, fit_model: FitModel, geometry: Sequence[Free], freed: Sequence[str]
+def with_found_starts(predictor: Predictor, fit_model: FitModel, geometry: Sequence[Free]) -> FitModel:
+    """A model with the starts of runs that are free fitted, and nothing else, as a comparison shows it."""
+    choice = _of_runs(fit_model, predictor, geometry=geometry)
+    if not choice:
+        return fit_model
+    found = fit_of(predictor.beginning(fit_model), fit_model, choice)
+    return fit_model.with_numbers([p.name for p in choice], found.numbers)
+
+
+#: What is free of a model, by the data.
+_Chosen = Callable[[FitModel, Predictor], tuple[Free, ...]]
+
+
+def _of_fit(
+    fit_model: FitModel, predictor: Predictor, *, geometry: Sequence[Free], freed: Sequence[str]
 ) -> tuple[Free, ...]:
     return free_numbers(fit_model, geometry, freed, load=predictor.unknown_load)
 
 
+def _of_runs(fit_model: FitModel, predictor: Predictor, *, geometry: Sequence[Free]) -> tuple[Free, ...]:
+    del predictor
+    return tuple(replace(f, start=fit_model.number(f.name)) for f in geometry if is_start(f.name))
+
+
 def _fitted(
-    whole: Predictor,
-    part: Predictor,
-    fit_model: FitModel,
-    geometry: Sequence[Free],
-    freed: Sequence[str],
+    whole: Predictor, part: Predictor, fit_model: FitModel, chosen: _Chosen
 ) -> tuple[Predictor, FitModel, FitResult]:
     """The rows that the runs of the fitted model reach, that model, and what these rows determine.
 
     Args:
         whole: all rows.
         part: those that the runs of the start model reach. Where the fit leads farther, it is repeated there.
-        fit_model, geometry, freed: see `compared`.
+        fit_model: see `compared`.
+        chosen: what is fitted.
     """
     for left in reversed(range(_FITS)):
-        choice = _chosen(part, fit_model, geometry, freed)
+        choice = chosen(fit_model, part)
         usual = {p.name for p in free_numbers(fit_model, (), (), load=part.unknown_load)}
         first = [p for p in choice if p.name in usual]
         result = fit_of(part.beginning(fit_model), fit_model, choice, first=first)

@@ -96,7 +96,7 @@ class ModelRequest(Strict):
         default=[],
         max_length=6,
         description="Geometry to fit as well, within its tolerance; 'start': stroke and speed at the start "
-        "of each run under a measured pressure.",
+        "of each run under a measured pressure, which a comparison without a fit finds too.",
     )
     freed: list[ParameterPath] = Field(
         default=[], max_length=64, description="Additional parameters to fit, as effect.parameter."
