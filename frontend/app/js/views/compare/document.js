@@ -157,6 +157,11 @@ export function readCompare(raw) {
 
 addPart("compare", { start: newCompare, read: readCompare });
 
+/** What is fitted beside the effects: geometry by its name, and where and how fast each run begins. */
+export const START = "start";
+/** What stays freed with other data: starts are those of the runs before. @param {string[]} free */
+export const freeOfOther = (free) => free.filter((name) => name !== START);
+
 /** What is said of the data now. @param {Compare} c @returns {import("../../types.js").Context} */
 export const contextOf = ({ files, decisions }) => ({ files, decisions });
 

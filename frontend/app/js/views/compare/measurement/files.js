@@ -4,7 +4,7 @@ import { apart, computed, effect, signal } from "../../../reactive.js";
 import { doc, edit, view } from "../../../state.js";
 import { ApiError } from "../../../server/client.js";
 import { muscles, references, status } from "../../../store.js";
-import { MOST_FILES, withStartModel } from "../document.js";
+import { freeOfOther, MOST_FILES, withStartModel } from "../document.js";
 import { driveFor, needsDrive, startOf } from "../drive-document.js";
 import { caseId } from "../cases.js";
 import { again, chosen, compare, editCompare, fault, files } from "../answers.js";
@@ -169,7 +169,7 @@ function withFile(c, { info, experiment }, instead) {
   const files = [...kept, added].slice(0, MOST_FILES);
   if (kept.length) return { ...c, files, muscle: withOneLength(c.muscle, files) };
   const drive = needsDrive(info) ? driveFor(doc.peek().transient.drive, conditions) : null;
-  return { ...withStartModel(c), files, muscle, drive, mystery: null };
+  return { ...withStartModel(c), files, muscle, drive, mystery: null, free: freeOfOther(c.free) };
 }
 
 /** The muscle a file names, if there is no preset for it.
@@ -201,6 +201,7 @@ export function openBuiltIn(id) {
       muscle,
       drive: null,
       mystery: null,
+      free: freeOfOther(d.compare.free),
     },
   }), `measurement ${preset.title}`);
 }
@@ -238,7 +239,13 @@ export function removeFile(id) {
   if (left.length) return editCompare({ files: left }, `remove ${file?.name}`);
   edit((d) => ({
     ...d,
-    compare: { ...withStartModel(d.compare), files: [], drive: null, mystery: null },
+    compare: {
+      ...withStartModel(d.compare),
+      files: [],
+      drive: null,
+      mystery: null,
+      free: freeOfOther(d.compare.free),
+    },
   }), `remove ${file?.name}`);
 }
 

@@ -4,7 +4,7 @@ import { h, icon } from "../../../dom.js";
 import { computed, signal } from "../../../reactive.js";
 import { edit } from "../../../state.js";
 import { ApiError, get, post } from "../../../server/client.js";
-import { IDEAL, PROVIDED, withStartModel } from "../document.js";
+import { freeOfOther, IDEAL, PROVIDED, withStartModel } from "../document.js";
 import { titleOf } from "../words.js";
 import { compare } from "../answers.js";
 import { muscleFrom } from "../muscle-values.js";
@@ -45,6 +45,7 @@ function openMystery(m) {
         )
         : null,
       mystery: m.id,
+      free: freeOfOther(d.compare.free),
     },
   }), `mystery ${m.title}`);
 }

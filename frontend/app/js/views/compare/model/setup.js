@@ -4,11 +4,12 @@ import { h, icon } from "../../../dom.js";
 import { computed } from "../../../reactive.js";
 import { commit, edit, preview, units } from "../../../state.js";
 import { muscles } from "../../../store.js";
-import { plainScale, quantityOf, scaleOf, siOf, withUnit } from "../../../format.js";
+import { capitalized, plainScale, quantityOf, scaleOf, siOf, withUnit } from "../../../format.js";
 import { quantityField } from "../../../ui/field.js";
 import { unverifiedBadge } from "../../../ui/sources.js";
+import { needsDrive } from "../drive-document.js";
 import { infos, unknownMuscle } from "../measurement/files.js";
-import { PROVIDED, withStartModel } from "../document.js";
+import { freeOfOther, PROVIDED, START, withStartModel } from "../document.js";
 import {
   answer,
   chosen,
@@ -92,23 +93,64 @@ const field = (key) =>
     message: () => messageFor(`muscle.${key}`),
   });
 
-/** @param {string} key */
-const freeBox = (key) =>
+/** @param {string} key of what is fitted @param {string} name @param {Record<string, unknown>} [attributes] */
+const freeBox = (key, name, attributes = {}) =>
   h(
     "label",
     { class: "check" },
     h("input", {
       type: "checkbox",
+      ...attributes,
       checked: () => compare.value.free.includes(key),
       onchange: (/** @type {Event} */ e) => {
         const on = /** @type {HTMLInputElement} */ (e.target).checked;
         const free = compare.peek().free.filter((k) => k !== key);
-        const name = GEOMETRY[key].label.toLowerCase();
         editCompare({ free: on ? [...free, key] : free }, `${on ? "fit" : "keep"} ${name}`);
       },
     }),
-    h("span", null, `Fit the ${GEOMETRY[key].label.toLowerCase()} too`),
+    h("span", null, `Fit the ${name} too`),
   );
+
+/** Whether a file has runs that begin from a reading: under a measured pressure, without a valve command. */
+const hasRuns = computed(() =>
+  chosen.value.some(({ id }) => {
+    const info = infos.value.get(id);
+    return info
+      ? info.kind === "transient" && !needsDrive(info)
+      : answer.value?.kind === "transient" && !compare.value.drive;
+  })
+);
+const FOUND = /^start of (the run|run \d+), fitted: /;
+
+/** The starts that were found, in the words of the command line. */
+const foundStarts = computed(() =>
+  compare.value.free.includes(START)
+    ? answer.value?.messages.filter((words) => FOUND.test(words)).map(capitalized) ?? []
+    : []
+);
+
+/** Where and how fast runs begin: shown where there are some, and where other data refuse what was chosen. */
+const starts = () => [
+  h(
+    "div",
+    { class: "starts", hidden: () => !hasRuns.value && !compare.value.free.includes(START) },
+    freeBox(START, "start of each run", { "aria-describedby": "compare-start-help" }),
+    h(
+      "p",
+      { class: "hint", id: "compare-start-help" },
+      "Stroke and speed at its first row, if the load moves there or the first reading is off.",
+    ),
+    () =>
+      foundStarts.value.length
+        ? h(
+          "ul",
+          { class: "plain muted", "aria-label": "Found starts" },
+          ...foundStarts.value.map((words) => h("li", null, `${words}.`)),
+        )
+        : null,
+  ),
+  h("p", { class: "error" }, () => messageFor("free") ?? ""),
+];
 
 /** Changes the muscle, which starts again from the start model. @param {string} id "": own geometry */
 function choose(id) {
@@ -281,10 +323,11 @@ export function setupCard() {
     h(
       "details",
       null,
-      h("summary", null, () => `Geometry${compare.value.free.length ? ": fitted too" : ""}`),
+      h("summary", null, () => `Geometry${freeOfOther(compare.value.free).length ? ": fitted too" : ""}`),
       ...["braid_angle", "braid_diameter", "inside_diameter", "wall_thickness"].map(field),
-      ...FREE.map(freeBox),
+      ...FREE.map((key) => freeBox(key, GEOMETRY[key].label.toLowerCase())),
     ),
+    ...starts(),
     h("p", { class: "label" }, "Start model"),
     startChoice(),
     noiseField(),
