@@ -216,7 +216,7 @@ class Repetition:
     """When a rest is said to repeat."""
 
     false_alarm: float = 1e-4
-    """Chance of noise, over all periods tried, below which a repetition is told."""
+    """Chance of noise, over all periods tried, below which a repetition is named."""
     share: float = 0.2
     """Least share of the rest."""
     periods: float = 3.0
@@ -244,7 +244,7 @@ class Repetition:
     turns: float = 0.05
     """Way back, over the range, from which the motion has turned."""
     likelier: float = 4.0
-    """Difference of log likelihoods from which a thread is told from what rings after each turn."""
+    """Difference of log likelihoods from which a thread is distinguished from what rings after each turn."""
     alike: float = 0.9
     """Share over the best one, from which data do not tell the coordinates apart."""
 
@@ -332,9 +332,9 @@ class Told:
     different: float = 2.0
     """Error on a left-out specimen over that on left-out groups, above which the specimens differ."""
     most: float = 0.5
-    """Share of the rest that repeats, from which the variables that it depends on are not told."""
+    """Share of the rest that repeats, from which the variables that it depends on are not named."""
     mostly_white: float = 0.8
-    """Share of white noise from which the rest is not told."""
+    """Share of white noise from which the rest is not described."""
     swings: float = 0.5
     """Periods over which noise stays in step, from which it swings."""
 
