@@ -14,7 +14,7 @@ def start_messages(fit: FitResult | None) -> list[str]:
             continue
         begin = START_STROKE if parameter.name.startswith(START_STROKE) else START_SPEED
         error = "" if parameter.stderr is None else f" ± {1e3 * parameter.stderr:.2g}"
-        limit = ", at its limit" if parameter.at_bound else ""
+        limit = " (at its limit)" if parameter.at_bound else ""
         unit = "mm" if begin == START_STROKE else "mm/s"
         run = parameter.name.removeprefix(begin).removeprefix("_")
         value = f"{1e3 * parameter.value:+.3g}".replace("-", "\N{MINUS SIGN}")
