@@ -132,7 +132,7 @@ export function overlaySpec(v, p) {
   const [low, high] = extent([
     ...v.series.flatMap((one) => [y(one.measured), y(one.predicted)]),
     y(v.reversals?.measured ?? []),
-    [0],
+    v.over === "time" ? [] : [0], // a small swing far from 0 would be a flat line
   ]);
   const name = capitalized(channelWords(v.channel));
   return {
