@@ -133,7 +133,7 @@ const foundStarts = computed(() =>
 const starts = () => [
   h(
     "div",
-    { class: "starts", hidden: () => !hasRuns.value && !compare.value.free.includes(START) },
+    { class: "run-starts", hidden: () => !hasRuns.value && !compare.value.free.includes(START) },
     freeBox(START, "start of each run", { "aria-describedby": "compare-start-help" }),
     h(
       "p",
