@@ -187,8 +187,8 @@ export const next = computed(() => {
         effect: floor === null || a?.unit === "1"
           ? "The error is the noise"
           : wide
-          ? `${text(a?.rmse_beyond_accuracy)}, noise ${text(wide.low)} to ${text(wide.high)}`
-          : `${text(a?.rmse_beyond_accuracy)}, noise ${text(floor)}`,
+          ? `Noise ${text(wide.low)} to ${text(wide.high)}`
+          : `Noise ${text(floor)}`,
         label: "Take it along",
         run: showTake,
       };

@@ -169,7 +169,7 @@ export function errorNumber() {
             : answer.value
             ? "noise not known"
             : "",
-          ofStroke.value,
+          h("span", { class: "of-stroke" }, ofStroke.value),
           h(
             "span",
             { class: "more" },
