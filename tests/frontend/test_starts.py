@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 
 import pytest
@@ -65,6 +66,10 @@ def test_starts_are_freed_by_keyboard_shown_kept_in_the_link_and_given_up_with_t
         expect(panel.get_by_role("checkbox", name=BOX)).to_be_checked()
         expect(panel.get_by_role("list", name="Found starts")).to_be_visible(timeout=20_000)
         page.keyboard.press("Escape")
+        with page.expect_download() as download:
+            page.locator(".area-take").get_by_role("button", name=re.compile("^Model")).click()
+        # A start belongs to the run: a saved model takes none along.
+        assert json.loads(download.value.path().read_text("utf-8"))["free"] == []
         setup(page).get_by_role("button", name="Remove runs.csv").click()
         page.keyboard.press("Escape")
         choose(page, file("sweeps.csv", measured(1, points=8)))

@@ -9,6 +9,7 @@ import { saveSheet } from "../../plots/export.js";
 import { downloadText, fileName, toCsv } from "../../ui/table.js";
 import { openTakeAlong } from "../../ui/take-along.js";
 import { answer, compare, diagnosis, files, preset } from "./answers.js";
+import { freeOfOther } from "./document.js";
 import { effectValues } from "../../muscle/preset.js";
 import { presetDialog } from "../../muscle/preset-dialog.js";
 import { overlays } from "./where/overlay.js";
@@ -78,7 +79,7 @@ function modelDocument() {
     muscle: muscle ?? drive?.muscle ?? {},
     effects: effects ?? effectValues(preset.peek()),
     freed,
-    free,
+    free: freeOfOther(free),
     ...(drive ? { drive: { ...drive, effects: effects ?? effectValues(preset.peek()) } } : {}),
     envelope: diagnosis.peek()?.envelope ?? {},
     assumed: a.assumptions,
