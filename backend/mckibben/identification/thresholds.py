@@ -179,6 +179,8 @@ class Judged:
     """Standard deviations of the noise below zero from which a force is no pull."""
     turning: float = 5.0
     """Error over the noise from which a row at a reversal is off."""
+    turned: int = 2
+    """Rows at reversals that are off, from which they are no accident."""
     rounds: int = 3
     """Rounds in which rows are set aside."""
 

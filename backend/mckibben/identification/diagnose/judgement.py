@@ -149,7 +149,7 @@ class Judgement:
             fit = False, "rows do not fit beside the others"
         elif self.pushing:
             fit = False, PUSHES
-        elif self.turning:
+        elif self.turning >= JUDGED.turned:
             fit = (
                 False,
                 f"{self.turning} of the rows at reversals, which are counted apart, lie off the model",
