@@ -1,0 +1,546 @@
+"""Sheets of cells -> one table: runs of numeric rows, their heads and units, blocks, and the shapes of tables.
+
+A run is a number of rows whose numbers stand in the same columns. Its score is what its heads say times the root of
+its numbers; the best run is the measurement, others with the same heads are further blocks of it.
+"""
+
+from __future__ import annotations
+
+import re
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+
+from mckibben.measurement.reading.heads import head_claims, head_score, taken_apart, without_run
+from mckibben.measurement.reading.lexicon import word_set, words_of
+from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_TEXT, MAX_TEXTS
+from mckibben.measurement.reading.model import Cell, Column, Sheet, Span, Table
+from mckibben.measurement.reading.numbers import CLOCK, EMPTY, MARK, NUMBER, TEXT, kind_of
+from mckibben.measurement.reading.shapes import Part, column_of, parts_of, transposed
+from mckibben.measurement.reading.units import quantities, unit_of
+from mckibben.physics.errors import InputError, did_you_mean
+
+_ABOVE = 6  # rows above a run that may be its heads
+_LOOK = 25  # rows above in which a labelled row of units or of descriptions is looked for
+_GAP = 3  # rows without numbers that a run goes on behind
+_INSIDE = 0.5  # share of the numbers of a row that stand where those of the run do
+_HEAD_SHARE = 0.5  # of the columns of a run, that a row of heads fills
+_UNITS_SHARE = 0.6  # of the cells of a row of units, that are units
+_EMPTY_HEADS = 2.0  # score of a run without heads
+_MOST_OF_A_HEAD = 3.0  # what one head adds to the score of its run
+_SHOWN_ROWS, _SHOWN_BELOW, _SHOWN_ABOVE, _SHOWN_CELLS, _SHOWN_LENGTH = 60, 8, 20, 60, 80
+_UNIT_LABEL = ("unit",)
+_HINT = "e.g. a header 'pressure_bar,length_mm,force_N'"
+
+
+@dataclass
+class Run:
+    """Rows of numbers, and what stands above them."""
+
+    sheet: Sheet
+    rows: list[int] = field(default_factory=list)
+    columns: list[int] = field(default_factory=list)
+    above: list[int] = field(default_factory=list)
+    heads: dict[int, str] = field(default_factory=dict)
+    units: dict[int, str] = field(default_factory=dict)
+    more: dict[int, tuple[str, ...]] = field(default_factory=dict)
+    described: dict[int, tuple[str, ...]] = field(default_factory=dict)
+    title: list[Span] = field(default_factory=list)
+    remarks: list[int] = field(default_factory=list)
+    score: float = 0.0
+    head_row: int | None = None
+    unit_row: int | None = None
+
+    @property
+    def names(self) -> list[tuple[str, str]]:
+        """Heads with their units, in their order."""
+        return [(self.heads.get(c, "").strip(), self.units.get(c, "")) for c in sorted(set(self.heads) | set(self.columns))]
+
+
+def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, head: int | None = None) -> Table:
+    """The measurement among the sheets.
+
+    Args:
+        sheets: of the file.
+        name: of the file, for messages.
+        wanted: sheet that the user picks.
+        head: number of the row of names that the user picks.
+
+    Raises:
+        InputError: no rows of numbers, or no such sheet or row.
+    """
+    if wanted is not None:
+        chosen = [s for s in sheets if s.name == wanted or s.name.rstrip(".") == wanted]
+        if not chosen:
+            hint = did_you_mean(wanted, [s.name for s in sheets if s.name])
+            raise InputError(f"{name}: there is no sheet '{wanted}'", field="sheet", hint=hint)
+        others = tuple(Span(s.place(0), s.name) for s in sheets if s not in chosen)
+        sheets = [*chosen, *(replace(s, rows=s.rows[:200], arrays=None) for s in sheets if s not in chosen and not _runs(s))]
+        del others
+    named = [s for s in sheets if s.arrays is not None]
+    if named:
+        return _of_named(named, sheets, name)
+    grids = [transposed(s) for s in sheets]
+    runs = [run for sheet in grids for run in _runs(sheet)]
+    for run in runs:
+        _head(run, head)
+        known = sum(min(_MOST_OF_A_HEAD, max(0.0, head_score(h, run.units.get(c, "")))) for c, h in run.heads.items())
+        run.score = (_EMPTY_HEADS + known) * (len(run.rows) * len(run.columns)) ** 0.5
+    if head is not None:
+        runs = [run for run in runs if run.head_row is not None and run.sheet.line(run.head_row) == head]
+        if not runs:
+            raise InputError(
+                f"{name}, row {head}: no table has its names in row {head}", field="head", hint="a row with names above numbers"
+            )
+    if not runs:
+        raise InputError(f"{name}: no table: no rows of numbers with at least two columns", field="file", hint=_HINT)
+    best = max(runs, key=lambda run: run.score)
+    for run in runs:  # a block without heads of its own goes on with those above
+        if not run.heads and run.sheet is best.sheet and run.columns == best.columns and run.rows[0] > best.rows[0]:
+            run.heads, run.units, run.more, run.described = best.heads, best.units, best.more, best.described
+    alike = [run for run in runs if _is_same(run, best)]
+    return _joined(alike, best, runs, grids, name)
+
+
+def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet], name: str) -> Table:
+    """The blocks of a table one below the other."""
+    used = {(id(run.sheet), row) for run in alike for row in (*run.rows, *run.above)}
+    several = len({id(run.sheet) for run in alike}) > 1
+    parts: list[Part] = []
+    for run in alike:
+        title = [*run.title, *([Span(f"sheet '{run.sheet.name}'", run.sheet.name)] if several else [])]
+        parts += parts_of(run, title)
+    texts = [t for s in sheets for t in s.texts] + _texts(sheets, used)
+    others = [
+        (f"{run.sheet.name or 'table'}, {run.sheet.noun}s {run.sheet.line(run.rows[0])} to {run.sheet.line(run.rows[-1])}",
+         "it is in another table")
+        for run in runs if not any(run is one for one in alike)
+    ]  # fmt: skip
+    read = {run.sheet.name for run in alike}
+    tables = tuple(dict.fromkeys((run.sheet.name, run.sheet.name in read) for run in runs if run.sheet.name))
+    rivals = _rivals(alike, best, runs)
+    if rivals:
+        parts = [part for run in alike if run.sheet is best.sheet for part in parts_of(run, list(run.title))]
+    head_row = None if best.head_row is None else best.sheet.line(best.head_row)
+    return stacked(
+        parts, texts, where=f"{name}, sheet '{best.sheet.name}'" if best.sheet.name else name, format=best.sheet.format,
+        head_row=head_row, unit_where="" if best.unit_row is None else best.sheet.place(best.unit_row),
+        others=tuple(others), tables=tables if len(tables) > 1 else (), rivals=rivals,
+        raw=_shown(best.sheet, best.head_row), messages=tuple(m for s in sheets for m in s.messages),
+        headless=not any(best.heads.values()),
+    )  # fmt: skip
+
+
+def _rivals(alike: list[Run], best: Run, runs: list[Run]) -> tuple[tuple[str, str], ...]:
+    """Sheets with as good a table, of which nothing tells which one is meant, or whether they are runs of one test."""
+    sheets = list(dict.fromkeys(run.sheet.name for run in alike))
+    if len(sheets) > 1:
+        if _are_runs(sheets) or any(run.title and any(quantities(t.text) for t in run.title) for run in alike):
+            return ()
+        return tuple((sheet, ", ".join(h for h, _ in best.names)[:80]) for sheet in sheets)
+    others = [
+        run for run in runs
+        if run.sheet.name and run.sheet.name not in sheets and _channels(run) >= max(2, _channels(best))
+    ]  # fmt: skip
+    if not others:
+        return ()
+    names = dict.fromkeys([best.sheet.name, *(run.sheet.name for run in others)])
+    return tuple((sheet, "") for sheet in names)
+
+
+def _are_runs(names: Sequence[str]) -> bool:
+    """Whether names differ by a quantity, or by nothing than a number."""
+    if all(quantities(name.replace("_", " ")) for name in names):
+        return True
+    plain = {re.sub(r"\d+(?:[.,]\d+)?", "#", name) for name in names}
+    return len(plain) == 1
+
+
+def _channels(run: Run) -> int:
+    """Number of different channels that the heads of a run name."""
+    return len({c.value for h, u in run.names for c in head_claims(h[:200], u) if c.facet == "channel"} - {"group", "direction"})
+
+
+def stacked(parts: Sequence[Part], texts: Sequence[Span], **about: object) -> Table:
+    """Blocks of the same columns as one table."""
+    first = parts[0]
+    columns = []
+    for place, column in enumerate(first.columns):
+        pieces = [part.columns[place] for part in parts if place < len(part.columns)]
+        words = None
+        if any(piece.words is not None for piece in pieces):
+            words = tuple(w for piece in pieces for w in (piece.words or ("",) * len(piece.values)))
+        gaps, offset = {}, 0
+        for piece in pieces:
+            gaps |= {row + offset: gap for row, gap in piece.gaps.items()}
+            offset += len(piece.values)
+        values = np.concatenate([piece.values for piece in pieces])
+        columns.append(replace(column, values=values, words=words, gaps=gaps))
+    blocks = np.concatenate([np.full(len(part.columns[0].values), k) for k, part in enumerate(parts)])
+    columns = [column for column in columns if len(column.values) == len(blocks)]
+    return Table(
+        columns=tuple(_keyed(columns)), texts=tuple(texts[:MAX_TEXTS]), blocks=blocks,
+        titles=tuple(part.title for part in parts) if len(parts) > 1 else ((),),
+        lines=np.concatenate([part.lines for part in parts]), **about,  # type: ignore[arg-type]
+    )  # fmt: skip
+
+
+def _keyed(columns: Sequence[Column]) -> list[Column]:
+    """Columns with names that users can tell apart."""
+    seen: Counter[str] = Counter()
+    result = []
+    for place, column in enumerate(columns):
+        head = column.head.strip() or f"column {place + 1}"
+        seen[head] += 1
+        result.append(replace(column, key=head if seen[head] == 1 else f"column {place + 1}"))
+    return result
+
+
+def _is_same(run: Run, best: Run) -> bool:
+    """Whether a run has the heads of another one, numbers and names of runs in them apart."""
+    if run is best:
+        return True
+    mine, theirs = ([(re.sub(r"\d+(?:[.,]\d+)?", "#", h), u) for h, u in r.names if h or u] for r in (run, best))
+    return bool(mine) and mine == theirs
+
+
+def _runs(sheet: Sheet) -> list[Run]:
+    """The runs of a sheet; those of two rows where there is no longer one."""
+    found: list[Run] = []
+    current: Run | None = None
+    gap: list[int] = []
+    for i, row in enumerate(sheet.rows):
+        places, texts, first, marks = _kinds(row)
+        is_data = len(places) >= 2 and texts <= len(places) and not _is_statistic(first)
+        if not is_data and len(places) >= 1 and len(places) + marks >= 2 and texts == 0 and current is not None:
+            is_data = set(places) <= set(current.columns)
+        if is_data and texts and first and current is None:
+            is_data = _goes_on(sheet, i, places)
+        if not is_data:
+            if current is not None:
+                gap.append(i)
+                filled = [c for c in row if c != ""]
+                if len(gap) > _GAP or (len(filled) > 1 and texts > 1):
+                    found.append(current)
+                    current, gap = None, []
+            continue
+        if current is not None:
+            inside = len(set(places) & set(current.columns)) >= _INSIDE * len(places)
+            titled = any(_is_title(sheet.rows[g]) for g in gap)
+            if not inside or titled:
+                found.append(current)
+                current = None
+        if current is None:
+            current = Run(sheet)
+        current.remarks += [g for g in gap if any(c != "" for c in sheet.rows[g])]
+        gap = []
+        current.rows.append(i)
+        if len(current.rows) < 50 or len(places) > len(current.columns):
+            current.columns = sorted(set(current.columns) | set(places))
+    if current is not None:
+        found.append(current)
+    long = [run for run in found if len(run.rows) >= 3]
+    return long or [run for run in found if len(run.rows) >= 1 and len(run.columns) > 1]
+
+
+def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
+    """(places of the numbers, number of texts, the text before all numbers, number of marks for no reading)."""
+    places: list[int] = []
+    texts = marks = 0
+    first = ""
+    for j, cell in enumerate(row[:MAX_COLUMNS]):
+        if cell == "":
+            continue
+        kind = kind_of(cell)
+        if kind in (NUMBER, CLOCK):
+            places.append(j)
+        elif kind == MARK:
+            marks += 1
+        elif kind == TEXT:
+            texts += 1
+            first = first or ("" if places else str(cell))
+    return places, texts, first, marks
+
+
+def _is_statistic(text: str) -> bool:
+    words = words_of(text[:60])
+    return bool(words) and word_set("statistic").among(words[:1])
+
+
+def _is_title(row: Sequence[Cell]) -> bool:
+    """Whether a row between others begins a new block: it names a quantity, or a run with its number."""
+    text = " ".join(str(c) for c in row if c != "")[:MAX_TEXT]
+    if not text or kind_of(text) in (NUMBER, CLOCK):
+        return False
+    return bool(quantities(text.replace("_", " "))) or without_run(f"x {text}")[1] != ""
+
+
+def _goes_on(sheet: Sheet, i: int, places: list[int]) -> bool:
+    """Whether the next rows have numbers at the same places: this one is a row of numbers with a label, or a map."""
+    below = next((row for row in sheet.rows[i + 1 : i + 3] if any(c != "" for c in row)), [])
+    at = {j for j, cell in enumerate(below) if kind_of(cell) in (NUMBER, CLOCK)}
+    above = sheet.rows[i - 1] if i > 0 else []
+    headed = sum(kind_of(c) == TEXT and c != "" for c in above) >= max(2, len(places))
+    if len(at & set(places)) < len(places):
+        return is_axis(sheet, i)
+    return headed or is_axis(sheet, i) or kind_of(below[0] if below else "") == TEXT
+
+
+def is_axis(sheet: Sheet, i: int) -> bool:
+    """Whether a row of numbers behind a text is the upper axis of a map: the text names it, full rows are below."""
+    row = sheet.rows[i]
+    numbers = [j for j, cell in enumerate(row) if kind_of(cell) == NUMBER]
+    if len(numbers) < 3 or 0 in numbers or not str(row[0]).strip():
+        return False
+    full = 0
+    for below in sheet.rows[i + 1 : i + 4]:
+        at = [j for j, cell in enumerate(below) if kind_of(cell) in (NUMBER, MARK)]
+        full += len(at) >= len(numbers) and 0 in at
+    return full >= 2
+
+
+def _head(run: Run, wanted: int | None) -> None:
+    """Find the row of names, that of units and what else stands above; what is left is the title of the block."""
+    rows = run.sheet.rows
+    if is_axis(run.sheet, run.rows[0]):
+        _titles(run, run.rows[0])
+        return
+    candidates = _candidates(run)
+    units_at = next((i for i in candidates if _unit_share(rows[i]) >= _UNITS_SHARE), None)
+    names = [i for i in candidates if i != units_at]
+    if wanted is not None:
+        names = [i for i in names if run.sheet.line(i) == wanted] or names
+    if names and not run.heads:
+        scored = {i: sum(head_score(_text(c)) for c in rows[i] if c != "") - 0.2 * k for k, i in enumerate(names)}
+        best = max(scored, key=scored.__getitem__)
+        width = range(min(MAX_COLUMNS, max(len(rows[r]) for r in (*run.rows[:50], best))))
+        run.heads = {c: _text(rows[best][c]) if c < len(rows[best]) else "" for c in width}
+        run.head_row = best
+        others = [i for i in names if i != best]
+        run.more = {
+            c: tuple(t for i in others if (t := _spanning(rows[i], c, carried=i < best))) for c in run.heads
+        }
+    elif names and run.head_row is None:
+        run.head_row = names[0]
+    run.above = list(candidates)
+    if units_at is not None:
+        run.units = {c: _text(rows[units_at][c]) for c in range(len(rows[units_at])) if rows[units_at][c] != ""}
+        run.unit_row = units_at
+        if not run.heads:
+            run.head_row = units_at
+    else:
+        _labelled_units(run)
+    _descriptions(run)
+    _titles(run, min([run.rows[0], *run.above]))
+
+
+def _candidates(run: Run) -> list[int]:
+    """Rows right above a run that can be its heads, from below."""
+    rows = run.sheet.rows
+    found: list[int] = []
+    i = run.rows[0] - 1
+    while i >= 0 and len(found) < _ABOVE and run.rows[0] - i <= _ABOVE + 1:
+        filled = [c for c in rows[i] if c != ""]
+        if not filled:
+            if found:
+                break
+        elif len(filled) >= max(2, _HEAD_SHARE * len(run.columns)) and not _is_numeric(rows[i]):
+            found.append(i)
+        elif found:
+            if len(filled) >= 2 and not _is_numeric(rows[i]) and not any(quantities(str(c)) for c in filled) and len(found) == 1:
+                found.append(i)  # a row of groups above the heads
+            break
+        elif split := _split_head(str(filled[0]), len(run.columns)) if len(filled) == 1 else []:
+            run.heads = dict(zip(run.columns, split, strict=True))
+            run.head_row = i
+            found.append(i)
+        elif run.rows[0] - i > 2:
+            break
+        i -= 1
+    return found
+
+
+def _split_head(text: str, width: int) -> list[str]:
+    """The names of columns in one cell: parted by signs, wide gaps or blanks, brackets kept with their name."""
+    bare = re.sub(r"^[\s#%/!;*]+", "", text)
+    bare = re.sub(r"^(?:columns?|spalten?|colonnes?|fields?|header)\s?:\s?", "", bare, flags=re.I)
+    ways = [re.split(r"\s?[,;\t|]\s?", bare), re.split(r"\s{2,}|\t", bare), _joined_units(bare.split())]
+    for cells in ways:
+        cells = [cell.strip().strip('"') for cell in cells if cell.strip()]
+        if len(cells) == width and sum(head_score(cell) > 0 for cell in cells) >= min(2, width):
+            return cells
+    return []
+
+
+def _joined_units(cells: Sequence[str]) -> list[str]:
+    """Words with the unit in brackets that follows them."""
+    found: list[str] = []
+    for cell in cells:
+        if found and cell[:1] in "[(" and unit_of(cell) is not None:
+            found[-1] += f" {cell}"
+        else:
+            found.append(cell)
+    return found
+
+
+def _spanning(row: Sequence[Cell], place: int, *, carried: bool) -> str:
+    """What stands over a column; a text over several of them stands over the first of these."""
+    if place < len(row) and row[place] != "":
+        return _text(row[place])
+    if not carried:
+        return ""
+    return next((_text(row[j]) for j in range(min(place, len(row) - 1), -1, -1) if row[j] != ""), "")
+
+
+def _text(cell: Cell) -> str:
+    """A cell of the head as a text, without what marks a comment."""
+    if isinstance(cell, float):
+        return f"{cell:g}"
+    return str(cell).strip().strip('"').lstrip("#%! ").strip()
+
+
+def _is_numeric(row: Sequence[Cell]) -> bool:
+    kinds = [kind for cell in row if cell != "" and (kind := kind_of(cell)) != EMPTY]
+    return sum(kind in (NUMBER, CLOCK) for kind in kinds) > 0.5 * len(kinds)
+
+
+def _unit_share(row: Sequence[Cell]) -> float:
+    filled = [str(c).lstrip("#% ") for c in row if c != "" and str(c).lower() not in ("n.", "nr.", "no.", "#")]
+    good = sum(unit_of(c) is not None and not (len(c) > 3 and head_score(c) >= 2.0) for c in filled)
+    return good / len(filled) if len(filled) > 1 else 0.0
+
+
+def _labelled_units(run: Run) -> None:
+    """A row further above that begins with the word for units, and has one for each column."""
+    rows = run.sheet.rows
+    for i in range(run.rows[0] - 1, max(-1, run.rows[0] - _LOOK), -1):
+        cells = [c for c in rows[i] if c != ""]
+        if len(cells) > 2 and word_set("unit").among(words_of(str(cells[0])[:40])) and _unit_share(cells[1:]) >= _UNITS_SHARE:
+            shift = 1 if run.columns and run.columns[0] == 0 and len(cells) - 1 < len(run.columns) else 0
+            run.units = {c: _text(u) for c, u in zip(run.columns[shift:], cells[1:], strict=False)}
+            run.unit_row = i
+            return
+
+
+def _descriptions(run: Run) -> None:
+    """Rows above that begin with the name of a column describe it."""
+    rows = run.sheet.rows
+    places = {h.casefold(): c for c, h in run.heads.items() if len(h) > 1 or h.isalpha()}
+    for i in range(max(0, run.rows[0] - _LOOK), run.rows[0]):
+        if i in run.above or len(rows[i]) < 2:
+            continue
+        place = places.get(_text(rows[i][0]).rstrip(":= ").casefold())
+        if place is None:
+            continue
+        cells = [_text(c) for c in rows[i][1:] if c != ""]
+        unit = next((c for c in reversed(cells) if unit_of(c) is not None and not c.isdigit()), "")
+        if unit:
+            run.units.setdefault(place, unit)
+        run.described[place] = (*run.described.get(place, ()), *cells)
+
+
+def _titles(run: Run, top: int) -> None:
+    """The texts right above the heads of a run."""
+    rows = run.sheet.rows
+    for i in range(run.rows[0] - 1, max(-1, top - 4), -1):
+        filled = [str(c) for c in rows[i] if c != ""]
+        if i in run.above or not filled:
+            continue
+        if _is_numeric(rows[i]) or len(run.title) > 1 or (run.title and i < top - 1):
+            break
+        run.title.append(Span(run.sheet.place(i), sentence(rows[i])))
+
+
+def sentence(row: Sequence[Cell]) -> str:
+    """The cells of a row as one text: ``Ruhelänge: 250 mm; Muskel: DMSP-20``."""
+    text = ""
+    before = EMPTY
+    for cell in row:
+        if cell == "":
+            continue
+        shown = f"{cell:.12g}" if isinstance(cell, float) else str(cell).strip()
+        kind = kind_of(cell)
+        if not text:
+            text = shown
+        elif before == NUMBER and kind == TEXT and unit_of(shown) is not None:
+            text += f" {shown}"
+        elif text.endswith(":") or before == TEXT and kind == NUMBER and not text.endswith(("=", ":")):
+            text += f": {shown}" if not text.endswith(":") else f" {shown}"
+        else:
+            text += f"; {shown}"
+        before = kind
+        if len(text) > MAX_TEXT:
+            break
+    return text[:MAX_TEXT]
+
+
+def _texts(sheets: Sequence[Sheet], used: set[tuple[int, int]]) -> list[Span]:
+    """All rows that belong to no run, as texts."""
+    found: list[Span] = []
+    for sheet in sheets:
+        for i, row in enumerate(sheet.rows):
+            if len(found) >= MAX_TEXTS:
+                return found
+            if (id(sheet), i) not in used and (text := sentence(row)):
+                found.append(Span(sheet.place(i), text))
+    return found
+
+
+def _shown(sheet: Sheet, head: int | None) -> tuple[tuple[int, tuple[str, ...]], ...]:
+    """The rows that are shown: the first ones, and those about a head further down."""
+    last = max(_SHOWN_ROWS, (head or 0) + _SHOWN_BELOW)
+    gap = range(_SHOWN_ROWS - _SHOWN_BELOW - _SHOWN_ABOVE, (head or 0) - _SHOWN_ABOVE) if last > _SHOWN_ROWS else range(0)
+    return tuple(
+        (sheet.line(i), tuple(("" if c == "" else f"{c:g}" if isinstance(c, float) else str(c))[:_SHOWN_LENGTH] for c in row[:_SHOWN_CELLS]))
+        for i, row in enumerate(sheet.rows[:last]) if i not in gap
+    )  # fmt: skip
+
+
+def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Table:
+    """The best of the tables whose columns the file names itself, with those that are alike."""
+    tables: list[tuple[Sheet, list[Column]]] = []
+    for sheet in named:
+        columns = [
+            column for head, values in (sheet.arrays or {}).items()
+            if (column := column_of(list(values), head=head, unit=sheet.units.get(head, ""), sheet=sheet, where=f"{sheet.noun} '{head}'")) is not None
+        ]  # fmt: skip
+        if columns:
+            tables.append((sheet, columns))
+    if not tables:
+        raise InputError(f"{name}: no arrays of numbers of one length", field="file", hint=_HINT)
+
+    def score(item: tuple[Sheet, list[Column]]) -> float:
+        known = sum(min(_MOST_OF_A_HEAD, head_score(c.head, c.unit)) for c in item[1])
+        return (_EMPTY_HEADS + known) * len(item[1][0].values) ** 0.5
+
+    best_sheet, best = max(tables, key=score)
+    heads = [(c.head, c.unit) for c in best]
+    alike = [(s, t) for s, t in tables if [(c.head, c.unit) for c in t] == heads]
+    unread = [(f"{s.name}/{c.head}".lstrip("/"), "it is in another table") for s, t in tables if (s, t) not in alike for c in t]
+    parts = [
+        Part(tuple(t), (*s.texts, Span(s.name, s.name)), np.arange(1, len(t[0].values) + 1)) for s, t in alike
+    ]  # fmt: skip
+    texts = list(dict.fromkeys(t for s in sheets for t in s.texts))
+    read = {s.name for s, _ in alike}
+    titles = tuple((s.name, s.name in read) for s, _ in tables if s.name)
+    rivals = ()
+    if len(alike) == 1:
+        close = [s for s, t in tables if s is not best_sheet and s.name and _claimed(t) >= max(2, _claimed(best))]
+        rivals = tuple((s.name, "") for s in (best_sheet, *close)) if close else ()
+    where = f"{name}, {best_sheet.noun} '{best_sheet.name}'" if best_sheet.name and len(alike) == 1 else name
+    return stacked(
+        parts, texts, where=where, noun=best_sheet.noun, format=best_sheet.format, others=tuple(unread),
+        tables=titles, rivals=rivals, messages=tuple(m for s in sheets for m in s.messages),
+    )  # fmt: skip
+
+
+def _claimed(columns: Sequence[Column]) -> int:
+    found = {c.value for column in columns for c in head_claims(column.head, column.unit) if c.facet == "channel"}
+    return len(found - {"group", "direction"})
+
+
+def known_unit(text: str) -> bool:
+    """Whether a head holds a unit."""
+    return taken_apart(text).unit is not None

@@ -1,0 +1,350 @@
+"""The shapes of tables: blocks side by side, wide tables, maps, tall tables and transposed ones, all as columns."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from mckibben.measurement.reading.heads import head_claims, head_score, taken_apart, without_run
+from mckibben.measurement.reading.lexicon import word_set, words_of
+from mckibben.measurement.reading.model import Cell, Column, Sheet, Span
+from mckibben.measurement.reading.numbers import (
+    CLOCK,
+    MARK,
+    NUMBER,
+    TEXT,
+    NumberStyle,
+    absolute_seconds,
+    kind_of,
+    numbers_of,
+    seconds_of,
+    with_units,
+)
+from mckibben.measurement.reading.units import quantities
+
+if TYPE_CHECKING:
+    from mckibben.measurement.reading.layout import Run
+
+_NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+_TRUTH = 0.3  # share of the cells that are numbers, from which a column is one of numbers
+_CLOCKS = 0.7  # share of the cells that are times, from which a column is one of times
+_FEWEST_ACROSS = 4  # numbers in a row of a transposed table
+_FEWEST_DOWN = 2  # such rows
+_MOST_NAMES = 12  # signals of a tall table
+_TRAILING = re.compile(r"\s{0,3}[\\/|]\s{0,3}")
+
+
+class Part(NamedTuple):
+    """A block of a table: its columns, what stands over it, the number in the file of each row."""
+
+    columns: tuple[Column, ...]
+    title: tuple[Span, ...]
+    lines: NDArray[np.int64]
+
+
+def column_of(
+    cells: Sequence[Cell], *, head: str, sheet: Sheet, where: str, unit: str = "", above: tuple[str, ...] = (),
+    described: tuple[str, ...] = (), place: int = -1,
+) -> Column | None:  # fmt: skip
+    """A column of numbers, of times or of words; None = all of its cells are empty."""
+    style = NumberStyle(sheet.decimal, sheet.thousands)
+    cells = [float(c) if isinstance(c, (int, np.floating, np.integer)) and not isinstance(c, bool) else c for c in cells]
+    cells = [cell.strip() if isinstance(cell, str) else cell for cell in cells]
+    filled = [cell for cell in cells if cell not in ("", None)]
+    if not filled:
+        return None
+    values, gaps = numbers_of(cells, style)
+    made = Column(head, values, where, unit, above, described, None, gaps, False, place)
+    if np.isfinite(values).sum() < _TRUTH * len(filled):
+        sample = filled[:400]
+        if sum(absolute_seconds(c) is not None for c in sample) > _CLOCKS * len(sample):
+            seconds = seconds_of(cells)
+            return replace(made, values=seconds, gaps={r: g for r, g in gaps.items() if not np.isfinite(seconds[r])}, clock=True)
+        bare, own = with_units([str(c) if not isinstance(c, float) else c for c in filled])
+        if own and sum(isinstance(c, str) and _NUMBER.match(c.lstrip("+-")) is not None for c in bare) > _CLOCKS * len(bare):
+            stripped, _ = with_units([c if isinstance(c, (str, float)) else "" for c in cells])
+            values, gaps = numbers_of(stripped, style)
+            return replace(made, values=values, gaps=gaps, unit=unit or own)
+        words = tuple("" if c is None else c if isinstance(c, str) else f"{c:g}" if isinstance(c, float) else str(c) for c in cells)
+        return replace(made, values=values, words=words, gaps={})
+    return made
+
+
+def parts_of(run: Run, title: list[Span]) -> list[Part]:
+    """The blocks of a run: itself, or those that stand side by side in it."""
+    sheet = run.sheet
+    if not run.heads and _is_map(run):
+        return [_melted(run, title)]
+    lines = np.array([sheet.line(r) for r in run.rows], np.int64)
+    columns = _columns(run)
+    for way in (_side_by_side, _wide):
+        if parts := way(run, columns, title, lines):
+            return parts
+    wide = _tall(list(columns.values()), lines)
+    if wide is not None:
+        return [Part(tuple(wide[0]), tuple(title), wide[1])]
+    return [Part(tuple(columns.values()), tuple(title), lines)]
+
+
+def _columns(run: Run) -> dict[int, Column]:
+    sheet, rows = run.sheet, run.sheet.rows
+    width = min(1000, max([len(rows[r]) for r in run.rows[:200]] + [c + 1 for c in run.heads]))
+    found: dict[int, Column] = {}
+    for c in range(width):
+        cells = [rows[r][c] if c < len(rows[r]) else "" for r in run.rows]
+        column = column_of(
+            cells, head=run.heads.get(c, ""), unit=run.units.get(c, ""), above=run.more.get(c, ()), described=run.described.get(c, ()),
+            sheet=sheet, where=f"column {c + 1}" if run.head_row is None else f"{sheet.place(run.head_row)}, column {c + 1}", place=c,
+        )  # fmt: skip
+        if column is not None:
+            found[c] = column
+    return found
+
+
+def _pattern(head: str) -> str:
+    """A head without numbers and without the number of a run."""
+    return _NUMBER.sub("#", without_run(head)[0])
+
+
+def _names_quantity(head: str) -> bool:
+    """Whether a head names a quantity with its value, or a run with its number."""
+    return bool(quantities(head.replace("_", " "))) or without_run(head)[1] != ""
+
+
+def _side_by_side(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArray[np.int64]) -> list[Part]:
+    """Blocks beside each other: each head comes again in the same order, alike or with another number."""
+    keys = {c: (_pattern(column.head), column.unit) for c, column in columns.items() if column.head.strip()}
+    groups: dict[tuple[str, str], list[int]] = {}
+    for c, key in keys.items():
+        groups.setdefault(key, []).append(c)
+    repeats = {len(places) for places in groups.values()}
+    if len(groups) < 2 or len(repeats) != 1 or (count := repeats.pop()) < 2:
+        return []
+    exact = all(len({columns[c].head for c in places}) == 1 for places in groups.values())
+    if not exact and not all(_names_quantity(columns[c].head) for places in groups.values() for c in places):
+        return []
+    parts = []
+    for k in range(count):
+        chosen = sorted(places[k] for places in groups.values())
+        upto = min((places[k + 1] for places in groups.values()), default=10**6) if k + 1 < count else 10**6
+        over = [] if exact else [Span(columns[c].where, columns[c].head) for c in chosen]
+        over += _texts_over(run, chosen[0], upto, {columns[c].head.strip() for c in chosen})
+        block = [columns[c] if exact else replace(columns[c], head=_without_quantity(without_run(columns[c].head)[0])) for c in chosen]
+        keep = ~np.all([np.isnan(c.values) for c in block if c.words is None] or [np.zeros(len(lines), bool)], axis=0)
+        parts.append(Part(tuple(_kept(c, keep) for c in block), tuple([*title, *over]), lines[keep]))
+    return parts
+
+
+def _texts_over(run: Run, first: int, upto: int, heads: set[str]) -> list[Span]:
+    """The texts above some columns that are no heads."""
+    sheet = run.sheet
+    begin = max(0, min(run.above or [run.rows[0]]) - 2)
+    return [
+        Span(sheet.place(i), str(sheet.rows[i][j]))
+        for i in range(begin, run.rows[0])
+        for j in range(first, min(upto, len(sheet.rows[i])))
+        if sheet.rows[i][j] != "" and str(sheet.rows[i][j]).strip() not in heads and i != run.unit_row
+    ]
+
+
+def _kept(column: Column, keep: NDArray[np.bool_]) -> Column:
+    """A column with some of its rows."""
+    rows = np.flatnonzero(keep)
+    place = {int(row): k for k, row in enumerate(rows)}
+    words = None if column.words is None else tuple(column.words[row] for row in rows)
+    gaps = {place[row]: gap for row, gap in column.gaps.items() if row in place}
+    return replace(column, values=column.values[keep], words=words, gaps=gaps)
+
+
+def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArray[np.int64]) -> list[Part]:
+    """A wide table: one quantity in several columns, whose heads differ in the value of another one."""
+    groups: dict[str, list[int]] = {}
+    for c, column in columns.items():
+        if quantities(column.head.replace("_", " ")) and kind_of(column.head) != NUMBER:
+            groups.setdefault(_pattern(column.head), []).append(c)
+    many = [places for places in groups.values() if len(places) > 1]
+    if not many or len({len(places) for places in many}) != 1:
+        return []
+    shared = [column for c, column in columns.items() if not any(c in places for places in many)]
+    if not shared:
+        return []
+    parts = []
+    for k in range(len(many[0])):
+        chosen = [columns[places[k]] for places in many]
+        block = [*shared, *(replace(c, head=_without_quantity(c.head) or _subject(run)) for c in chosen)]
+        keep = ~np.all([np.isnan(c.values) for c in chosen], axis=0)
+        over = [Span(c.where, c.head) for c in chosen]
+        parts.append(Part(tuple(_kept(c, keep) for c in block), tuple([*title, *over]), lines[keep]))
+    return parts
+
+
+def _without_quantity(head: str) -> str:
+    """A head without the quantity that it names: "F @ 2 bar [N]" is "F [N]"."""
+    text = head.replace("_", " ")
+    for quantity in reversed(quantities(text)):
+        text = text[: quantity.begin] + text[quantity.end :]
+    text = re.sub(r"\s*(?:@|\bat\b|\bbei\b|[a-zA-Z]?\s?=)\s*(?=$|[\[(,;])", " ", text)
+    return " ".join(text.split()).strip(" ,;@=()")
+
+
+def _subject(run: Run) -> str:
+    """What the title of a table says that its values are: the words before "of" or a colon."""
+    if not run.title:
+        return ""
+    text = run.title[0].text
+    best = max(re.split(r"\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]", text), key=head_score)
+    return best.strip()
+
+
+def _is_map(run: Run) -> bool:
+    """Whether the first row of a run is the upper axis of a map."""
+    from mckibben.measurement.reading.layout import is_axis
+
+    return is_axis(run.sheet, run.rows[0])
+
+
+def _melted(run: Run, title: list[Span]) -> Part:
+    """A map as columns: the axis down, the axis across, and the values; corner and titles name them."""
+    sheet, rows = run.sheet, run.sheet.rows
+    style = NumberStyle(sheet.decimal, sheet.thousands)
+    top = rows[run.rows[0]]
+    upper, _ = numbers_of(list(top[1:]), style)
+    body = [rows[r] for r in run.rows[1:]]
+    down, _ = numbers_of([row[0] for row in body], style)
+    values = np.array([numbers_of([*row[1 : len(top)], *[""] * (len(top) - len(row))], style)[0] for row in body])
+    corner = [part.strip() for part in _TRAILING.split(str(top[0])) if part.strip()] or [""]
+    where = sheet.place(run.rows[0])
+    over = [t.text for t in title] + [str(c) for r in run.remarks for c in rows[r] if c != ""]
+    names = [name for text in over for name in re.split(r"\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]", text)]
+    subject = max(names, key=head_score, default="")
+    down_name, across_name = (corner[0], corner[-1]) if len(corner) > 1 else ("", corner[0])
+    if len(corner) == 1 and _counts(down):
+        down_name = "cycle"
+    lines = np.array([sheet.line(r) for r in run.rows[1:]], np.int64)
+    across = len(upper)
+    columns = (
+        Column(down_name, np.repeat(down, across), where), Column(across_name, np.tile(upper, len(down)), where),
+        Column(subject, values.ravel(), where),
+    )  # fmt: skip
+    return Part(columns, tuple(title), np.repeat(lines, across))
+
+
+def _counts(values: NDArray[np.float64]) -> bool:
+    return len(values) > 1 and bool(np.all(np.diff(values) == 1.0)) and values[0] in (0.0, 1.0)
+
+
+def _tall(columns: list[Column], lines: NDArray[np.int64]) -> tuple[list[Column], NDArray[np.int64]] | None:
+    """A table with one value per line, a column of names and one of values, made wide; None = it is none."""
+    numbers = [c for c in columns if c.words is None and np.isfinite(c.values).sum() > 1]
+    named = [c for c in columns if c.words is not None and _are_signals(c.words)]
+    if len(named) != 1 or not numbers:
+        return None
+    names = named[0]
+    assert names.words is not None
+    value = _value_column(numbers)
+    if value is None:
+        return None
+    words = np.array([word.strip() for word in names.words])
+    signals = [word for word in dict.fromkeys(words) if word]
+    units = next((c for c in columns if c.words is not None and c is not names and _are_units(c.words)), None)
+    keys = [c for c in numbers if c is not value and len(np.unique(c.values)) < len(c.values)]
+    counts = [int(np.sum(words == s)) for s in signals]
+    if keys:
+        labels = np.column_stack([np.nan_to_num(c.values, nan=-1e300) for c in keys])
+        rows, first = np.unique(labels, axis=0, return_index=True)
+        order = np.argsort(first)
+        rows, first = rows[order], first[order]
+        index = {tuple(row): k for k, row in enumerate(rows.tolist())}
+        at = np.array([index[tuple(row)] for row in labels.tolist()])
+        if len(rows) * len(signals) > 2 * len(words):
+            return None
+    elif len(set(counts)) == 1:
+        at = np.concatenate([[np.sum(words[:i] == words[i])] for i in range(len(words))]) if len(words) < 5000 else None
+        if at is None:
+            return None
+        first = np.array([int(np.flatnonzero(at == k)[0]) for k in range(counts[0])])
+    else:
+        return None
+    result = [replace(c, values=c.values[first], gaps={}) for c in keys]
+    for signal in signals:
+        column = np.full(len(first), np.nan)
+        here = words == signal
+        column[at[here]] = value.values[here]
+        unit = "" if units is None or units.words is None else units.words[int(np.argmax(here))]
+        result.append(replace(value, head=signal, unit=unit or value.unit, values=column, gaps={}, above=()))
+    return result, lines[first]
+
+
+def _are_signals(words: Sequence[str]) -> bool:
+    """Whether words are the names of signals: few, each again and again, and two of them name channels."""
+    names = {word.strip() for word in words if word.strip()}
+    if not 2 <= len(names) <= _MOST_NAMES or len(words) < 2 * len(names):
+        return False
+    claims = [c for name in names for c in head_claims(name[:200]) if c.facet == "channel" and (c.rule != "letter" or len(name) > 1)]
+    return len({claim.value for claim in claims} - {"group", "direction"}) >= 2
+
+
+def _are_units(words: Sequence[str]) -> bool:
+    from mckibben.measurement.reading.units import unit_of
+
+    names = {word.strip() for word in words if word.strip()}
+    return bool(names) and len(names) <= _MOST_NAMES and all(unit_of(name) is not None for name in names)
+
+
+def _value_column(numbers: Sequence[Column]) -> Column | None:
+    """The column of the values: it is called so, or it is the only one that names no channel."""
+    called = [c for c in numbers if word_set("values").among(words_of(c.head))]
+    if len(called) == 1:
+        return called[0]
+    free = [c for c in numbers if not any(claim.facet == "channel" for claim in head_claims(c.head, c.unit))]
+    return free[-1] if free else (numbers[-1] if len(numbers) > 1 else None)
+
+
+def transposed(sheet: Sheet) -> Sheet:
+    """A sheet whose heads stand in its first column, with the readings beside them, turned; others as they are."""
+    found: list[int] = []
+    best: list[int] = []
+    for i, row in enumerate([*sheet.rows[:400], []]):
+        if _is_row_of_readings(row):
+            found.append(i)
+            continue
+        if any(cell != "" for cell in row) or not row:
+            best, found = (found if len(found) > len(best) else best), []
+    if len(best) < _FEWEST_DOWN or len(best) > 40:
+        return sheet
+    rows = [sheet.rows[i] for i in best]
+    across = max(len(row) for row in rows)
+    channels = {c.value for row in rows for c in head_claims(str(row[0])[:200]) if c.facet == "channel"} - {"group", "direction"}
+    if len(channels) < 2 or across - 1 < _FEWEST_ACROSS or across - 1 <= len(rows) and len(channels) < len(rows):
+        return sheet
+    units = 1 if all(len(row) > 1 and kind_of(row[1]) == TEXT for row in rows) else 0
+    heads: list[Cell] = [str(row[0]) + (f" [{row[1]}]" if units else "") for row in rows]
+    body: list[list[Cell]] = [
+        [row[j] if j < len(row) else "" for row in rows] for j in range(1 + units, across)
+    ]  # fmt: skip
+    before = [row for i, row in enumerate(sheet.rows) if i not in best and i < best[0]]
+    after = [row for i, row in enumerate(sheet.rows) if i not in best and i > best[-1]]
+    numbers = [sheet.line(i) for i in range(best[0])] + [sheet.line(best[0])] * (len(body) + 1)
+    numbers += [sheet.line(i) for i in range(best[-1] + 1, len(sheet.rows))]
+    message = "the heads stand in the first column: the table is read turned"
+    return replace(sheet, rows=[*before, heads, *body, *after], lines=tuple(numbers), messages=(*sheet.messages, message))
+
+
+def _is_row_of_readings(row: Sequence[Cell]) -> bool:
+    """Whether a row begins with the name of a channel and goes on with numbers, a unit between them perhaps."""
+    if len(row) < 1 + _FEWEST_ACROSS or kind_of(row[0]) != TEXT:
+        return False
+    kinds = [kind_of(cell) for cell in row[1:]]
+    numbers = sum(kind in (NUMBER, CLOCK) for kind in kinds)
+    texts = sum(kind == TEXT for kind in kinds)
+    return numbers >= _FEWEST_ACROSS and texts <= 1 and numbers + kinds.count(MARK) >= 0.7 * len(kinds) and head_score(str(row[0])[:200]) >= 2.0
+
+
+def is_signal(text: str) -> bool:
+    """Whether a text names a channel."""
+    return taken_apart(text).name != "" and head_score(text) >= 2.0

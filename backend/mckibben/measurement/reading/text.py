@@ -1,0 +1,195 @@
+"""Delimited text, text between blanks and ``key:value`` lines as rows of cells."""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections import Counter
+from collections.abc import Sequence
+
+from mckibben.measurement.reading.encodings import decoded
+from mckibben.measurement.reading.limits import MAX_CELLS, MAX_COLUMNS, MAX_ROWS, SPLIT
+from mckibben.measurement.reading.model import Cell, Sheet
+from mckibben.measurement.reading.numbers import CLOCK, NUMBER, TEXT, kind_of, style_of
+from mckibben.physics.errors import InputError
+
+_FIRST, _MIDDLE = 150, 300  # lines from which the delimiter is told
+_DELIMITERS = (";", "\t", ",", "|", None)  # None: blanks
+_PREFERENCE = 0.03  # share of the score that each later delimiter must have more
+_LONGEST = 20_000  # characters of a line that are looked at for the delimiter
+_MOST_LINES_OF_A_CELL = 20  # a quoted cell of more is one whose quote is never closed
+_COMMENT = re.compile(r'\s{0,20}"?(?:#|%|//|!|\*\*)')
+_PAIR = re.compile(r"([^\W\d]\w{0,20}(?:\[[^\[\]]{1,10}\])?)\s?[:=]\s?([-+]?\d[\d.]{0,15}(?:[eE][-+]?\d{1,3})?)\s?([A-Za-z°%]{0,5})(?=$|[,;|\s])")
+_PAIRED_SHARE = 0.5  # of the lines, above which they are read as pairs of key and value
+_GAP = re.compile(r"\s{2,}|\t")
+_SEPARATOR_HINT = re.compile(r"sep=([,;\t|])")
+_RULE = re.compile(r"[|+\s]{0,4}[-=:_]{3,}[-=:|+\s]{0,2000}")  # a line drawn under a head
+
+
+def text_sheets(data: bytes, name: str) -> list[Sheet]:
+    """The cells of a text file.
+
+    Raises:
+        InputError: it is no text, or has more lines or cells than are read.
+    """
+    text, messages = decoded(data, name)
+    return [sheet_of_text(text, name, messages)]
+
+
+def sheet_of_text(text: str, name: str, messages: Sequence[str] = ()) -> Sheet:
+    """The cells of a decoded text."""
+    lines = text.split("\n")
+    if len(lines) > MAX_ROWS:
+        raise InputError(f"{name}: it has {len(lines)} lines, at most {MAX_ROWS} are read", field="file", hint=SPLIT)
+    pairs = _paired(lines)
+    if pairs is not None:
+        rows, numbers = pairs
+        return Sheet(rows=rows, noun="line", lines=tuple(numbers), messages=tuple(messages))
+    sample = _sample(lines)
+    hint = next((m[1] for line in lines[:3] if (m := _SEPARATOR_HINT.fullmatch(line.strip()))), None)
+    delimiter = hint or best_delimiter(sample)
+    rows, numbers = _split(lines, delimiter, name)
+    style = style_of(cell for row in rows[:_FIRST] + rows[len(rows) // 2 : len(rows) // 2 + _MIDDLE] for cell in row)
+    return Sheet(
+        rows=rows, noun="line", decimal=style.decimal, thousands=style.thousands, lines=tuple(numbers), messages=tuple(messages)
+    )
+
+
+def _sample(lines: Sequence[str]) -> list[str]:
+    middle = max(_FIRST, len(lines) // 2 - _MIDDLE // 2)
+    chosen = [*lines[:_FIRST], *lines[middle : middle + _MIDDLE]]
+    return [line[:_LONGEST] for line in chosen if line.strip()]
+
+
+def best_delimiter(sample: Sequence[str]) -> str | None:
+    """The delimiter with which most cells are numbers, fewest are texts, and rows are of one width."""
+    scores = [(_score(sample, d) * (1.0 - _PREFERENCE * rank), d) for rank, d in enumerate(_DELIMITERS)]
+    best, delimiter = max(scores, key=lambda item: item[0])
+    if best <= 0.0:
+        joined = "\n".join(sample)
+        return max((";", "\t", ","), key=joined.count)
+    return delimiter
+
+
+def _score(sample: Sequence[str], delimiter: str | None) -> float:
+    """Numbers less texts, of rows with two numbers at least; rows of the usual width count in full."""
+    good: list[tuple[int, float]] = []
+    for line in sample:
+        if delimiter is not None and delimiter not in line:
+            continue
+        cells = _cells_of(line, delimiter)
+        kinds = [kind_of(cell) for cell in cells]
+        numbers = kinds.count(NUMBER) + kinds.count(CLOCK)
+        if numbers >= 2:
+            good.append((len(cells), numbers - 0.7 * kinds.count(TEXT)))
+    if not good:
+        return 0.0
+    width = Counter(width for width, _ in good).most_common(1)[0][0]
+    return sum(value if w == width else 0.3 * value for w, value in good)
+
+
+def _cells_of(line: str, delimiter: str | None) -> list[str]:
+    if delimiter is None:
+        return line.split()
+    if '"' in line and delimiter != "|":
+        try:
+            return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))]
+        except (csv.Error, StopIteration):
+            pass
+    cells = [cell.strip() for cell in line.split(delimiter)]
+    return cells[1:-1] if delimiter == "|" and len(cells) > 2 and not cells[0] and not cells[-1] else cells
+
+
+def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list[list[Cell]], list[int]]:
+    """(rows of cells, number of the line of each)."""
+    quoted = delimiter not in (None, "|") and any('"' in line for line in lines)
+    usual = _usual_width(lines, delimiter)
+    rows: list[list[Cell]] = []
+    numbers: list[int] = []
+    count = 0
+    for number, cells in _quoted(lines, str(delimiter), name) if quoted else enumerate(lines, 1):
+        line = lines[number - 1]
+        row = cells if isinstance(cells, list) else _row(line, delimiter)
+        if _RULE.fullmatch(line) and len(line) < _LONGEST:
+            continue
+        if _COMMENT.match(line) or (len(row) != usual and _is_sentence(line, row, delimiter)):
+            bare = line.strip().lstrip('#%/!*" ').strip()
+            again = _row(bare, delimiter)
+            row = again if len(again) == usual and len(again) > 1 else [line.strip().strip(',;\t "')]
+        count += len(row)
+        if count > MAX_CELLS:
+            raise InputError(f"{name}: it has more than {MAX_CELLS} cells", field="file", hint=SPLIT)
+        rows.append(list(row[:MAX_COLUMNS]))
+        numbers.append(number)
+    return rows, numbers
+
+
+def _row(line: str, delimiter: str | None) -> list[str]:
+    """The cells of a line; between blanks a line of words is parted at wide gaps only."""
+    if delimiter is not None:
+        return _cells_of(line, delimiter)
+    cells = line.split()
+    if sum(kind_of(cell) in (NUMBER, CLOCK) for cell in cells) * 2 >= len(cells):
+        return cells
+    return [cell for cell in _GAP.split(line.strip()) if cell]
+
+
+def _is_sentence(line: str, row: Sequence[object], delimiter: str | None) -> bool:
+    """Whether a line that is no row of the table is one sentence with commas in it."""
+    if delimiter != "," or len(row) < 2:
+        return False
+    cells = [str(cell) for cell in row if str(cell)]
+    return not any(kind_of(cell) == NUMBER for cell in cells) and len(line.split()) > 2 * len(cells) and ", " in line
+
+
+def _usual_width(lines: Sequence[str], delimiter: str | None) -> int:
+    rows = [_row(line, delimiter) for line in _sample(lines)]
+    widths = Counter(len(row) for row in rows if sum(kind_of(c) in (NUMBER, CLOCK) for c in row) >= 2)
+    return widths.most_common(1)[0][0] if widths else 0
+
+
+def _quoted(lines: Sequence[str], delimiter: str, name: str) -> list[tuple[int, list[str]]]:
+    """Rows with quoted cells, which may hold delimiters and ends of lines."""
+    csv.field_size_limit(10_000_000)
+    reader = csv.reader((line + "\n" for line in lines), delimiter=delimiter, skipinitialspace=True)
+    rows: list[tuple[int, list[str]]] = []
+    begin = 1
+    try:
+        for cells in reader:
+            if any(cell.count("\n") > _MOST_LINES_OF_A_CELL for cell in cells):
+                raise InputError(
+                    f"{name}, row {begin}: a quote is never closed", field=f"row {begin}", hint='close it with "'
+                )
+            rows.append((begin, [cell.strip() for cell in cells]))
+            begin = reader.line_num + 1
+    except csv.Error as error:
+        raise InputError(f"{name}, row {begin}: {error}", field=f"row {begin}", hint="export it again") from error
+    return rows
+
+
+def _paired(lines: Sequence[str]) -> tuple[list[list[Cell]], list[int]] | None:
+    """The lines of a log that writes each reading with its name, ``t:12 p:3.4``, as a table; None = it is none."""
+    sample = [line[:1000] for line in lines[:2000] if line.strip()]
+    found = [_PAIR.findall(line) for line in sample]
+    many = [pairs for pairs in found if len(pairs) >= 2 and len({key for key, *_ in pairs}) == len(pairs)]
+    if len(many) < max(3, _PAIRED_SHARE * len(sample)):
+        return None
+    usual = Counter(tuple(key for key, *_ in pairs) for pairs in many).most_common(1)[0][0]
+    units = {key: unit for key, _, unit in next(p for p in many if tuple(k for k, *_ in p) == usual)}
+    rows: list[list[Cell]] = []
+    numbers: list[int] = []
+    headed = False
+    for number, line in enumerate(lines, 1):
+        pairs = {key: value for key, value, _ in _PAIR.findall(line[:1000])}
+        if sum(key in pairs for key in usual) < 2:
+            if line.strip():
+                rows.append([line.strip()])
+                numbers.append(number)
+            continue
+        if not headed:
+            rows.append([f"{key} [{units[key]}]" if units[key] else key for key in usual])
+            numbers.append(number)
+            headed = True
+        rows.append([pairs.get(key, "") for key in usual])
+        numbers.append(number)
+    return rows, numbers

@@ -1,0 +1,273 @@
+"""Nested names (JSON, MATLAB, HDF5) -> sheets: columns are arrays of one length below one name, single values are texts."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from mckibben.measurement.reading.lexicon import word_set, words_of
+from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_DEPTH, MAX_NODES, MAX_TEXT
+from mckibben.measurement.reading.model import Sheet, Span
+from mckibben.measurement.reading.units import unit_of
+
+_FEWEST = 2  # values of an array
+_NAMES = ("name", "label", "title", "channel", "signal", "quantity", "id", "key")
+_MOST_FIELDS = 12  # of a mapping that is one channel
+
+
+@dataclass
+class _Walk:
+    """What has been found below the names so far."""
+
+    format: str
+    noun: str
+    sheets: list[Sheet] = field(default_factory=list)
+    texts: list[Span] = field(default_factory=list)
+    nodes: int = 0
+
+
+def sheets_of_tree(tree: Any, format: str, noun: str) -> list[Sheet]:
+    """The tables of nested names."""
+    walk = _Walk(format, noun)
+    _visit(walk, tree, "", (), {}, 0)
+    if not walk.sheets and walk.texts:
+        return [Sheet("", noun=noun, format=format, arrays={}, texts=tuple(walk.texts))]
+    return walk.sheets
+
+
+def _visit(walk: _Walk, node: Any, path: str, above: tuple[Span, ...], units: Mapping[str, str], depth: int) -> None:
+    walk.nodes += 1
+    if depth > MAX_DEPTH or walk.nodes > MAX_NODES:
+        return
+    if isinstance(node, (list, tuple)) and node and all(isinstance(item, dict) for item in node):
+        _of_list(walk, list(node), path, above, units, depth)
+    elif isinstance(node, (list, tuple)) and _is_grid(node):
+        _of_grid(walk, node, path, above, units)
+    elif isinstance(node, dict):
+        _of_names(walk, node, path, above, units, depth)
+
+
+def _is_grid(node: Sequence[Any]) -> bool:
+    """Whether a list holds rows of which the first is one of names."""
+    return (
+        len(node) > _FEWEST and all(isinstance(row, (list, tuple)) for row in node) and len(node[0]) > 1
+        and all(isinstance(cell, str) for cell in node[0])
+    )  # fmt: skip
+
+
+def _of_grid(walk: _Walk, node: Sequence[Any], path: str, above: tuple[Span, ...], units: Mapping[str, str]) -> None:
+    heads = [str(cell) for cell in node[0]][:MAX_COLUMNS]
+    body = node[1:]
+    if all(isinstance(cell, str) and unit_of(cell) is not None for cell in body[0]):
+        units = {**units, **dict(zip(heads, map(str, body[0]), strict=False))}
+        body = body[1:]
+    arrays = {head: [row[i] if i < len(row) else None for row in body] for i, head in enumerate(heads)}
+    _emit(walk, path, arrays, units, above)
+
+
+def _of_list(walk: _Walk, node: list[dict[str, Any]], path: str, above: tuple[Span, ...], units: Mapping[str, str], depth: int) -> None:
+    """Records, named channels, or runs one after another."""
+    usual = [item for item in node if item.keys() == node[len(node) // 2].keys()]
+    if len(usual) > 2 and len(usual) > len(node) / 2 and _is_record(usual[0]):
+        for item in [item for item in node if item.keys() != usual[0].keys()][:20]:
+            above = (*above, *_texts_of(item, path))
+            units = {**units, **{str(k): str(u) for v in item.values() if isinstance(v, dict) for k, u in v.items() if isinstance(u, str)}}
+    if all(_is_record(item) for item in usual) and len(usual) >= _FEWEST and not any(_channel(item) for item in node):
+        keys = list(dict.fromkeys(k for item in usual[:1000] for k in item))[:MAX_COLUMNS]
+        flat = {str(k): [_leaf(item.get(k)) for item in usual] for k in keys}
+        _emit(walk, path, flat, units, above)
+        return
+    named = [_channel(item) for item in node]
+    if all(named):
+        _of_names(walk, {f"{i}": item for i, item in enumerate(node)}, path, above, units, depth + 1)
+        return
+    if all(not isinstance(v, (list, np.ndarray)) for item in usual[:5] for v in item.values()) and len(usual) > 2:
+        flat_items = [_flattened(item) for item in usual]
+        if all(_is_record(item) for item in flat_items[:5]):
+            _of_list(walk, flat_items, path, above, units, depth + 1)
+            return
+    for i, item in enumerate(node[:300]):
+        _visit(walk, item, f"{path}({i + 1})", above, units, depth + 1)
+
+
+def _is_record(item: Mapping[str, Any]) -> bool:
+    return bool(item) and all(not isinstance(v, (dict, list, tuple)) and (not isinstance(v, np.ndarray) or v.size == 1) for v in item.values())
+
+
+def _flattened(item: Mapping[str, Any], before: str = "", depth: int = 0) -> dict[str, Any]:
+    """A record whose fields are records as one."""
+    flat: dict[str, Any] = {}
+    for key, value in item.items():
+        if isinstance(value, dict) and depth < 3:
+            flat |= _flattened(value, f"{before}{key}.", depth + 1)
+        else:
+            flat[f"{before}{key}"] = value
+    return flat
+
+
+def _leaf(value: Any) -> Any:
+    if isinstance(value, np.ndarray):
+        return float(value.ravel()[0]) if value.size and value.dtype.kind in "biuf" else str(value)
+    return float(value) if isinstance(value, (int, float)) and not isinstance(value, bool) else value
+
+
+def _texts_of(item: Mapping[str, Any], path: str) -> list[Span]:
+    """The single values of a mapping, at any depth, as texts."""
+    found: list[Span] = []
+    for key, value in item.items():
+        if isinstance(value, dict):
+            unit = next((str(u) for k, u in value.items() if isinstance(u, str) and _says_unit(str(k))), "")
+            number = next((v for v in value.values() if isinstance(v, (int, float)) and not isinstance(v, bool)), None)
+            if unit and number is not None and len(value) <= 4:
+                found.append(Span(f"{path}{key}", f"{key}: {number:.12g} {unit}"))
+            else:
+                found += _texts_of(value, f"{path}{key}.")
+        elif (text := _single(value)) is not None:
+            found.append(Span(f"{path}{key}", f"{key}: {text}"[:MAX_TEXT]))
+    return found
+
+
+def _single(value: Any) -> str | None:
+    """One value as a text; None = it is none, or several."""
+    if isinstance(value, bool):
+        return None
+    if isinstance(value, str):
+        return value
+    if isinstance(value, (int, float)):
+        return f"{value:.12g}"
+    if isinstance(value, np.ndarray) and value.size == 1:
+        return f"{value.ravel()[0]:.12g}" if value.dtype.kind in "iuf" else str(value.ravel()[0])
+    return None
+
+
+def _says_unit(key: str) -> bool:
+    return word_set("unit").among(words_of(key))
+
+
+def _channel(item: Any) -> tuple[str, Any, str, list[str]] | None:
+    """(name, values, unit, remarks) of a mapping that is one channel: one array, a name or a unit beside it."""
+    if not isinstance(item, dict) or len(item) > _MOST_FIELDS or any(isinstance(v, dict) for v in item.values()):
+        return None
+    arrays = [v for v in item.values() if isinstance(v, (list, tuple, np.ndarray)) and _size(v) > _FEWEST]
+    if len(arrays) != 1 or (isinstance(arrays[0], (list, tuple)) and isinstance(arrays[0][0], (list, dict, tuple))):
+        return None
+    texts = {str(k): v for k, v in item.items() if isinstance(v, str)}
+    unit = next((v for k, v in texts.items() if _says_unit(k)), "")
+    title = next((v for k, v in texts.items() if k.lower() in _NAMES), "")
+    if not unit and not title:
+        return None
+    values = np.ravel(arrays[0]) if isinstance(arrays[0], np.ndarray) else list(arrays[0])
+    return title, values, unit, [v for v in texts.values() if v not in (unit, title)]
+
+
+def _size(value: Any) -> int:
+    return int(value.size) if isinstance(value, np.ndarray) else len(value)
+
+
+def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span, ...], units: Mapping[str, str], depth: int) -> None:
+    texts, arrays, below = [*above], {}, []
+    own = dict(units)
+    flat: dict[str, Any] = {}
+    for key, value in node.items():  # a list of named arrays are columns of this level
+        if isinstance(value, (list, tuple)) and len(value) > 1 and all(_channel(v) for v in value):
+            flat |= {f"{key}({i + 1})": v for i, v in enumerate(value)}
+        else:
+            flat[str(key)] = value
+    for head, value in flat.items():
+        channel = _channel(value)
+        if channel is not None:
+            name = channel[0] or head
+            arrays[name] = channel[1]
+            if channel[2]:
+                own[name] = channel[2]
+            texts += [Span(f"{path}{head}", f"{name}: {t}"[:MAX_TEXT]) for t in channel[3]]
+        elif (columns := _matrix(value, node, texts)) is not None:
+            arrays |= columns
+        elif isinstance(value, np.ndarray) and value.size >= _FEWEST and min(value.shape, default=0) == 1 or isinstance(value, np.ndarray) and value.ndim == 1 and value.size >= _FEWEST:
+            arrays[head] = np.ravel(value)
+        elif isinstance(value, (list, tuple)) and len(value) >= _FEWEST and all(not isinstance(v, (dict, list, tuple, np.ndarray)) for v in value[:50]):
+            arrays[head] = list(value)
+        elif (text := _single(value)) is not None:
+            texts.append(Span(f"{path}{head}", f"{head}: {text}"[:MAX_TEXT]))
+            if isinstance(value, str) and unit_of(value) is not None:
+                own |= _unit_beside(head, value, flat)
+        elif isinstance(value, dict) and value and all(isinstance(v, str) and len(v) < 12 for v in value.values()):
+            own |= {str(k): v for k, v in value.items()}
+            texts += _texts_of({head: value}, path)
+        elif isinstance(value, dict) and not any(isinstance(v, (list, tuple, dict)) or isinstance(v, np.ndarray) and v.size > 1 for v in value.values()):
+            texts += _texts_of({head: value}, path)
+        elif isinstance(value, (dict, list, tuple)):
+            below.append((head, value))
+    if arrays:
+        own |= _listed_units(arrays, own)
+    _emit(walk, path, arrays, own, tuple(texts))
+    walk.texts += [t for t in texts if t not in above]
+    for head, value in below:
+        _visit(walk, value, f"{path}{head}.", tuple(texts), own, depth + 1)
+
+
+def _unit_beside(head: str, value: str, flat: Mapping[str, Any]) -> dict[str, str]:
+    """The unit that a text names for an array: ``Kraft_unit = 'N'``."""
+    for name in flat:
+        rest = head.lower().replace(name.lower(), "", 1)
+        if name != head and rest != head.lower() and _says_unit(rest.strip("_ .")):
+            return {name: value}
+    return {}
+
+
+def _listed_units(arrays: dict[str, Any], units: Mapping[str, str]) -> dict[str, str]:
+    """The units of columns in a list of as many texts, which is no column."""
+    del units
+    for head, values in list(arrays.items()):
+        if isinstance(values, list) and values and all(isinstance(v, str) and unit_of(v) is not None for v in values):
+            others = [name for name in arrays if name != head and not isinstance(arrays[name][0], str)]
+            if len(others) == len(values):
+                del arrays[head]
+                return dict(zip(others, map(str, values), strict=True))
+    return {}
+
+
+def _matrix(value: Any, node: Mapping[str, Any], texts: Iterable[Span]) -> dict[str, Any] | None:
+    """The named columns of a matrix; None = it is none, or nothing names its columns."""
+    del texts
+    array: np.ndarray | None = None
+    if isinstance(value, np.ndarray) and value.ndim == 2 and min(value.shape) > 1 and value.dtype.kind in "biuf":
+        array = value
+    elif isinstance(value, (list, tuple)) and len(value) > _FEWEST and all(isinstance(r, (list, tuple)) for r in value):
+        width = len(value[0])
+        if width > 1 and all(len(row) == width for row in value) and not any(isinstance(c, (dict, list)) for c in value[0]):
+            try:
+                array = np.array([[np.nan if c is None else c for c in row] for row in value], float)
+            except (TypeError, ValueError):
+                return None
+    if array is None:
+        return None
+    for other in node.values():
+        names = [str(v).strip() for v in other] if isinstance(other, (list, tuple)) and all(isinstance(v, str) for v in other) else None
+        if names and len(names) in array.shape:
+            table = array if array.shape[1] == len(names) else array.T
+            return {name: table[:, i] for i, name in enumerate(names[:MAX_COLUMNS])}
+    return None
+
+
+def _emit(walk: _Walk, path: str, arrays: Mapping[str, Any], units: Mapping[str, str], texts: tuple[Span, ...]) -> None:
+    """A sheet of the arrays of one length; the others are named beside it."""
+    sizes = [len(v) for v in arrays.values()]
+    if not sizes or max(sizes) < _FEWEST:
+        return
+    size = max(set(sizes), key=lambda n: (sizes.count(n) > 1, sizes.count(n) * n))
+    chosen = {k: v for k, v in arrays.items() if len(v) == size}
+    rest = tuple(Span(f"{path}{k}", f"array {k} of {len(v)} values") for k, v in arrays.items() if len(v) != size)
+    lists = tuple(
+        Span(f"{path}{k}", f"{k}: {'; '.join(map(str, v))}"[:MAX_TEXT]) for k, v in arrays.items()
+        if len(v) != size and isinstance(v, list) and all(isinstance(t, str) for t in v)
+    )  # fmt: skip
+    walk.sheets.append(
+        Sheet(
+            path.rstrip("."), noun=walk.noun, format=walk.format, arrays=chosen,
+            units={k: u for k, u in units.items() if k in chosen and u}, texts=(*texts, *rest, *lists),
+        )
+    )  # fmt: skip
