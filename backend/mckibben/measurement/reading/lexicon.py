@@ -62,9 +62,11 @@ class WordSet:
 
     Args:
         entries: ``"en: word word"``.
+        compounds: in a text too they count as the end of a longer word, "Prüfdruck".
     """
 
-    def __init__(self, entries: Iterable[str]) -> None:
+    def __init__(self, entries: Iterable[str], *, compounds: bool = False) -> None:
+        self.compounds = compounds
         plain = [word for entry in entries for word in entry.partition(":")[2].split()]
         self.words = frozenset(folded(word.strip("*") or word) for word in plain)
         marked = {folded(word.strip("*")) for word in plain if "*" in word and word != "*"}
@@ -77,6 +79,8 @@ class WordSet:
 
     def among(self, words: Iterable[str]) -> bool:
         """Whether one of the words of a text is known, also as another form of a long one."""
+        if self.compounds:
+            return any(self.strength(word) for word in words)
         return any(self.knows(word) for word in words)
 
     def knows(self, word: str) -> bool:
@@ -117,8 +121,14 @@ class WordSet:
 @cache
 def word_set(name: str) -> WordSet:
     """A set of `words.toml`; several names joined by ``|`` are one set."""
-    known = _words()["words"]
-    return WordSet([entry for part in name.split("|") for entry in known[part]])
+    return WordSet([entry for part in name.split("|") for entry in _entries(part)], compounds="@" in name)
+
+
+def _entries(name: str) -> list[str]:
+    """The words of a set, or of a channel: ``@pressure``."""
+    if not name.startswith("@"):
+        return _words()["words"][name]
+    return next(r["words"] for r in _data("rules.toml")["rule"] if r["on"] == "head" and r["id"] == f"head_{name[1:]}")
 
 
 @dataclass(frozen=True)
@@ -133,7 +143,7 @@ class Rule:
         example: a text it fires on; its test.
         words: of a head.
         needs: sets of which each must be among the words of a clause, or before a quantity.
-        behind: sets that may stand behind a quantity instead.
+        behind: sets that may stand behind a quantity instead, or have to as well (``both``).
         without: sets of which none may be there.
         dimension: of the quantity, or of the unit that a head must have; empty = any.
         pattern: of a text.
@@ -148,6 +158,7 @@ class Rule:
     words: WordSet | None = None
     needs: tuple[str, ...] = ()
     behind: tuple[str, ...] = ()
+    both: bool = False
     without: tuple[str, ...] = ()
     dimension: tuple[str, ...] = ()
     pattern: re.Pattern[str] | None = None
@@ -169,7 +180,7 @@ def _rule(given: Mapping[str, Any]) -> Rule:
     return Rule(
         id=given["id"], on=given["on"], claims=given["claims"], weight=float(given["weight"]), example=given["example"],
         words=WordSet(given["words"]) if "words" in given else None,
-        needs=tuple(given.get("needs", ())), behind=tuple(given.get("behind", ())), without=tuple(given.get("without", ())),
+        needs=tuple(given.get("needs", ())), behind=tuple(given.get("behind", ())), both=bool(given.get("both")), without=tuple(given.get("without", ())),
         dimension=tuple(given.get("dimension", ())),
         pattern=re.compile(given["pattern"], flags) if "pattern" in given else None,
     )  # fmt: skip

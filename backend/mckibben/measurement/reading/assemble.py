@@ -1,0 +1,257 @@
+"""A file -> a measurement: the steps one after the other, and what is said about them."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+
+import numpy as np
+
+from mckibben.measurement.kind import FORCE_KINDS, lifts_fast, starts_of_lifts, weights_of_runs
+from mckibben.measurement.measurement import CHANNEL_UNITS, REFERENCE, STROKES, UNIT_OF, Measurement, StatedValue, build
+from mckibben.measurement.order import FROM_ROWS, order_of_rows
+from mckibben.measurement.question import Question
+from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.reading.containers import sheets_of
+from mckibben.measurement.reading.decide import decide, roles_of
+from mckibben.measurement.reading.evidence import evidence_of
+from mckibben.measurement.reading.facts import Known, known_of
+from mckibben.measurement.reading.layout import table_of
+from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table
+from mckibben.measurement.reading.questions import Reading, questions_of
+from mckibben.measurement.reading.rows import rows_of
+from mckibben.physics.errors import InputError
+
+_LOADS = ("load_mass", "load_force")
+UNKNOWN = "its name is not known"
+
+
+def looked_at(data: bytes, name: str, correction: Correction) -> tuple[Table, tuple[Evidence, ...], Known]:
+    """The table of a file, the claims about it, and what is known beside its columns."""
+    sheets = sheets_of(data, name)
+    table = table_of(sheets, name, wanted=correction.sheet, head=correction.head)
+    evidence = tuple(evidence_of(table, name))
+    return table, evidence, known_of(table, evidence, name, correction)
+
+
+def reading_of(data: bytes, name: str, correction: Correction) -> Reading:
+    """All that is known of a file once it is decided.
+
+    Raises:
+        InputError: nothing can be read from it, with the reason and what to do.
+    """
+    table, evidence, known = looked_at(data, name, correction)
+    return decided(name, table, evidence, known, correction)
+
+
+def decided(name: str, table: Table, evidence: tuple[Evidence, ...], known: Known, correction: Correction) -> Reading:
+    """The decision about a table, and its rows."""
+    decision = decide(table, evidence, known.facts(table))
+    if not set(decision.uses) - {"time", "temperature"}:
+        raise _nothing(name, table, evidence)
+    rows = rows_of(table, decision, known, evidence, correction)
+    return Reading(name, table, evidence, known, decision, rows, correction)
+
+
+def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputError:
+    """The refusal of a table in which no column is a channel."""
+    heads = ", ".join(f"'{c.title}'" for c in table.columns[:12])
+    if table.headless:
+        why = f"{name}: the file has no heads: say what its columns are; the first numbers are {_first_numbers(table)}"
+        return InputError(why, field="columns", hint='--column "pressure=column 1 [bar]" --column "length=column 2 [mm]"')
+    raw = [table.columns[e.target].title for e in evidence if e.facet == "role" and e.value == "raw" and e.target >= 0]
+    if raw:
+        why = f"{name}: {table.noun} '{raw[0]}' is a signal without a scale, and no other column is known; columns: {heads}"
+        return InputError(why, field=f"{table.noun} {raw[0]}", hint=f'--column "pressure={raw[0]} [0 to 10 V = 0 to 10 bar]"')
+    return InputError(
+        f"{name}: no {table.noun} is known: {heads}", field=f"{table.noun}s", hint="e.g. a header 'pressure_bar,length_mm,force_N'"
+    )
+
+
+def _first_numbers(table: Table) -> str:
+    return ", ".join(f"{c.values[0]:g}" for c in table.columns[:8] if len(c.values))
+
+
+def measurement_of(reading: Reading, questions: list[Question], id: str) -> Measurement:
+    """The measurement of a reading; its questions have been answered or can wait.
+
+    Raises:
+        InputError: its channels fit no kind of measurement.
+    """
+    rows, table, known = reading.rows, reading.table, reading.known
+    channels = dict(rows.channels)
+    conditions = dict(known.conditions)
+    weights = weights_of_runs(channels)
+    if weights is not None and np.ptp(weights) > 0.0 and not set(_LOADS) & set(reading.correction.conditions):
+        for key in _LOADS:  # of the first run, in its title
+            conditions.pop(key, None)
+    stated_kind = conditions.pop("kind", None)
+    kind = reading.correction.kind or (None if stated_kind is None else str(stated_kind).lower())
+    messages = [*table.messages, *known.messages, *said(reading), *rows.messages]
+    messages += [f"{_rows(s.rows)} left out: {reason} (first: {s.first})" for reason, s in rows.skipped.items()]
+    messages += [f"{q.text} ({q.option})" for q in questions if not q.stops]
+    fast = known.kind == "isotonic" and lifts_fast(channels)
+    if kind is None and known.kind and not fast and _suits(known.kind, channels):
+        kind = known.kind
+        messages.append(f"kind {kind}: a text of the file says so")
+    order = None if "time" in channels else order_of_rows(channels)
+    if order is not None and "direction" not in channels:
+        channels["direction"] = order.direction
+        messages.append(
+            "no time, but the rows go there and back step by step: their order is taken as that of the test, and the direction of "
+            "each row from it"
+        )
+    if "group" in channels:
+        channels["group"] = channels["group"].astype(np.int64)
+    unread = unread_of(reading)
+    measurement = build(
+        {c: channels[c] for c in CHANNEL_UNITS if c in channels}, name=reading.name, id=id, kind=kind,
+        origins={c: _origin(reading, c) for c in channels}, ignored=[head for head, _ in unread], conditions=conditions,
+        marked_slack=rows.slack, messages=messages, skipped={reason: s.rows for reason, s in rows.skipped.items()},
+        starts=order.starts if order is not None else _starts(channels, weights),
+    )  # fmt: skip
+    return replace(
+        measurement, by_rows=order is not None, unread=unread, undecided=_undecided(reading), stated=stated_of(reading, conditions),
+        in_words=_in_words(reading), questions=tuple(questions),
+    )  # fmt: skip
+
+
+def _rows(count: int) -> str:
+    return "1 row" if count == 1 else f"{count} rows"
+
+
+def _suits(kind: str, channels: Mapping[str, Array]) -> bool:
+    """Whether the channels that a kind needs are there."""
+    needed = {"pressure", "force"} if kind in FORCE_KINDS else {"pressure"}
+    return needed <= set(channels) and bool(set(channels) & set(STROKES))
+
+
+def _starts(channels: Mapping[str, Array], weights: Array | None) -> tuple[int, ...]:
+    """Rows at which a new part of the file begins: the group changes, and the time goes back."""
+    if weights is not None and lifts_fast(channels):
+        return starts_of_lifts(channels)
+    if "group" not in channels or "time" not in channels:
+        return (0,)
+    apart = (np.diff(channels["group"]) != 0) & (np.diff(channels["time"]) < 0.0)
+    return (0, *(int(row) + 1 for row in np.flatnonzero(apart)))
+
+
+def _origin(reading: Reading, channel: str) -> tuple[str, str]:
+    if channel in reading.rows.held:
+        held = reading.rows.held[channel]
+        return held.where, held.unit
+    if channel in reading.decision.uses:
+        i, use = reading.decision.uses[channel]
+        return reading.table.columns[i].title, use.unit or CHANNEL_UNITS[channel]
+    if channel in reading.rows.labels:
+        return reading.table.columns[reading.rows.labels[channel]].title, CHANNEL_UNITS[channel]
+    return FROM_ROWS, CHANNEL_UNITS.get(channel, "1")
+
+
+def said(reading: Reading) -> list[str]:
+    """What was decided for each channel, by the evidence that won, with its words and place."""
+    lines = []
+    for channel, (i, use) in reading.decision.uses.items():
+        if channel not in reading.rows.channels:
+            continue
+        column = reading.table.columns[i]
+        label = f"{reading.table.noun} '{column.title}'"
+        if not reading.said_unit(channel) and not column.clock and channel != "command":
+            lines.append(f"{label} has no unit: read as {use.unit}")
+        if use.scale != 1.0 or use.offset:
+            lines.append(f"{label} is scaled: {_reason(reading, i, 'scale', None)}")
+        if use.sign == -1:
+            facet = "sign_force" if channel == "force" else "sign_stroke"
+            lines.append(f"{label} has its sign reversed: {_reason(reading, i, facet, -1)}")
+        if channel == "pressure":
+            air = reading.known.facts(reading.table).ambient
+            if use.absolute:
+                whose = "the surrounding air that the file states" if air != 101_325.0 else "the standard atmosphere"
+                lines.append(f"{label} is absolute pressure: {air:.0f} Pa subtracted, {whose}; {_reason(reading, i, 'absolute', True)}")
+            elif not any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence):
+                lines.append(f"{label} read as gauge pressure")
+        if channel == "force" and use.unit in ("kg", "g", "kgf", "gf"):
+            lines.append(f"{label} is a mass: its weight is the force")
+        if use.zero:
+            lines.append(f"{label} is read from {use.zero:g} m on: {_reason(reading, i, 'zero', None)}")
+    return lines
+
+
+def _reason(reading: Reading, i: int, facet: str, value: object) -> str:
+    """The words that decided, and where they stand."""
+    if i in reading.known.chosen:
+        return "you say so"
+    found = [e for e in reading.evidence if e.facet == facet and e.target in (i, FILE) and (value is None or e.value == value)]
+    if not found:
+        return "its readings behave so, no words say it"
+    best = max(found, key=lambda e: e.weight)
+    return f"'{best.span.text[:80]}' ({best.span.where})"
+
+
+def unread_of(reading: Reading) -> tuple[tuple[str, str], ...]:
+    """All columns that nothing is read from, and why."""
+    used = {i for c, (i, _) in reading.decision.uses.items() if c in reading.rows.channels} | set(reading.rows.labels.values())
+    found = [
+        (column.title, _why_unread(reading, i, column)) for i, column in enumerate(reading.table.columns) if i not in used
+    ]
+    return (*found, *reading.table.others)
+
+
+def _why_unread(reading: Reading, i: int, column: Column) -> str:
+    if i in reading.rows.dropped:
+        return reading.rows.dropped[i]
+    if i in reading.known.chosen:
+        return "you do not want it" if i in {j for j, c in reading.known.chosen.items() if c is None} else "it cannot be read as you say"
+    own = reading.own(i)
+    roles = {r: w for r, w in roles_of(own).items() if r not in ("measured", "less wanted", "words", "at the valve")}
+    if roles:
+        role = max(roles, key=lambda r: roles[r])
+        article = "" if role.startswith("a ") or role in ("air",) else "a "
+        return {"air": "it is the surrounding air", "supply": "it is the supply", "at rest": "it is a length at rest"}.get(role, f"it is {article}{role}")
+    if column.words is not None:
+        return "it holds words"
+    claimed = [e.value for e in own if e.facet == "channel"]
+    if claimed:
+        taken = next((c for c in claimed if c in reading.decision.uses), None)
+        if taken is not None:
+            return f"{taken} is read from '{reading.table.columns[reading.decision.uses[taken][0]].title}'"
+        return "its unit or its values do not fit its name"
+    return UNKNOWN
+
+
+def _undecided(reading: Reading) -> tuple[str, ...]:
+    """Columns that nothing is read from because neither their name nor their unit tells what they are."""
+    unread = unread_of(reading)
+    titles = [title for title, why in unread if why in (UNKNOWN, "it is a raw")]
+    return tuple(title for title in titles if any(c.title == title and c.words is None for c in reading.table.columns))
+
+
+def stated_of(reading: Reading, conditions: Mapping[str, float | str]) -> tuple[StatedValue, ...]:
+    """What the test was, each value with its origin; units that were assumed are ``unit of <channel>``."""
+    found = []
+    for key, value in conditions.items():
+        where = reading.known.stated.get(key)
+        by_you = where is not None and where.where.where == "you" and reading.correction.conditions.get(key) is not None
+        found.append(StatedValue(key, value, "you", "") if by_you else StatedValue(key, value, "file", where.where.where if where else ""))
+    for channel, (i, use) in reading.decision.uses.items():
+        choice = reading.known.chosen.get(i)
+        if choice is not None and choice.assumed:
+            found.append(StatedValue(f"{UNIT_OF}{channel}", use.unit, "assumed", f"{reading.table.noun} '{reading.table.columns[i].title}'"))
+    return tuple(found)
+
+
+def _in_words(reading: Reading) -> frozenset[str]:
+    """Channels whose unit the file or the user says, and whether one of them says what the pressure counts from."""
+    words = {c for c in reading.decision.uses if c in reading.rows.channels and reading.said_unit(c)}
+    if "pressure" in reading.decision.uses:
+        i = reading.decision.uses["pressure"][0]
+        choice = reading.known.chosen.get(i)
+        if any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence) or (choice and choice.absolute is not None):
+            words.add(REFERENCE)
+    return frozenset(words)
+
+
+def questions_and_measurement(reading: Reading, id: str) -> tuple[list[Question], Measurement]:
+    """The questions of a reading, and its measurement as if they were answered as proposed."""
+    questions = questions_of(reading)
+    return questions, measurement_of(reading, questions, id)

@@ -1,0 +1,421 @@
+"""A table and the texts around it -> claims. The rules are data; this module only applies them."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Sequence
+from functools import cache
+from pathlib import PurePath
+from typing import NamedTuple
+
+import numpy as np
+
+from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, key_of
+from mckibben.measurement.reading.heads import Claim, head_claims, taken_apart
+from mckibben.measurement.reading.lexicon import REFERENCES, Rule, folded, rules, word_set, words_of
+from mckibben.measurement.reading.limits import MAX_TEXT
+from mckibben.measurement.reading.model import BLOCK, FILE, Column, Evidence, Span, Table
+from mckibben.measurement.reading.scales import Scale, scales_in
+from mckibben.measurement.reading.units import (
+    RAW,
+    Quantity,
+    Unit,
+    number_of,
+    quantities,
+    quantity_si,
+    unit_of,
+)
+from mckibben.resources import presets_folder
+
+#: What a unit alone says of a column [nats].
+BY_UNIT = {
+    "pressure": (("pressure", 2.5),), "force": (("force", 2.5),), "time": (("time", 2.0),),
+    "length": (("length", 0.8), ("displacement", 0.8)), "ratio": (("contraction", 0.4), ("command", 0.4)),
+    "mass": (("force", 1.2),), "temperature": (("temperature", 4.0),), "speed": (("velocity", 2.0),),
+}  # fmt: skip
+_UNIT_STATED, _CLOCK_SHOWN, _TEXTS, _COUNTS, _SINCE_1970 = 5.0, 5.0, 6.0, 3.0, 4.0
+_OVER = 0.35  # of the weight of a head, that texts over it have
+_NAME = "the file's name"
+_CLAUSES = re.compile(r"[,;.|()\[\]](?!\d)|\s[/–-]\s|\s(?:and|und|et|e|y|og|och|en|i|a|ve|и|та)\s")
+_SIGN_BEFORE = re.compile(r"(?<![\w.,+-])\(?(?P<sign>[+−-])\)?(?=\s?(?:[A-Za-z]\w{0,2}\s?)?(?:=|≙|->|→))")
+_SIGN_BEHIND = re.compile(r"(?<=[^\W\d_])\s?[:=]?\s?\(?(?P<sign>\+)\)?(?=\s?(?:[,;.)/]|$))|(?<=[^\W\d_])\s?[:=]?\s\(?(?P<minus>[−-])\)?(?=\s?(?:[,;.)/]|$))")
+_L_ZERO = re.compile(r"(?<![^\W_])[Ll](?:_\{?0\}?|_?o(?=\s?[=:≈])|[ ]0(?=\s?[=:≈])|₀)")
+_NO_PRESSURE = re.compile(r"(?<![\w.,])(?:p\s?=\s?)?0(?:[.,]0{1,4})?\s?(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s?\(g\))?(?!\w)")
+_AT_PRESSURE = re.compile(
+    r"(?i)[\s(,]{0,3}(?:at|bei|@|à|a|con|mit|with|under)?\s?[0-9.,]{0,6}[1-9][0-9.,]{0,6}\s?(?:mbar|bar|[hkM]?Pa|psi)(?!\w)"
+)
+_NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?)\s?[:=]\s?(?P<value>.{1,200})")
+_CODE = re.compile(r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?(?![0-9a-z])")
+_OTHER_GAUGES = re.compile(r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]?gau?ges?|gau?ge length")
+_BEHIND_UPTO = re.compile(r"[,;.:(](?!\d)|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s")
+_SCALED = re.compile(r"(?i)[0-9]\s?(?:%|m?V|m?A|counts?|digits?)\s?(?:=|≙|->|→)|(?:=|≙|->|→)\s?[0-9.]{1,8}\s?(?:V|mA|counts?)")
+_HELD_BY = {"length": "length", "mass": "load_mass", "pressure": "pressure", "ratio": "contraction"}
+_SHORT_LENGTH = 0.08  # m; a title that says less without a word names a stroke, not a length
+_COLUMN_SAMPLE = 5000
+
+
+def evidence_of(table: Table, name: str) -> list[Evidence]:
+    """All claims about the columns, the blocks and the file."""
+    found: list[Evidence] = []
+    for i, column in enumerate(table.columns):
+        found += of_column(i, column)
+    for span in table.texts:
+        found += _of_text(span, FILE, table)
+    for k, spans in enumerate(table.titles):
+        for span in spans if len(table.titles) > 1 else ():
+            found += _of_title(span, BLOCK - k, table)
+    found += _of_name(name, table)
+    return found
+
+
+def of_column(i: int, column: Column) -> list[Evidence]:
+    """What a column claims by its head, by what stands over it, and by what its cells are."""
+    found: list[Evidence] = []
+    span = Span(column.where, column.head)
+    unit = _unit_of(column)
+    for claim in head_claims(column.head[:200], column.unit):
+        found.append(_from_claim(i, claim, span, 1.0))
+    for text in column.above:
+        found += [_from_claim(i, c, Span(column.where, text), _OVER) for c in head_claims(text[:200])]
+    for text in column.described:
+        found += [_from_claim(i, c, Span(column.where, text), 0.9) for c in head_claims(text[:200]) if c.facet != "role"]
+    absolute = taken_apart(column.head, column.unit).absolute
+    texts = [t for t in (*column.above, *column.described) if absolute is None]
+    for text in texts:
+        absolute = taken_apart(text[:200]).absolute if absolute is None else absolute
+    if absolute is not None:
+        found.append(Evidence(i, "absolute", absolute, _UNIT_STATED, span, "reference"))
+    if unit is not None:
+        found.append(Evidence(i, "unit", unit.name, _UNIT_STATED, Span(column.where, column.unit or column.head), "unit"))
+        found += [Evidence(i, "channel", c, w, span, "unit") for c, w in BY_UNIT.get(unit.dimension, ())]
+        if unit.dimension in RAW:
+            found.append(Evidence(i, "role", "raw", _TEXTS, span, "raw signal"))
+    return [*found, *_of_cells(i, column, unit, span)]
+
+
+def _from_claim(i: int, claim: Claim, span: Span, factor: float) -> Evidence:
+    facet = "unit_word" if claim.facet == "unit" else claim.facet
+    return Evidence(i, facet, claim.value, claim.weight * factor, span, claim.rule)
+
+
+def _unit_of(column: Column) -> Unit | None:
+    """The unit of a column, in its head, below it, or in the row that describes it."""
+    unit = taken_apart(column.head, column.unit).unit
+    if unit is None:
+        for text in (*column.described, *column.above):
+            unit = unit or unit_of(text) or taken_apart(text[:200]).unit
+    return unit
+
+
+def _of_cells(i: int, column: Column, unit: Unit | None, span: Span) -> list[Evidence]:
+    """What the cells themselves show: times of day, words, counts, seconds since 1970."""
+    found: list[Evidence] = []
+    if column.clock:
+        found.append(Evidence(i, "channel", "time", _CLOCK_SHOWN, span, "times of day"))
+    if column.words is not None:
+        found.append(Evidence(i, "role", "words", _TEXTS, span, "words"))
+        return found
+    values = column.values[np.isfinite(column.values)][:_COLUMN_SAMPLE]
+    if len(values) > 5 and unit is None and np.all(np.diff(values) == 1.0) and values[0] in (0.0, 1.0):
+        found.append(Evidence(i, "role", "running number", _COUNTS, Span(span.where, "counts 1, 2, 3, ..."), "counts"))
+    if not len(values):
+        return found
+    low, high = float(np.min(values)), float(np.max(values))
+    for name, size in (("s", 1e9), ("ms", 1e12), ("us", 1e15), ("ns", 1e18)):
+        if 0.9 * size < low and high < 4.0 * size and (unit is None or unit.name == name):
+            since = Span(span.where, f"counts {name} since 1970")
+            found.append(Evidence(i, "unit_word", name, _SINCE_1970, since, "since 1970"))
+            found.append(Evidence(i, "channel", "time", _CLOCK_SHOWN, since, "since 1970"))
+    if unit is None and 36_000.0 < low and high < 80_000.0 and high - low < 60.0 and np.any(values != np.round(values)):
+        since = Span(span.where, "counts days as spreadsheets do")
+        found.append(Evidence(i, "unit_word", "day", _SINCE_1970, since, "serial days"))
+    return found
+
+
+class _Context(NamedTuple):
+    """A quantity of a text with the words before it and behind it."""
+
+    quantity: Quantity
+    before: tuple[str, ...]
+    behind: tuple[str, ...]
+    pressed: bool
+
+
+def _contexts(text: str) -> list[_Context]:
+    """The quantities of a text, each with the words since the one before it, and those up to the next one."""
+    text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", text[:MAX_TEXT].replace("_", " ")))
+    found = quantities(text)
+    begin = 0
+    contexts = []
+    for k, quantity in enumerate(found):
+        before = re.split(r"[;,](?!\d)(?![^()]{0,60}\))", text[begin : quantity.begin])[-1]
+        upto = found[k + 1].begin if k + 1 < len(found) else len(text)
+        begin = quantity.end
+        behind = _BEHIND_UPTO.split(text[begin : min(upto, begin + 60)].lstrip(" ("))[0]
+        contexts.append(
+            _Context(quantity, words_of(before), words_of(behind), _AT_PRESSURE.match(text, quantity.end) is not None)
+        )
+    return contexts
+
+
+def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
+    """What one text claims."""
+    found: list[Evidence] = []
+    text = span.text[:MAX_TEXT]
+    noted = _of_note(span)
+    if noted is not None and noted.facet != "note":
+        return [noted, *(_of_code(span) if noted.facet == "condition:muscle" else [])]
+    found += [] if noted is None else [noted]
+    found += _of_clauses(span, table)
+    found += [_of_quantity(context, target, span) for context in _contexts(text)]
+    for rule in rules("text"):
+        assert rule.pattern is not None
+        for facet, value in rule.claims.items():
+            if facet == "kind" and rule.pattern.search(text):
+                found.append(Evidence(FILE, "kind", value, rule.weight, span, rule.id))
+            elif facet == "condition" and (match := rule.pattern.search(text)):
+                unit = Unit(str(rule.claims["unit"]), "pressure")
+                quantity = Quantity(match.start(), match.end(), number_of(match["value"]), unit, match[0])
+                found.append(Evidence(FILE, f"condition:{value}", quantity, rule.weight, span, rule.id))
+    found += [*_of_legend(span, table), *_of_list(span, table), *_of_zero(span), *_of_scales(span, table), *_of_code(span)]
+    return [e for e in found if e is not None]
+
+
+def _of_note(span: Span) -> Evidence | None:
+    """A condition under the name of this program: ``load_mass: 12 kg``, ``kind: static``."""
+    match = _NOTE.fullmatch(span.text.strip())
+    if match is None:
+        return None
+    key, unit = key_of(match["key"])
+    value = match["value"].strip().strip('";,')
+    if key in ("kind", "ignore", "bad_rows", *CONDITION_UNITS, *TEXT_CONDITIONS):
+        if key == "pressure" and folded(value) not in REFERENCES and not value.lower().startswith(("abs", "gau", "rel")):
+            return None
+        return Evidence(FILE, f"condition:{key}", f"{value} {unit}" if unit else value, 9.0, span, "note")
+    if span.text.lstrip().startswith("#"):
+        return Evidence(FILE, "note", (key, value), 1.0, span, "note")
+    return None
+
+
+def _of_clauses(span: Span, table: Table) -> list[Evidence]:
+    """Signs and references that the clauses of a text say."""
+    found: list[Evidence] = []
+    text = _OTHER_GAUGES.sub(" ", span.text[:MAX_TEXT])
+    text = _SIGN_BEHIND.sub(lambda m: " plus" if m["sign"] else " minus", text)
+    text = _SIGN_BEFORE.sub(lambda m: " plus " if m["sign"] == "+" else " minus ", text)
+    owner = _column_named(text, table)
+    for clause in _CLAUSES.split(text):
+        words = words_of(clause)
+        if not words or len(words) > 40:
+            continue
+        for rule in rules("clause"):
+            if all(word_set(name).among(words) for name in rule.needs) and not any(word_set(n).among(words) for n in rule.without):
+                for facet, value in rule.claims.items():
+                    column = _column_named(clause, table)
+                    target = column if column is not None else owner if owner is not None else FILE
+                    found.append(Evidence(target, facet, value, rule.weight, Span(span.where, span.text), rule.id))
+    return found
+
+
+def _column_named(text: str, table: Table) -> int | None:
+    """The one column whose head a text begins with, or whose number it names; None = none, or several."""
+    number = re.search(r"(?i)(?<![^\W_])(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?(\d{1,2})(?![^\W_])", text)
+    found = set()
+    for i, column in enumerate(table.columns):
+        head = column.head.strip()
+        if number and re.search(rf"(?i)(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?{number[1]}(?!\d)", head):
+            found.add(i)
+        name = taken_apart(head, column.unit).name
+        if len(name) > 0 and re.match(rf"[\s#%/*-]{{0,6}}{re.escape(name)}(?![^\W_])", text, re.IGNORECASE):
+            found.add(i)
+    return found.pop() if len(found) == 1 else None
+
+
+def _of_quantity(context: _Context, target: int, span: Span) -> Evidence | None:
+    """What a quantity is, by the words around it: the claim with most weight."""
+    best: Evidence | None = None
+    quantity, before, behind = context.quantity, context.before, context.behind
+    for rule in rules("quantity"):
+        if quantity.unit.dimension not in rule.dimension or not _fires(rule, before, behind):
+            continue
+        (facet, key), = rule.claims.items()
+        if context.pressed and key == "nominal_length":
+            continue
+        if best is None or rule.weight > best.weight:
+            best = Evidence(target, f"{facet}:{key}", quantity, rule.weight, span, rule.id)
+    return best
+
+
+def _fires(rule: Rule, before: tuple[str, ...], behind: tuple[str, ...]) -> bool:
+    """Whether the words around a quantity are those of a rule."""
+    if any(word_set(name).among(before[-6:]) for name in rule.without):
+        return False
+    ahead = bool(rule.needs) and all(word_set(name).among(before) for name in rule.needs)
+    after = bool(rule.behind) and all(word_set(name).among(behind) for name in rule.behind)
+    return (ahead and after) if rule.both else (ahead or after)
+
+
+def _of_title(span: Span, target: int, table: Table) -> list[Evidence]:
+    """The quantities that hold in one block; without words their unit says what they are."""
+    del table
+    found: list[Evidence] = []
+    if _SCALED.search(span.text):
+        return found
+    for context in _contexts(span.text):
+        evidence = _of_quantity(context, target, span)
+        quantity = context.quantity
+        if evidence is None and (channel := _HELD_BY.get(quantity.unit.dimension)) is not None:
+            if channel == "length" and quantity_si(quantity.value, quantity.unit.name, "m") < _SHORT_LENGTH:
+                channel = "displacement"
+            facet = "condition" if channel == "load_mass" else "held"
+            evidence = Evidence(target, f"{facet}:{channel}", quantity, 2.0, span, "bare")
+        if evidence is not None:
+            found.append(evidence)
+    for clause_evidence in _of_clauses(span, Table((), (), np.zeros(0, np.intp))):
+        found.append(clause_evidence._replace(target=target if clause_evidence.target == FILE else clause_evidence.target))
+    return found
+
+
+def _of_name(name: str, table: Table) -> list[Evidence]:
+    """What the name of the file says: ``Zug_1,5bar``, ``step_L360mm``, ``load20kg``."""
+    del table
+    stem = PurePath(name).stem
+    span = Span(_NAME, stem)
+    found: list[Evidence] = []
+    text = re.sub(r"(?<=\d)p(?=\d)", ".", stem)
+    for context in _contexts(text):
+        quantity = context.quantity
+        evidence = _of_quantity(context, FILE, span)
+        if evidence is None:
+            channel = _HELD_BY.get(quantity.unit.dimension)
+            if channel in ("pressure", "length"):
+                evidence = Evidence(FILE, f"held:{channel}", quantity, 1.5, span, "name")
+            elif channel == "load_mass":
+                evidence = Evidence(FILE, "condition:load_mass", quantity, 2.0, span, "name")
+        if evidence is not None:
+            found.append(evidence._replace(weight=min(evidence.weight, 2.5), rule="name"))
+    found += [e._replace(weight=0.5 * e.weight) for e in _of_code(span)]
+    for rule in rules("text"):
+        if "kind" in rule.claims and rule.pattern is not None and rule.pattern.search(stem.replace("_", " ")):
+            found.append(Evidence(FILE, "kind", rule.claims["kind"], 0.5 * rule.weight, span, rule.id))
+    return found
+
+
+@cache
+def _known_muscles() -> frozenset[str]:
+    """Ids of the muscles that come with the program."""
+    return frozenset(path.stem.upper() for path in (presets_folder() / "muscles").glob("*.json"))
+
+
+def _of_code(span: Span) -> list[Evidence]:
+    """Muscle and rest length in an order code of a known muscle: ``DMSP-20-250N`` is 250 mm of a DMSP-20."""
+    found: list[Evidence] = []
+    for match in _CODE.finditer(span.text[:MAX_TEXT].replace("_", "-")):
+        code = f"{match[1]}-{match[2]}".upper()
+        if code in _known_muscles():
+            found.append(Evidence(FILE, "condition:muscle", code, 3.0, span, "order code"))
+            if match[3]:
+                length = Quantity(match.start(), match.end(), float(match[3]), Unit("mm", "length"), match[0])
+                found.append(Evidence(FILE, "condition:nominal_length", length, 2.5, span, "order code"))
+    return found
+
+
+def _of_legend(span: Span, table: Table) -> list[Evidence]:
+    """Units that a text gives to columns by their names: ``units: t[ms] p[mbar, gauge]``."""
+    found: list[Evidence] = []
+    rule = _text_rule("legend")
+    assert rule.pattern is not None
+    for match in rule.pattern.finditer(span.text[:MAX_TEXT]):
+        words = match["unit"].split()
+        unit = unit_of(match["unit"]) or (unit_of(words[0]) if words else None)
+        for i, column in enumerate(table.columns):
+            if unit is not None and column.head.strip() == match["head"] and _unit_of(column) is None:
+                more = f"{' '.join(words[1:])} {match['more'] or ''}".strip()
+                made = Column(f"{column.head} {more}", np.zeros(0), span.where, unit.name)
+                found += [e._replace(span=span) for e in of_column(i, made) if e.facet != "channel" or e.rule != "letter"]
+                if unit.absolute is not None:
+                    found.append(Evidence(i, "absolute", unit.absolute, rule.weight, span, rule.id))
+    return found
+
+
+def _of_list(span: Span, table: Table) -> list[Evidence]:
+    """Names that a text gives to columns by their numbers, where they have none of their own."""
+    found: list[Evidence] = []
+    rule = _text_rule("column_list")
+    assert rule.pattern is not None
+    for match in rule.pattern.finditer(span.text[:MAX_TEXT]):
+        for i in _numbered(int(match["number"]), table):
+            words = re.sub(r"\s+in\s+(\S{1,8})$", r" [\1]", match["words"].strip())
+            made = Column(words, np.zeros(0), span.where)
+            found += [e._replace(span=span) for e in of_column(i, made) if e.rule not in ("words", "counts")]
+    return found
+
+
+def _numbered(number: int, table: Table) -> Iterator[int]:
+    """The column that a number means: one whose head has it, else that place, where no head names a channel."""
+    heads = [c.head for c in table.columns]
+    named = [i for i, h in enumerate(heads) if re.search(rf"(?i)(?:ch|channel|kanal|ai|column|col|spalte)[ _-]?{number}(?!\d)", h)]
+    if len(named) == 1:
+        yield named[0]
+    elif 0 < number <= len(heads) and not any(c.facet == "channel" for c in head_claims(heads[number - 1][:200])):
+        yield number - 1
+
+
+def _of_zero(span: Span) -> list[Evidence]:
+    """The reading of a sensor at the rest length."""
+    rule = _text_rule("zero_reading")
+    assert rule.pattern is not None
+    match = rule.pattern.search(span.text[:MAX_TEXT])
+    unit = unit_of(match["unit"]) if match else None
+    if match is None or unit is None:
+        return []
+    value = quantity_si(float(match["value"].replace(",", ".")), unit.name, "m")
+    return [Evidence(FILE, "zero", value, rule.weight, span, rule.id)]
+
+
+def _of_scales(span: Span, table: Table) -> list[Evidence]:
+    """Calibrations of raw columns."""
+    found = []
+    for scale, around in scales_in(span.text[:MAX_TEXT]):
+        i = _scaled_column(scale, around, table)
+        if i is not None:
+            found.append(Evidence(i, "scale", scale, scale.weight, span, scale.rule))
+    return found
+
+
+def _scaled_column(scale: Scale, around: str, table: Table) -> int | None:
+    """The raw column that a calibration is of: it is named beside it, or it is called like what it leads to."""
+    words = set(words_of(around))
+    scores: list[tuple[float, int]] = []
+    channels = {c for c, _ in BY_UNIT.get(_dimension(scale.unit), ())} | ({"displacement", "length"} if _dimension(scale.unit) == "length" else set())
+    named = _column_named(around, table)
+    for i, column in enumerate(table.columns):
+        unit = _unit_of(column)
+        if column.words is not None or column.clock or (unit is not None and unit.dimension not in RAW):
+            continue
+        claims = {c.value for c in head_claims(column.head[:200], column.unit) if c.facet == "channel"}
+        if claims and not claims & channels and "command" not in claims:
+            continue
+        head = words_of(taken_apart(column.head, column.unit).name)
+        score = 2.0 * bool(claims & channels) + 1.5 * len(words & set(head)) + (3.0 if named == i else 0.0)
+        score += 0.5 if unit is not None and scale.raw and unit.name == scale.raw else 0.0
+        scores.append((score, i))
+    if not scores:
+        return None
+    best, i = max(scores)
+    return i if best >= 1.5 and sum(s == best for s, _ in scores) == 1 else None
+
+
+def _dimension(unit: str) -> str:
+    found = unit_of(unit)
+    return "" if found is None else found.dimension
+
+
+def _text_rule(id: str) -> Rule:
+    return next(rule for rule in rules("text") if rule.id == id)
+
+
+def strongest(evidence: Sequence[Evidence], facet: str, target: int | None = None) -> Evidence | None:
+    """The heaviest claim of a facet."""
+    found = [e for e in evidence if e.facet == facet and (target is None or e.target == target)]
+    return max(found, key=lambda e: e.weight, default=None)

@@ -1,0 +1,278 @@
+"""What a file states about the test: conditions, quantities held constant; each with the place that says it."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+import numpy as np
+
+from mckibben.measurement.measurement import CHANNEL_UNITS
+from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
+from mckibben.measurement.read.correction import Choice, Correction
+from mckibben.measurement.reading.decide import Facts
+from mckibben.measurement.reading.heads import taken_apart
+from mckibben.measurement.reading.lexicon import REFERENCES, folded
+from mckibben.measurement.reading.model import BLOCK, FILE, Array, Evidence, Span, Table
+from mckibben.measurement.reading.physics import ATMOSPHERE
+from mckibben.measurement.reading.units import Quantity, quantity_si
+from mckibben.physics.errors import InputError, did_you_mean
+
+_SAME = 2e-3  # relative; values that differ by less are the same one, rounded
+_STATED = 4.0  # nats from which a value counts as stated; two of them that differ are asked about
+_POSSIBLE_AIR = (5e4, 1.1e5)  # Pa; of the air where people work
+_OTHER_UNITS = {"diameter": "m"}  # of conditions that only the physics uses
+_SIZE = re.compile(r"(?:DMSP|MAS)-(\d{1,3})")
+_YOU = Span("you", "")
+#: Conditions of which two values are asked about -> (their name, the option that sets them).
+_ASKED = {
+    "nominal_length": ("rest length", "--rest-length"), "load_mass": ("load", "--load"), "load_force": ("load", "--load"),
+    "supply_pressure": ("supply pressure", "--supply"),
+}  # fmt: skip
+
+
+class Stated(NamedTuple):
+    """A condition: its value in SI or as text, where it stands, as it is written there."""
+
+    value: float | str
+    where: Span
+    text: str
+
+
+class Contradiction(NamedTuple):
+    """A condition with two values: its key, its name, the option that sets it, both values with their places."""
+
+    key: str
+    name: str
+    option: str
+    values: tuple[Stated, Stated]
+
+
+class Held(NamedTuple):
+    """A quantity that was held: its value of each block, as it is written, where that stands, its unit."""
+
+    values: Array
+    text: str
+    where: str
+    unit: str
+    by_name: bool = False
+
+
+@dataclass(frozen=True)
+class Known:
+    """What is known beside the columns.
+
+    Attributes:
+        conditions: in SI or as text, the user's over those of the file.
+        stated: the same with their places.
+        contradictions: two values for one condition.
+        held: channel -> values of the blocks; only where no column holds the channel they count.
+        several: channels for which texts name several values.
+        kind: that texts name; empty = none, or several.
+        chosen: column -> what the user says it is.
+        messages: what was assumed.
+    """
+
+    conditions: dict[str, float | str]
+    stated: Mapping[str, Stated]
+    contradictions: tuple[Contradiction, ...]
+    held: Mapping[str, Held]
+    several: Mapping[str, tuple[Evidence, ...]]
+    kind: str
+    chosen: Mapping[int, Choice | None]
+    messages: tuple[str, ...] = field(default=())
+
+    def facts(self, table: Table) -> Facts:
+        """What the decision needs of it."""
+        rest = self.conditions.get("nominal_length")
+        air = self.conditions.get("ambient_pressure")
+        diameter = self.stated["diameter"].value if "diameter" in self.stated else None
+        if diameter is None and (size := _SIZE.fullmatch(str(self.conditions.get("muscle", "")))):
+            diameter = float(size[1]) / 1e3
+        held = {channel: one.values[table.blocks] for channel, one in self.held.items()}
+        return Facts(
+            rest=rest if isinstance(rest, float) and rest > 0.0 else None,
+            ambient=air if isinstance(air, float) and _POSSIBLE_AIR[0] <= air <= _POSSIBLE_AIR[1] else ATMOSPHERE,
+            diameter=diameter if isinstance(diameter, float) else None, held=held, chosen=self.chosen,
+        )  # fmt: skip
+
+
+def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: Correction) -> Known:
+    """What the evidence and the user say about the test.
+
+    Raises:
+        InputError: a condition that cannot be used, or a correction of a column that is not there.
+    """
+    messages: list[str] = []
+    stated: dict[str, Stated] = {}
+    contradictions: list[Contradiction] = []
+    claims: dict[str, list[Evidence]] = {}
+    for e in evidence:
+        if e.facet.startswith("condition:") and e.target == FILE:
+            claims.setdefault(e.facet.partition(":")[2], []).append(e)
+    for key, found in claims.items():
+        if key in ("ignore", "bad_rows"):
+            continue
+        ranked = _ranked(key, found, name, messages)
+        stated[key] = ranked[0][1]
+        if key in _ASKED and len(ranked) > 1 and ranked[1][0] >= _STATED and not _is_note(ranked[0][1], found):
+            contradictions.append(Contradiction(key, *_ASKED[key], (ranked[0][1], ranked[1][1])))
+    if "load_mass" in stated and "load_force" in stated and "name" in stated["load_mass"].where.where:
+        del stated["load_mass"]
+    conditions: dict[str, float | str] = {k: s.value for k, s in stated.items() if k not in _OTHER_UNITS}
+    for e in evidence:
+        if e.facet == "note" and e.value[0] not in conditions:
+            conditions[e.value[0]] = str(e.value[1]).strip()[:200]
+            stated.setdefault(e.value[0], Stated(conditions[e.value[0]], e.span, str(e.value[1])))
+    for key, value in correction.conditions.items():
+        if value is None:
+            conditions.pop(key, None)
+        else:
+            conditions[key] = value
+            stated[key] = Stated(value, _YOU, "")
+    contradictions = [c for c in contradictions if c.key not in correction.conditions]
+    said = {e.value for e in evidence if e.facet == "kind"}
+    held, several = _held(table, evidence, conditions)
+    ignored = next((str(s.value) for k, s in stated.items() if k == "ignore"), "")
+    unwanted = {n.strip(): None for e in claims.get("ignore", ()) for n in str(e.value).split(",")} if not ignored else {}
+    chosen = _chosen(table, {**{k: v for k, v in unwanted.items() if _places(k, table)}, **correction.columns}, name)
+    return Known(
+        conditions, stated, tuple(contradictions), held, several, said.pop() if len(said) == 1 else "", chosen, tuple(messages)
+    )
+
+
+def _is_note(best: Stated, found: Sequence[Evidence]) -> bool:
+    """Whether the value is one under the name of this program, which nothing else doubts."""
+    return any(e.rule == "note" and e.span == best.where for e in found)
+
+
+def _ranked(key: str, found: Sequence[Evidence], name: str, messages: list[str]) -> list[tuple[float, Stated]]:
+    """The values of a condition, with what is said for each, the best first."""
+    groups: list[list[tuple[Evidence, float | str]]] = []
+    for e in found:
+        value = _value(key, e, name, messages)
+        for group in groups:
+            if _same(group[0][1], value):
+                group.append((e, value))
+                break
+        else:
+            groups.append([(e, value)])
+    ranked = []
+    for group in groups:
+        strongest = max(group, key=lambda item: item[0].weight)
+        text = strongest[0].value.text if isinstance(strongest[0].value, Quantity) else str(strongest[0].value)
+        ranked.append((strongest[0].weight + 0.1 * (len(group) - 1), Stated(strongest[1], strongest[0].span, text)))
+    return sorted(ranked, key=lambda item: -item[0])
+
+
+def _value(key: str, e: Evidence, name: str, messages: list[str]) -> float | str:
+    if isinstance(e.value, Quantity):
+        unit = CONDITION_UNITS.get(key) or _OTHER_UNITS.get(key, "1")
+        value = quantity_si(e.value.value, e.value.unit.name, unit)
+        if key in ("supply_pressure",) and e.value.unit.absolute:
+            value -= ATMOSPHERE
+        return value
+    if key in (*CONDITION_UNITS, *TEXT_CONDITIONS):
+        return condition_value(key, str(e.value), where=f"{name}, {e.span.where}, {key}", field=key, messages=messages)
+    return str(e.value)
+
+
+def _same(a: float | str, b: float | str) -> bool:
+    if isinstance(a, float) and isinstance(b, float):
+        return abs(a - b) <= _SAME * max(abs(a), abs(b))
+    return a == b
+
+
+def _held(
+    table: Table, evidence: Sequence[Evidence], conditions: Mapping[str, float | str]
+) -> tuple[dict[str, Held], dict[str, tuple[Evidence, ...]]]:
+    """Channel -> what was held in each block, or in the file; and channels of which texts name several values."""
+    held: dict[str, Held] = {}
+    several: dict[str, tuple[Evidence, ...]] = {}
+    blocks = len(table.titles)
+    facets = {"held:pressure": "pressure", "held:length": "length", "held:displacement": "displacement",
+              "held:contraction": "contraction", "condition:load_mass": "load_mass", "condition:load_force": "load_force"}  # fmt: skip
+    for facet, channel in facets.items():
+        claims = [e for e in evidence if e.facet == facet and isinstance(e.value, Quantity)]
+        own = {k: max((e for e in claims if e.target == BLOCK - k), key=lambda e: e.weight, default=None) for k in range(blocks)}
+        if blocks > 1 and all(e is not None for e in own.values()):
+            values = np.array([_held_value(channel, e, conditions, evidence, k) for k, e in own.items() if e is not None])
+            first = own[0]
+            assert first is not None
+            held[channel] = Held(values, first.value.text, first.span.where, first.value.unit.name)
+            continue
+        if facet.startswith("condition"):
+            continue
+        whole = [e for e in claims if e.target == FILE]
+        texts = [e for e in whole if e.rule != "name"]
+        names = [e for e in whole if e.rule == "name"]
+        chosen = texts or names
+        distinct = {round(_held_value(channel, e, conditions, evidence, None), 12): e for e in chosen}
+        if len(distinct) > 1 and texts and names:
+            agreed = {round(_held_value(channel, e, conditions, evidence, None), 12) for e in names} & set(distinct)
+            distinct = {value: distinct[value] for value in agreed} if len(agreed) == 1 else distinct
+        if len(distinct) == 1:
+            value, e = next(iter(distinct.items()))
+            held[channel] = Held(np.full(max(blocks, 1), value), e.value.text, e.span.where, e.value.unit.name, not texts)
+        elif distinct:
+            several[channel] = tuple(distinct.values())
+    return held, several
+
+
+def _held_value(channel: str, e: Evidence, conditions: Mapping[str, float | str], evidence: Sequence[Evidence], block: int | None) -> float:
+    unit = {"load_mass": "kg", "load_force": "N"}.get(channel) or CHANNEL_UNITS[channel]
+    value = quantity_si(e.value.value, e.value.unit.name, unit)
+    if channel != "pressure":
+        return value
+    absolute = e.value.unit.absolute
+    if absolute is None:
+        targets = (FILE,) if block is None else (BLOCK - block, FILE)
+        marks = [m for m in evidence if m.facet == "absolute" and m.target in targets]
+        absolute = max(marks, key=lambda m: m.weight).value if marks else REFERENCES.get(folded(str(conditions.get("pressure", ""))))
+    air = conditions.get("ambient_pressure")
+    return value - (air if isinstance(air, float) else ATMOSPHERE) if absolute else value
+
+
+def _places(name: str, table: Table) -> list[int]:
+    """The columns that a user means by a name: the head, with or without its unit, or "column 3"."""
+    wanted = " ".join(name.split())
+    heads = [" ".join(c.head.split()) for c in table.columns]
+    for names in (
+        [c.title for c in table.columns], heads,
+        [f"{h} [{c.unit.strip('[]() ')}]" if c.unit else h for h, c in zip(heads, table.columns, strict=True)],
+        [taken_apart(h, c.unit).name for h, c in zip(heads, table.columns, strict=True)],
+        [h.casefold() for h in heads],
+    ):  # fmt: skip
+        found = [i for i, one in enumerate(names) if one == wanted or one == wanted.casefold()]
+        if found:
+            return found
+    if (number := re.fullmatch(r"(?i)column (\d{1,4})", wanted)) is not None:
+        place = int(number[1]) - 1
+        at = [i for i, c in enumerate(table.columns) if c.place == place]
+        return at or ([place] if 0 <= place < len(heads) else [])
+    return []
+
+
+def _chosen(table: Table, columns: Mapping[str, Choice | None], name: str) -> dict[int, Choice | None]:
+    """Column -> what the user says it is.
+
+    Raises:
+        InputError: there is no such column, or several are called so.
+    """
+    chosen: dict[int, Choice | None] = {}
+    for said, choice in columns.items():
+        places = _places(said, table)
+        if not places:
+            names = [c.title for c in table.columns]
+            raise InputError(
+                f"{name}: there is no {table.noun} '{said[:80]}'", field=f"{table.noun} {said[:80]}", hint=did_you_mean(said, names)
+            )
+        if len(places) > 1:
+            raise InputError(
+                f"{name}: several {table.noun}s are called '{said[:80]}'", field=f"{table.noun} {said[:80]}",
+                hint=f"say its place, 'column {places[0] + 1}'",
+            )  # fmt: skip
+        chosen[places[0]] = choice
+    return chosen

@@ -1,0 +1,603 @@
+"""What is asked: margins that are too small, and the policies, that are asked whatever the margin.
+
+Each policy is one function; its files in `tests/measurement/reading` must ask.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from mckibben.measurement.kind import turning_points, weights_of_runs
+from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
+from mckibben.measurement.question import Question
+from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.read.questions import column_option, ignore_option
+from mckibben.measurement.reading import physics
+from mckibben.measurement.reading.decide import MARGIN, SLOTS, Decision, Option, roles_of, unit_is_stated, value_of
+from mckibben.measurement.reading.facts import Known
+from mckibben.measurement.reading.heads import taken_apart
+from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table, Use
+from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
+from mckibben.measurement.reading.rows import Rows
+from mckibben.measurement.reading.units import RAW, WEIGHTS, dimension_of
+from mckibben.physics.units import convert
+
+REVERSE, KEEP = "reverse the sign", "keep the sign"
+_SAME = 0.01  # of the range; columns that differ by less are the same reading
+_HARDLY = 2e3  # Pa; below it a pressure moves no muscle
+_LARGEST_AREA = 0.5  # m2, force over pressure; the largest catalogue muscle has 0.04
+_STRETCHED, _FEW = 0.15, 0.05  # of the rest length, at which a braid locks; share of rows that may be spikes
+_LONGEST, _SHORTEST = 1.25, 0.4  # of the rest length, that a muscle can have
+_REST_BAND = (0.9e5, 1.1e5)  # Pa; the air outside
+_LONG_TEST, _SWING, _JUMP, _JUMPS = 900.0, 0.1, 0.6, 2
+_OPPOSED = -0.5  # correlation of the pressures of a pair, of which one is filled as the other is vented
+_FINAL = ("supply", "air", "at rest", "preload", "deviation", "tube size", "remark", "running number", "a value", "lever")
+_CARRIES = {"force": "force", "pressure": "pressure", "length": "displacement"}
+_RAW_SPANS = {"V": "0 to 10 V", "mV": "0 to 20 mV", "mA": "4 to 20 mA", "count": "0 to 1023 counts", "mV/V": "0 to 2 mV/V", "%FS": "0 to 100 %FS"}
+_SCALED = {"pressure": "0 to 10 bar", "force": "0 to 2000 N", "length": "0 to 300 mm", "displacement": "0 to 100 mm",
+           "contraction": "0 to 100 mm", "command": "-100 to 100 %"}  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Reading:
+    """All that is known of a file once it is decided."""
+
+    name: str
+    table: Table
+    evidence: tuple[Evidence, ...]
+    known: Known
+    decision: Decision
+    rows: Rows
+    correction: Correction
+
+    def column(self, channel: str) -> Column | None:
+        """The column that a channel is read from."""
+        use = self.decision.uses.get(channel)
+        return self.table.columns[use[0]] if use is not None and channel in self.rows.channels else None
+
+    def use(self, channel: str) -> Use:
+        """How a channel is read."""
+        return self.decision.uses[channel][1]
+
+    def by_user(self, channel: str) -> bool:
+        """Whether the user named the column of a channel."""
+        return channel in self.decision.uses and self.decision.uses[channel][0] in self.known.chosen
+
+    def said_unit(self, channel: str) -> bool:
+        """Whether the file or the user says the unit of a channel."""
+        i = self.decision.uses[channel][0]
+        choice = self.known.chosen.get(i)
+        return (choice is not None and (choice.unit is not None or choice.scale is not None)) or unit_is_stated(i, self.evidence)
+
+    def own(self, i: int) -> list[Evidence]:
+        """What is claimed of a column."""
+        return [e for e in self.evidence if e.target == i]
+
+
+def bare(column: Column) -> str:
+    """A head without its unit, as options name it."""
+    return taken_apart(column.head, column.unit).name or column.title
+
+
+def option_of(channel: str, column: Column, unit: str | None = None, *, sign: int = 1) -> str:
+    """The option that reads a column as a channel."""
+    return column_option(channel, bare(column), unit, sign=sign)
+
+
+def questions_of(reading: Reading) -> list[Question]:
+    """All questions, those that stop the reading first."""
+    asked = list(_sheets(reading))
+    enough = len(next(iter(reading.rows.channels.values()), ())) >= ENOUGH
+    with np.errstate(all="ignore"):
+        for policy in POLICIES if enough else ():
+            asked += policy(reading)
+        for policy in ALWAYS:
+            asked += policy(reading)
+    seen: set[tuple[str, str | None]] = set()
+    kept = []
+    for question in asked:
+        if (question.about, question.column) not in seen:
+            seen.add((question.about, question.column))
+            kept.append(question)
+    return sorted(kept, key=lambda question: not question.stops)
+
+
+def _sheets(reading: Reading) -> Iterator[Question]:
+    titles = [title for title, _ in reading.table.rivals]
+    if titles and reading.correction.sheet is None:
+        shown = ", ".join(map(repr, titles[:6]))
+        text = f"{len(titles)} tables hold readings, {shown}; which one is meant"
+        yield Question("sheet", text, f'--sheet "{titles[0]}"', None, titles[0], tuple(titles))
+
+
+def _units(reading: Reading) -> Iterator[Question]:
+    """A unit that nobody says, and a stated one that no muscle can have."""
+    for channel, (i, use) in reading.decision.uses.items():
+        if channel not in reading.rows.channels or channel in ("command", "temperature") or use.unit == "clock":
+            continue
+        column, values = reading.table.columns[i], reading.rows.channels[channel]
+        choice = reading.known.chosen.get(i)
+        if choice is not None and (choice.unit is not None or choice.assumed or choice.scale):
+            continue
+        raw = _back(values, use, channel)
+        span = f"{np.min(raw):.4g} to {np.max(raw):.4g}"
+        named = f"{reading.table.noun} '{column.head}'"
+        if not unit_is_stated(i, reading.evidence):
+            if dimension_of(use.unit) == "ratio" and use.unit == "1" and channel == "contraction":
+                continue
+            found = proposal(channel, raw)
+            if found.si_will_do and not (channel == "force" and _open_force(reading, found.choices)):
+                continue
+            choices = dict.fromkeys((use.unit, *found.choices[:4]))
+            yield Question(
+                f"unit of {channel}",
+                f"{named} ({channel}) has no unit; its readings are {span}; they would be plausible in {' or '.join(choices)}",
+                option_of(channel, column, use.unit), column.head, use.unit, tuple(choices),
+            )  # fmt: skip
+        elif not is_plausible(channel, values):
+            yield from _implausible(reading, channel, column, use, raw, values, named, span)
+
+
+def _implausible(
+    reading: Reading, channel: str, column: Column, use: Use, raw: Array, values: Array, named: str, span: str
+) -> Iterator[Question]:  # fmt: skip
+    better = [unit for unit in proposal(channel, raw).choices if unit != use.unit]
+    stops = channel != "pressure" or float(np.max(np.abs(values))) > _HARDLY or _forced(reading, values)
+    if channel == "time":
+        better = ["ms"] if is_plausible("time", raw * 1e-3) else []
+        if not better or not _moves(reading):
+            return
+        what = f"{named} would mean {median_step(values) or 0.0:.3g} s between readings"
+    else:
+        what = f"{named} ({channel}) holds {span} {use.unit}, which is implausible for a muscle"
+    hint = better[0] if better else use.unit
+    yield Question(
+        f"unit of {channel}", f"{what}. Is its unit {' or '.join([*better[:2], use.unit])}?", option_of(channel, column, hint),
+        column.head, hint, (*better, use.unit), stops,
+    )  # fmt: skip
+
+
+def _back(values: Array, use: Use, channel: str) -> Array:
+    """SI values as they stand in the file's unit."""
+    si = CHANNEL_UNITS[channel]
+    unit = WEIGHTS.get(use.unit, use.unit) if channel == "force" else use.unit
+    zero, one = convert([0.0, 1.0], unit, si)
+    return (values - zero) / (one - zero)
+
+
+def _open_force(reading: Reading, choices: Sequence[str]) -> bool:
+    """Whether a force without unit may be in several: N is sure only where the whole file is in SI."""
+    others = [(c, u.unit) for c, (_, u) in reading.decision.uses.items() if c in ("pressure", *STROKES, "diameter")]
+    return len(choices) > 1 and any(unit != CHANNEL_UNITS[channel] for channel, unit in others)
+
+
+def _forced(reading: Reading, pressure: Array) -> bool:
+    """Whether the force is more than any muscle gives at such a pressure."""
+    force = reading.rows.channels.get("force")
+    return force is not None and bool(np.max(np.abs(force)) > _LARGEST_AREA * max(float(np.max(np.abs(pressure))), 1e-9))
+
+
+def _moves(reading: Reading) -> bool:
+    """Whether a test of many minutes goes up and down all the way, as no slow drift and no creep does."""
+    channels = reading.rows.channels
+    pressure = channels.get("pressure")
+    jumps = pressure is not None and np.count_nonzero(np.abs(np.diff(pressure)) > _JUMP * float(np.ptp(pressure))) >= _JUMPS
+    if float(np.ptp(channels["time"])) < _LONG_TEST or jumps:
+        return False
+    for channel in ("pressure", *STROKES, "force"):
+        values = channels.get(channel)
+        if values is not None and np.ptp(values) > _SWING * float(np.max(np.abs(values))):
+            if np.count_nonzero(turning_points(values, threshold=0.5 * float(np.ptp(values)))) >= 1:
+                return True
+    return False
+
+
+def _unnamed(reading: Reading) -> Iterator[Question]:
+    """A column that no word calls what it is read as."""
+    for channel, (i, use) in reading.decision.uses.items():
+        if channel not in reading.rows.channels or i in reading.known.chosen or channel not in ("pressure", "force", *STROKES, "time"):
+            continue
+        claims = [e for e in reading.own(i) if e.facet == "channel" and e.value == channel]
+        column = reading.table.columns[i]
+        if not claims:
+            yield Question(
+                f"column '{bare(column)}'",
+                f"nothing says what {reading.table.noun} '{column.title}' is; its readings behave like {channel} in {use.unit}",
+                f"{option_of(channel, column, use.unit)} or {ignore_option(bare(column))}", column.head or column.title, channel,
+                (channel, "ignore"),
+            )  # fmt: skip
+        elif channel in STROKES and all(e.rule == "unit" for e in claims):
+            other = "length" if channel == "displacement" else "displacement"
+            yield Question(
+                f"column '{bare(column)}'",
+                f"{reading.table.noun} '{column.title}' is read as {channel}{', with its sign reversed,' if use.sign < 0 else ''} because "
+                f"of its unit '{use.unit}' and its numbers; its name does not say so",
+                f"{option_of(other, column)} or {ignore_option(bare(column))}", column.head, channel, (channel, other, "ignore"), stops=False,
+            )  # fmt: skip
+
+
+def _unread(reading: Reading) -> Iterator[Question]:
+    """A column in N, bar or mm, or called like a channel that nothing is read for, of which nothing says what it is."""
+    used = {i for i, _ in reading.decision.uses.values()} | set(reading.rows.labels.values())
+    filled = {SLOTS.get(c, c) for c in reading.rows.channels}
+    for i, column in enumerate(reading.table.columns):
+        if i in used or i in reading.known.chosen or column.words is not None or i in reading.rows.dropped:
+            continue
+        own = reading.own(i)
+        roles = roles_of(own)
+        if any(roles.get(role, 0.0) >= 2.0 for role in _FINAL):
+            continue
+        unit = next((e.value for e in own if e.facet == "unit"), None)
+        dimension = dimension_of(unit) if unit else ""
+        claimed = {e.value for e in own if e.facet == "channel" and e.rule != "unit"}
+        if dimension in RAW or roles.get("raw", 0.0) >= 3.0 or roles.get("counter", 0.0) >= 3.0:
+            yield from _raw_signal(reading, column, claimed, filled, unit)
+            continue
+        channel = _CARRIES.get(dimension) or ("force" if dimension == "mass" and "force" not in filled else None)
+        if channel is None or (roles.get("set value", 0.0) >= 2.0 and SLOTS[channel] in filled):
+            continue
+        if claimed & set(SLOTS) and SLOTS[next(iter(claimed & set(SLOTS)))] in filled:
+            continue  # another column is read for it: see `_seconds`
+        others = (channel,) if channel != "displacement" else ("displacement", "length", "diameter")
+        why = " (it is a set value)" if roles.get("set value", 0.0) >= 2.0 else ""
+        doubt = "; what is it"
+        if channel == "displacement" and "stroke" not in filled:
+            doubt = (
+                "; no text states its zero or whether it grows as the muscle shortens: is it the position of the muscle's end, "
+                "and how does it count"
+            )
+        yield Question(
+            f"column '{bare(column)}'", f"{reading.table.noun} '{column.head}' is in {unit} and is not read{why}{doubt}",
+            f"{ignore_option(bare(column))} or {option_of(channel, column)}", column.head, choices=("ignore", *others),
+        )  # fmt: skip
+
+
+def _raw_signal(reading: Reading, column: Column, claimed: set[str], filled: set[str], unit: str | None) -> Iterator[Question]:
+    """A signal without a scale where the channel that it is called like is missing."""
+    wanted = next((c for c in ("pressure", "force", *STROKES, "command") if c in claimed and SLOTS[c] not in filled), None)
+    if wanted is None:
+        missing = [c for c in ("pressure", "force", "displacement") if SLOTS[c] not in filled]
+        if claimed or unit is None or not missing or "pressure" not in missing and "displacement" not in missing:
+            return
+        wanted = missing[0]
+    span = _RAW_SPANS.get(unit or "count", "0 to 10 V")
+    scale = f"{span} = {_SCALED[wanted]}"
+    yield Question(
+        f"scale of {wanted}",
+        f"{reading.table.noun} '{column.head}' is a signal in {unit or 'counts'}, and no text states its scale: which {wanted} is which reading",
+        f"{option_of(wanted, column, scale)} or {ignore_option(bare(column))}", column.head, None, ("ignore", wanted),
+    )  # fmt: skip
+
+
+def _seconds(reading: Reading) -> Iterator[Question]:
+    """Two columns for one channel that are about as likely and show different values."""
+    for slot in ("pressure", "force", "stroke"):
+        channel = next((c for c in reading.decision.uses if SLOTS.get(c) == slot and c in reading.rows.channels), None)
+        if channel is None or reading.by_user(channel):
+            continue
+        i, use = reading.decision.uses[channel]
+        mine = next((o for o in reading.decision.options[slot] if o.column == i), None)
+        used = {u[0] for u in reading.decision.uses.values()}
+        rivals: dict[int, Option] = {}
+        for option in reading.decision.options[slot]:
+            if option.column not in used and option.use.channel == channel and mine is not None and option.score > mine.score - MARGIN:
+                rivals.setdefault(option.column, option)
+        for option in rivals.values():
+            if option.column in reading.known.chosen or _aside(reading, option.column) != _aside(reading, i):
+                continue
+            if _same_values(reading, channel, use, option):
+                continue
+            first, second = reading.table.columns[i], reading.table.columns[option.column]
+            yield Question(
+                f"second {channel}",
+                f"{reading.table.noun}s '{first.head}' and '{second.head}' are both {channel} and differ"
+                f"{_joint(reading, i, option.column)}; which one acts on the muscle",
+                f"{option_of(channel, first)} or {option_of(channel, second)}", second.head, first.head, (first.head, second.head),
+            )  # fmt: skip
+
+
+def _aside(reading: Reading, i: int) -> bool:
+    roles = roles_of(reading.own(i))
+    return roles.get("set value", 0.0) >= 2.0
+
+
+def _same_values(reading: Reading, channel: str, use: Use, other: Option) -> bool:
+    ambient = reading.known.facts(reading.table).ambient
+    a = value_of(reading.table.columns[reading.decision.uses[channel][0]].values, use, ambient)
+    b = value_of(reading.table.columns[other.column].values, other.use, ambient)
+    both = np.isfinite(a) & np.isfinite(b)
+    if not both.any():
+        return True
+    return float(np.max(np.abs(a[both] - b[both]))) <= _SAME * max(float(np.ptp(a[both])), 1e-12)
+
+
+def _joint(reading: Reading, i: int, j: int) -> str:
+    """What two pressures that run against each other are."""
+    a, b = reading.table.columns[i].values, reading.table.columns[j].values
+    both = np.isfinite(a) & np.isfinite(b)
+    if both.sum() > 3 and np.ptp(a[both]) > 0 and np.ptp(b[both]) > 0 and np.corrcoef(a[both], b[both])[0, 1] < _OPPOSED:
+        return ", one filled as the other is vented, as the two muscles of a joint are"
+    return ""
+
+
+def _signs(reading: Reading) -> Iterator[Question]:
+    """A sign that no word says: the readings decided, or do not show it."""
+    for channel in ("force", "displacement", "contraction"):
+        column = reading.column(channel)
+        if column is None or reading.by_user(channel):
+            continue
+        i, use = reading.decision.uses[channel]
+        facet = "sign_force" if channel == "force" else "sign_stroke"
+        said = [e for e in reading.evidence if e.facet == facet and e.target in (i, FILE) and e.value == use.sign]
+        rival = next((r for r in reading.decision.rivals if r.slot == SLOTS[channel] and r.part == "sign"), None)
+        close = rival is not None and rival.margin < MARGIN
+        if use.sign == 1 and not close or use.sign == -1 and said and not close:
+            continue
+        what = {"force": "a pulling force is positive here", "displacement": "shortening is positive here", "contraction": "shortening is positive here"}[channel]
+        other = option_of(channel, column, sign=-use.sign)
+        text = (
+            f"{reading.table.noun} '{column.head}' is read with its sign reversed: {what}, and its readings run the other way"
+            if use.sign == -1
+            else f"{reading.table.noun} '{column.head}': {what}, but its readings hardly show which way they count"
+        )
+        yield Question(f"sign of {channel}", text, f"{option_of(channel, column, sign=use.sign)} or {other}", column.head,
+                       REVERSE if use.sign == -1 else KEEP, (REVERSE, KEEP), stops=close)  # fmt: skip
+
+
+def _reference(reading: Reading) -> Iterator[Question]:
+    """A pressure that may count from vacuum though no word says so."""
+    column = reading.column("pressure")
+    if column is None or reading.by_user("pressure") and reading.correction.columns:
+        choice = reading.known.chosen.get(reading.decision.uses["pressure"][0]) if column is not None else None
+        if column is None or (choice is not None and choice.absolute is not None):
+            return
+    i, use = reading.decision.uses["pressure"]
+    if any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence) or "pressure" in reading.known.conditions:
+        return
+    pressure = reading.rows.channels["pressure"]
+    lowest = float(np.min(pressure)) + (physics.ATMOSPHERE if use.absolute else 0.0)
+    at_rest = pressure <= float(np.min(pressure)) + 0.03e5
+    shows = _REST_BAND[0] <= lowest <= _REST_BAND[1] and np.ptp(pressure) >= 0.2e5 and _idle(reading, at_rest)
+    rival = next((r for r in reading.decision.rivals if r.slot == "pressure" and r.part == "reference"), None)
+    if not use.absolute and not shows and not (rival is not None and rival.margin < MARGIN):
+        return
+    absolute, gauge = (option_of("pressure", column, f"{use.unit}({mark})") for mark in ("a", "g"))
+    yield Question(
+        "reference of pressure",
+        f"{reading.table.noun} '{column.head}' shows {lowest / 1e5:.2f} bar at its lowest; is it absolute or gauge pressure",
+        f"{absolute} or {gauge}", column.head, "absolute", ("absolute", "gauge"),
+    )  # fmt: skip
+
+
+def _idle(reading: Reading, at_rest: np.ndarray) -> bool:
+    """Whether the muscle neither pulls nor moves in these rows."""
+    channels = reading.rows.channels
+    force = channels.get("force")
+    if force is not None and np.ptp(force) > 0.05 * np.max(np.abs(force)):
+        shown = force[at_rest][force[at_rest] != 0.0]  # an exact 0 is a slack muscle or a clipped table
+        if not len(shown) or np.max(np.abs(shown)) > 0.05 * np.max(np.abs(force)):
+            return False
+        shortened = _shortened(channels)
+        return shortened is None or bool(np.min(shortened[at_rest]) <= 0.1 * np.max(shortened))
+    for channel in ("displacement", "contraction"):
+        stroke = channels.get(channel)
+        if stroke is not None and np.ptp(stroke) > 0.0:
+            return bool(np.max(np.abs(stroke[at_rest])) <= 0.05 * np.max(np.abs(stroke)))
+    return False
+
+
+def _shortened(channels: dict[str, Array]) -> Array | None:
+    for channel in STROKES:
+        stroke = channels.get(channel)
+        if stroke is not None and np.ptp(stroke) > 0.005 * np.max(np.abs(stroke)):
+            return np.max(stroke) - stroke if channel == "length" else stroke - np.min(stroke)
+    return None
+
+
+def _tare(reading: Reading) -> Iterator[Question]:
+    """A force at rest, without pressure and stroke: the sensor was not set to zero."""
+    channels = reading.rows.channels
+    force, pressure, stroke = (channels.get(c) for c in ("force", "pressure", "displacement"))
+    column = reading.column("force")
+    if force is None or pressure is None or stroke is None or column is None or np.ptp(force) == 0.0:
+        return
+    if "force_zero" in reading.known.conditions or weights_of_runs(channels) is not None:
+        return
+    rows = (np.abs(pressure) < 0.03e5) & (np.abs(stroke) < 0.01 * max(float(np.max(np.abs(stroke))), 1e-9))
+    if np.count_nonzero(rows) < ENOUGH:
+        return
+    offset = float(np.median(force[rows]))
+    if abs(offset) < 0.02 * float(np.max(np.abs(force))):
+        return
+    yield Question(
+        "zero of force",
+        f"{reading.table.noun} '{column.head}' shows {offset:.3g} N at rest, without pressure and stroke; it is not subtracted; is it "
+        "an offset of the sensor",
+        f'--experiment "force_zero={offset:.3g} N"', column.head, f"{offset:.3g} N", (), stops=False,
+    )  # fmt: skip
+
+
+def _contradicted(reading: Reading) -> Iterator[Question]:
+    """Readings that no muscle shows as they are read."""
+    for channel, terms in reading.decision.against.items():
+        column = reading.column(channel)
+        if column is None or reading.by_user(channel) or channel == "time":
+            continue
+        if channel in ("displacement", "length") and "rest length" in terms[0][0]:
+            continue  # see `_rest_length`
+        use = reading.use(channel)
+        yield Question(
+            f"{channel} in {column.title}",
+            f"{reading.table.noun} '{column.head}' is read as {channel} in {use.unit}, but {terms[0][0]}; what is it",
+            f"{option_of(channel, column)} or {ignore_option(bare(column))}", column.head, channel, (channel, "ignore"),
+        )  # fmt: skip
+
+
+def _close(reading: Reading) -> Iterator[Question]:
+    """Another answer for what a column is that is nearly as likely."""
+    for rival in reading.decision.rivals:
+        channel = next((c for c in reading.decision.uses if SLOTS.get(c) == rival.slot and c in reading.rows.channels), None)
+        if channel is None or rival.margin >= MARGIN or reading.by_user(channel) or rival.part not in ("channel", "unit"):
+            continue
+        column, use = reading.table.columns[reading.decision.uses[channel][0]], reading.use(channel)
+        other = rival.other
+        if other is None or rival.part == "unit" and reading.said_unit(channel):
+            continue
+        yield Question(
+            f"{rival.part} of {column.title}" if rival.part == "channel" else f"unit of {channel}",
+            f"{reading.table.noun} '{column.head}' is read as {channel} in {use.unit}, but could as well be {other.use.channel} in {other.use.unit}",
+            f"{option_of(channel, column, use.unit)} or {option_of(other.use.channel, column, other.use.unit)}", column.head, channel,
+            (channel, other.use.channel),
+        )  # fmt: skip
+
+
+def _zero(reading: Reading) -> Iterator[Question]:
+    """A position of which nothing says where the muscle is at its rest length."""
+    column = reading.column("displacement")
+    if column is None or reading.by_user("displacement"):
+        return
+    i, use = reading.decision.uses["displacement"]
+    about = [e for e in reading.evidence if e.target in (i, FILE)]
+    if not any(e.facet == "zero_open" and e.target == i for e in about) or use.zero or any(e.facet in ("zero_known", "sign_stroke") for e in about):
+        return
+    stroke = reading.rows.channels["displacement"]
+    if float(np.min(np.abs(stroke))) <= 0.02 * float(np.max(np.abs(stroke))) and use.sign == 1:
+        return
+    yield Question(
+        "zero of displacement",
+        f"{reading.table.noun} '{column.head}' is a position; at which reading is the muscle at its rest length",
+        f"{option_of('displacement', column)} or {option_of('length', column)}", column.head, None, ("displacement", "length"),
+    )  # fmt: skip
+
+
+def _set_point(reading: Reading) -> Iterator[Question]:
+    """The only pressure is the set value of a regulator."""
+    for channel in ("pressure", "force"):
+        column = reading.column(channel)
+        if column is None or reading.by_user(channel):
+            continue
+        i = reading.decision.uses[channel][0]
+        roles = roles_of(reading.own(i))
+        if roles.get("set value", 0.0) >= 2.0 and not roles.get("measured"):
+            yield Question(
+                f"column '{bare(column)}'", f"{reading.table.noun} '{column.head}' is a set value, and no measured {channel} is there; take it",
+                f"{option_of(channel, column)} or {ignore_option(bare(column))}", column.head, channel, (channel, "ignore"),
+            )  # fmt: skip
+
+
+def _specimens(reading: Reading) -> Iterator[Question]:
+    names = reading.rows.samples
+    running = names and all(n.isdecimal() for n in names) and 2 * len(names) > len(reading.rows.lines)
+    if len(names) < 2 or running:
+        return
+    column = reading.table.columns[reading.rows.labels["sample"]]
+    yield Question(
+        "specimens",
+        f"{reading.table.noun} '{column.head}' names {len(names)} specimens, {', '.join(map(repr, names[:4]))}; their readings belong to "
+        "different muscles; split the file, or read all as one muscle",
+        ignore_option(bare(column)), column.head, None, names[:8],
+    )  # fmt: skip
+
+
+def _rest_length(reading: Reading) -> Iterator[Question]:
+    """A rest length that is missing, or with which no reading is possible."""
+    channels, rest = reading.rows.channels, reading.known.conditions.get("nominal_length")
+    strokes = [c for c in STROKES if c in channels]
+    if strokes == ["displacement"] and "nominal_length" not in reading.known.conditions:
+        yield Question(
+            "rest length", "the file states no rest length (L0) of the muscle; a stroke alone gives no contraction",
+            '--rest-length "300 mm"', stops=False,
+        )  # fmt: skip
+        return
+    if "nominal_length" in reading.correction.conditions or not isinstance(rest, float) or rest <= 0.0:
+        return
+    shown = _beyond(channels, rest)
+    if shown:
+        said = reading.known.stated["nominal_length"]
+        option = '--rest-length "300 mm"' + (' or --column "length=NAME [0 to 72 mm = 228 to 300 mm]"' if "stretch" in shown else "")
+        yield Question(
+            "rest length",
+            f"the rest length is read as {said.text or rest} ({said.where.where}), {shown}, which is impossible for it; "
+            f"{'where is the stroke 0, or ' if 'stretch' in shown else ''}which rest length is right",
+            option,
+        )  # fmt: skip
+
+
+def _beyond(channels: dict[str, Array], rest: float) -> str:
+    """What of the readings no muscle of a rest length [m] shows; "" = they are possible."""
+    length, stroke = channels.get("length"), channels.get("displacement")
+    if length is not None and len(length):
+        low, high = float(np.min(length)), float(np.max(length))
+        if low > _LONGEST * rest or high < _SHORTEST * rest:
+            return f"the lengths measured are {low * 1e3:.4g} to {high * 1e3:.4g} mm"
+    elif stroke is not None and len(stroke):
+        low, high = float(np.min(stroke)), float(np.max(stroke))
+        if float(np.median(np.abs(stroke))) > (1.0 - _SHORTEST) * rest:
+            return f"the strokes measured are {low * 1e3:.4g} to {high * 1e3:.4g} mm"
+        if float(np.quantile(stroke, _FEW)) < -_STRETCHED * rest:
+            share = -100.0 * low / rest
+            return f"the strokes measured would stretch the muscle by up to {-low * 1e3:.4g} mm beyond its rest length ({share:.0f} %)"
+    return ""
+
+
+def _load(reading: Reading) -> Iterator[Question]:
+    channels, conditions = reading.rows.channels, reading.known.conditions
+    loaded = "load_mass" in conditions or "load_force" in conditions or "force" in channels
+    if not loaded and (set(STROKES) & set(channels) or "pressure" in channels) and "diameter" not in channels:
+        yield Question(
+            "load", "the file states no load, which decides how far the muscle shortens", '--load "6 kg"', stops=False
+        )  # fmt: skip
+    if "command" in channels and "supply_pressure" not in conditions:
+        yield Question(
+            "supply", "the file states no supply pressure, from which the valve fills the muscle", '--supply "6 bar"', stops=False
+        )  # fmt: skip
+
+
+def _twice(reading: Reading) -> Iterator[Question]:
+    """Conditions that the file states with two values."""
+    channels = reading.rows.channels
+    for found in reading.known.contradictions:
+        needed = "command" in channels if found.key == "supply_pressure" else found.key == "nominal_length" or "force" not in channels
+        if not needed or found.key in reading.rows.held or "load_mass" in reading.known.held and found.key.startswith("load"):
+            continue
+        first, second = found.values
+        yield Question(
+            found.name,
+            f"the file states two values for the {found.name}, {first.text} ({first.where.where}) and {second.text} ({second.where.where}); "
+            "which one is right",
+            f'{found.option} "{first.text}" or {found.option} "{second.text}"', None, first.text, (first.text, second.text),
+        )  # fmt: skip
+
+
+def _several(reading: Reading) -> Iterator[Question]:
+    """A quantity that no column holds, and of which texts state several values."""
+    channels = reading.rows.channels
+    strokes = set(channels) & {*STROKES, "diameter", "command"}
+    for channel, claims in reading.known.several.items():
+        missing = (channel == "pressure" and "pressure" not in channels and "force" in channels) or (
+            channel in STROKES and not strokes and {"pressure", "force"} <= set(channels)
+        )
+        if missing:
+            shown = ", ".join(f"'{e.value.text}' ({e.span.where})" for e in claims[:6])
+            yield Question(
+                channel, f"no column holds the {channel}, and the texts state several: {shown}; at which one was it measured",
+                f"write the {channel} as a column, '{channel}_{'bar' if channel == 'pressure' else 'mm'}'",
+            )  # fmt: skip
+
+
+Policy = Callable[[Reading], Iterator[Question]]
+#: Asked where there are enough rows to show something.
+POLICIES: tuple[Policy, ...] = (
+    _units, _unnamed, _unread, _seconds, _set_point, _specimens, _signs, _reference, _zero, _contradicted, _close, _tare,
+)  # fmt: skip
+#: Asked always.
+ALWAYS: tuple[Policy, ...] = (_rest_length, _load, _twice, _several)
+
+
+def without_prefix(text: str) -> str:
+    """A message without the name of the file before it."""
+    return re.sub(r"^[^:]{1,80}: ", "", text)
