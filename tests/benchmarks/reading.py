@@ -334,7 +334,7 @@ def _tests() -> Iterator[Case]:
         import pytest
 
         recorder = _Recorder()
-        pytest.main(["-q", "-x", "--no-header", "-p", "no:cacheprovider", str(ROOT / "tests/measurement/read")], [recorder])
+        pytest.main(["-q", "-x", "--no-header", "-p", "no:cacheprovider", "-n", "0", "--dist", "no", str(ROOT / "tests/measurement/read")], [recorder])
         kept.write_bytes(pickle.dumps(list(recorder.kept.values())))
     for name, data, correction in pickle.loads(kept.read_bytes()):
         yield Case("tests", name, data, correction)

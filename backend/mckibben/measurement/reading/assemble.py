@@ -166,8 +166,9 @@ def said(reading: Reading) -> list[str]:
         if channel == "pressure":
             air = reading.known.facts(reading.table).ambient
             if use.absolute:
-                whose = "the surrounding air that the file states" if air != 101_325.0 else "the standard atmosphere"
-                lines.append(f"{label} is absolute pressure: {air:.0f} Pa subtracted, {whose}; {_reason(reading, i, 'absolute', True)}")
+                whose = "the standard atmosphere" if isinstance(air, float) and air == 101_325.0 else "the surrounding air that the file states"
+                amount = f"{air:.0f} Pa subtracted" if isinstance(air, float) else "the pressure of the surrounding air is subtracted row by row"
+                lines.append(f"{label} is absolute pressure: {amount}, {whose}; {_reason(reading, i, 'absolute', True)}")
             elif not any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence):
                 lines.append(f"{label} read as gauge pressure")
         if channel == "force" and use.unit in ("kg", "g", "kgf", "gf"):

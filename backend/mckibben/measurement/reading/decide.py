@@ -34,8 +34,8 @@ _NO_WORDS = -3.0  # nats of a column of which nothing says what it is
 _RANK = 0.15  # nats that each less usual unit costs
 _UNFIT = -9.0  # nats of a unit that is none of the channel
 _MASS = -1.0  # nats of a mass as a force
-_FINAL = ("supply", "air", "at rest", "preload", "deviation", "tube size", "a value", "lever")
-_ASIDE = ("set value", "running number", "remark", "raw", "words", "counter", *_FINAL)
+_FINAL = ("supply", "air", "at rest", "preload", "deviation", "tube size", "a value", "lever", "slack", "condition")
+_ASIDE = ("set value", "running number", "remark", "raw", "words", "counter", "slack", *_FINAL)
 SLOTS = {
     "time": "time", "pressure": "pressure", "force": "force", "length": "stroke", "contraction": "stroke",
     "displacement": "stroke", "command": "command", "diameter": "diameter", "temperature": "temperature", "velocity": "velocity",
@@ -56,7 +56,7 @@ class Facts:
     """What the decision needs besides the table: conditions in SI, constants of blocks, what the user says."""
 
     rest: float | None = None
-    ambient: float = ATMOSPHERE
+    ambient: float | Array = ATMOSPHERE
     diameter: float | None = None
     held: Mapping[str, Array] = field(default_factory=dict)
     chosen: Mapping[int, Choice | None] = field(default_factory=dict)
@@ -84,7 +84,7 @@ class Decision:
     score: float
 
 
-def value_of(values: Array, use: Use, ambient: float) -> Array:
+def value_of(values: Array, use: Use, ambient: float | Array) -> Array:
     """Readings in SI: pressure gauge, displacement positive when shorter, force positive when pulling."""
     raw = values if use.scale == 1.0 and use.offset == 0.0 else use.scale * (values - use.offset)
     result = in_si(raw, use.unit, use.channel)
@@ -125,18 +125,20 @@ def uses_of(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts) ->
             continue
         words = channels.get(channel, 0.0) - 0.5 * max([w for c, w in channels.items() if c != channel], default=0.0)
         words = words if channels else _NO_WORDS
-        words -= _aside(channel, roles, scaled=scale is not None)
+        words -= _aside(channel, roles, scaled=scale is not None, worded=channels.get(channel, 0.0) >= 2.0)
         for unit, cost, scaling in _units(i, channel, table, own, scale):
             options += _signed(i, channel, unit, words + cost, scaling, own, evidence)
     return sorted(options, key=lambda option: -option.score)
 
 
-def _aside(channel: str, roles: Mapping[str, float], *, scaled: bool) -> float:
+def _aside(channel: str, roles: Mapping[str, float], *, scaled: bool, worded: bool) -> float:
     """What makes a column something else than a channel."""
     aside = 0.0
     for role in _ASIDE:
         weight = roles.get(role, 0.0)
-        if (role == "raw" and scaled) or (role == "set value" and channel == "command") or (role == "tube size" and channel != "diameter"):
+        if scaled and role in ("raw", "counter", "running number"):
+            continue
+        if (role == "set value" and channel == "command" and worded) or (role == "tube size" and channel != "diameter"):
             continue
         if role == "at rest" and channel in ("displacement", "contraction", "pressure", "force"):
             continue
@@ -214,6 +216,9 @@ def _chosen(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts, ch
     scale = answered_scale(choice.scale) if choice.scale else next((e.value for e in own if e.facet == "scale"), None)
     if scale is not None and dimension_of(scale.unit) not in FITTING[choice.channel]:
         scale = None
+    stated = next((e.value for e in own if e.facet == "unit"), None)
+    if scale is None and stated is not None and dimension_of(stated) in RAW and dimension_of(choice.unit or stated) in RAW and choice.channel != "command":
+        return []  # its scale is asked
     if choice.unit is not None and scale is None:
         units: list[tuple[str, float, Scale | None]] = [(choice.unit, 0.0, None)]
     else:
@@ -234,6 +239,7 @@ class _Scorer:
     def __init__(self, table: Table, facts: Facts) -> None:
         self.table, self.facts = table, facts
         self.pick = np.unique(np.linspace(0, max(table.rows - 1, 0), physics.ROWS).astype(int))
+        self.ambient = facts.ambient if isinstance(facts.ambient, float) else facts.ambient[self.pick]
         self._values: dict[tuple[int, Use], Array] = {}
         self._joint: dict[tuple[object, ...], Terms] = {}
 
@@ -241,14 +247,14 @@ class _Scorer:
         """Some readings of a column in SI."""
         key = (i, use)
         if key not in self._values:
-            self._values[key] = value_of(self.table.columns[i].values[self.pick], use, self.facts.ambient)
+            self._values[key] = value_of(self.table.columns[i].values[self.pick], use, self.ambient)
         return self._values[key]
 
     def alone(self, option: Option) -> Terms:
         """What one column says by itself."""
         values = self.look(option.column, option.use)
-        if len(values) < physics.ENOUGH and option.score >= 1.0:
-            return []
+        if self.table.rows < physics.ENOUGH:
+            return []  # so few readings show nothing
         return physics.alone(option.use.channel, values[np.isfinite(values)], self.facts.rest, len(self.table.titles))
 
     def joint(self, p: Option | None, f: Option | None, x: Option | None) -> Terms:
@@ -261,10 +267,11 @@ class _Scorer:
             there = [a for a in arrays if a is not None]
             good = np.all([np.isfinite(a) for a in there], axis=0) if there else np.zeros(0, bool)
             terms: Terms = []
-            if good.sum() >= 3:
+            if good.sum() >= physics.ENOUGH:
                 pp, ff, xx = (None if a is None else a[good] for a in arrays)
                 absolute = p is not None and p.use.absolute
-                raw = pp + self.facts.ambient if pp is not None and absolute else pp
+                air = self.ambient if isinstance(self.ambient, float) else self.ambient[good]
+                raw = pp + air if pp is not None and absolute else pp
                 channel = x.use.channel if x else "length"
                 with np.errstate(all="ignore"):
                     terms = physics.together(raw, ff, channel, xx, self.facts.diameter, gauge=not absolute)
@@ -288,10 +295,8 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
     score, winner = ranked[0]
     uses: dict[str, tuple[int, Use]] = {o.use.channel: (o.column, o.use) for o in winner if o is not None}
     taken = {o.column for o in winner if o is not None}
-    if not any(o.use.channel == "command" for o in winner if o is not None):
-        pass
     for slot in ("time", "command", "diameter", "temperature", "velocity"):
-        best = next((o for o in slots[slot] if o.column not in taken and o.score > 0.0), None)
+        best = next((o for o in slots[slot] if o.column not in taken and o.score > 0.0 and _is_share(slot, o, table, facts)), None)
         if best is not None:
             uses[best.use.channel] = best.column, best.use
             taken.add(best.column)
@@ -307,6 +312,15 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
         uses, {slot: tuple(options) for slot, options in slots.items()}, tuple(_rivals(ranked)),
         tuple(scorer.joint(*winner)), against, score,
     )  # fmt: skip
+
+
+def _is_share(slot: str, option: Option, table: Table, facts: Facts) -> bool:
+    """Whether a command lies between -1 and 1 in all rows; of other slots nothing is asked."""
+    if slot != "command":
+        return True
+    values = value_of(table.columns[option.column].values, option.use, 0.0)
+    del facts
+    return bool(np.nanmax(np.abs(values)) <= 1.001)
 
 
 def _ranked(slots: Mapping[str, Sequence[Option]], scorer: _Scorer) -> list[tuple[float, tuple[Option | None, ...]]]:

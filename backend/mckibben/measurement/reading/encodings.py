@@ -23,7 +23,7 @@ _MANY_ACCENTS = re.compile("[\u00c0-\u017f]{4,40}")  # a word in other letters, 
 _CYRILLIC = re.compile("[\u0400-\u04ff]+")
 _SEVERAL = 3  # words
 _CONTROL = re.compile(rb"[\x00-\x08\x0b\x0e-\x1f\x7f]")
-_ZEROS = 0.25  # share of zero bytes from which a text without a mark is UTF-16
+_ZEROS = 0.4  # share of zero bytes at every other place from which a text without a mark is UTF-16
 
 
 def decoded(data: bytes, name: str) -> tuple[str, tuple[str, ...]]:
@@ -34,7 +34,7 @@ def decoded(data: bytes, name: str) -> tuple[str, tuple[str, ...]]:
     """
     messages: tuple[str, ...] = ()
     head = data[:4000]
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or (head and head.count(0) > _ZEROS * len(head)):
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or (len(head) > 20 and max(head[::2].count(0), head[1::2].count(0)) > _ZEROS * len(head)):
         data = _from_utf16(data, name)
     if control := _CONTROL.search(data):
         what = "NUL bytes" if control.group() == b"\0" else "control characters"

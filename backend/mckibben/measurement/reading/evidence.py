@@ -35,7 +35,7 @@ BY_UNIT = {
 }  # fmt: skip
 _UNIT_STATED, _CLOCK_SHOWN, _TEXTS, _COUNTS, _SINCE_1970 = 5.0, 5.0, 6.0, 3.0, 4.0
 _OVER = 0.35  # of the weight of a head, that texts over it have
-_NAME = "the file's name"
+NAME = "the file's name"
 _CLAUSES = re.compile(r"[,;.|()\[\]](?!\d)|\s[/–-]\s|\s(?:and|und|et|e|y|og|och|en|i|a|ve|и|та)\s")
 _SIGN_BEFORE = re.compile(r"(?<![\w.,+-])\(?(?P<sign>[+−-])\)?(?=\s?(?:[A-Za-z]\w{0,2}\s?)?(?:=|≙|->|→))")
 _SIGN_BEHIND = re.compile(r"(?<=[^\W\d_])\s?[:=]?\s?\(?(?P<sign>\+)\)?(?=\s?(?:[,;.)/]|$))|(?<=[^\W\d_])\s?[:=]?\s\(?(?P<minus>[−-])\)?(?=\s?(?:[,;.)/]|$))")
@@ -44,6 +44,7 @@ _NO_PRESSURE = re.compile(r"(?<![\w.,])(?:p\s?=\s?)?0(?:[.,]0{1,4})?\s?(?:mbar|b
 _AT_PRESSURE = re.compile(
     r"(?i)[\s(,]{0,3}(?:at|bei|@|à|a|con|mit|with|under)?\s?[0-9.,]{0,6}[1-9][0-9.,]{0,6}\s?(?:mbar|bar|[hkM]?Pa|psi)(?!\w)"
 )
+_MERCURY = re.compile(r"(?i)мм\s?рт\.?\s?ст\.?|mm\s?hg\b|mm\s(?:of\s|de\s|di\s)?(?:mercur\w{0,6}|quecksilber\w{0,6}|qs\b)")
 _NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?)\s?[:=]\s?(?P<value>.{1,200})")
 _CODE = re.compile(r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?(?![0-9a-z])")
 _OTHER_GAUGES = re.compile(r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]?gau?ges?|gau?ge length")
@@ -143,7 +144,8 @@ class _Context(NamedTuple):
 
 def _contexts(text: str) -> list[_Context]:
     """The quantities of a text, each with the words since the one before it, and those up to the next one."""
-    text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", text[:MAX_TEXT].replace("_", " ")))
+    text = _MERCURY.sub("mmHg", text[:MAX_TEXT])
+    text = _NO_PRESSURE.sub(" unpressurized ", _L_ZERO.sub("L0", text))
     found = quantities(text)
     begin = 0
     contexts = []
@@ -164,7 +166,7 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
     text = span.text[:MAX_TEXT]
     noted = _of_note(span)
     if noted is not None and noted.facet != "note":
-        return [noted, *(_of_code(span) if noted.facet == "condition:muscle" else [])]
+        return [noted, *(of_code(span) if noted.facet == "condition:muscle" else [])]
     found += [] if noted is None else [noted]
     found += _of_clauses(span, table)
     found += [_of_quantity(context, target, span) for context in _contexts(text)]
@@ -177,7 +179,7 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
                 unit = Unit(str(rule.claims["unit"]), "pressure")
                 quantity = Quantity(match.start(), match.end(), number_of(match["value"]), unit, match[0])
                 found.append(Evidence(FILE, f"condition:{value}", quantity, rule.weight, span, rule.id))
-    found += [*_of_legend(span, table), *_of_list(span, table), *_of_zero(span), *_of_scales(span, table), *_of_code(span)]
+    found += [*_of_description(span, table), *_of_legend(span, table), *_of_list(span, table), *_of_zero(span), *_of_scales(span, table), *of_code(span)]
     return [e for e in found if e is not None]
 
 
@@ -280,12 +282,14 @@ def _of_name(name: str, table: Table) -> list[Evidence]:
     """What the name of the file says: ``Zug_1,5bar``, ``step_L360mm``, ``load20kg``."""
     del table
     stem = PurePath(name).stem
-    span = Span(_NAME, stem)
+    span = Span(NAME, stem)
     found: list[Evidence] = []
     text = re.sub(r"(?<=\d)p(?=\d)", ".", stem)
     for context in _contexts(text):
         quantity = context.quantity
         evidence = _of_quantity(context, FILE, span)
+        if evidence is not None and evidence.facet == "condition:nominal_length" and context.before and context.before[-1] in ("l", "length"):
+            evidence = None
         if evidence is None:
             channel = _HELD_BY.get(quantity.unit.dimension)
             if channel in ("pressure", "length"):
@@ -294,25 +298,22 @@ def _of_name(name: str, table: Table) -> list[Evidence]:
                 evidence = Evidence(FILE, "condition:load_mass", quantity, 2.0, span, "name")
         if evidence is not None:
             found.append(evidence._replace(weight=min(evidence.weight, 2.5), rule="name"))
-    found += [e._replace(weight=0.5 * e.weight) for e in _of_code(span)]
-    for rule in rules("text"):
-        if "kind" in rule.claims and rule.pattern is not None and rule.pattern.search(stem.replace("_", " ")):
-            found.append(Evidence(FILE, "kind", rule.claims["kind"], 0.5 * rule.weight, span, rule.id))
+    found += [e._replace(weight=0.5 * e.weight) for e in of_code(span)]
     return found
 
 
 @cache
-def _known_muscles() -> frozenset[str]:
+def known_muscles() -> frozenset[str]:
     """Ids of the muscles that come with the program."""
     return frozenset(path.stem.upper() for path in (presets_folder() / "muscles").glob("*.json"))
 
 
-def _of_code(span: Span) -> list[Evidence]:
+def of_code(span: Span) -> list[Evidence]:
     """Muscle and rest length in an order code of a known muscle: ``DMSP-20-250N`` is 250 mm of a DMSP-20."""
     found: list[Evidence] = []
     for match in _CODE.finditer(span.text[:MAX_TEXT].replace("_", "-")):
         code = f"{match[1]}-{match[2]}".upper()
-        if code in _known_muscles():
+        if code in known_muscles():
             found.append(Evidence(FILE, "condition:muscle", code, 3.0, span, "order code"))
             if match[3]:
                 length = Quantity(match.start(), match.end(), float(match[3]), Unit("mm", "length"), match[0])
@@ -335,6 +336,44 @@ def _of_legend(span: Span, table: Table) -> list[Evidence]:
                 found += [e._replace(span=span) for e in of_column(i, made) if e.facet != "channel" or e.rule != "letter"]
                 if unit.absolute is not None:
                     found.append(Evidence(i, "absolute", unit.absolute, rule.weight, span, rule.id))
+    return found
+
+
+_DESCRIBES = re.compile(r"\s{0,3}(?P<link>[=:]|\s(?:in|is|unit|units|dtype)\s?=?:?)\s?(?P<words>[^,;=|]{1,80})|\s{1,3}(?P<bracket>\[[^\[\]]{1,20}\])")
+_UNIT_KEY = re.compile(r"(?i)(?<![^\W_])units?\s?[=:]\s?(?P<unit>\S{1,12})")
+
+
+def _of_description(span: Span, table: Table) -> list[Evidence]:
+    """What a text says of a column by its name: ``p = Absolutdruck in mbar``, ``time in s``, ``/rig/p: kPa``."""
+    found: list[Evidence] = []
+    text = span.text[:MAX_TEXT]
+    for i, column in enumerate(table.columns):
+        head = column.head.strip()
+        name = taken_apart(head, column.unit).name
+        if not name or len(name) > 40 or name[0].isdigit():
+            continue
+        at = text.find(name)
+        if at < 0 or (at > 0 and (text[at - 1].isalnum() or text[at - 1] == "_")):
+            continue
+        match = _DESCRIBES.match(text, at + len(name))
+        if match is None:
+            continue
+        words = (match["bracket"] or match["words"]).strip()
+        key = _UNIT_KEY.search(text, at)
+        unit = (unit_of(key["unit"]) if key else None) or unit_of(words) or unit_of(words.split()[0] if match["link"] and match["link"].strip() in ("in", "unit", "units") else "")
+        apart = taken_apart(words)
+        unit = unit or apart.unit
+        if unit is not None and not unit.dimension:
+            unit = None
+        if _unit_of(column) is None and unit is not None and not any(c.isdigit() for c in words.split("[")[0][:20].split(" ")[0]):
+            made = Column(f"{head} {words}" if not unit_of(words) else head, np.zeros(0), span.where, unit.name)
+            found += [e._replace(span=span) for e in of_column(i, made) if e.facet in ("unit", "channel", "absolute", "sign_stroke", "sign_force") and e.rule != "letter"]
+            if unit.absolute is not None:
+                found.append(Evidence(i, "absolute", unit.absolute, _UNIT_STATED, span, "description"))
+        elif unit is None and match["words"] and not head_claims(head[:200], column.unit):
+            found += [_from_claim(i, c, span, 0.9) for c in head_claims(words[:200]) if c.facet == "channel" and c.rule != "letter"]
+        if apart.absolute is not None and match["words"]:
+            found.append(Evidence(i, "absolute", apart.absolute, _UNIT_STATED, span, "description"))
     return found
 
 

@@ -13,11 +13,12 @@ from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
 from mckibben.measurement.read.correction import Choice, Correction
 from mckibben.measurement.reading.decide import Facts
+from mckibben.measurement.reading.evidence import of_code
 from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.lexicon import REFERENCES, folded
 from mckibben.measurement.reading.model import BLOCK, FILE, Array, Evidence, Span, Table
 from mckibben.measurement.reading.physics import ATMOSPHERE
-from mckibben.measurement.reading.units import Quantity, quantity_si
+from mckibben.measurement.reading.units import Quantity, Unit, dimension_of, quantity_si
 from mckibben.physics.errors import InputError, did_you_mean
 
 _SAME = 2e-3  # relative; values that differ by less are the same one, rounded
@@ -69,6 +70,8 @@ class Known:
         stated: the same with their places.
         contradictions: two values for one condition.
         held: channel -> values of the blocks; only where no column holds the channel they count.
+        air: pressure of the surrounding air in each row, where a column holds it [Pa].
+        columns: condition -> the column that holds it, and its different values in SI.
         several: channels for which texts name several values.
         kind: that texts name; empty = none, or several.
         chosen: column -> what the user says it is.
@@ -79,6 +82,8 @@ class Known:
     stated: Mapping[str, Stated]
     contradictions: tuple[Contradiction, ...]
     held: Mapping[str, Held]
+    air: Array | None
+    columns: Mapping[str, tuple[int, tuple[float, ...]]]
     several: Mapping[str, tuple[Evidence, ...]]
     kind: str
     chosen: Mapping[int, Choice | None]
@@ -94,7 +99,8 @@ class Known:
         held = {channel: one.values[table.blocks] for channel, one in self.held.items()}
         return Facts(
             rest=rest if isinstance(rest, float) and rest > 0.0 else None,
-            ambient=air if isinstance(air, float) and _POSSIBLE_AIR[0] <= air <= _POSSIBLE_AIR[1] else ATMOSPHERE,
+            ambient=self.air if self.air is not None
+            else air if isinstance(air, float) and _POSSIBLE_AIR[0] <= air <= _POSSIBLE_AIR[1] else ATMOSPHERE,
             diameter=diameter if isinstance(diameter, float) else None, held=held, chosen=self.chosen,
         )  # fmt: skip
 
@@ -109,7 +115,8 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
     stated: dict[str, Stated] = {}
     contradictions: list[Contradiction] = []
     claims: dict[str, list[Evidence]] = {}
-    for e in evidence:
+    columns = _columns_of_conditions(table, evidence, correction)
+    for e in (*evidence, *_of_columns(table, columns)):
         if e.facet.startswith("condition:") and e.target == FILE:
             claims.setdefault(e.facet.partition(":")[2], []).append(e)
     for key, found in claims.items():
@@ -139,8 +146,74 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
     unwanted = {n.strip(): None for e in claims.get("ignore", ()) for n in str(e.value).split(",")} if not ignored else {}
     chosen = _chosen(table, {**{k: v for k, v in unwanted.items() if _places(k, table)}, **correction.columns}, name)
     return Known(
-        conditions, stated, tuple(contradictions), held, several, said.pop() if len(said) == 1 else "", chosen, tuple(messages)
+        conditions, stated, tuple(contradictions), held, _air_of_rows(table, columns), columns, several, said.pop() if len(said) == 1 else "", chosen, tuple(messages)
     )
+
+
+#: Role of a column, dimension of its unit -> the condition that it holds.
+_OF_ROLES = {
+    ("at rest", "length"): "nominal_length", ("supply", "pressure"): "supply_pressure", ("air", "pressure"): "ambient_pressure",
+}  # fmt: skip
+_ROLE = 2.0  # nats from which a column holds a condition
+
+
+def _columns_of_conditions(
+    table: Table, evidence: Sequence[Evidence], correction: Correction
+) -> dict[str, tuple[int, tuple[float, ...]]]:  # fmt: skip
+    """Condition -> (column, its different values in SI) of the columns that hold one: a rest length, the supply, a load."""
+    found: dict[str, tuple[int, tuple[float, ...]]] = {}
+    named = {i for said, choice in correction.columns.items() if choice is not None for i in _places(said, table)}
+    for i, column in enumerate(table.columns):
+        own = [e for e in evidence if e.target == i]
+        unit = next((e.value for e in own if e.facet == "unit"), None)
+        if column.words is not None or i in named or unit is None:
+            continue
+        roles = {e.value for e in own if e.facet == "role" and e.weight >= _ROLE}
+        dimension = dimension_of(unit)
+        key = next((_OF_ROLES[role, dimension] for role in roles if (role, dimension) in _OF_ROLES), None)
+        if any(e.facet == "channel" and e.value in ("displacement", "contraction") and e.rule != "unit" for e in own):
+            key = None  # "shortening from rest length"
+        values = np.unique(column.values[np.isfinite(column.values)])
+        mass = any(e.rule == "hanging_mass" for e in own) and dimension == "mass"
+        if mass and (len(values) == 1 or not any(e.rule == "head_force" for e in own)):
+            key = "load_mass"
+        if key is None or not len(values):
+            continue
+        si = tuple(quantity_si(v, unit, CONDITION_UNITS[key]) for v in values[:50].tolist())
+        found.setdefault(key, (i, si))
+    return found
+
+
+def _of_columns(table: Table, columns: Mapping[str, tuple[int, tuple[float, ...]]]) -> list[Evidence]:
+    """The conditions that columns of one value state."""
+    found = []
+    for key, (i, values) in columns.items():
+        if len(values) == 1:
+            column = table.columns[i]
+            span = Span(f"{table.noun} '{column.title}'", column.title)
+            unit = CONDITION_UNITS[key]
+            quantity = Quantity(0, 0, values[0], Unit(unit, dimension_of(unit)), f"{values[0]:.6g} {unit}")
+            found.append(Evidence(FILE, f"condition:{key}", quantity, 7.0, span, "column"))
+    for column in table.columns:
+        codes = set(column.words or ()) if column.words is not None else set()
+        if len(codes) == 1:
+            found += of_code(Span(f"{table.noun} '{column.title}'", next(iter(codes))))
+    return found
+
+
+def _air_of_rows(table: Table, columns: Mapping[str, tuple[int, tuple[float, ...]]]) -> Array | None:
+    """The pressure of the surrounding air [Pa] in each row, where its column holds several values."""
+    i, values = columns.get("ambient_pressure", (-1, ()))
+    if len(values) < 2:
+        return None
+    unit = _stated_unit(table, i)
+    return np.array([quantity_si(v, unit, "Pa") for v in table.columns[i].values.tolist()])
+
+
+def _stated_unit(table: Table, i: int) -> str:
+    column = table.columns[i]
+    unit = taken_apart(column.head, column.unit).unit
+    return "Pa" if unit is None else unit.name
 
 
 def _is_note(best: Stated, found: Sequence[Evidence]) -> bool:

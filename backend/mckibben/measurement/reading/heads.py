@@ -86,7 +86,7 @@ def taken_apart(head: str, unit_below: str = "") -> Head:
             break
         inside = found[2].strip()
         mark = reference_of(inside)
-        if mark is not None:
+        if mark is not None and (len(inside) > 1 or not inside.isascii() or "pressure" in _channels_of(found[1])):
             absolute = mark
         elif (inner := unit_of(inside) or _first_unit(inside)) is not None and unit is None:
             unit = inner
@@ -105,6 +105,13 @@ def taken_apart(head: str, unit_below: str = "") -> Head:
     if absolute is None:
         absolute = _reference_among(words_of(text))
     return Head(text.strip(" _:,"), unit, absolute)
+
+
+def _channels_of(name: str) -> set[Any]:
+    """The channels that the words, or a letter with its unit, of a name may stand for."""
+    words = words_of(name)
+    letters = {_LETTERS[m[1]] for word in words if (m := _LETTER.fullmatch(word)) and m[1] in _LETTERS}
+    return {claim.value for claim in _of_words(words) if claim.facet == "channel"} | letters
 
 
 def _first_unit(text: str) -> Unit | None:
@@ -156,6 +163,10 @@ def _behind(text: str) -> tuple[str, Unit | None]:
             return before, joined
         if unit is not None and _is_sure(name, last, unit):
             return name, unit
+    for token in bare.split("_")[1:-1]:  # "pressure_bar_unclipped"
+        unit = unit_of(token) if token in _SURE else None
+        if unit is not None and any(unit.dimension in FITTING[c] for c in _channels_of(bare) if c in FITTING):
+            return bare.replace(f"_{token}", "", 1), unit
     if text.startswith(("psi", "PSI")) or (unit_of(bare) is not None and unit_of(bare).dimension in ("time",) and len(bare) > 1):  # type: ignore[union-attr]
         return text, unit_of(bare)
     return text, None
@@ -182,12 +193,12 @@ def without_run(name: str) -> tuple[str, str]:
     ('Pressure (kPa)', '2')
     """
     found = _RUN.fullmatch(name.strip()[:_LONGEST])
-    if found is None or not _counts_runs(found["word"]):
+    if found is None or not counts_runs(found["word"]):
         return name, ""
     return f"{found['name'].strip(' _,;:-')} {found['unit'] or ''}".strip(), found["number"]
 
 
-def _counts_runs(word: str) -> bool:
+def counts_runs(word: str) -> bool:
     plain = words_of(word)
     return bool(plain) and (plain[0] in _MORE_RUNS or any(c.value == "group" for c in _of_words(plain)))
 
@@ -213,6 +224,13 @@ def head_claims(head: str, unit_below: str = "") -> tuple[Claim, ...]:
         found.append(Claim("role", "set value", 4.0, "desired"))
     if dimension in RAW:
         found.append(Claim("role", "raw", 6.0, "raw signal"))
+    channels = {claim.value for claim in found if claim.facet == "channel"}
+    if "command" in channels and dimension in ("pressure", "length", "force") and "valve" not in words:
+        found.append(Claim("role", "set value", 4.0, "command in a physical unit"))
+    if dimension == "ratio" and apart.unit is not None and apart.unit.name != "1" and channels & {"pressure", "force", "length"} and not channels & {"contraction", "command", "displacement"}:
+        found.append(Claim("role", "raw", 4.0, "share of a range"))
+    if "displacement" in channels and dimension == "ratio":
+        found.append(Claim("channel", "contraction", 2.5, "stroke as a share"))
     if (change := _CHANGE.match(name)) is not None and dimension in ("", "length"):
         found = [claim for claim in found if claim.facet != "channel"]
         found.append(Claim("channel", "displacement", 3.0, "change"))
@@ -245,7 +263,8 @@ def _of_words(words: tuple[str, ...]) -> tuple[Claim, ...]:
     """What the words claim; of several channels the last one a little more, since it says what it is."""
     found: dict[str, tuple[Rule, float]] = {}
     channels: dict[str, float] = {}
-    for place, word in enumerate(words[:40]):
+    joined = ("".join(words),) if len(words) == 2 else ()  # "X_Value"
+    for place, word in enumerate((*words[:40], *joined)):
         ranked = [(rule, rule.words.strength(word)) for rule in rules("head") if rule.words is not None]
         ranked = [(rule, strength) for rule, strength in ranked if strength]
         of_channel = [(s, r) for r, s in ranked if "channel" in r.claims and not word.endswith(_NO_FORCE)]

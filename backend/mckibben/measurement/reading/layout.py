@@ -59,7 +59,7 @@ class Run:
         return [(self.heads.get(c, "").strip(), self.units.get(c, "")) for c in sorted(set(self.heads) | set(self.columns))]
 
 
-def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, head: int | None = None) -> Table:
+def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, head: int | None = None, _stripped: bool = False) -> Table:
     """The measurement among the sheets.
 
     Args:
@@ -94,6 +94,9 @@ def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, h
             raise InputError(
                 f"{name}, row {head}: no table has its names in row {head}", field="head", hint="a row with names above numbers"
             )
+    if not runs and head is None and not _stripped:
+        bare = [replace(s, rows=[[without_unit(c) for c in row] for row in with_unit_row(s.rows)]) for s in sheets]
+        return table_of(bare, name, wanted=wanted, _stripped=True)
     if not runs:
         raise InputError(f"{name}: no table: no rows of numbers with at least two columns", field="file", hint=_HINT)
     best = max(runs, key=lambda run: run.score)
@@ -102,6 +105,25 @@ def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, h
             run.heads, run.units, run.more, run.described = best.heads, best.units, best.more, best.described
     alike = [run for run in runs if _is_same(run, best)]
     return _joined(alike, best, runs, grids, name)
+
+
+_CELL_WITH_UNIT = re.compile(r"([-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")
+
+
+def without_unit(cell: Cell) -> Cell:
+    """The number of a cell ``2,00 bar``."""
+    match = _CELL_WITH_UNIT.fullmatch(cell) if isinstance(cell, str) and len(cell) < 40 else None
+    return match[1] if match and unit_of(match[2]) is not None else cell
+
+
+def with_unit_row(rows: list[list[Cell]]) -> list[list[Cell]]:
+    """Rows whose cells hold their units, with these as a row of their own above the first of them."""
+    for i, row in enumerate(rows[:200]):
+        found = [_CELL_WITH_UNIT.fullmatch(c) if isinstance(c, str) and len(c) < 40 else None for c in row]
+        if sum(m is not None and unit_of(m[2]) is not None for m in found) >= 2:
+            units: list[Cell] = [m[2] if m else "" for m in found]
+            return [*rows[:i], units, *rows[i:]]
+    return rows
 
 
 def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet], name: str) -> Table:
@@ -194,7 +216,7 @@ def _keyed(columns: Sequence[Column]) -> list[Column]:
     for place, column in enumerate(columns):
         head = column.head.strip() or f"column {place + 1}"
         seen[head] += 1
-        result.append(replace(column, key=head if seen[head] == 1 else f"column {place + 1}"))
+        result.append(replace(column, key=head if seen[head] == 1 else f"{head} #{seen[head]}"))
     return result
 
 
@@ -214,6 +236,10 @@ def _runs(sheet: Sheet) -> list[Run]:
     for i, row in enumerate(sheet.rows):
         places, texts, first, marks = _kinds(row)
         is_data = len(places) >= 2 and texts <= len(places) and not _is_statistic(first)
+        if is_data and texts and current is not None and len(current.rows) > 2 and len(places) < _INSIDE * len(current.columns):
+            is_data = False
+        if is_data and texts == len(places) and current is not None and len(current.rows) > 2 and first:
+            is_data = _was_labelled(current)
         if not is_data and len(places) >= 1 and len(places) + marks >= 2 and texts == 0 and current is not None:
             is_data = set(places) <= set(current.columns)
         if is_data and texts and first and current is None:
@@ -262,6 +288,11 @@ def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
             texts += 1
             first = first or ("" if places else str(cell))
     return places, texts, first, marks
+
+
+def _was_labelled(run: Run) -> bool:
+    """Whether the rows of a run so far begin with a text."""
+    return _kinds(run.sheet.rows[run.rows[-1]])[2] != ""
 
 
 def _is_statistic(text: str) -> bool:
@@ -332,8 +363,37 @@ def _head(run: Run, wanted: int | None) -> None:
             run.head_row = units_at
     else:
         _labelled_units(run)
+    if not any(head_score(h) > 0 for h in run.heads.values()):
+        _listed_names(run)
+    _shift_heads(run)
     _descriptions(run)
     _titles(run, min([run.rows[0], *run.above]))
+
+
+def _listed_names(run: Run) -> None:
+    """Names of all columns in one line further above, where the heads themselves say nothing."""
+    for i in range(run.rows[0] - 1, max(-1, run.rows[0] - _LOOK), -1):
+        filled = [str(c) for c in run.sheet.rows[i] if c != ""]
+        if i in run.above and len(filled) > 1 or len(filled) != 1:
+            continue
+        names = _split_head(filled[0], len(run.columns))
+        if names:
+            run.heads = dict(zip(run.columns, names, strict=True))
+            return
+
+
+def _shift_heads(run: Run) -> None:
+    """Names that are one fewer than the columns, of which the first numbers the rows: they belong to the others."""
+    filled = [c for c, h in run.heads.items() if h]
+    rows = run.sheet.rows
+    if run.units or len(run.columns) < 3 or filled != list(range(len(filled))) or run.head_row is None:
+        return
+    width = max(len([c for c in rows[r] if c != ""]) for r in run.rows[:3])
+    if len(filled) != width - 1 or len(rows[run.head_row]) >= width:
+        return
+    first = [str(rows[r][0]).strip('"') for r in run.rows[:5]]
+    if all(text.isdigit() and int(text) == int(first[0]) + k for k, text in enumerate(first)):
+        run.heads = {0: "No.", **{c + 1: h for c, h in run.heads.items() if h}}
 
 
 def _candidates(run: Run) -> list[int]:
@@ -365,7 +425,7 @@ def _candidates(run: Run) -> list[int]:
 def _split_head(text: str, width: int) -> list[str]:
     """The names of columns in one cell: parted by signs, wide gaps or blanks, brackets kept with their name."""
     bare = re.sub(r"^[\s#%/!;*]+", "", text)
-    bare = re.sub(r"^(?:columns?|spalten?|colonnes?|fields?|header)\s?:\s?", "", bare, flags=re.I)
+    bare = re.sub(r"^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?", "", bare, flags=re.I)
     ways = [re.split(r"\s?[,;\t|]\s?", bare), re.split(r"\s{2,}|\t", bare), _joined_units(bare.split())]
     for cells in ways:
         cells = [cell.strip().strip('"') for cell in cells if cell.strip()]
@@ -466,7 +526,7 @@ def sentence(row: Sequence[Cell]) -> str:
             text = shown
         elif before == NUMBER and kind == TEXT and unit_of(shown) is not None:
             text += f" {shown}"
-        elif text.endswith(":") or before == TEXT and kind == NUMBER and not text.endswith(("=", ":")):
+        elif text.endswith(":") or before == TEXT and (kind == NUMBER or shown[:1].isdigit()) and not text.endswith(("=", ":")):
             text += f": {shown}" if not text.endswith(":") else f" {shown}"
         else:
             text += f"; {shown}"

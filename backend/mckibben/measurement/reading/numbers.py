@@ -122,8 +122,8 @@ def numbers_of(cells: Sequence[Any], style: NumberStyle) -> tuple[Array, dict[in
     plain = style == NumberStyle()
     for row, cell in enumerate(cells):
         try:
-            value = float(cell) if plain or isinstance(cell, float) else number_of(cell, style)
-        except (ValueError, TypeError):
+            value = float(cell) if isinstance(cell, float) or (plain and cell.isascii() and "_" not in cell) else number_of(cell, style)
+        except (ValueError, TypeError, AttributeError):
             value = number_of(cell, style)
         if not np.isfinite(value):
             text = cell.strip() if isinstance(cell, str) else "" if cell is None else str(cell)

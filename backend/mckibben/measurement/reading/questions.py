@@ -23,7 +23,8 @@ from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table, Use
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
-from mckibben.measurement.reading.units import RAW, WEIGHTS, dimension_of
+from mckibben.measurement.reading.named import is_isometric
+from mckibben.measurement.reading.units import FITTING, RAW, WEIGHTS, dimension_of
 from mckibben.physics.units import convert
 
 REVERSE, KEEP = "reverse the sign", "keep the sign"
@@ -210,7 +211,7 @@ def _unnamed(reading: Reading) -> Iterator[Question]:
                 f"{option_of(channel, column, use.unit)} or {ignore_option(bare(column))}", column.head or column.title, channel,
                 (channel, "ignore"),
             )  # fmt: skip
-        elif channel in STROKES and all(e.rule == "unit" for e in claims):
+        elif channel in STROKES and all(e.rule in ("unit", "position_of_a_sensor") for e in claims):
             other = "length" if channel == "displacement" else "displacement"
             yield Question(
                 f"column '{bare(column)}'",
@@ -225,7 +226,11 @@ def _unread(reading: Reading) -> Iterator[Question]:
     used = {i for i, _ in reading.decision.uses.values()} | set(reading.rows.labels.values())
     filled = {SLOTS.get(c, c) for c in reading.rows.channels}
     for i, column in enumerate(reading.table.columns):
-        if i in used or i in reading.known.chosen or column.words is not None or i in reading.rows.dropped:
+        conditions = {place for place, _ in reading.known.columns.values()}
+        if i in used or column.words is not None or i in reading.rows.dropped or i in conditions or reading.known.chosen.get(i, 0) is None:
+            continue
+        if (choice := reading.known.chosen.get(i)) is not None:
+            yield from _raw_signal(reading, column, {choice.channel}, filled, next((e.value for e in reading.own(i) if e.facet == "unit"), None))
             continue
         own = reading.own(i)
         roles = roles_of(own)
@@ -259,6 +264,8 @@ def _unread(reading: Reading) -> Iterator[Question]:
 def _raw_signal(reading: Reading, column: Column, claimed: set[str], filled: set[str], unit: str | None) -> Iterator[Question]:
     """A signal without a scale where the channel that it is called like is missing."""
     wanted = next((c for c in ("pressure", "force", *STROKES, "command") if c in claimed and SLOTS[c] not in filled), None)
+    if reading.correction.columns and wanted is None and column.key in {str(k) for k in reading.correction.columns}:
+        return
     if wanted is None:
         missing = [c for c in ("pressure", "force", "displacement") if SLOTS[c] not in filled]
         if claimed or unit is None or not missing or "pressure" not in missing and "displacement" not in missing:
@@ -270,6 +277,7 @@ def _raw_signal(reading: Reading, column: Column, claimed: set[str], filled: set
         f"scale of {wanted}",
         f"{reading.table.noun} '{column.head}' is a signal in {unit or 'counts'}, and no text states its scale: which {wanted} is which reading",
         f"{option_of(wanted, column, scale)} or {ignore_option(bare(column))}", column.head, None, ("ignore", wanted),
+        stops=wanted != "command",
     )  # fmt: skip
 
 
@@ -351,10 +359,8 @@ def _signs(reading: Reading) -> Iterator[Question]:
 def _reference(reading: Reading) -> Iterator[Question]:
     """A pressure that may count from vacuum though no word says so."""
     column = reading.column("pressure")
-    if column is None or reading.by_user("pressure") and reading.correction.columns:
-        choice = reading.known.chosen.get(reading.decision.uses["pressure"][0]) if column is not None else None
-        if column is None or (choice is not None and choice.absolute is not None):
-            return
+    if column is None or reading.by_user("pressure"):
+        return
     i, use = reading.decision.uses["pressure"]
     if any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence) or "pressure" in reading.known.conditions:
         return
@@ -441,7 +447,7 @@ def _close(reading: Reading) -> Iterator[Question]:
     """Another answer for what a column is that is nearly as likely."""
     for rival in reading.decision.rivals:
         channel = next((c for c in reading.decision.uses if SLOTS.get(c) == rival.slot and c in reading.rows.channels), None)
-        if channel is None or rival.margin >= MARGIN or reading.by_user(channel) or rival.part not in ("channel", "unit"):
+        if channel is None or rival.margin >= MARGIN or reading.by_user(channel) or rival.part != "channel":
             continue
         column, use = reading.table.columns[reading.decision.uses[channel][0]], reading.use(channel)
         other = rival.other
@@ -544,6 +550,62 @@ def _beyond(channels: dict[str, Array], rest: float) -> str:
     return ""
 
 
+def _held_length(reading: Reading) -> Iterator[Question]:
+    """An isometric test without the length at which the muscle was held."""
+    channels = reading.rows.channels
+    named = reading.known.kind == "isometric" or str(reading.known.conditions.get("kind", "")) == "isometric" or is_isometric(reading.name)
+    if named and {"pressure", "force"} <= set(channels) and not set(channels) & {*STROKES, "diameter", "command"}:
+        yield Question(
+            "length",
+            "the file says that the test is isometric, but neither a column nor a text states the length at which the muscle was held",
+            "write the length as a column, 'length_mm', or into the file's name, 'iso_L138mm'",
+        )  # fmt: skip
+
+
+def _of_columns(reading: Reading) -> Iterator[Question]:
+    """A condition of which a column holds several values."""
+    for key, (i, values) in reading.known.columns.items():
+        needed = key == "nominal_length" or key == "load_mass" and "force" not in reading.rows.channels
+        if len(values) < 2 or not needed or key in reading.correction.conditions or key == "load_mass" and "load_force" in reading.correction.conditions:
+            continue
+        column = reading.table.columns[i]
+        what, option = {"nominal_length": ("rest length", "--rest-length"), "load_mass": ("load", "--load")}[key]
+        unit = "kg" if key == "load_mass" else "m"
+        shown = ", ".join(f"{v:.6g} {unit}" for v in values[:4])
+        yield Question(
+            what,
+            f"{reading.table.noun} '{column.head}' holds {len(values)} values, {shown}, but a measurement has one {what}; split the file by it, "
+            "or state which one holds for all rows",
+            f'{option} "{values[0]:.6g} {unit}"' + (f" or {option_of('force', column)}" if key == "load_mass" else ""), column.head,
+        )  # fmt: skip
+
+
+def _unknown_unit(reading: Reading) -> Iterator[Question]:
+    """A head with a word in brackets that is no unit, or with a unit of something else than its name says."""
+    for i, column in enumerate(reading.table.columns):
+        if i in reading.known.chosen or column.words is not None or column.clock:
+            continue
+        own = reading.own(i)
+        claimed = [e.value for e in own if e.facet == "channel" and e.rule not in ("unit", "letter") and e.weight >= 2.5]
+        stated = next((e.value for e in own if e.facet == "unit"), None)
+        used = next((c for c, (j, _) in reading.decision.uses.items() if j == i), None)
+        bracket = re.search(r"[\[(]\s?([^\W\d_]{2,20})\s?[\])]\s?$", column.head)
+        if not claimed:
+            continue
+        channel = claimed[0]
+        si = CHANNEL_UNITS[channel]
+        if stated is None and bracket is not None and used in ("pressure", "force", *STROKES, "time") and not column.unit:
+            yield Question(
+                f"unit of {used}", f"{reading.table.noun} '{column.head}': '{bracket[1]}' is not a known unit", option_of(used, column, reading.use(used).unit),
+                column.head, reading.use(used).unit, (reading.use(used).unit,),
+            )  # fmt: skip
+        elif stated is not None and used not in claimed and dimension_of(stated) not in (*RAW, "ratio", "") and not any(dimension_of(stated) in FITTING[c] for c in claimed):
+            yield Question(
+                f"unit of {channel}", f"{reading.table.noun} '{column.head}': the unit '{stated}' is a {dimension_of(stated)}, a unit of {channel} is needed",
+                f"{option_of(channel, column, si)} or {ignore_option(bare(column))}", column.head,
+            )  # fmt: skip
+
+
 def _load(reading: Reading) -> Iterator[Question]:
     channels, conditions = reading.rows.channels, reading.known.conditions
     loaded = "load_mass" in conditions or "load_force" in conditions or "force" in channels
@@ -595,7 +657,7 @@ POLICIES: tuple[Policy, ...] = (
     _units, _unnamed, _unread, _seconds, _set_point, _specimens, _signs, _reference, _zero, _contradicted, _close, _tare,
 )  # fmt: skip
 #: Asked always.
-ALWAYS: tuple[Policy, ...] = (_rest_length, _load, _twice, _several)
+ALWAYS: tuple[Policy, ...] = (_unknown_unit, _rest_length, _load, _twice, _several, _held_length, _of_columns)
 
 
 def without_prefix(text: str) -> str:

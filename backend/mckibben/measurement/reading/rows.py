@@ -13,9 +13,11 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.read.cells import Skip
 from mckibben.measurement.read.correction import SAMPLE, SLACK, Correction
 from mckibben.measurement.reading.decide import Decision, roles_of, value_of
+from mckibben.measurement.reading.evidence import NAME
 from mckibben.measurement.reading.facts import Held, Known
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import Array, Column, Evidence, Table
+from mckibben.measurement.reading.named import length_of_name
 from mckibben.physics.errors import InputError
 
 LARGEST = 1e15  # in SI; more is of no physical size
@@ -104,7 +106,7 @@ def rows_of(table: Table, decision: Decision, known: Known, evidence: Sequence[E
     if "time" in rows.channels and rows.channels["time"][0] > 1e8:
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
         rows.messages.append(f"{table.noun} '{table.columns[decision.uses['time'][0]].title}' counts from 1970: its first row is 0 s")
-    _hold(rows, known, len(rows.lines))
+    _hold(rows, known, correction, table.where)
     _labels(rows, table, known, evidence, keep, {i for i, _ in used.values()})
     _oldest_first(rows, table, decision)
     if len(table.titles) > 1 and "group" not in rows.channels:
@@ -165,7 +167,7 @@ def _count(rows: Rows, reason: str, count: int, first: str) -> None:
 
 def _possible(
     table: Table, used: Mapping[str, tuple[int, object]], values: Mapping[str, Array], keep: NDArray[np.bool_],
-    ambient: float, rows: Rows, *, skip: bool,
+    ambient: float | Array, rows: Rows, *, skip: bool,
 ) -> NDArray[np.bool_]:  # fmt: skip
     """The rows whose values can be: no length below 0, no absolute pressure below 0."""
     good = np.ones(table.rows, bool)
@@ -193,18 +195,19 @@ def _possible(
     return good
 
 
-def _hold(rows: Rows, known: Known, count: int) -> None:
+def _hold(rows: Rows, known: Known, correction: Correction, where: str) -> None:
     """What texts say was held, for the channels that no column holds."""
-    del count
     columns = rows.channels
     stroke = bool(set(columns) & {*STROKES, "diameter"})
     if "pressure" not in columns and "pressure" in known.held and ("force" in columns or stroke and "load_mass" in known.held):
         _take(rows, known, "pressure")
     if not stroke and "command" not in columns and {"pressure", "force"} <= set(columns):
         for channel in ("length", "contraction", "displacement"):
-            if channel in known.held and (channel != "length" or _may_be_held(known, known.held[channel])):
+            if channel in known.held and not known.held[channel].by_name:
                 _take(rows, known, channel)
                 break
+        else:
+            _by_name(rows, known, correction, where)
     if "force" not in columns and "pressure" in columns and bool(set(columns) & set(STROKES)):
         for key, factor in (("load_mass", GRAVITY), ("load_force", 1.0)):
             if key in known.held and np.ptp(known.held[key].values) > 0.0:
@@ -213,12 +216,22 @@ def _hold(rows: Rows, known: Known, count: int) -> None:
                 rows.messages.append(f"force is the weight that the titles of the blocks state, '{known.held[key].text}' first")
 
 
-def _may_be_held(known: Known, held: Held) -> bool:
-    """Whether a muscle can be held at a length; only what a name says is doubted."""
-    rest = known.conditions.get("nominal_length")
-    if not held.by_name:
-        return True
-    return isinstance(rest, float) and bool(np.all((held.values >= 0.6 * rest) & (held.values <= 1.06 * rest)))
+def _by_name(rows: Rows, known: Known, correction: Correction, where: str) -> None:
+    """The length that the file's name says, where the rest length is known from elsewhere."""
+    name = where.partition(", ")[0]
+    stated = known.stated.get("nominal_length")
+    rest = correction.muscle_length if stated is None or stated.where.where == NAME else stated.value
+    if not isinstance(rest, float):
+        return
+    isometric = known.kind == "isometric" or str(known.conditions.get("kind", "")) == "isometric"
+    found = length_of_name(name, rest, isometric=isometric, others=correction.beside)
+    if found is None or (found.why and correction.strict):
+        return
+    rows.channels["length"] = np.full(len(rows.lines), found.value)
+    rows.held["length"] = Held(np.array([found.value]), found.text, NAME, "m", True)
+    if stated is not None and stated.where.where == NAME:
+        known.conditions.pop("nominal_length", None)
+    rows.messages.append(f"length is taken from {NAME}: '{found.text}'{f' ({found.why})' if found.why else ''}")
 
 
 def _take(rows: Rows, known: Known, channel: str) -> None:

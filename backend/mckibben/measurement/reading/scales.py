@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from mckibben.measurement.reading.lexicon import rules
+from mckibben.measurement.reading.lexicon import rules, word_set, words_of
 from mckibben.measurement.reading.units import number_of, unit_of
 
 _NUMBER = r"[-+]?\d{1,9}(?:[.,]\d{1,9})?"
@@ -35,7 +35,16 @@ def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
     """(scale, words around it) of every calibration in a text."""
     if not any(character.isdigit() for character in text):
         return
+    states = valve_scale(text)
+    if states is not None:
+        yield states, f"valve {text}"
+    points = _points(text)
     taken: list[tuple[int, int]] = []
+    if points is not None:
+        taken = [span for _, span in points]
+        if (scale := _through(points)) is not None:
+            before = re.split(r"[;,](?!\d)", text[: taken[0][0]])[-1]
+            yield scale, f"{before} {text}"
     for rule in sorted((r for r in rules("text") if "scale" in r.claims), key=lambda r: -r.weight):
         assert rule.pattern is not None
         for match in rule.pattern.finditer(text):
@@ -45,7 +54,82 @@ def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
             if scale is not None:
                 taken.append(match.span())
                 before = re.split(r"[;,](?!\d)", text[: match.start()])[-1]
+                shift = _SHIFTED.search(text, match.end())
+                if shift is not None and shift.start() - match.end() < 4 and not scale.offset:
+                    scale = scale._replace(offset=number_of(shift["number"]) * (1.0 if shift["sign"] != "+" else -1.0))
+                at_rest = _AT_REST.search(text)
+                if at_rest is not None and not scale.offset and unit_of(scale.unit) is not None and unit_of(scale.unit).dimension == "length":  # type: ignore[union-attr]
+                    scale = scale._replace(offset=number_of(at_rest[1]))
                 yield scale, f"{before} {match[0]}"
+
+
+#: The reading that is taken off: "(U - 1 V)".
+_SHIFTED = re.compile(rf"\(\s?[^\W\d]\w{{0,20}}\s?(?P<sign>[-−–+])\s?(?P<number>\d{{1,7}}(?:[.,]\d{{1,6}})?)\s?(?:V|mV|mA|counts?)?\s?\)")
+#: The reading at the rest length: "4 mA at the rest length", "0 V bei Ruhelänge".
+_AT_REST = re.compile(
+    r"(?i)(?<![\w.,])(\d{1,7}(?:[.,]\d{1,6})?)\s?(?:counts?|m?V|m?A|%)\s?(?:=|at|bei|à|a|for|when|in)\s?(?:the\s|der\s|la\s)?"
+    r"(?:rest|L_?0|ruhe|unloaded|relaxed|initial|natural|longueur au repos|riposo|reposo|repouso)"
+)
+_STATE = re.compile(
+    r"(?P<before>[^\W\d_]+)?\s?(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s?(?<![\d.,])(?P<number>\d{1,4}(?:[.,]\d{1,4})?)\s?(?P<raw>mV|V|mA|A)\b\)?"
+    r"(?=(?:\s?(?:=|≙|:|->|→|is)?\s?(?P<behind>[^\W\d_]+(?:\s[^\W\d_]+)?))?)"
+)
+_POINT = re.compile(
+    r"(?<![\d.,-])(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)\s?(?:=|->|→|≙|:|at|bei)\s?"
+    r"(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}|%)(?![\w/])"
+)
+_STRAIGHT = 0.005  # of the range, that points of one line may be off
+
+
+def _points(text: str) -> list[tuple[tuple[float, float, str, str], tuple[int, int]]] | None:
+    """The points ``0.5 V = 0 bar, 4.5 V = 10 bar`` of a text that has two or more in one pair of units."""
+    found = []
+    for match in _POINT.finditer(text):
+        unit = unit_of(match["unit"])
+        if unit is not None and unit.dimension:
+            found.append(((number_of(match["x"]), number_of(match["y"]), match["raw"], unit.name), match.span()))
+    return found if len({f[0][0] for f in found}) > 1 and len({f[0][2:] for f in found}) == 1 else None
+
+
+def _through(points: list[tuple[tuple[float, float, str, str], tuple[int, int]]]) -> Scale | None:
+    """The line through points; None = they lie on none."""
+    distinct = sorted({(x, y) for (x, y, _, _), _ in points})
+    (x0, y0), (x1, y1) = distinct[0], distinct[-1]
+    slope = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0
+    if not slope or any(abs(y0 + slope * (x - x0) - y) > _STRAIGHT * abs(y1 - y0) for x, y in distinct):
+        return None
+    raw = unit_of(points[0][0][2])
+    return Scale(slope, x0 - y0 / slope, points[0][0][3], "" if raw is None else raw.name, "points", 6.6, "points")
+
+
+def valve_scale(text: str) -> Scale | None:
+    """The scale of a valve's signal by its states: ``0 V = exhaust, 5 V = closed, 10 V = fill``.
+
+    The share of opening is 0 where the valve is closed, +1 where it fills, -1 where it exhausts.
+    """
+    states: dict[str, set[tuple[float, str]]] = {}
+    for found in _STATE.finditer(text):
+        sides = (found["before"], found["behind"]) if found["link"] else (found["behind"], found["before"])
+        state = next(filter(None, (state_of(side or "") for side in sides)), None)
+        if state is not None:
+            states.setdefault(state, set()).add((number_of(found["number"]), found["raw"]))
+    signals = {raw for values in states.values() for _, raw in values}
+    if len(signals) != 1 or not {"closed", "open"} <= set(states) or any(len(v) > 1 for v in states.values()):
+        return None
+    level = {state: next(iter(values))[0] for state, values in states.items()}
+    span = level["open"] - level["closed"]
+    exhaust = level.get("exhaust", level["closed"] - span)
+    if span == 0.0 or abs(exhaust - (level["closed"] - span)) > 0.01 * abs(span):
+        return None
+    return Scale(1.0 / span, level["closed"], "1", signals.pop(), "valve states", 6.0, text[:80])
+
+
+def state_of(text: str) -> str | None:
+    """The state of a valve in words: "closed", "open" (it fills), "exhaust"; None = none, or several."""
+    words = words_of(text)
+    known = {"closed": "valve_closed", "open": "valve_open|way_shortening", "exhaust": "valve_exhaust|way_lengthening"}
+    found = [state for state, names in known.items() if word_set(names).among(words)]
+    return found[0] if len(found) == 1 else None
 
 
 def answered_scale(text: str) -> Scale | None:

@@ -189,7 +189,9 @@ def _without_quantity(head: str) -> str:
     for quantity in reversed(quantities(text)):
         text = text[: quantity.begin] + text[quantity.end :]
     text = re.sub(r"\s*(?:@|\bat\b|\bbei\b|[a-zA-Z]?\s?=)\s*(?=$|[\[(,;])", " ", text)
-    return " ".join(text.split()).strip(" ,;@=()")
+    text = re.sub(r"(?:^|\s)[^\W\d_]{1,3}\s?=\s*(?=$|[\[(,;])", " ", text)
+    text = " ".join(text.split()).strip(" ,;@=")
+    return "" if text in ("()", "[]") else text
 
 
 def _subject(run: Run) -> str:

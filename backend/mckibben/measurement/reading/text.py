@@ -20,7 +20,7 @@ _LONGEST = 20_000  # characters of a line that are looked at for the delimiter
 _MOST_LINES_OF_A_CELL = 20  # a quoted cell of more is one whose quote is never closed
 _COMMENT = re.compile(r'\s{0,20}"?(?:#|%|//|!|\*\*)')
 _PAIR = re.compile(r"([^\W\d]\w{0,20}(?:\[[^\[\]]{1,10}\])?)\s?[:=]\s?([-+]?\d[\d.]{0,15}(?:[eE][-+]?\d{1,3})?)\s?([A-Za-z°%]{0,5})(?=$|[,;|\s])")
-_PAIRED_SHARE = 0.5  # of the lines, above which they are read as pairs of key and value
+_PAIRED_SHARE = 0.3  # of the lines, above which they are read as pairs of key and value
 _GAP = re.compile(r"\s{2,}|\t")
 _SEPARATOR_HINT = re.compile(r"sep=([,;\t|])")
 _RULE = re.compile(r"[|+\s]{0,4}[-=:_]{3,}[-=:|+\s]{0,2000}")  # a line drawn under a head
@@ -151,7 +151,7 @@ def _usual_width(lines: Sequence[str], delimiter: str | None) -> int:
 def _quoted(lines: Sequence[str], delimiter: str, name: str) -> list[tuple[int, list[str]]]:
     """Rows with quoted cells, which may hold delimiters and ends of lines."""
     csv.field_size_limit(10_000_000)
-    reader = csv.reader((line + "\n" for line in lines), delimiter=delimiter, skipinitialspace=True)
+    reader = csv.reader((line + "\n" for line in lines), delimiter=delimiter, skipinitialspace=True, strict=True)
     rows: list[tuple[int, list[str]]] = []
     begin = 1
     try:
@@ -163,7 +163,9 @@ def _quoted(lines: Sequence[str], delimiter: str, name: str) -> list[tuple[int, 
             rows.append((begin, [cell.strip() for cell in cells]))
             begin = reader.line_num + 1
     except csv.Error as error:
-        raise InputError(f"{name}, row {begin}: {error}", field=f"row {begin}", hint="export it again") from error
+        closed = "unexpected end" not in str(error)
+        what = f"the quotes are wrong: {error}" if closed else "a quote is opened and never closed"
+        raise InputError(f"{name}, row {begin}: {what}", field=f"row {begin}", hint='close it with "') from error
     return rows
 
 

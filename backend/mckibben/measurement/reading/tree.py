@@ -170,6 +170,11 @@ def _size(value: Any) -> int:
 def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span, ...], units: Mapping[str, str], depth: int) -> None:
     texts, arrays, below = [*above], {}, []
     own = dict(units)
+    for key, value in node.items():
+        if isinstance(value, dict) and not _has_arrays(value):
+            texts += _texts_of({key: value}, path)
+            if value and all(isinstance(v, str) and len(v) < 40 for v in value.values()):
+                own |= {str(k): v for k, v in value.items()}
     flat: dict[str, Any] = {}
     for key, value in node.items():  # a list of named arrays are columns of this level
         if isinstance(value, (list, tuple)) and len(value) > 1 and all(_channel(v) for v in value):
@@ -194,11 +199,8 @@ def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span
             texts.append(Span(f"{path}{head}", f"{head}: {text}"[:MAX_TEXT]))
             if isinstance(value, str) and unit_of(value) is not None:
                 own |= _unit_beside(head, value, flat)
-        elif isinstance(value, dict) and value and all(isinstance(v, str) and len(v) < 12 for v in value.values()):
-            own |= {str(k): v for k, v in value.items()}
-            texts += _texts_of({head: value}, path)
-        elif isinstance(value, dict) and not any(isinstance(v, (list, tuple, dict)) or isinstance(v, np.ndarray) and v.size > 1 for v in value.values()):
-            texts += _texts_of({head: value}, path)
+        elif isinstance(value, dict) and not _has_arrays(value):
+            continue
         elif isinstance(value, (dict, list, tuple)):
             below.append((head, value))
     if arrays:
@@ -207,6 +209,13 @@ def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span
     walk.texts += [t for t in texts if t not in above]
     for head, value in below:
         _visit(walk, value, f"{path}{head}.", tuple(texts), own, depth + 1)
+
+
+def _has_arrays(value: Any, depth: int = 0) -> bool:
+    """Whether a mapping holds an array at any depth."""
+    if isinstance(value, dict):
+        return depth > MAX_DEPTH or any(_has_arrays(v, depth + 1) for v in value.values())
+    return isinstance(value, (list, tuple)) and len(value) > 1 or isinstance(value, np.ndarray) and value.size > 1
 
 
 def _unit_beside(head: str, value: str, flat: Mapping[str, Any]) -> dict[str, str]:
@@ -245,12 +254,34 @@ def _matrix(value: Any, node: Mapping[str, Any], texts: Iterable[Span]) -> dict[
                 return None
     if array is None:
         return None
-    for other in node.values():
-        names = [str(v).strip() for v in other] if isinstance(other, (list, tuple)) and all(isinstance(v, str) for v in other) else None
-        if names and len(names) in array.shape:
+    for names, units in _name_lists(node):
+        if len(names) in array.shape:
             table = array if array.shape[1] == len(names) else array.T
-            return {name: table[:, i] for i, name in enumerate(names[:MAX_COLUMNS])}
+            heads = [f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True)]
+            return {head: table[:, i] for i, head in enumerate(heads[:MAX_COLUMNS])}
     return None
+
+
+def _name_lists(node: Mapping[str, Any], depth: int = 0) -> list[tuple[list[str], list[str]]]:
+    """Lists of names of columns, with their units: of texts, or of mappings with a name; those of inner mappings last."""
+    found = []
+    for other in node.values():
+        if not isinstance(other, (list, tuple)) or not other:
+            continue
+        if all(isinstance(v, str) for v in other):
+            found.append(([str(v).strip() for v in other], [""] * len(other)))
+        elif all(isinstance(v, dict) and any(str(k).lower() in _NAMES for k in v) for v in other):
+            names = [next(str(x) for k, x in v.items() if str(k).lower() in _NAMES) for v in other]
+            units = [
+                " ".join([next((str(x) for k, x in v.items() if _says_unit(str(k))), ""),
+                          next((str(x) for k, x in v.items() if str(x).lower() in ("absolute", "gauge", "relative")), "")]).strip()
+                for v in other
+            ]  # fmt: skip
+            found.append((names, units))
+    for other in node.values() if depth < 2 else ():
+        if isinstance(other, dict):
+            found += _name_lists(other, depth + 1)
+    return found
 
 
 def _emit(walk: _Walk, path: str, arrays: Mapping[str, Any], units: Mapping[str, str], texts: tuple[Span, ...]) -> None:
@@ -268,6 +299,6 @@ def _emit(walk: _Walk, path: str, arrays: Mapping[str, Any], units: Mapping[str,
     walk.sheets.append(
         Sheet(
             path.rstrip("."), noun=walk.noun, format=walk.format, arrays=chosen,
-            units={k: u for k, u in units.items() if k in chosen and u}, texts=(*texts, *rest, *lists),
+            units={k: u for k in chosen if (u := units.get(k) or units.get(k.rpartition(".")[2], ""))}, texts=(*texts, *rest, *lists),
         )
     )  # fmt: skip

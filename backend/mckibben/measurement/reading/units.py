@@ -38,7 +38,7 @@ FITTING = {
 }  # fmt: skip
 #: Unit of a mass -> that of its weight.
 WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf", "oz": "ozf"}
-_SYMBOLS = {"at": "kgf/cm2"}  # technical atmosphere
+_NO_UNITS = frozenset(("a", "A", "t", "T", "D", "at", "h0", "L", "l", "F", "p", "P", "x", "X", "i", "n", "No", "no"))  # names rather than units
 _CLOCKS = re.compile(r"(?i)h{1,2}\s?:\s?m{1,2}(?:\s?:\s?s{1,2})?[.,:msfz0]{0,6}|clock|iso ?8601|hms")
 _DEGREES = re.compile(r"(?i)(?:deg(?:rees?)?\.?|°|º)\s?([CF])")
 _COUNTS = frozenset("count counts cts digit digits lsb bit bits raw adc inc".split())
@@ -81,6 +81,8 @@ def unit_of(text: str) -> Unit | None:
         return None
     if any(character >= "\u3000" for character in bare):
         bare = unicodedata.normalize("NFKC", bare)
+    if bare in _NO_UNITS:
+        return None
     if _CLOCKS.fullmatch(bare):
         return Unit(CLOCK, "time")
     if bare.lower() in _COUNTS:
@@ -109,7 +111,7 @@ def _plain(text: str) -> Unit | None:
     """A unit without a mark."""
     if re.fullmatch(r"[^\W\d_]+1", text):
         return None  # "FT1" is a name; nobody writes a unit to the power of one
-    unit = UNIT_SPELLINGS.get(text.lower()) or UNIT_SPELLINGS.get(text) or _SYMBOLS.get(text) or text
+    unit = UNIT_SPELLINGS.get(text.lower()) or UNIT_SPELLINGS.get(text) or text
     # "mPa" is a thousandth of a pascal; "Mpa" and "mpa" are written for MPa.
     for spelling in ("MPa",) if unit in ("Mpa", "mpa") else dict.fromkeys((unit, unit.lower())):
         dimension = dimension_of(spelling) if is_unit(spelling) else ""
@@ -157,9 +159,9 @@ def _encloses(text: str) -> bool:
     return False
 
 
-NUMBER = r"[-+−]?\d{1,12}(?:[.,]\d{1,9})?(?:[eE][-+]?\d{1,3}(?![^\W_]))?"
+NUMBER = r"[-+−]?\d{1,12}(?:[.,]\d{1,9})?(?:[eEdD][-+]?\d{1,3}(?![^\W_]))?"
 _QUANTITY = re.compile(
-    rf"(?<![\w.,])(?P<number>{NUMBER})\s{{0,3}}(?P<unit>(?:[^\W\d_]|[°%\"'½]){{1,12}}(?:/[^\W\d_]{{1,4}}[2²]?)?"
+    rf"(?<![^\W_])(?<![.,])(?P<number>{NUMBER})\s{{0,3}}(?P<unit>(?:[^\W\d_]|[°%\"'½]){{1,12}}(?:/[^\W\d_]{{1,4}}[2²]?)?"
     r"(?:\s?\((?:a|g|abs|ü|gauge|rel)\)|\s(?:abs|gauge|rel|absolute)\b)?)(?![\w.,]*\d)"
 )
 _UNIT_FIRST = re.compile(rf"[\[(]\s?(?P<unit>[^\[\]()]{{1,12}})\s?[\])]\s?[:=;]?\s{{0,3}}(?P<number>{NUMBER})(?![\w.,]|\s[A-Za-z])")
@@ -180,7 +182,7 @@ class Quantity(NamedTuple):
 
 def number_of(text: str) -> float:
     """A number as it stands in a sentence, with a decimal comma or point."""
-    return float(text.replace(",", ".").replace("−", "-"))
+    return float(re.sub("[dD]", "e", text).replace(",", ".").replace("−", "-"))
 
 
 def quantities(text: str) -> list[Quantity]:
