@@ -97,11 +97,12 @@ class Known:
         if diameter is None and (size := _SIZE.fullmatch(str(self.conditions.get("muscle", "")))):
             diameter = float(size[1]) / 1e3
         held = {channel: one.values[table.blocks] for channel, one in self.held.items()}
+        aside: dict[int, Choice | None] = {i: None for i, _ in self.columns.values()}
         return Facts(
             rest=rest if isinstance(rest, float) and rest > 0.0 else None,
             ambient=self.air if self.air is not None
             else air if isinstance(air, float) and _POSSIBLE_AIR[0] <= air <= _POSSIBLE_AIR[1] else ATMOSPHERE,
-            diameter=diameter if isinstance(diameter, float) else None, held=held, chosen=self.chosen,
+            diameter=diameter if isinstance(diameter, float) else None, held=held, chosen=aside | dict(self.chosen),
         )  # fmt: skip
 
 

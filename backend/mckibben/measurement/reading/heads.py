@@ -229,6 +229,8 @@ def head_claims(head: str, unit_below: str = "") -> tuple[Claim, ...]:
         found.append(Claim("role", "set value", 4.0, "command in a physical unit"))
     if dimension == "ratio" and apart.unit is not None and apart.unit.name != "1" and channels & {"pressure", "force", "length"} and not channels & {"contraction", "command", "displacement"}:
         found.append(Claim("role", "raw", 4.0, "share of a range"))
+    if "contraction" in channels and dimension == "length":
+        found += [Claim("channel", "displacement", 2.8, "contraction as a length"), Claim("sign_stroke", 1, 2.0, "contraction as a length")]
     if "displacement" in channels and dimension == "ratio":
         found.append(Claim("channel", "contraction", 2.5, "stroke as a share"))
     if (change := _CHANGE.match(name)) is not None and dimension in ("", "length"):
@@ -316,4 +318,6 @@ def head_score(head: str, unit: str = "") -> float:
         return 0.0
     apart = taken_apart(head, unit)
     best = max((c.weight for c in head_claims(head, unit) if c.facet in ("channel", "role")), default=0.0)
-    return min(_MOST, best) + (1.0 if apart.unit is not None and dimension_of(apart.unit.name) else 0.0)
+    if apart.unit is None or not dimension_of(apart.unit.name):
+        return min(_MOST, best)
+    return min(_MOST, best) + (1.0 if apart.unit.dimension not in RAW else -1.0)

@@ -31,7 +31,7 @@ _UNITS_SHARE = 0.6  # of the cells of a row of units, that are units
 _EMPTY_HEADS = 2.0  # score of a run without heads
 _MOST_OF_A_HEAD = 3.0  # what one head adds to the score of its run
 _SHOWN_ROWS, _SHOWN_BELOW, _SHOWN_ABOVE, _SHOWN_CELLS, _SHOWN_LENGTH = 60, 8, 20, 60, 80
-_UNIT_LABEL = ("unit",)
+_LONGEST_WORDS = 32  # characters of a cell of a row that groups columns
 _HINT = "e.g. a header 'pressure_bar,length_mm,force_N'"
 
 
@@ -128,7 +128,7 @@ def with_unit_row(rows: list[list[Cell]]) -> list[list[Cell]]:
 
 def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet], name: str) -> Table:
     """The blocks of a table one below the other."""
-    used = {(id(run.sheet), row) for run in alike for row in (*run.rows, *run.above)}
+    used = {(id(run.sheet), row) for run in alike for row in (*run.rows, run.head_row, run.unit_row) if row is not None}
     several = len({id(run.sheet) for run in alike}) > 1
     parts: list[Part] = []
     for run in alike:
@@ -297,7 +297,7 @@ def _was_labelled(run: Run) -> bool:
 
 def _is_statistic(text: str) -> bool:
     words = words_of(text[:60])
-    return bool(words) and word_set("statistic").among(words[:1])
+    return bool(words) and word_set("statistic").among((words[0], "".join(words[:2])))
 
 
 def _is_title(row: Sequence[Cell]) -> bool:
@@ -349,7 +349,7 @@ def _head(run: Run, wanted: int | None) -> None:
         width = range(min(MAX_COLUMNS, max(len(rows[r]) for r in (*run.rows[:50], best))))
         run.heads = {c: _text(rows[best][c]) if c < len(rows[best]) else "" for c in width}
         run.head_row = best
-        others = [i for i in names if i != best]
+        others = [i for i in names if i != best and _is_row_of_words(rows[i])]
         run.more = {
             c: tuple(t for i in others if (t := _spanning(rows[i], c, carried=i < best))) for c in run.heads
         }
@@ -443,6 +443,12 @@ def _joined_units(cells: Sequence[str]) -> list[str]:
         else:
             found.append(cell)
     return found
+
+
+def _is_row_of_words(row: Sequence[Cell]) -> bool:
+    """Whether a row above the heads groups or describes columns, and is no row of sentences."""
+    texts = [str(c) for c in row if c != ""]
+    return all(len(t) <= _LONGEST_WORDS and not re.search(r"[:=]", t) for t in texts)
 
 
 def _spanning(row: Sequence[Cell], place: int, *, carried: bool) -> str:

@@ -16,6 +16,7 @@ from typing import Any
 
 _UNPARTED = "\u3000"  # from here on stand the letters of languages that do not part their words
 _LETTERS = str.maketrans({"ł": "l", "ı": "i", "đ": "d", "ø": "o", "æ": "ae", "œ": "oe"})
+_UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue"})
 _STEM = 6  # letters from which a word counts as the beginning of its other forms
 _PART = 5  # letters from which a word counts as a part of a compound
 _LONGEST = 12  # letters of the longest unparted word that is looked for
@@ -68,6 +69,7 @@ class WordSet:
     def __init__(self, entries: Iterable[str], *, compounds: bool = False) -> None:
         self.compounds = compounds
         plain = [word for entry in entries for word in entry.partition(":")[2].split()]
+        plain += [word.translate(_UMLAUTS) for word in plain if set(word) & set("äöü")]
         self.words = frozenset(folded(word.strip("*") or word) for word in plain)
         marked = {folded(word.strip("*")) for word in plain if "*" in word and word != "*"}
         parted = {word for word in self.words if word and word[0] < _UNPARTED}

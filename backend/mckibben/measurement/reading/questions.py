@@ -587,6 +587,7 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
             continue
         own = reading.own(i)
         claimed = [e.value for e in own if e.facet == "channel" and e.rule not in ("unit", "letter") and e.weight >= 2.5]
+        claimed = [c for c in claimed if c in ("pressure", "force", "length", "time", "displacement")]
         stated = next((e.value for e in own if e.facet == "unit"), None)
         used = next((c for c, (j, _) in reading.decision.uses.items() if j == i), None)
         bracket = re.search(r"[\[(]\s?([^\W\d_]{2,20})\s?[\])]\s?$", column.head)

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from mckibben.measurement.reading.heads import head_claims, head_score, taken_apart, without_run
 from mckibben.measurement.reading.lexicon import word_set, words_of
-from mckibben.measurement.reading.model import Cell, Column, Sheet, Span
+from mckibben.measurement.reading.model import Cell, Column, Gap, Sheet, Span
 from mckibben.measurement.reading.numbers import (
     CLOCK,
     MARK,
@@ -59,6 +59,7 @@ def column_of(
     if not filled:
         return None
     values, gaps = numbers_of(cells, style)
+    gaps |= without_marks(values)
     made = Column(head, values, where, unit, above, described, None, gaps, False, place)
     if np.isfinite(values).sum() < _TRUTH * len(filled):
         sample = filled[:400]
@@ -73,6 +74,29 @@ def column_of(
         words = tuple("" if c is None else c if isinstance(c, str) else f"{c:g}" if isinstance(c, float) else str(c) for c in cells)
         return replace(made, values=values, words=words, gaps={})
     return made
+
+
+_MARKS = (-9999.0, -999.0, 9999.0, -99999.0, 99999.0, -999.25, 1e30, -1e30)  # of loggers for a lost reading
+_FAR = 0.5  # of a mark, below which all other readings are
+
+
+def without_marks(values: NDArray[np.float64]) -> dict[int, Gap]:
+    """Take numbers that stand for a lost reading out of a column: usual marks, and values of no physical size."""
+    found: dict[int, Gap] = {}
+    finite = np.isfinite(values)
+    if not finite.any():
+        return found
+    for mark in _MARKS:
+        here = values == mark
+        others = finite & ~here
+        if here.any() and others.any() and np.max(np.abs(values[others])) < _FAR * abs(mark):
+            found |= {int(r): Gap("no reading", f"{mark:g}") for r in np.flatnonzero(here)}
+    usual = float(np.median(np.abs(values[finite])))
+    huge = finite & (np.abs(values) > max(1e9 * usual, 1e15))
+    if usual > 0.0:
+        found |= {int(r): Gap("out of range", f"{values[r]:g}") for r in np.flatnonzero(huge)}
+    values[list(found)] = np.nan
+    return found
 
 
 def parts_of(run: Run, title: list[Span]) -> list[Part]:

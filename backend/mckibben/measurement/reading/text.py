@@ -49,7 +49,9 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = ()) -> Sheet:
     hint = next((m[1] for line in lines[:3] if (m := _SEPARATOR_HINT.fullmatch(line.strip()))), None)
     delimiter = hint or best_delimiter(sample)
     rows, numbers = _split(lines, delimiter, name)
-    style = style_of(cell for row in rows[:_FIRST] + rows[len(rows) // 2 : len(rows) // 2 + _MIDDLE] for cell in row)
+    usual = _usual_width(lines, delimiter)
+    chosen = [row for row in rows[:_FIRST] + rows[len(rows) // 2 : len(rows) // 2 + _MIDDLE] if len(row) == usual]
+    style = style_of(cell for row in chosen for cell in row)
     return Sheet(
         rows=rows, noun="line", decimal=style.decimal, thousands=style.thousands, lines=tuple(numbers), messages=tuple(messages)
     )

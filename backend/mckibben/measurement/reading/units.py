@@ -162,7 +162,7 @@ def _encloses(text: str) -> bool:
 NUMBER = r"[-+−]?\d{1,12}(?:[.,]\d{1,9})?(?:[eEdD][-+]?\d{1,3}(?![^\W_]))?"
 _QUANTITY = re.compile(
     rf"(?<![^\W_])(?<![.,])(?P<number>{NUMBER})\s{{0,3}}(?P<unit>(?:[^\W\d_]|[°%\"'½]){{1,12}}(?:/[^\W\d_]{{1,4}}[2²]?)?"
-    r"(?:\s?\((?:a|g|abs|ü|gauge|rel)\)|\s(?:abs|gauge|rel|absolute)\b)?)(?![\w.,]*\d)"
+    r"(?:\s?\((?:a|g|abs|ü|gauge|rel)\)|\s(?:abs|gauge|rel|absolute)\b)?)(?![^\W_]|[.,]\d)"
 )
 _UNIT_FIRST = re.compile(rf"[\[(]\s?(?P<unit>[^\[\]()]{{1,12}})\s?[\])]\s?[:=;]?\s{{0,3}}(?P<number>{NUMBER})(?![\w.,]|\s[A-Za-z])")
 _UNIT_IN_NAME = re.compile(rf"_(?P<unit>[^\W\d_]{{1,6}})\s?[:=]\s{{0,2}}(?P<number>{NUMBER})(?![\w.,])")
