@@ -228,6 +228,8 @@ def _chosen(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts, ch
         options = [o for o in options if o.use.sign == choice.sign]
     elif choice.sign == -1:
         options = [o._replace(use=o.use._replace(sign=-1)) for o in options]
+    if choice.absolute is None and not any(e.facet == "absolute" and e.target in (i, FILE) for e in evidence):
+        options = [o for o in options if not o.use.absolute]
     if choice.absolute is not None:
         options = [o for o in options if o.use.absolute == choice.absolute]
     return sorted(options, key=lambda option: -option.score)
@@ -325,7 +327,7 @@ def _is_share(slot: str, option: Option, table: Table, facts: Facts) -> bool:
 
 def _ranked(slots: Mapping[str, Sequence[Option]], scorer: _Scorer) -> list[tuple[float, tuple[Option | None, ...]]]:
     """All combinations of a pressure, a force and a stroke, the best first; each may be absent."""
-    aside = {o.column: o.score for o in slots["time"] if o.score > 0.0}
+    aside = [{o.column: o.score for o in reversed(slots[slot]) if o.score > 0.0} for slot in slots if slot not in _MAIN]
     found = []
     for combination in itertools.product(*([*slots[slot], None] for slot in _MAIN)):
         chosen = [o for o in combination if o is not None]
@@ -333,7 +335,7 @@ def _ranked(slots: Mapping[str, Sequence[Option]], scorer: _Scorer) -> list[tupl
         if len(columns) < len(chosen):
             continue
         score = sum(o.score for o in chosen) + sum(v for _, v in scorer.joint(*combination))
-        score += max((s for column, s in aside.items() if column not in columns), default=0.0)
+        score += sum(max((s for column, s in of_slot.items() if column not in columns), default=0.0) for of_slot in aside)
         found.append((score, combination))
     found.sort(key=lambda item: -item[0])
     return found

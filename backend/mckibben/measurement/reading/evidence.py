@@ -165,9 +165,14 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
     found: list[Evidence] = []
     text = span.text[:MAX_TEXT]
     noted = _of_note(span)
-    if noted is not None and noted.facet != "note":
-        return [noted, *(of_code(span) if noted.facet == "condition:muscle" else [])]
+    if noted is not None and noted.facet.partition(":")[2] in (*CONDITION_UNITS, "kind", "ignore", "bad_rows"):
+        return [noted]
     found += [] if noted is None else [noted]
+    if noted is not None and noted.facet == "condition:pressure":
+        absolute = REFERENCES.get(folded(str(noted.value)), str(noted.value).lower().startswith("abs"))
+        found.append(Evidence(FILE, "absolute", absolute, 6.0, span, "note"))
+    if noted is not None and noted.facet == "condition:muscle":
+        found[-1] = noted._replace(value=re.split(r"[,;]\s", str(noted.value))[0])
     found += _of_clauses(span, table)
     found += [_of_quantity(context, target, span) for context in _contexts(text)]
     for rule in rules("text"):
@@ -175,12 +180,29 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         for facet, value in rule.claims.items():
             if facet == "kind" and rule.pattern.search(text):
                 found.append(Evidence(FILE, "kind", value, rule.weight, span, rule.id))
-            elif facet == "condition" and (match := rule.pattern.search(text)):
-                unit = Unit(str(rule.claims["unit"]), "pressure")
+            elif facet == "condition" and (match := rule.pattern.search(text)) and (name := unit_of_air(match["value"])):
+                unit = Unit(name, "pressure")
                 quantity = Quantity(match.start(), match.end(), number_of(match["value"]), unit, match[0])
                 found.append(Evidence(FILE, f"condition:{value}", quantity, rule.weight, span, rule.id))
     found += [*_of_description(span, table), *_of_legend(span, table), *_of_list(span, table), *_of_zero(span), *_of_scales(span, table), *of_code(span)]
     return [e for e in found if e is not None]
+
+
+#: Unit -> what a barometer shows in it, from 2000 m above the sea to a high at the sea; none overlap.
+_SHOWN_BY_BAROMETERS = {
+    "bar": (0.78, 1.09), "psi": (11.3, 15.8), "inHg": (23.0, 32.3), "kPa": (78.0, 109.0), "mmHg": (585.0, 815.0),
+    "hPa": (815.0, 1090.0), "Pa": (7.8e4, 1.09e5),
+}  # fmt: skip
+
+
+def unit_of_air(value: str) -> str | None:
+    """The unit in which a number without one is the pressure of the air; None = in no usual one.
+
+    >>> unit_of_air("953.1"), unit_of_air("101.3"), unit_of_air("21.5")
+    ('hPa', 'kPa', None)
+    """
+    number = number_of(value)
+    return next((unit for unit, (low, high) in _SHOWN_BY_BAROMETERS.items() if low <= number < high), None)
 
 
 def _of_note(span: Span) -> Evidence | None:
@@ -278,6 +300,9 @@ def _of_title(span: Span, target: int, table: Table) -> list[Evidence]:
     return found
 
 
+_HELD_STEM = re.compile(r"(?i)(?<![^\W\d_])(?:iso(?![^\W\d_])|isometr|clamped|eingespannt)")
+
+
 def _of_name(name: str, table: Table) -> list[Evidence]:
     """What the name of the file says: ``Zug_1,5bar``, ``step_L360mm``, ``load20kg``."""
     del table
@@ -288,8 +313,8 @@ def _of_name(name: str, table: Table) -> list[Evidence]:
     for context in _contexts(text):
         quantity = context.quantity
         evidence = _of_quantity(context, FILE, span)
-        if evidence is not None and evidence.facet == "condition:nominal_length" and context.before and context.before[-1] in ("l", "length"):
-            evidence = None
+        if evidence is None and quantity.unit.dimension == "length" and context.before[-1:] in (("l",), ("length",)) and not _HELD_STEM.search(stem):
+            found.append(Evidence(FILE, "condition:nominal_length", quantity, 1.5, span, "name"))
         if evidence is None:
             channel = _HELD_BY.get(quantity.unit.dimension)
             if channel in ("pressure", "length"):
@@ -365,7 +390,7 @@ def _of_description(span: Span, table: Table) -> list[Evidence]:
         unit = unit or apart.unit
         if unit is not None and not unit.dimension:
             unit = None
-        if _unit_of(column) is None and unit is not None and not any(c.isdigit() for c in words.split("[")[0][:20].split(" ")[0]):
+        if _unit_of(column) is None and unit is not None and (key or not any(c.isdigit() for c in words.split("[")[0][:20].split(" ")[0])):
             made = Column(f"{head} {words}" if not unit_of(words) else head, np.zeros(0), span.where, unit.name)
             found += [e._replace(span=span) for e in of_column(i, made) if e.facet in ("unit", "channel", "absolute", "sign_stroke", "sign_force") and e.rule != "letter"]
             if unit.absolute is not None:
@@ -419,6 +444,12 @@ def _of_scales(span: Span, table: Table) -> list[Evidence]:
         i = _scaled_column(scale, around, table)
         if i is not None:
             found.append(Evidence(i, "scale", scale, scale.weight, span, scale.rule))
+            channels = [c for c, _ in BY_UNIT.get(_dimension(scale.unit), ())] if scale.rule != "valve states" else ["command"]
+            claims = {c.value for c in head_claims(table.columns[i].head[:200], table.columns[i].unit) if c.facet == "channel"}
+            if not claims & set(channels):
+                found += [Evidence(i, "channel", c, 3.0 if c != "length" else 1.0, span, "scale") for c in channels]
+            if scale.absolute is not None:
+                found.append(Evidence(i, "absolute", scale.absolute, scale.weight, span, scale.rule))
     return found
 
 

@@ -24,7 +24,7 @@ from mckibben.physics.errors import InputError, did_you_mean
 _SAME = 2e-3  # relative; values that differ by less are the same one, rounded
 _STATED = 4.0  # nats from which a value counts as stated; two of them that differ are asked about
 _POSSIBLE_AIR = (5e4, 1.1e5)  # Pa; of the air where people work
-_OTHER_UNITS = {"diameter": "m"}  # of conditions that only the physics uses
+_OTHER_UNITS = {"diameter": "m", "pulley_radius": "m"}  # of conditions that only the physics uses
 _SIZE = re.compile(r"(?:DMSP|MAS)-(\d{1,3})")
 _YOU = Span("you", "")
 #: Conditions of which two values are asked about -> (their name, the option that sets them).
@@ -121,7 +121,7 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
         if e.facet.startswith("condition:") and e.target == FILE:
             claims.setdefault(e.facet.partition(":")[2], []).append(e)
     for key, found in claims.items():
-        if key in ("ignore", "bad_rows"):
+        if key in ("ignore", "sampling_step"):
             continue
         ranked = _ranked(key, found, name, messages)
         stated[key] = ranked[0][1]
@@ -317,9 +317,9 @@ def _places(name: str, table: Table) -> list[int]:
         [c.title for c in table.columns], heads,
         [f"{h} [{c.unit.strip('[]() ')}]" if c.unit else h for h, c in zip(heads, table.columns, strict=True)],
         [taken_apart(h, c.unit).name for h, c in zip(heads, table.columns, strict=True)],
-        [h.casefold() for h in heads],
+        [h.casefold() for h in heads], [_square(h) for h in heads], _numbered_names(table),
     ):  # fmt: skip
-        found = [i for i, one in enumerate(names) if one == wanted or one == wanted.casefold()]
+        found = [i for i, one in enumerate(names) if one == wanted or one == wanted.casefold() or one == _square(wanted)]
         if found:
             return found
     if (number := re.fullmatch(r"(?i)column (\d{1,4})", wanted)) is not None:
@@ -327,6 +327,17 @@ def _places(name: str, table: Table) -> list[int]:
         at = [i for i, c in enumerate(table.columns) if c.place == place]
         return at or ([place] if 0 <= place < len(heads) else [])
     return []
+
+
+def _square(name: str) -> str:
+    """A name with its unit in square brackets."""
+    return name.replace("(", "[").replace(")", "]")
+
+
+def _numbered_names(table: Table) -> list[str]:
+    """Names without their units, numbered where several are alike: "Kraft", "Kraft #2"."""
+    names = [taken_apart(" ".join(c.head.split()), c.unit).name for c in table.columns]
+    return [n if (k := names[: i + 1].count(n)) == 1 else f"{n} #{k}" for i, n in enumerate(names)]
 
 
 def _chosen(table: Table, columns: Mapping[str, Choice | None], name: str) -> dict[int, Choice | None]:

@@ -18,7 +18,7 @@ _BEHIND = (
     re.compile(r"([^:]+):\s?(\S{1,8})"),
 )
 _SURE = frozenset(
-    "mm cm bar mbar kPa MPa hPa mmHg inHg psi kN daN cN mN lbf ozf kgf gf ms mV kg deg psig psia barg bara".split()
+    "mm cm bar mbar kPa MPa hPa mmHg inHg psi kN daN cN mN lbf ozf kgf gf ms mV kg deg degC degF psig psia barg bara".split()
 )  # no name ends like them
 _RUN = re.compile(
     r"(?P<name>.*?[^\W\d_].*?)[\s_,;:-]{1,3}(?P<word>[^\W\d_]+)[\s_]?(?:#|n[or]\.?)?[\s_]?(?P<number>\d{1,3})"
@@ -147,7 +147,9 @@ def _within(text: str) -> tuple[str, Unit | None]:
 
 def _behind(text: str) -> tuple[str, Unit | None]:
     """The unit behind ``/``, a comma, "in", ``:``, ``_`` or a blank, and the text before it."""
-    for pattern in () if text.startswith("/") else _BEHIND:
+    last = re.split(r"[_\s]", text)[-1]
+    direct = "/" in last and unit_of(last) is not None and last != text
+    for pattern in () if text.startswith("/") or direct else _BEHIND:
         found = pattern.fullmatch(text)
         unit = unit_of(found[2]) if found else None
         if found and unit is not None and found[2].strip() not in ("1", "-"):

@@ -83,6 +83,7 @@ def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, h
     if named:
         return _of_named(named, sheets, name)
     grids = [transposed(s) for s in sheets]
+    grids = [without_statistics(cornered(s)) for s in grids]
     runs = [run for sheet in grids for run in _runs(sheet)]
     for run in runs:
         _head(run, head)
@@ -189,6 +190,11 @@ def stacked(parts: Sequence[Part], texts: Sequence[Span], **about: object) -> Ta
     """Blocks of the same columns as one table."""
     first = parts[0]
     columns = []
+    bad: dict[int, str] = {}
+    offset = 0
+    for part in parts:
+        bad |= {row + offset: what for row, what in part.bad.items()}
+        offset += len(part.lines)
     for place, column in enumerate(first.columns):
         pieces = [part.columns[place] for part in parts if place < len(part.columns)]
         words = None
@@ -205,7 +211,7 @@ def stacked(parts: Sequence[Part], texts: Sequence[Span], **about: object) -> Ta
     return Table(
         columns=tuple(_keyed(columns)), texts=tuple(texts[:MAX_TEXTS]), blocks=blocks,
         titles=tuple(part.title for part in parts) if len(parts) > 1 else ((),),
-        lines=np.concatenate([part.lines for part in parts]), **about,  # type: ignore[arg-type]
+        lines=np.concatenate([part.lines for part in parts]), bad=bad, **about,  # type: ignore[arg-type]
     )  # fmt: skip
 
 
@@ -226,6 +232,44 @@ def _is_same(run: Run, best: Run) -> bool:
         return True
     mine, theirs = ([(re.sub(r"\d+(?:[.,]\d+)?", "#", h), u) for h, u in r.names if h or u] for r in (run, best))
     return bool(mine) and mine == theirs
+
+
+def without_statistics(sheet: Sheet) -> Sheet:
+    """A sheet without the rows of statistics between its heads and its readings."""
+    for i, row in enumerate(sheet.rows[1:60], 1):
+        _, _, first, _ = _kinds(row)
+        if first and _is_statistic(first) and any(kind_of(c) == NUMBER for c in row):
+            above = [c for c in sheet.rows[i - 1] if c != ""]
+            if len(above) > 1 and not _is_numeric(sheet.rows[i - 1]) or i > 1 and _is_statistic(str(sheet.rows[i - 1][0])):
+                rows = [r for j, r in enumerate(sheet.rows) if j != i]
+                lines = tuple(sheet.line(j) for j in range(len(sheet.rows)) if j != i)
+                return without_statistics(replace(sheet, rows=rows, lines=lines))
+    return sheet
+
+
+def cornered(sheet: Sheet) -> Sheet:
+    """A map whose axes are named in a line above, with these names in its corner."""
+    for i, row in enumerate(sheet.rows[:60]):
+        numbers = [j for j, c in enumerate(row) if kind_of(c) == NUMBER]
+        corner = str(row[0]).strip() if row else ""
+        if len(numbers) < 2 or 0 in numbers or numbers != list(range(1, len(row))) or i == 0 or (corner and head_score(corner) < 2.0):
+            continue
+        below = sheet.rows[i + 1 : i + 3]
+        if len(below) < 2 or any(kind_of(r[0] if r else "") != NUMBER or len(r) > len(row) for r in below):
+            continue
+        found: list[str] = []
+        for above in sheet.rows[max(0, i - 3) : i]:
+            found += [part for c in above if c != "" for part in re.split(r"(?i)(?:,\s|\bcolumns?\s?:|\brows?\s?:|\bspalten\s?:|\bzeilen\s?:)", str(c)) if head_score(part.strip()) >= 3.0]
+        names = [*found, corner] if corner else found
+        axes = [n.strip() for n in names if {c.value for c in head_claims(n.strip()[:200]) if c.facet == "channel"} - {"force"}]
+        values = [n.strip() for n in names if any(c.facet == "channel" and c.value == "force" for c in head_claims(n.strip()[:200]))]
+        if len(axes) == 2 and values:
+            head: list[Cell] = [f"{axes[0]} / {axes[1]}", *row[1:]]
+            title: list[Cell] = [values[0]]
+            rows = [*sheet.rows[:i], title, head, *sheet.rows[i + 1 :]]
+            lines = (*(sheet.line(j) for j in range(i)), sheet.line(i), *(sheet.line(j) for j in range(i, len(sheet.rows))))
+            return replace(sheet, rows=rows, lines=lines)
+    return sheet
 
 
 def _runs(sheet: Sheet) -> list[Run]:
@@ -344,6 +388,7 @@ def _head(run: Run, wanted: int | None) -> None:
     if wanted is not None:
         names = [i for i in names if run.sheet.line(i) == wanted] or names
     if names and not run.heads:
+        names = [i for i in names if not _is_row_of_values(rows[i])] or names
         scored = {i: sum(head_score(_text(c)) for c in rows[i] if c != "") - 0.2 * k for k, i in enumerate(names)}
         best = max(scored, key=scored.__getitem__)
         width = range(min(MAX_COLUMNS, max(len(rows[r]) for r in (*run.rows[:50], best))))
@@ -365,6 +410,7 @@ def _head(run: Run, wanted: int | None) -> None:
         _labelled_units(run)
     if not any(head_score(h) > 0 for h in run.heads.values()):
         _listed_names(run)
+    _completed(run)
     _shift_heads(run)
     _descriptions(run)
     _titles(run, min([run.rows[0], *run.above]))
@@ -382,6 +428,16 @@ def _listed_names(run: Run) -> None:
             return
 
 
+def _completed(run: Run) -> None:
+    """Heads with the number of their channel from a row beside, and names where the best row has none."""
+    for c, head in run.heads.items():
+        for other in run.more.get(c, ()):
+            if head_score(head) <= 0.0 and head_score(other) >= 2.0:
+                run.heads[c] = other
+            elif re.fullmatch(r"(?i)(?:ch|ai|chan|channel|kanal)[ _]?\d{1,2}", other) and other not in head:
+                run.heads[c] = f"{other} {head}"
+
+
 def _shift_heads(run: Run) -> None:
     """Names that are one fewer than the columns, of which the first numbers the rows: they belong to the others."""
     filled = [c for c, h in run.heads.items() if h]
@@ -394,6 +450,15 @@ def _shift_heads(run: Run) -> None:
     first = [str(rows[r][0]).strip('"') for r in run.rows[:5]]
     if all(text.isdigit() and int(text) == int(first[0]) + k for k, text in enumerate(first)):
         run.heads = {0: "No.", **{c + 1: h for c, h in run.heads.items() if h}}
+
+
+_HELD_CELL = re.compile(r"[^\W\d_]{0,12}0?\s?[=:@]?\s?[-+]?\d{1,7}(?:[.,]\d{1,6})?\s?[^\W\d_%]{0,5}%?")
+
+
+def _is_row_of_values(row: Sequence[Cell]) -> bool:
+    """Whether the cells of a row name values, "p = 0.2 MPa", and no columns."""
+    filled = [str(c).strip() for c in row if c != ""]
+    return len(filled) > 1 and sum(_HELD_CELL.fullmatch(c) is not None and any(x.isdigit() for x in c) for c in filled) > 0.5 * len(filled)
 
 
 def _candidates(run: Run) -> list[int]:
@@ -409,7 +474,7 @@ def _candidates(run: Run) -> list[int]:
         elif len(filled) >= max(2, _HEAD_SHARE * len(run.columns)) and not _is_numeric(rows[i]):
             found.append(i)
         elif found:
-            if len(filled) >= 2 and not _is_numeric(rows[i]) and not any(quantities(str(c)) for c in filled) and len(found) == 1:
+            if len(filled) >= 2 and not _is_numeric(rows[i]) and not _is_row_of_values(rows[i]) and not any(quantities(str(c)) for c in filled) and len(found) == 1:
                 found.append(i)  # a row of groups above the heads
             break
         elif split := _split_head(str(filled[0]), len(run.columns)) if len(filled) == 1 else []:

@@ -125,6 +125,7 @@ class Table:
         raw: the first rows as they stand: (number, cells).
         messages: what was assumed.
         headless: the file has no names; they were made.
+        bad: row -> why it is none of the table, as "2 cells, the header has 3".
     """
 
     columns: tuple[Column, ...]
@@ -143,6 +144,7 @@ class Table:
     raw: tuple[tuple[int, tuple[str, ...]], ...] = ()
     messages: tuple[str, ...] = ()
     headless: bool = False
+    bad: Mapping[int, str] = field(default_factory=dict)
 
     @property
     def rows(self) -> int:

@@ -20,11 +20,12 @@ from mckibben.measurement.reading import physics
 from mckibben.measurement.reading.decide import MARGIN, SLOTS, Decision, Option, roles_of, unit_is_stated, value_of
 from mckibben.measurement.reading.facts import Known
 from mckibben.measurement.reading.heads import taken_apart
+from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table, Use
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
 from mckibben.measurement.reading.named import is_isometric
-from mckibben.measurement.reading.units import FITTING, RAW, WEIGHTS, dimension_of
+from mckibben.measurement.reading.units import FITTING, RAW, WEIGHTS, Quantity, dimension_of, quantities, quantity_si
 from mckibben.physics.units import convert
 
 REVERSE, KEEP = "reverse the sign", "keep the sign"
@@ -468,15 +469,139 @@ def _zero(reading: Reading) -> Iterator[Question]:
         return
     i, use = reading.decision.uses["displacement"]
     about = [e for e in reading.evidence if e.target in (i, FILE)]
-    if not any(e.facet == "zero_open" and e.target == i for e in about) or use.zero or any(e.facet in ("zero_known", "sign_stroke") for e in about):
+    turned = use.sign == -1 and float(np.median(reading.rows.channels["displacement"])) < 0.0
+    if turned and "nominal_length" in reading.known.conditions:
+        pass
+    elif not any(e.facet == "zero_open" and e.target == i for e in about) or use.zero or any(e.facet in ("zero_known", "sign_stroke") for e in about):
         return
     stroke = reading.rows.channels["displacement"]
+    rest = reading.known.conditions.get("nominal_length")
+    if use.sign == -1 and float(np.median(stroke)) < 0.0 and isinstance(rest, float):
+        most = -float(np.min(stroke))
+        unit = use.unit
+        reach, whole = (float(convert([v], "m", unit)[0]) for v in (most, rest))
+        yield Question(
+            "zero of displacement",
+            f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, up to {reach:.4g} {unit}: a muscle of {whole:.4g} {unit} is "
+            "not at its rest length where it shows 0; which length has it there and at the end",
+            option_of("length", column, f"0 to {reach:.4g} {unit} = {whole - reach:.4g} to {whole:.4g} {unit}"), column.head,
+        )  # fmt: skip
+        return
     if float(np.min(np.abs(stroke))) <= 0.02 * float(np.max(np.abs(stroke))) and use.sign == 1:
         return
     yield Question(
         "zero of displacement",
         f"{reading.table.noun} '{column.head}' is a position; at which reading is the muscle at its rest length",
         f"{option_of('displacement', column)} or {option_of('length', column)}", column.head, None, ("displacement", "length"),
+    )  # fmt: skip
+
+
+def _by_valve(reading: Reading) -> Iterator[Question]:
+    """The only pressure is named after the valve, and nothing says that it was measured."""
+    column = reading.column("pressure")
+    if column is None or reading.by_user("pressure"):
+        return
+    i = reading.decision.uses["pressure"][0]
+    if roles_of(reading.own(i)).get("at the valve", 0.0) <= 0.0 or reading.use("pressure").scale != 1.0:
+        return
+    said = any(word_set("measured").among(words_of(t.text)) and _of_pressure(t.text) for t in reading.table.texts)
+    commands = [e.target for e in reading.evidence if e.facet == "channel" and e.value == "command" and e.target not in (i, FILE)]
+    if said or commands or is_sensed(column.values, [reading.rows.channels[c] for c in ("force", *STROKES) if c in reading.rows.channels]):
+        return
+    yield Question(
+        f"column '{bare(column)}'",
+        f"{reading.table.noun} '{column.head}' is the only pressure and named after the valve; no text says that it was measured; take it",
+        f"{option_of('pressure', column)} or {ignore_option(bare(column))}", column.head, "pressure", ("pressure", "ignore"),
+    )  # fmt: skip
+
+
+def _of_pressure(text: str) -> bool:
+    return word_set("@pressure").among(words_of(text))
+
+
+def is_sensed(values: Array, others: Sequence[Array]) -> bool:
+    """Whether readings scatter from row to row in motion as at rest, in step with no other column, as those of a sensor do."""
+    finite = values[np.isfinite(values)]
+    if len(finite) < 20 or np.ptp(finite) == 0.0:
+        return False
+    bend = finite[2:] - 2.0 * finite[1:-1] + finite[:-2]
+    if np.mean(bend != 0.0) < 0.8 or np.median(np.abs(bend)) < 1e-5 * np.ptp(finite):
+        return False
+    flips = np.mean(np.sign(bend[1:]) != np.sign(bend[:-1]))
+    alike = [
+        abs(np.corrcoef(bend, o[2:] - 2.0 * o[1:-1] + o[:-2])[0, 1]) for o in others
+        if len(o) == len(finite) and np.ptp(o[2:] - 2.0 * o[1:-1] + o[:-2]) > 0.0
+    ]  # fmt: skip
+    return bool(flips > 0.5 and max(alike, default=0.0) < 0.6)
+
+
+def _counted(reading: Reading) -> Iterator[Question]:
+    """Counts of an encoder, or angles, where the file has no other stroke."""
+    channels = reading.rows.channels
+    if set(channels) & {*STROKES, "diameter"}:
+        return
+    used = {i for i, _ in reading.decision.uses.values()}
+    for i, column in enumerate(reading.table.columns):
+        own = reading.own(i)
+        unit = next((e.value for e in own if e.facet == "unit"), None)
+        angle = unit is not None and dimension_of(unit) == "angle"
+        counter = roles_of(own).get("counter", 0.0) >= 3.0
+        if i in used or i in reading.known.chosen or column.words is not None or not (angle or counter):
+            continue
+        low, high = float(np.nanmin(column.values)), float(np.nanmax(column.values))
+        what = f"an angle, {low:.4g} to {high:.4g} {unit}" if angle else f"counts of an encoder, {low:.6g} to {high:.6g}"
+        span = f"{low:.4g} to {high:.4g} {unit if angle else 'counts'} = 0 to 60 mm"
+        yield Question(
+            "stroke", f"{reading.table.noun} '{column.head}' holds {what}, and the file has no other stroke; no text states how it counts",
+            f"{option_of('displacement', column, span)} or {ignore_option(bare(column))}", column.head, None, ("displacement", "ignore"),
+        )  # fmt: skip
+        return
+
+
+def _tares(reading: Reading) -> Iterator[Question]:
+    """A tare, or the weight of a hanger, that a text states without saying whether the readings contain it."""
+    if "force" not in reading.rows.channels or "force_zero" in reading.known.conditions or "load_mass" in reading.correction.conditions:
+        return
+    for span in reading.table.texts:
+        words = words_of(span.text)
+        if not any(character.isdigit() for character in span.text):
+            continue
+        tare = word_set("tare_tare").among(words) or (word_set("tare_reads").among(words) and _EMPTY.search(span.text) is not None)
+        hanger = word_set("hanger").among(words) and any(q.unit.dimension == "mass" for q in quantities(span.text))
+        if not (tare or hanger) or word_set("tare_done").among(words) and not word_set("without").among(words) and "not" not in words:
+            continue
+        if hanger and not tare and ("mass" not in {dimension_of(reading.use("force").unit)} if "force" in reading.decision.uses else True):
+            continue
+        column = reading.column("force")
+        yield Question(
+            "zero of force",
+            f"the file states {'a tare of the force' if tare else 'the weight of a hanger'}, '{span.text[:60]}' ({span.where}), but it is not clear "
+            f"whether the readings{f' of {chr(39)}{column.head}{chr(39)}' if column else ''} contain it; what do they show without pull",
+            '--experiment "force_zero=0 N"', None if column is None else column.head,
+        )  # fmt: skip
+        return
+
+
+_EMPTY = re.compile(r"(?i)nothing (?:attached|hung|on it)|(?:without|with no|no) load|ohne (?:last|kraft)|sans charge|senza carico|sin carga|sem carga")
+
+
+def _air(reading: Reading) -> Iterator[Question]:
+    """A pressure of the surrounding air that cannot be, or is stated twice, where an absolute pressure needs it."""
+    column = reading.column("pressure")
+    if column is None or not reading.use("pressure").absolute or "pressure_zero" in reading.known.conditions or reading.known.air is not None:
+        return
+    said = reading.known.conditions.get("ambient_pressure")
+    stated = {}
+    for e in reading.evidence:
+        if e.facet == "condition:ambient_pressure" and isinstance(e.value, Quantity):
+            stated[round(quantity_si(e.value.value, e.value.unit.name, "Pa"), -2)] = e.value.text
+    if not isinstance(said, float) or len(stated) < 2 and 5e4 <= said <= 1.1e5:
+        return
+    twice = f"is stated as {' and as '.join(list(stated.values())[:3])}, which one is right"
+    what = twice if len(stated) > 1 else f"is read as {said:.6g} Pa, which is impossible; what was it"
+    yield Question(
+        "pressure of the surrounding air", f"column '{column.head}' is absolute, and the pressure of the surrounding air {what}",
+        'keep one value in the file, or state how much it exceeded 1013.25 hPa: --experiment "pressure_zero=-6 hPa"', column.head,
     )  # fmt: skip
 
 
@@ -655,10 +780,10 @@ def _several(reading: Reading) -> Iterator[Question]:
 Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
-    _units, _unnamed, _unread, _seconds, _set_point, _specimens, _signs, _reference, _zero, _contradicted, _close, _tare,
+    _units, _unnamed, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs, _reference, _zero, _contradicted, _close, _tare,
 )  # fmt: skip
 #: Asked always.
-ALWAYS: tuple[Policy, ...] = (_unknown_unit, _rest_length, _load, _twice, _several, _held_length, _of_columns)
+ALWAYS: tuple[Policy, ...] = (_unknown_unit, _rest_length, _load, _twice, _several, _held_length, _of_columns, _tares, _air)
 
 
 def without_prefix(text: str) -> str:

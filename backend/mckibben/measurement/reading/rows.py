@@ -18,6 +18,7 @@ from mckibben.measurement.reading.facts import Held, Known
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import Array, Column, Evidence, Table
 from mckibben.measurement.reading.named import length_of_name
+from mckibben.measurement.reading.units import quantity_si
 from mckibben.physics.errors import InputError
 
 LARGEST = 1e15  # in SI; more is of no physical size
@@ -101,9 +102,10 @@ def rows_of(table: Table, decision: Decision, known: Known, evidence: Sequence[E
         raise rows.first_bad or InputError(f"{table.where}: no row can be read", field="rows", hint="rows of numbers below the header")
     rows.channels = {c: v[keep].astype(float) for c, v in values.items()}
     rows.lines, rows.blocks = table.lines[keep], table.blocks[keep]
-    if "time" in rows.channels and decision.uses["time"][1].unit in ("clock",):
+    _even_time(rows, table, decision, evidence)
+    if "time" in rows.channels and "time" in decision.uses and decision.uses["time"][1].unit in ("clock",):
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
-    if "time" in rows.channels and rows.channels["time"][0] > 1e8:
+    if "time" in rows.channels and "time" in decision.uses and rows.channels["time"][0] > 1e8:
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
         rows.messages.append(f"{table.noun} '{table.columns[decision.uses['time'][0]].title}' counts from 1970: its first row is 0 s")
     _hold(rows, known, correction, table.where)
@@ -112,6 +114,27 @@ def rows_of(table: Table, decision: Decision, known: Known, evidence: Sequence[E
     if len(table.titles) > 1 and "group" not in rows.channels:
         rows.channels["group"] = rows.blocks.astype(float)
     return rows
+
+
+_COARSE = 0.6  # share of the steps of a clock that are 0, from which a stated interval is finer
+
+
+def _even_time(rows: Rows, table: Table, decision: Decision, evidence: Sequence[Evidence]) -> None:
+    """The time by a stated interval of sampling, where the file has none, or a clock that stands still for several rows."""
+    step = max((e for e in evidence if e.facet == "condition:sampling_step"), key=lambda e: e.weight, default=None)
+    if step is None or len(table.titles) > 1:
+        return
+    time = rows.channels.get("time")
+    unit = step.value.unit
+    seconds = 1.0 / quantity_si(step.value.value, unit.name, "Hz") if unit.dimension == "frequency" else quantity_si(step.value.value, unit.name, "s")
+    if time is not None:
+        column = table.columns[decision.uses["time"][0]]
+        if not column.clock or len(time) < _FEWEST_TO_TURN or np.mean(np.diff(time) == 0.0) < 1.0 - _COARSE or seconds >= 1.0:
+            return
+    elif not {"force", *STROKES} & set(rows.channels):
+        return
+    rows.channels["time"] = np.arange(len(rows.lines)) * seconds
+    rows.messages.append(f"time is counted by the interval of sampling, '{step.span.text[:60]}' ({step.span.where})")
 
 
 def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) -> NDArray[np.bool_]:
@@ -132,6 +155,12 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
             if not empty[r] and r not in first:
                 first[r] = (i, gap.reason, gap.text)
     missing: list[tuple[int, str, str, int]] = []
+    for r, what in table.bad.items():
+        if not empty[r]:
+            keep[r] = False
+            first.pop(r, None)
+            _refuse(rows, table, int(table.lines[r]), "", what, "one cell for each name of the header")
+            _count(rows, "another number of cells", 1, f"row {int(table.lines[r])}")
     for r, (i, reason, text) in sorted(first.items()):
         title = table.columns[i].title
         where = f"row {int(table.lines[r])}, {table.noun} '{title}'"
@@ -155,9 +184,8 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
 
 def _refuse(rows: Rows, table: Table, line: int, title: str, what: str, hint: str) -> None:
     if rows.first_bad is None:
-        rows.first_bad = InputError(
-            f"{table.where}, row {line}, {table.noun} '{title}': {what}", field=f"row {line}, {table.noun} {title}", hint=hint
-        )
+        column = f", {table.noun} '{title}'" if title else ""
+        rows.first_bad = InputError(f"{table.where}, row {line}{column}: {what}", field=f"row {line}{column.replace(chr(39), '')}", hint=hint)
 
 
 def _count(rows: Rows, reason: str, count: int, first: str) -> None:
@@ -367,7 +395,7 @@ def _sign_of_sides(side: Array, channels: Mapping[str, Array]) -> float:
 def _oldest_first(rows: Rows, table: Table, decision: Decision) -> None:
     """Turn or sort the rows of a file whose time does not run forwards."""
     time = rows.channels.get("time")
-    if time is None or len(time) < _FEWEST_TO_TURN or time.min() == time.max() or len(table.titles) > 1:
+    if time is None or "time" not in decision.uses or len(time) < _FEWEST_TO_TURN or time.min() == time.max() or len(table.titles) > 1:
         return
     if (np.diff(time) <= 0.0).all():
         order = np.arange(len(time))[::-1]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from itertools import pairwise
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from types import MappingProxyType
 from typing import TYPE_CHECKING, NamedTuple
 
 import numpy as np
@@ -45,6 +47,7 @@ class Part(NamedTuple):
     columns: tuple[Column, ...]
     title: tuple[Span, ...]
     lines: NDArray[np.int64]
+    bad: Mapping[int, str] = MappingProxyType({})
 
 
 def column_of(
@@ -106,13 +109,54 @@ def parts_of(run: Run, title: list[Span]) -> list[Part]:
         return [_melted(run, title)]
     lines = np.array([sheet.line(r) for r in run.rows], np.int64)
     columns = _columns(run)
-    for way in (_side_by_side, _wide):
+    for way in (_two_ways, _side_by_side, _wide):
         if parts := way(run, columns, title, lines):
             return parts
     wide = _tall(list(columns.values()), lines)
     if wide is not None:
         return [Part(tuple(wide[0]), tuple(title), wide[1])]
-    return [Part(tuple(columns.values()), tuple(title), lines)]
+    made = [_carried(c) for c in _joined_times(list(columns.values()))]
+    return [Part(tuple(made), tuple(title), lines, _ragged(run))]
+
+
+_CARRIED = 0.34  # share of the rows that hold a value, up to which it counts for the rows below as well
+
+
+def _carried(column: Column) -> Column:
+    """A column with a value where a block begins and empty cells below: it counts for these as well."""
+    finite = np.isfinite(column.values)
+    empty = {r for r, gap in column.gaps.items() if gap.reason == "empty"}
+    count = int(finite.sum())
+    if column.words is not None or not finite[:1].any() or not 0 < count <= _CARRIED * len(finite) or len(empty) + count < len(finite):
+        return column
+    if count > 1 and np.min(np.diff(np.flatnonzero(finite))) < 3:
+        return column
+    last = np.maximum.accumulate(np.where(finite, np.arange(len(finite)), 0))
+    return replace(column, values=column.values[last], gaps={})
+
+
+def _joined_times(columns: list[Column]) -> list[Column]:
+    """A clock with the milliseconds in the column beside it as one column."""
+    for k, (clock, beside) in enumerate(pairwise(columns)):
+        unit = taken_apart(beside.head, beside.unit).unit
+        is_ms = (unit is not None and unit.name == "ms") or beside.head.strip().lower() in ("ms", "msec", "millis")
+        finite = beside.values[np.isfinite(beside.values)]
+        if clock.clock and is_ms and beside.words is None and len(finite) and finite.min() >= 0.0 and finite.max() < 1000.0:
+            values = clock.values + np.nan_to_num(beside.values) / 1000.0
+            return [*columns[:k], replace(clock, values=values - values[0]), *columns[k + 2 :]]
+    return columns
+
+
+def _ragged(run: Run) -> dict[int, str]:
+    """Rows of a text that have more or fewer cells than its head."""
+    if run.head_row is None or run.sheet.noun != "line" or run.sheet.format != "csv":
+        return {}
+    rows = run.sheet.rows
+    width = len(rows[run.head_row])
+    usual = max({len(rows[r]) for r in run.rows}, key=lambda n: sum(len(rows[r]) == n for r in run.rows))
+    if width < 2 or usual != width:
+        return {}
+    return {k: f"{len(rows[r])} cells, the header has {width}" for k, r in enumerate(run.rows) if len(rows[r]) != width}
 
 
 def _columns(run: Run) -> dict[int, Column]:
@@ -133,6 +177,51 @@ def _columns(run: Run) -> dict[int, Column]:
 def _pattern(head: str) -> str:
     """A head without numbers and without the number of a run."""
     return _NUMBER.sub("#", without_run(head)[0])
+
+
+def _two_ways(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArray[np.int64]) -> list[Part]:
+    """Columns of one quantity for the way there and the way back: the rows once for each, with the way as a column."""
+    ways = {c: _way(column.head) for c, column in columns.items()}
+    pairs: dict[str, dict[str, int]] = {}
+    for c, way in ways.items():
+        if way is not None:
+            pairs.setdefault(_without_way(columns[c].head), {})[way] = c
+    whole = {name: pair for name, pair in pairs.items() if len(pair) == 2}
+    names = list(dict.fromkeys(way for pair in whole.values() for way in pair))
+    if not whole or len(names) != 2 or any(set(pair) != set(names) for pair in whole.values()):
+        return []
+    chosen = {c for pair in whole.values() for c in pair.values()}
+    if any(way is not None and c not in chosen for c, way in ways.items()):
+        return []
+    shared = [column for c, column in columns.items() if c not in chosen]
+    made = []
+    for way in names:
+        block = {c: column for c, column in columns.items() if c not in chosen}
+        block |= {pair[way]: replace(columns[pair[way]], head=name) for name, pair in whole.items()}
+        words = Column("direction", np.full(len(lines), np.nan), columns[next(iter(chosen))].where, words=(way,) * len(lines))
+        made.append(({c: block[c] for c in sorted(block)}, words))
+    del shared
+    parts = []
+    for block, words in made:
+        inner = _side_by_side(run, block, title, lines) or _wide(run, block, title, lines) or [Part(tuple(block.values()), tuple(title), lines)]
+        parts += [part._replace(columns=(*part.columns, _cut(words, len(part.lines)))) for part in inner]
+    return parts
+
+
+def _cut(words: Column, rows: int) -> Column:
+    return replace(words, values=words.values[:rows], words=(words.words or ())[:rows])
+
+
+def _way(head: str) -> str | None:
+    """The one word of a head that says which way the test goes; None = none, or several."""
+    found = [word for word in words_of(taken_apart(head).name) if word in word_set("ways").words]
+    return found[0] if len(found) == 1 else None
+
+
+def _without_way(head: str) -> str:
+    way = _way(head)
+    kept = [part for part in re.split(r"(\s+|_)", head) if words_of(part) != (way,)]
+    return " ".join("".join(kept).split())
 
 
 def _names_quantity(head: str) -> bool:
@@ -188,6 +277,7 @@ def _kept(column: Column, keep: NDArray[np.bool_]) -> Column:
 def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArray[np.int64]) -> list[Part]:
     """A wide table: one quantity in several columns, whose heads differ in the value of another one."""
     groups: dict[str, list[int]] = {}
+    columns = {c: _labelled(column, columns) for c, column in columns.items()}
     for c, column in columns.items():
         if quantities(column.head.replace("_", " ")) and kind_of(column.head) != NUMBER:
             groups.setdefault(_pattern(column.head), []).append(c)
@@ -205,6 +295,13 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
         over = [Span(c.where, c.head) for c in chosen]
         parts.append(Part(tuple(_kept(c, keep) for c in block), tuple([*title, *over]), lines[keep]))
     return parts
+
+
+def _labelled(column: Column, columns: Mapping[int, Column]) -> Column:
+    """A column whose head comes again, with the value that stands over it in its head."""
+    again = sum(other.head == column.head for other in columns.values()) > 1
+    over = next((text for text in column.above if quantities(text)), "") if again else ""
+    return replace(column, head=f"{column.head} {over}") if over else column
 
 
 def _without_quantity(head: str) -> str:

@@ -23,6 +23,7 @@ _PAIR = re.compile(r"([^\W\d]\w{0,20}(?:\[[^\[\]]{1,10}\])?)\s?[:=]\s?([-+]?\d[\
 _PAIRED_SHARE = 0.3  # of the lines, above which they are read as pairs of key and value
 _GAP = re.compile(r"\s{2,}|\t")
 _SEPARATOR_HINT = re.compile(r"sep=([,;\t|])")
+_STAMP = re.compile(r"\s{0,3}\[?(\d{1,2}:\d\d:\d\d(?:[.,]\d{1,6})?)\]?\s")
 _RULE = re.compile(r"[|+\s]{0,4}[-=:_]{3,}[-=:|+\s]{0,2000}")  # a line drawn under a head
 
 
@@ -117,7 +118,8 @@ def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list
         if _COMMENT.match(line) or (len(row) != usual and _is_sentence(line, row, delimiter)):
             bare = line.strip().lstrip('#%/!*" ').strip()
             again = _row(bare, delimiter)
-            row = again if len(again) == usual and len(again) > 1 else [line.strip().strip(',;\t "')]
+            sentence = sum("=" in cell or ":" in cell for cell in again) * 2 >= len(again)
+            row = again if len(again) == usual and len(again) > 1 and not sentence else [line.strip().strip(',;\t "')]
         count += len(row)
         if count > MAX_CELLS:
             raise InputError(f"{name}: it has more than {MAX_CELLS} cells", field="file", hint=SPLIT)
@@ -180,20 +182,23 @@ def _paired(lines: Sequence[str]) -> tuple[list[list[Cell]], list[int]] | None:
         return None
     usual = Counter(tuple(key for key, *_ in pairs) for pairs in many).most_common(1)[0][0]
     units = {key: unit for key, _, unit in next(p for p in many if tuple(k for k, *_ in p) == usual)}
+    stamped = all(_STAMP.match(line) for line, pairs in zip(sample, found, strict=True) if len(pairs) >= 2)
+    stamped = stamped and not any(key.lower() in ("t", "time", "ms", "millis") for key in usual)
     rows: list[list[Cell]] = []
     numbers: list[int] = []
     headed = False
     for number, line in enumerate(lines, 1):
         pairs = {key: value for key, value, _ in _PAIR.findall(line[:1000])}
-        if sum(key in pairs for key in usual) < 2:
+        if sum(key in pairs for key in usual) < max(2, (len(usual) + 1) // 2):
             if line.strip():
                 rows.append([line.strip()])
                 numbers.append(number)
             continue
         if not headed:
-            rows.append([f"{key} [{units[key]}]" if units[key] else key for key in usual])
+            rows.append([*(["time"] if stamped else []), *(f"{key} [{units[key]}]" if units[key] else key for key in usual)])
             numbers.append(number)
             headed = True
-        rows.append([pairs.get(key, "") for key in usual])
+        stamp = _STAMP.match(line) if stamped else None
+        rows.append([*([stamp[1] if stamp else ""] if stamped else []), *(pairs.get(key, "") for key in usual)])
         numbers.append(number)
     return rows, numbers

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -27,6 +27,7 @@ class _Walk:
     sheets: list[Sheet] = field(default_factory=list)
     texts: list[Span] = field(default_factory=list)
     nodes: int = 0
+    names: list[tuple[list[str], list[str]]] = field(default_factory=list)
 
 
 def sheets_of_tree(tree: Any, format: str, noun: str) -> list[Sheet]:
@@ -40,6 +41,8 @@ def sheets_of_tree(tree: Any, format: str, noun: str) -> list[Sheet]:
 
 def _visit(walk: _Walk, node: Any, path: str, above: tuple[Span, ...], units: Mapping[str, str], depth: int) -> None:
     walk.nodes += 1
+    if isinstance(node, dict):
+        walk.names += _name_lists(node)
     if depth > MAX_DEPTH or walk.nodes > MAX_NODES:
         return
     if isinstance(node, (list, tuple)) and node and all(isinstance(item, dict) for item in node):
@@ -189,7 +192,7 @@ def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span
             if channel[2]:
                 own[name] = channel[2]
             texts += [Span(f"{path}{head}", f"{name}: {t}"[:MAX_TEXT]) for t in channel[3]]
-        elif (columns := _matrix(value, node, texts)) is not None:
+        elif (columns := _matrix(value, [*_name_lists(node), *reversed(walk.names)])) is not None:
             arrays |= columns
         elif isinstance(value, np.ndarray) and value.size >= _FEWEST and min(value.shape, default=0) == 1 or isinstance(value, np.ndarray) and value.ndim == 1 and value.size >= _FEWEST:
             arrays[head] = np.ravel(value)
@@ -239,9 +242,8 @@ def _listed_units(arrays: dict[str, Any], units: Mapping[str, str]) -> dict[str,
     return {}
 
 
-def _matrix(value: Any, node: Mapping[str, Any], texts: Iterable[Span]) -> dict[str, Any] | None:
+def _matrix(value: Any, lists: Sequence[tuple[list[str], list[str]]]) -> dict[str, Any] | None:
     """The named columns of a matrix; None = it is none, or nothing names its columns."""
-    del texts
     array: np.ndarray | None = None
     if isinstance(value, np.ndarray) and value.ndim == 2 and min(value.shape) > 1 and value.dtype.kind in "biuf":
         array = value
@@ -254,7 +256,7 @@ def _matrix(value: Any, node: Mapping[str, Any], texts: Iterable[Span]) -> dict[
                 return None
     if array is None:
         return None
-    for names, units in _name_lists(node):
+    for names, units in lists:
         if len(names) in array.shape:
             table = array if array.shape[1] == len(names) else array.T
             heads = [f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True)]
