@@ -14,6 +14,7 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.reading.containers import sheets_of
 from mckibben.measurement.reading.decide import decide, roles_of
+from mckibben.measurement.reading.derived import with_derived
 from mckibben.measurement.reading.evidence import evidence_of
 from mckibben.measurement.reading.facts import Known, known_of
 from mckibben.measurement.reading.layout import table_of
@@ -29,7 +30,7 @@ UNKNOWN = "its name is not known"
 def looked_at(data: bytes, name: str, correction: Correction) -> tuple[Table, tuple[Evidence, ...], Known]:
     """The table of a file, the claims about it, and what is known beside its columns."""
     sheets = sheets_of(data, name)
-    table = table_of(sheets, name, wanted=correction.sheet, head=correction.head)
+    table = with_derived(table_of(sheets, name, wanted=correction.sheet, head=correction.head))
     evidence = tuple(evidence_of(table, name))
     return table, evidence, known_of(table, evidence, name, correction)
 

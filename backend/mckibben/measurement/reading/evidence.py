@@ -309,11 +309,11 @@ def _of_name(name: str, table: Table) -> list[Evidence]:
     stem = PurePath(name).stem
     span = Span(NAME, stem)
     found: list[Evidence] = []
-    text = re.sub(r"(?<=\d)p(?=\d)", ".", stem)
+    text = re.sub(r"(?<=\d)_(?=[A-Za-zµ])", " ", re.sub(r"(?<=\d)p(?=\d)", ".", stem))
     for context in _contexts(text):
         quantity = context.quantity
         evidence = _of_quantity(context, FILE, span)
-        if evidence is None and quantity.unit.dimension == "length" and context.before[-1:] in (("l",), ("length",)) and not _HELD_STEM.search(stem):
+        if quantity.unit.dimension == "length" and context.before[-1:] in (("l",), ("length",)) and not _HELD_STEM.search(stem):
             found.append(Evidence(FILE, "condition:nominal_length", quantity, 1.5, span, "name"))
         if evidence is None:
             channel = _HELD_BY.get(quantity.unit.dimension)
@@ -377,9 +377,10 @@ def _of_description(span: Span, table: Table) -> list[Evidence]:
         name = taken_apart(head, column.unit).name
         if not name or len(name) > 40 or name[0].isdigit():
             continue
-        at = text.find(name)
-        if at < 0 or (at > 0 and (text[at - 1].isalnum() or text[at - 1] == "_")):
+        place = re.search(rf"(?<![^\W_])(?<!_){re.escape(name)}(?![^\W_])", text)
+        if place is None:
             continue
+        at = place.start()
         match = _DESCRIBES.match(text, at + len(name))
         if match is None:
             continue
@@ -397,7 +398,7 @@ def _of_description(span: Span, table: Table) -> list[Evidence]:
                 found.append(Evidence(i, "absolute", unit.absolute, _UNIT_STATED, span, "description"))
         elif unit is None and match["words"] and not head_claims(head[:200], column.unit):
             found += [_from_claim(i, c, span, 0.9) for c in head_claims(words[:200]) if c.facet == "channel" and c.rule != "letter"]
-        if apart.absolute is not None and match["words"]:
+        if apart.absolute is not None and match["words"] and taken_apart(head, column.unit).absolute is None:
             found.append(Evidence(i, "absolute", apart.absolute, _UNIT_STATED, span, "description"))
     return found
 
@@ -461,7 +462,8 @@ def _scaled_column(scale: Scale, around: str, table: Table) -> int | None:
     named = _column_named(around, table)
     for i, column in enumerate(table.columns):
         unit = _unit_of(column)
-        if column.words is not None or column.clock or (unit is not None and unit.dimension not in RAW):
+        raw = unit is None or unit.dimension in RAW or unit.name == "%" and scale.raw == "%"
+        if column.words is not None or column.clock or not raw:
             continue
         claims = {c.value for c in head_claims(column.head[:200], column.unit) if c.facet == "channel"}
         if claims and not claims & channels and "command" not in claims:

@@ -176,7 +176,7 @@ def _columns_of_conditions(
             key = None  # "shortening from rest length"
         values = np.unique(column.values[np.isfinite(column.values)])
         mass = any(e.rule == "hanging_mass" for e in own) and dimension == "mass"
-        if mass and (len(values) == 1 or not any(e.rule == "head_force" for e in own)):
+        if mass and len(values) == 1:
             key = "load_mass"
         if key is None or not len(values):
             continue

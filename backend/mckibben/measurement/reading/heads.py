@@ -18,7 +18,7 @@ _BEHIND = (
     re.compile(r"([^:]+):\s?(\S{1,8})"),
 )
 _SURE = frozenset(
-    "mm cm bar mbar kPa MPa hPa mmHg inHg psi kN daN cN mN lbf ozf kgf gf ms mV kg deg degC degF psig psia barg bara".split()
+    "mm cm bar mbar kPa MPa hPa mmHg inHg psi kN daN cN mN lbf ozf kgf gf ms mV kg pct percent promille permille deg degC degF psig psia barg bara".split()
 )  # no name ends like them
 _RUN = re.compile(
     r"(?P<name>.*?[^\W\d_].*?)[\s_,;:-]{1,3}(?P<word>[^\W\d_]+)[\s_]?(?:#|n[or]\.?)?[\s_]?(?P<number>\d{1,3})"
@@ -227,6 +227,8 @@ def head_claims(head: str, unit_below: str = "") -> tuple[Claim, ...]:
     if dimension in RAW:
         found.append(Claim("role", "raw", 6.0, "raw signal"))
     channels = {claim.value for claim in found if claim.facet == "channel"}
+    if channels and dimension:
+        found = [claim for claim in found if claim.value != "running number"]
     if "command" in channels and dimension in ("pressure", "length", "force") and "valve" not in words:
         found.append(Claim("role", "set value", 4.0, "command in a physical unit"))
     if dimension == "ratio" and apart.unit is not None and apart.unit.name != "1" and channels & {"pressure", "force", "length"} and not channels & {"contraction", "command", "displacement"}:
@@ -316,7 +318,7 @@ def _names_channel(word: str) -> bool:
 
 def head_score(head: str, unit: str = "") -> float:
     """What a head says of channels [nats]; with it the layout tells heads from other texts."""
-    if head[:1].isdigit() and _QUANTITY_FIRST.match(head):
+    if head[:1].isdigit() and _QUANTITY_FIRST.match(head) or _VALUE.fullmatch(head.strip()):
         return 0.0
     apart = taken_apart(head, unit)
     best = max((c.weight for c in head_claims(head, unit) if c.facet in ("channel", "role")), default=0.0)

@@ -19,7 +19,7 @@ from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_TEXT, MAX_TEXTS
 from mckibben.measurement.reading.model import Cell, Column, Sheet, Span, Table
 from mckibben.measurement.reading.numbers import CLOCK, EMPTY, MARK, NUMBER, TEXT, kind_of
 from mckibben.measurement.reading.shapes import Part, column_of, parts_of, transposed
-from mckibben.measurement.reading.units import quantities, unit_of
+from mckibben.measurement.reading.units import RAW, quantities, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 
 _ABOVE = 6  # rows above a run that may be its heads
@@ -136,6 +136,8 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         title = [*run.title, *([Span(f"sheet '{run.sheet.name}'", run.sheet.name)] if several else [])]
         parts += parts_of(run, title)
     texts = [t for s in sheets for t in s.texts] + _texts(sheets, used)
+    if best.sheet.name and not several:
+        texts.append(Span(f"name of sheet '{best.sheet.name}'", best.sheet.name))
     others = [
         (f"{run.sheet.name or 'table'}, {run.sheet.noun}s {run.sheet.line(run.rows[0])} to {run.sheet.line(run.rows[-1])}",
          "it is in another table")
@@ -548,6 +550,8 @@ def _labelled_units(run: Run) -> None:
     rows = run.sheet.rows
     for i in range(run.rows[0] - 1, max(-1, run.rows[0] - _LOOK), -1):
         cells = [c for c in rows[i] if c != ""]
+        if len(cells) > 2 and "horizontal" in words_of(str(cells[0])[:40]):
+            continue
         if len(cells) > 2 and word_set("unit").among(words_of(str(cells[0])[:40])) and _unit_share(cells[1:]) >= _UNITS_SHARE:
             shift = 1 if run.columns and run.columns[0] == 0 and len(cells) - 1 < len(run.columns) else 0
             run.units = {c: _text(u) for c, u in zip(run.columns[shift:], cells[1:], strict=False)}
@@ -668,8 +672,13 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
 
 
 def _claimed(columns: Sequence[Column]) -> int:
-    found = {c.value for column in columns for c in head_claims(column.head, column.unit) if c.facet == "channel"}
+    found = {c.value for column in columns for c in head_claims(column.head, column.unit) if c.facet == "channel" and not _is_raw(column)}
     return len(found - {"group", "direction"})
+
+
+def _is_raw(column: Column) -> bool:
+    unit = taken_apart(column.head, column.unit).unit
+    return unit is not None and unit.dimension in RAW
 
 
 def known_unit(text: str) -> bool:

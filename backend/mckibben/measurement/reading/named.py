@@ -49,7 +49,7 @@ def length_of_name(name: str, rest: float, *, isometric: bool, others: Sequence[
     stem = PurePath(name).stem
     isometric = isometric or is_isometric(name)
     said = {}
-    for quantity in quantities(_without_codes(stem)):
+    for quantity in quantities(re.sub(r"(?<=\d)_(?=[A-Za-zµ])", " ", _without_codes(stem))):
         metres = quantity_si(quantity.value, quantity.unit.name, "m") if quantity.unit.dimension == "length" else 0.0
         before = words_of(re.split(r"\d", stem[: quantity.begin])[-1])
         if _can_be_held(1e3 * metres, rest) and not set(before) & _OTHER_LENGTHS and (isometric or before[-1:] in (("l",), ("length",))):

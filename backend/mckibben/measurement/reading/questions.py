@@ -487,7 +487,7 @@ def _zero(reading: Reading) -> Iterator[Question]:
             option_of("length", column, f"0 to {reach:.4g} {unit} = {whole - reach:.4g} to {whole:.4g} {unit}"), column.head,
         )  # fmt: skip
         return
-    if float(np.min(np.abs(stroke))) <= 0.02 * float(np.max(np.abs(stroke))) and use.sign == 1:
+    if float(np.min(np.abs(stroke))) <= 0.02 * float(np.max(np.abs(stroke))):
         return
     yield Question(
         "zero of displacement",
@@ -718,6 +718,8 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
         bracket = re.search(r"[\[(]\s?([^\W\d_]{2,20})\s?[\])]\s?$", column.head)
         if not claimed:
             continue
+        if words_of(column.head)[-1:] == ("last",):
+            continue  # a statistic
         channel = claimed[0]
         si = CHANNEL_UNITS[channel]
         if stated is None and bracket is not None and used in ("pressure", "force", *STROKES, "time") and not column.unit:

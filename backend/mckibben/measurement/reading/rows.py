@@ -164,6 +164,10 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
     for r, (i, reason, text) in sorted(first.items()):
         title = table.columns[i].title
         where = f"row {int(table.lines[r])}, {table.noun} '{title}'"
+        if reason == "short":
+            _refuse(rows, table, int(table.lines[r]), "", text, "one cell for each name of the header")
+            _count(rows, "another number of cells", 1, f"row {int(table.lines[r])}")
+            continue
         if reason == "broken":
             what, hint = f"{text!r} is not a number", "a number, or an empty cell"
             _refuse(rows, table, int(table.lines[r]), title, what, hint)

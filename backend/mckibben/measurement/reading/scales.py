@@ -57,6 +57,9 @@ def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
                 shift = _SHIFTED.search(text, match.end())
                 if shift is not None and shift.start() - match.end() < 4 and not scale.offset:
                     scale = scale._replace(offset=number_of(shift["number"]) * (1.0 if shift["sign"] != "+" else -1.0))
+                zero = next((m for m in _POINT.finditer(text) if number_of(m["y"]) == 0.0 and number_of(m["x"]) != 0.0), None)
+                if zero is not None and not scale.offset and scale.rule in ("calibration_per_volt", "calibration_point"):
+                    scale = scale._replace(offset=number_of(zero["x"]))
                 at_rest = _AT_REST.search(text)
                 if at_rest is not None and not scale.offset and unit_of(scale.unit) is not None and unit_of(scale.unit).dimension == "length":  # type: ignore[union-attr]
                     scale = scale._replace(offset=number_of(at_rest[1]))

@@ -119,7 +119,7 @@ def parts_of(run: Run, title: list[Span]) -> list[Part]:
     return [Part(tuple(made), tuple(title), lines, _ragged(run))]
 
 
-_CARRIED = 0.34  # share of the rows that hold a value, up to which it counts for the rows below as well
+_CARRIED = 0.15  # share of the rows that hold a value, up to which it counts for the rows below as well
 
 
 def _carried(column: Column) -> Column:
@@ -139,7 +139,7 @@ def _joined_times(columns: list[Column]) -> list[Column]:
     """A clock with the milliseconds in the column beside it as one column."""
     for k, (clock, beside) in enumerate(pairwise(columns)):
         unit = taken_apart(beside.head, beside.unit).unit
-        is_ms = (unit is not None and unit.name == "ms") or beside.head.strip().lower() in ("ms", "msec", "millis")
+        is_ms = any(text.strip().lower() == "ms" for text in beside.above) or (unit is not None and unit.name == "ms") or beside.head.strip().lower() in ("ms", "msec", "millis")
         finite = beside.values[np.isfinite(beside.values)]
         if clock.clock and is_ms and beside.words is None and len(finite) and finite.min() >= 0.0 and finite.max() < 1000.0:
             values = clock.values + np.nan_to_num(beside.values) / 1000.0
@@ -156,7 +156,10 @@ def _ragged(run: Run) -> dict[int, str]:
     usual = max({len(rows[r]) for r in run.rows}, key=lambda n: sum(len(rows[r]) == n for r in run.rows))
     if width < 2 or usual != width:
         return {}
-    return {k: f"{len(rows[r])} cells, the header has {width}" for k, r in enumerate(run.rows) if len(rows[r]) != width}
+    return {
+        k: f"{len(rows[r])} cells, the header has {width}"
+        for k, r in enumerate(run.rows) if len(rows[r]) > width and any(c != "" for c in rows[r][width:])
+    }  # fmt: skip
 
 
 def _columns(run: Run) -> dict[int, Column]:
@@ -170,6 +173,9 @@ def _columns(run: Run) -> dict[int, Column]:
             sheet=sheet, where=f"column {c + 1}" if run.head_row is None else f"{sheet.place(run.head_row)}, column {c + 1}", place=c,
         )  # fmt: skip
         if column is not None:
+            short = {k: len(rows[r]) for k, r in enumerate(run.rows) if len(rows[r]) <= c} if sheet.format == "csv" and sheet.noun == "line" else {}
+            if short and len(short) < 0.5 * len(run.rows):
+                column = replace(column, gaps={**column.gaps, **{k: Gap("short", f"{n} cells, the header has {width}") for k, n in short.items()}})
             found[c] = column
     return found
 
@@ -309,6 +315,7 @@ def _without_quantity(head: str) -> str:
     text = head.replace("_", " ")
     for quantity in reversed(quantities(text)):
         text = text[: quantity.begin] + text[quantity.end :]
+    text = re.sub(r"(?:^|\s)[^\W\d_]{1,3}\s?=\s*(?=$|[\[(,;])", " ", text)
     text = re.sub(r"\s*(?:@|\bat\b|\bbei\b|[a-zA-Z]?\s?=)\s*(?=$|[\[(,;])", " ", text)
     text = re.sub(r"(?:^|\s)[^\W\d_]{1,3}\s?=\s*(?=$|[\[(,;])", " ", text)
     text = " ".join(text.split()).strip(" ,;@=")

@@ -23,6 +23,7 @@ _PAIR = re.compile(r"([^\W\d]\w{0,20}(?:\[[^\[\]]{1,10}\])?)\s?[:=]\s?([-+]?\d[\
 _PAIRED_SHARE = 0.3  # of the lines, above which they are read as pairs of key and value
 _GAP = re.compile(r"\s{2,}|\t")
 _SEPARATOR_HINT = re.compile(r"sep=([,;\t|])")
+_NUMBER_AND_UNIT = re.compile(r"[-+]?\d{1,9}(?:[.,]\d{1,9})?\s?[^\W\d_%]{1,5}%?")
 _STAMP = re.compile(r"\s{0,3}\[?(\d{1,2}:\d\d:\d\d(?:[.,]\d{1,6})?)\]?\s")
 _RULE = re.compile(r"[|+\s]{0,4}[-=:_]{3,}[-=:|+\s]{0,2000}")  # a line drawn under a head
 
@@ -82,9 +83,10 @@ def _score(sample: Sequence[str], delimiter: str | None) -> float:
             continue
         cells = _cells_of(line, delimiter)
         kinds = [kind_of(cell) for cell in cells]
-        numbers = kinds.count(NUMBER) + kinds.count(CLOCK)
+        with_unit = sum(k == TEXT and _NUMBER_AND_UNIT.fullmatch(c) is not None for k, c in zip(kinds, cells, strict=True))
+        numbers = kinds.count(NUMBER) + kinds.count(CLOCK) + with_unit
         if numbers >= 2:
-            good.append((len(cells), numbers - 0.7 * kinds.count(TEXT)))
+            good.append((len(cells), numbers - 0.7 * (kinds.count(TEXT) - with_unit) - 0.2 * with_unit))
     if not good:
         return 0.0
     width = Counter(width for width, _ in good).most_common(1)[0][0]
@@ -115,7 +117,7 @@ def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list
         row = cells if isinstance(cells, list) else _row(line, delimiter)
         if _RULE.fullmatch(line) and len(line) < _LONGEST:
             continue
-        if _COMMENT.match(line) or (len(row) != usual and _is_sentence(line, row, delimiter)):
+        if (_COMMENT.match(line) and not (len(row) == usual and str(row[0]) == "%")) or (len(row) != usual and _is_sentence(line, row, delimiter)):
             bare = line.strip().lstrip('#%/!*" ').strip()
             again = _row(bare, delimiter)
             sentence = sum("=" in cell or ":" in cell for cell in again) * 2 >= len(again)
@@ -190,7 +192,7 @@ def _paired(lines: Sequence[str]) -> tuple[list[list[Cell]], list[int]] | None:
     for number, line in enumerate(lines, 1):
         pairs = {key: value for key, value, _ in _PAIR.findall(line[:1000])}
         if sum(key in pairs for key in usual) < max(2, (len(usual) + 1) // 2):
-            if line.strip():
+            if line.strip() and not set(pairs) & set(usual):
                 rows.append([line.strip()])
                 numbers.append(number)
             continue

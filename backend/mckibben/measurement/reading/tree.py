@@ -206,12 +206,29 @@ def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span
             continue
         elif isinstance(value, (dict, list, tuple)):
             below.append((head, value))
+    arrays |= _map_of(node, arrays)
     if arrays:
         own |= _listed_units(arrays, own)
     _emit(walk, path, arrays, own, tuple(texts))
     walk.texts += [t for t in texts if t not in above]
     for head, value in below:
         _visit(walk, value, f"{path}{head}.", tuple(texts), own, depth + 1)
+
+
+def _map_of(node: Mapping[str, Any], arrays: dict[str, Any]) -> dict[str, Any]:
+    """A matrix over the two vectors whose lengths are its sides, as three columns; these vectors are then taken away."""
+    matrices = [(k, v) for k, v in node.items() if isinstance(v, np.ndarray) and v.ndim == 2 and min(v.shape) > 1 and v.dtype.kind in "biuf"]
+    if len(matrices) != 1:
+        return {}
+    name, matrix = matrices[0]
+    down = [k for k, v in arrays.items() if len(v) == matrix.shape[0] and not isinstance(v[0], str)]
+    across = [k for k, v in arrays.items() if len(v) == matrix.shape[1] and k not in down[:1] and not isinstance(v[0], str)]
+    if len(down) < 1 or len(across) < 1 or (matrix.shape[0] == matrix.shape[1] and len(down) != 2):
+        return {}
+    first, second = np.asarray(arrays.pop(down[0]), float), np.asarray(arrays.pop(across[0]), float)
+    return {
+        down[0]: np.repeat(first, len(second)), across[0]: np.tile(second, len(first)), str(name): np.asarray(matrix, float).ravel(),
+    }  # fmt: skip
 
 
 def _has_arrays(value: Any, depth: int = 0) -> bool:

@@ -1,0 +1,41 @@
+"""Columns that follow from others: a force from a torque and its lever, row by row; a stroke from an angle and a radius."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+import numpy as np
+
+from mckibben.measurement.reading.heads import head_claims, taken_apart
+from mckibben.measurement.reading.model import Column, Table
+from mckibben.measurement.reading.units import Unit, quantity_si
+
+
+def with_derived(table: Table) -> Table:
+    """A table with a force, where it holds a torque and the lever it acts on, and no force."""
+    units = [taken_apart(c.head, c.unit).unit for c in table.columns]
+    if any(u is not None and u.dimension == "force" for u in units):
+        return table
+    torque = _only(table.columns, units, "torque", None)
+    lever = _only(table.columns, units, "length", "lever")
+    if torque is None or lever is None:
+        return table
+    t, a = table.columns[torque], table.columns[lever]
+    moment, arm = (c.values * quantity_si(1.0, u.name, si) for c, u, si in ((t, units[torque], "N*m"), (a, units[lever], "m")) if u)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        force = np.where(arm != 0.0, moment / arm, np.nan)
+    head = f"force = {t.title} / {a.title}"
+    made = Column(head, force, f"{t.where} over {a.where}", "N", gaps={**t.gaps, **a.gaps}, key=head)
+    message = f"force is {t.title} over {a.title}, row by row"
+    return replace(table, columns=(*table.columns, made), messages=(*table.messages, message))
+
+
+def _only(columns: Sequence[Column], units: Sequence[Unit | None], dimension: str, role: str | None) -> int | None:
+    """The one column of numbers in a unit, with a role; None = there is none, or several."""
+    found = [
+        i for i, (c, u) in enumerate(zip(columns, units, strict=True))
+        if c.words is None and u is not None and u.dimension == dimension
+        and (role is None or any(x.facet == "role" and x.value == role for x in head_claims(c.head[:200], c.unit)))
+    ]  # fmt: skip
+    return found[0] if len(found) == 1 else None
