@@ -136,7 +136,7 @@ def _aside(channel: str, roles: Mapping[str, float], *, scaled: bool, worded: bo
     aside = 0.0
     for role in _ASIDE:
         weight = roles.get(role, 0.0)
-        if scaled and role in ("raw", "counter", "running number"):
+        if scaled and role in ("raw", "counter", "running number", "remark", "set value"):
             continue
         if (role == "set value" and channel == "command" and worded) or (role == "tube size" and channel != "diameter"):
             continue
@@ -151,6 +151,8 @@ def _units(i: int, channel: str, table: Table, own: Sequence[Evidence], scale: S
     column = table.columns[i]
     if column.clock:
         return [(CLOCK, 0.0, None)] if channel == "time" else []
+    if scale is not None and scale.rule == "valve states":
+        return [("1", 0.0, scale)] if channel == "command" else []
     if scale is not None and dimension_of(scale.unit) in FITTING[channel]:
         return [(scale.unit, 0.0, scale)]
     stated = next((e.value for e in own if e.facet == "unit"), None)

@@ -34,7 +34,7 @@ def decoded(data: bytes, name: str) -> tuple[str, tuple[str, ...]]:
     """
     messages: tuple[str, ...] = ()
     head = data[:4000]
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or (len(head) > 20 and max(head[::2].count(0), head[1::2].count(0)) > _ZEROS * len(head)):
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or (len(head) > 20 and max(head[::2].count(0), head[1::2].count(0)) > _ZEROS * len(head) and min(head[::2].count(0), head[1::2].count(0)) == 0):
         data = _from_utf16(data, name)
     if control := _CONTROL.search(data):
         what = "NUL bytes" if control.group() == b"\0" else "control characters"

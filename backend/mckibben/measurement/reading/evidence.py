@@ -150,7 +150,8 @@ def _contexts(text: str) -> list[_Context]:
     begin = 0
     contexts = []
     for k, quantity in enumerate(found):
-        before = re.split(r"[;,](?!\d)(?![^()]{0,60}\))", text[begin : quantity.begin])[-1]
+        pieces = re.split(r"[;,](?!\d)(?![^()]{0,60}\))", text[begin : quantity.begin])
+        before = next((p for p in reversed(pieces) if any(w != quantity.unit.name for w in words_of(p))), "")
         upto = found[k + 1].begin if k + 1 < len(found) else len(text)
         begin = quantity.end
         behind = _BEHIND_UPTO.split(text[begin : min(upto, begin + 60)].lstrip(" ("))[0]
@@ -178,7 +179,7 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
     for rule in rules("text"):
         assert rule.pattern is not None
         for facet, value in rule.claims.items():
-            if facet == "kind" and rule.pattern.search(text):
+            if facet == "kind" and rule.pattern.search(folded(text)):
                 found.append(Evidence(FILE, "kind", value, rule.weight, span, rule.id))
             elif facet == "condition" and (match := rule.pattern.search(text)) and (name := unit_of_air(match["value"])):
                 unit = Unit(name, "pressure")
@@ -272,7 +273,7 @@ def _of_quantity(context: _Context, target: int, span: Span) -> Evidence | None:
 
 def _fires(rule: Rule, before: tuple[str, ...], behind: tuple[str, ...]) -> bool:
     """Whether the words around a quantity are those of a rule."""
-    if any(word_set(name).among(before[-6:]) for name in rule.without):
+    if any(word_set(name).among(before[-6:]) for name in rule.without) or "nothing" in behind:
         return False
     ahead = bool(rule.needs) and all(word_set(name).among(before) for name in rule.needs)
     after = bool(rule.behind) and all(word_set(name).among(behind) for name in rule.behind)
@@ -466,10 +467,13 @@ def _scaled_column(scale: Scale, around: str, table: Table) -> int | None:
         if column.words is not None or column.clock or not raw:
             continue
         claims = {c.value for c in head_claims(column.head[:200], column.unit) if c.facet == "channel"}
+        if scale.rule == "valve states" and "command" not in claims and named != i:
+            continue
         if claims and not claims & channels and "command" not in claims:
             continue
         head = words_of(taken_apart(column.head, column.unit).name)
         score = 2.0 * bool(claims & channels) + 1.5 * len(words & set(head)) + (3.0 if named == i else 0.0)
+        score += 4.0 if scale.raw and scale.raw == taken_apart(column.head, column.unit).name else 0.0
         score += 0.5 if unit is not None and scale.raw and unit.name == scale.raw else 0.0
         scores.append((score, i))
     if not scores:

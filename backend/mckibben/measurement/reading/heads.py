@@ -269,7 +269,7 @@ def _of_words(words: tuple[str, ...]) -> tuple[Claim, ...]:
     """What the words claim; of several channels the last one a little more, since it says what it is."""
     found: dict[str, tuple[Rule, float]] = {}
     channels: dict[str, float] = {}
-    joined = ("".join(words),) if len(words) == 2 else ()  # "X_Value"
+    joined = ("".join(words),) if len(words) == 2 and len("".join(words)) > 3 else ()  # "X_Value"
     for place, word in enumerate((*words[:40], *joined)):
         ranked = [(rule, rule.words.strength(word)) for rule in rules("head") if rule.words is not None]
         ranked = [(rule, strength) for rule, strength in ranked if strength]

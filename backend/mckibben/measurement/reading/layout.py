@@ -28,6 +28,7 @@ _GAP = 3  # rows without numbers that a run goes on behind
 _INSIDE = 0.5  # share of the numbers of a row that stand where those of the run do
 _HEAD_SHARE = 0.5  # of the columns of a run, that a row of heads fills
 _UNITS_SHARE = 0.6  # of the cells of a row of units, that are units
+_POOR_HEADS = 0.8  # nats a column, below which other names are looked for
 _EMPTY_HEADS = 2.0  # score of a run without heads
 _MOST_OF_A_HEAD = 3.0  # what one head adds to the score of its run
 _SHOWN_ROWS, _SHOWN_BELOW, _SHOWN_ABOVE, _SHOWN_CELLS, _SHOWN_LENGTH = 60, 8, 20, 60, 80
@@ -96,7 +97,7 @@ def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, h
                 f"{name}, row {head}: no table has its names in row {head}", field="head", hint="a row with names above numbers"
             )
     if not runs and head is None and not _stripped:
-        bare = [replace(s, rows=[[without_unit(c) for c in row] for row in with_unit_row(s.rows)]) for s in sheets]
+        bare = [without_units(s) for s in sheets]
         return table_of(bare, name, wanted=wanted, _stripped=True)
     if not runs:
         raise InputError(f"{name}: no table: no rows of numbers with at least two columns", field="file", hint=_HINT)
@@ -117,14 +118,16 @@ def without_unit(cell: Cell) -> Cell:
     return match[1] if match and unit_of(match[2]) is not None else cell
 
 
-def with_unit_row(rows: list[list[Cell]]) -> list[list[Cell]]:
-    """Rows whose cells hold their units, with these as a row of their own above the first of them."""
+def without_units(sheet: Sheet) -> Sheet:
+    """A sheet whose cells hold their units, ``2,00 bar``, with these in a row of their own above the first of them."""
+    rows, lines = sheet.rows, [sheet.line(i) for i in range(len(sheet.rows))]
     for i, row in enumerate(rows[:200]):
         found = [_CELL_WITH_UNIT.fullmatch(c) if isinstance(c, str) and len(c) < 40 else None for c in row]
         if sum(m is not None and unit_of(m[2]) is not None for m in found) >= 2:
             units: list[Cell] = [m[2] if m else "" for m in found]
-            return [*rows[:i], units, *rows[i:]]
-    return rows
+            rows, lines = [*rows[:i], units, *rows[i:]], [*lines[:i], lines[i], *lines[i:]]
+            break
+    return replace(sheet, rows=[[without_unit(c) for c in row] for row in rows], lines=tuple(lines))
 
 
 def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet], name: str) -> Table:
@@ -396,7 +399,8 @@ def _head(run: Run, wanted: int | None) -> None:
         width = range(min(MAX_COLUMNS, max(len(rows[r]) for r in (*run.rows[:50], best))))
         run.heads = {c: _text(rows[best][c]) if c < len(rows[best]) else "" for c in width}
         run.head_row = best
-        others = [i for i in names if i != best and _is_row_of_words(rows[i])]
+        own = {h.strip().casefold() for h in run.heads.values() if len(h.strip()) > 1}
+        others = [i for i in names if i != best and _is_row_of_words(rows[i]) and _text(rows[i][0]).casefold() not in own]
         run.more = {
             c: tuple(t for i in others if (t := _spanning(rows[i], c, carried=i < best))) for c in run.heads
         }
@@ -410,8 +414,12 @@ def _head(run: Run, wanted: int | None) -> None:
             run.head_row = units_at
     else:
         _labelled_units(run)
-    if not any(head_score(h) > 0 for h in run.heads.values()):
+    if sum(head_score(h) for h in run.heads.values()) < _POOR_HEADS * len(run.columns):
         _listed_names(run)
+    for i in range((run.head_row if run.head_row is not None else run.rows[0]) + 1, run.rows[0]):
+        for c, head in run.heads.items():  # a cell below an empty head
+            if not head and i != run.unit_row and c < len(rows[i]) and rows[i][c] != "":
+                run.heads[c] = _text(rows[i][c])
     _completed(run)
     _shift_heads(run)
     _descriptions(run)
@@ -425,7 +433,7 @@ def _listed_names(run: Run) -> None:
         if i in run.above and len(filled) > 1 or len(filled) != 1:
             continue
         names = _split_head(filled[0], len(run.columns))
-        if names:
+        if names and sum(head_score(n) for n in names) > sum(head_score(h) for h in run.heads.values()):
             run.heads = dict(zip(run.columns, names, strict=True))
             return
 
@@ -460,7 +468,8 @@ _HELD_CELL = re.compile(r"[^\W\d_]{0,12}0?\s?[=:@]?\s?[-+]?\d{1,7}(?:[.,]\d{1,6}
 def _is_row_of_values(row: Sequence[Cell]) -> bool:
     """Whether the cells of a row name values, "p = 0.2 MPa", and no columns."""
     filled = [str(c).strip() for c in row if c != ""]
-    return len(filled) > 1 and sum(_HELD_CELL.fullmatch(c) is not None and any(x.isdigit() for x in c) for c in filled) > 0.5 * len(filled)
+    values = [c for c in filled if _HELD_CELL.fullmatch(c) and ("=" in c or "@" in c or quantities(c))]
+    return len(filled) > 1 and len(values) > 0.5 * len(filled)
 
 
 def _candidates(run: Run) -> list[int]:

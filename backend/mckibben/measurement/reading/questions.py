@@ -462,6 +462,38 @@ def _close(reading: Reading) -> Iterator[Question]:
         )  # fmt: skip
 
 
+def _runs_against(reading: Reading) -> Iterator[Question]:
+    """A stroke that runs against physics as it is read, and no word says its sign."""
+    for channel in ("displacement", "contraction"):
+        column = reading.column(channel)
+        if column is None or reading.by_user(channel):
+            continue
+        i, use = reading.decision.uses[channel]
+        worst = min((v for t, v in reading.decision.terms if t in _MOTION), default=0.0)
+        if worst > _AGAINST or any(e.facet == "sign_stroke" and e.target in (i, FILE) for e in reading.evidence):
+            continue
+        rest = reading.known.conditions.get("nominal_length")
+        stroke = reading.rows.channels[channel]
+        if channel == "displacement" and isinstance(rest, float):
+            reach, whole = (float(convert([v], "m", use.unit)[0]) for v in (float(np.max(stroke)), rest))
+            yield Question(
+                "zero of displacement",
+                f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, up to {reach:.4g} {use.unit}: a muscle of {whole:.4g} {use.unit} "
+                "is not at its rest length where it shows 0; which length has it there and at the end",
+                option_of("length", column, f"0 to {reach:.4g} {use.unit} = {whole - reach:.4g} to {whole:.4g} {use.unit}"), column.head,
+            )  # fmt: skip
+        else:
+            as_length = f" or {option_of('length', column)}" if float(np.min(stroke)) > 0.0 else ""
+            yield Question(
+                f"sign of {channel}", f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, but shortening is positive here; reverse its sign",
+                f"{option_of(channel, column, sign=-1)}{as_length}", column.head, REVERSE, (REVERSE, KEEP),
+            )  # fmt: skip
+
+
+_MOTION = ("the force falls as it contracts", "it contracts as the pressure rises")
+_AGAINST = -1.5  # nats of what a motion shows, below which it runs against physics
+
+
 def _zero(reading: Reading) -> Iterator[Question]:
     """A position of which nothing says where the muscle is at its rest length."""
     column = reading.column("displacement")
@@ -782,7 +814,7 @@ def _several(reading: Reading) -> Iterator[Question]:
 Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
-    _units, _unnamed, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs, _reference, _zero, _contradicted, _close, _tare,
+    _units, _unnamed, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs, _runs_against, _reference, _zero, _contradicted, _close, _tare,
 )  # fmt: skip
 #: Asked always.
 ALWAYS: tuple[Policy, ...] = (_unknown_unit, _rest_length, _load, _twice, _several, _held_length, _of_columns, _tares, _air)

@@ -74,7 +74,7 @@ _AT_REST = re.compile(
     r"(?:rest|L_?0|ruhe|unloaded|relaxed|initial|natural|longueur au repos|riposo|reposo|repouso)"
 )
 _STATE = re.compile(
-    r"(?P<before>[^\W\d_]+)?\s?(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s?(?<![\d.,])(?P<number>\d{1,4}(?:[.,]\d{1,4})?)\s?(?P<raw>mV|V|mA|A)\b\)?"
+    r"(?P<before>[^\W\d_]+)?\s?(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s?(?<![\d.,])(?P<number>-?\d{1,4}(?:[.,]\d{1,4})?)\s?(?P<raw>mV|V|mA|A|%|)(?![\d.,\w])\)?"
     r"(?=(?:\s?(?:=|≙|:|->|→|is)?\s?(?P<behind>[^\W\d_]+(?:\s[^\W\d_]+)?))?)"
 )
 _POINT = re.compile(
@@ -124,7 +124,10 @@ def valve_scale(text: str) -> Scale | None:
     exhaust = level.get("exhaust", level["closed"] - span)
     if span == 0.0 or abs(exhaust - (level["closed"] - span)) > 0.01 * abs(span):
         return None
-    return Scale(1.0 / span, level["closed"], "1", signals.pop(), "valve states", 6.0, text[:80])
+    signal = signals.pop()
+    if not signal and len(states) < 3:
+        return None
+    return Scale(1.0 / span, level["closed"], "1", signal, "valve states", 6.0, text[:80])
 
 
 def state_of(text: str) -> str | None:
@@ -163,5 +166,6 @@ def _of_match(match: re.Match[str], rule: str, weight: float) -> Scale | None:
     if value == 0.0:
         return None
     shift = groups.get("offset")
-    offset = 0.0 if not shift else -number_of(shift.replace(" ", "")) / value
+    offset = 0.0 if not shift else -number_of(shift.replace(" ", ""))
+    offset = offset if groups.get("paren") else offset / value
     return Scale(value, offset, unit.name, raw_name or (groups.get("raw") or ""), rule, weight, match[0], unit.absolute)

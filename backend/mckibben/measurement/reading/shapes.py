@@ -141,7 +141,12 @@ def _joined_times(columns: list[Column]) -> list[Column]:
         unit = taken_apart(beside.head, beside.unit).unit
         is_ms = any(text.strip().lower() == "ms" for text in beside.above) or (unit is not None and unit.name == "ms") or beside.head.strip().lower() in ("ms", "msec", "millis")
         finite = beside.values[np.isfinite(beside.values)]
-        if clock.clock and is_ms and beside.words is None and len(finite) and finite.min() >= 0.0 and finite.max() < 1000.0:
+        fine = unit is not None and {"ns": 1e9, "us": 1e6, "µs": 1e6, "ms": 1e3}.get(unit.name, 0.0)
+        own = taken_apart(clock.head, clock.unit).unit
+        if fine and own is not None and own.name == "s" and clock.words is None and len(finite) and 0.0 <= finite.min() and finite.max() < fine and np.nanmin(clock.values) > 1e8:
+            values = (clock.values - clock.values[0]) + np.nan_to_num(beside.values) / fine
+            return [*columns[:k], replace(clock, values=values - values[0]), *columns[k + 2 :]]
+        if clock.clock and is_ms and np.any(np.diff(clock.values) == 0.0) and beside.words is None and len(finite) and finite.min() >= 0.0 and finite.max() < 1000.0:
             values = clock.values + np.nan_to_num(beside.values) / 1000.0
             return [*columns[:k], replace(clock, values=values - values[0]), *columns[k + 2 :]]
     return columns
@@ -207,11 +212,26 @@ def _two_ways(run: Run, columns: dict[int, Column], title: list[Span], lines: ND
         words = Column("direction", np.full(len(lines), np.nan), columns[next(iter(chosen))].where, words=(way,) * len(lines))
         made.append(({c: block[c] for c in sorted(block)}, words))
     del shared
-    parts = []
-    for block, words in made:
+    sides = []
+    for number, (block, words) in enumerate(made):
         inner = _side_by_side(run, block, title, lines) or _wide(run, block, title, lines) or [Part(tuple(block.values()), tuple(title), lines)]
-        parts += [part._replace(columns=(*part.columns, _cut(words, len(part.lines)))) for part in inner]
-    return parts
+        sides.append([_turned(part._replace(columns=(*part.columns, _cut(words, len(part.lines)))), back=number == 1) for part in inner])
+    return [part for pair in zip(*sides, strict=True) for part in pair]
+
+
+def _turned(part: Part, *, back: bool) -> Part:
+    """The rows of the way back from the last one up: the test went on from there."""
+    if not back:
+        return part
+    order = np.arange(len(part.lines))[::-1]
+    count = len(order)
+    columns = tuple(
+        replace(
+            c, values=c.values[order], words=None if c.words is None else tuple(c.words[r] for r in order),
+            gaps={count - 1 - r: gap for r, gap in c.gaps.items()},
+        ) for c in part.columns
+    )  # fmt: skip
+    return part._replace(columns=columns, lines=part.lines[order])
 
 
 def _cut(words: Column, rows: int) -> Column:
@@ -356,12 +376,11 @@ def _melted(run: Run, title: list[Span]) -> Part:
     if len(corner) == 1 and _counts(down):
         down_name = "cycle"
     lines = np.array([sheet.line(r) for r in run.rows[1:]], np.int64)
-    across = len(upper)
-    columns = (
-        Column(down_name, np.repeat(down, across), where), Column(across_name, np.tile(upper, len(down)), where),
-        Column(subject, values.ravel(), where),
-    )  # fmt: skip
-    return Part(columns, tuple(title), np.repeat(lines, across))
+    columns = np.repeat(down, len(upper)), np.tile(upper, len(down)), values.ravel(), np.repeat(lines, len(upper))
+    first, second, third, numbers = columns
+    empty = np.isnan(third)
+    made = (Column(down_name, first[~empty], where), Column(across_name, second[~empty], where), Column(subject, third[~empty], where))
+    return Part(made, tuple(title), numbers[~empty])
 
 
 def _counts(values: NDArray[np.float64]) -> bool:

@@ -61,7 +61,8 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = ()) -> Sheet:
 
 def _sample(lines: Sequence[str]) -> list[str]:
     middle = max(_FIRST, len(lines) // 2 - _MIDDLE // 2)
-    chosen = [*lines[:_FIRST], *lines[middle : middle + _MIDDLE]]
+    rows = [line for line in lines[:20_000] if line.strip() and not _COMMENT.match(line)][:_FIRST]
+    chosen = [*lines[:_FIRST], *rows, *lines[middle : middle + _MIDDLE]]
     return [line[:_LONGEST] for line in chosen if line.strip()]
 
 

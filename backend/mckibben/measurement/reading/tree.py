@@ -15,6 +15,7 @@ from mckibben.measurement.reading.units import unit_of
 
 _FEWEST = 2  # values of an array
 _NAMES = ("name", "label", "title", "channel", "signal", "quantity", "id", "key")
+_WIDEST = 12  # columns of a matrix without names
 _MOST_FIELDS = 12  # of a mapping that is one channel
 
 
@@ -207,6 +208,9 @@ def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span
         elif isinstance(value, (dict, list, tuple)):
             below.append((head, value))
     arrays |= _map_of(node, arrays)
+    if not arrays:
+        for key, value in node.items():
+            arrays |= _unnamed(str(key), value)
     if arrays:
         own |= _listed_units(arrays, own)
     _emit(walk, path, arrays, own, tuple(texts))
@@ -279,6 +283,13 @@ def _matrix(value: Any, lists: Sequence[tuple[list[str], list[str]]]) -> dict[st
             heads = [f"{name} [{unit}]" if unit else name for name, unit in zip(names, units, strict=True)]
             return {head: table[:, i] for i, head in enumerate(heads[:MAX_COLUMNS])}
     return None
+
+
+def _unnamed(key: str, value: Any) -> dict[str, Any]:
+    """The columns of a long matrix that nothing names, as MATLAB would write them: ``M(:,1)``."""
+    if not isinstance(value, np.ndarray) or value.ndim != 2 or value.dtype.kind not in "biuf" or not 1 < value.shape[1] <= _WIDEST < value.shape[0]:
+        return {}
+    return {f"{key}(:,{i + 1})": value[:, i] for i in range(value.shape[1])}
 
 
 def _name_lists(node: Mapping[str, Any], depth: int = 0) -> list[tuple[list[str], list[str]]]:
