@@ -18,7 +18,7 @@ from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_TEXT, MAX_TEXTS
 from mckibben.measurement.reading.model import Cell, Column, Sheet, Span, Table
 from mckibben.measurement.reading.numbers import CLOCK, EMPTY, MARK, NUMBER, TEXT, kind_of
-from mckibben.measurement.reading.shapes import Part, column_of, parts_of, transposed
+from mckibben.measurement.reading.shapes import NeedsCellsError, Part, column_of, parts_of, transposed
 from mckibben.measurement.reading.units import RAW, quantities, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 
@@ -83,8 +83,8 @@ def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, h
     named = [s for s in sheets if s.arrays is not None]
     if named:
         return _of_named(named, sheets, name)
-    grids = [transposed(s) for s in sheets]
-    grids = [without_statistics(cornered(s)) for s in grids]
+    grids = [without_statistics(cornered(transposed(s))) for s in sheets]
+    grids = [s.whole() if s.whole is not None and s is not old else s for s, old in zip(grids, sheets, strict=True)]
     runs = [run for sheet in grids for run in _runs(sheet)]
     for run in runs:
         _head(run, head)
@@ -106,7 +106,11 @@ def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, h
         if not run.heads and run.sheet is best.sheet and run.columns == best.columns and run.rows[0] > best.rows[0]:
             run.heads, run.units, run.more, run.described = best.heads, best.units, best.more, best.described
     alike = [run for run in runs if _is_same(run, best)]
-    return _joined(alike, best, runs, grids, name)
+    try:
+        return _joined(alike, best, runs, grids, name)
+    except NeedsCellsError:
+        whole = [s.whole() if s.whole is not None else s for s in sheets]
+        return table_of(whole, name, wanted=wanted, head=head)
 
 
 _CELL_WITH_UNIT = re.compile(r"([-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")

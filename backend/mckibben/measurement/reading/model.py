@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from datetime import datetime
 from typing import Any, NamedTuple
@@ -38,6 +38,8 @@ class Sheet:
         texts: what stands beside the columns.
         lines: number in the file of each row; empty = they count from 1.
         messages: what was assumed.
+        bulk: (row before which it stands, numbers) of the middle of a long table, which are no cells.
+        whole: the sheet with all of its rows as cells, where there is a bulk.
     """
 
     name: str = ""
@@ -51,6 +53,8 @@ class Sheet:
     texts: tuple[Span, ...] = ()
     lines: tuple[int, ...] = ()
     messages: tuple[str, ...] = ()
+    bulk: tuple[int, Array] | None = None
+    whole: Callable[[], Sheet] | None = None
 
     def line(self, row: int) -> int:
         """Number in the file of a row."""

@@ -27,7 +27,7 @@ from mckibben.measurement.reading.numbers import (
     seconds_of,
     with_units,
 )
-from mckibben.measurement.reading.units import quantities
+from mckibben.measurement.reading.units import quantities, unit_of
 
 if TYPE_CHECKING:
     from mckibben.measurement.reading.layout import Run
@@ -73,7 +73,7 @@ def column_of(
         if own and sum(isinstance(c, str) and _NUMBER.match(c.lstrip("+-")) is not None for c in bare) > _CLOCKS * len(bare):
             stripped, _ = with_units([c if isinstance(c, (str, float)) else "" for c in cells])
             values, gaps = numbers_of(stripped, style)
-            return replace(made, values=values, gaps=gaps, unit=unit or own)
+            return replace(made, values=values, gaps=gaps, unit=own)
         words = tuple("" if c is None else c if isinstance(c, str) else f"{c:g}" if isinstance(c, float) else str(c) for c in cells)
         return replace(made, values=values, words=words, gaps={})
     return made
@@ -109,6 +109,8 @@ def parts_of(run: Run, title: list[Span]) -> list[Part]:
         return [_melted(run, title)]
     lines = np.array([sheet.line(r) for r in run.rows], np.int64)
     columns = _columns(run)
+    if sheet.bulk is not None:
+        return [_with_bulk(run, columns, title, lines)]
     for way in (_two_ways, _side_by_side, _wide):
         if parts := way(run, columns, title, lines):
             return parts
@@ -117,6 +119,37 @@ def parts_of(run: Run, title: list[Span]) -> list[Part]:
         return [Part(tuple(wide[0]), tuple(title), wide[1])]
     made = [_carried(c) for c in _joined_times(list(columns.values()))]
     return [Part(tuple(made), tuple(title), lines, _ragged(run))]
+
+
+class NeedsCellsError(Exception):
+    """The middle of a long table has to be read cell by cell."""
+
+
+def _with_bulk(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArray[np.int64]) -> Part:
+    """A long table with the numbers of its middle.
+
+    Raises:
+        NeedsCellsError: it is no plain table, or its middle does not belong to this run.
+    """
+    assert run.sheet.bulk is not None
+    at, bulk = run.sheet.bulk
+    inside = at in run.rows and at - 1 in run.rows
+    plain = not (_two_ways(run, columns, title, lines) or _side_by_side(run, columns, title, lines) or _wide(run, columns, title, lines))
+    if not inside or not plain or any(c.words is not None or c.clock for c in columns.values()) or max(columns) >= bulk.shape[1]:
+        raise NeedsCellsError
+    k = run.rows.index(at)
+    count = len(bulk)
+    made = []
+    for c, column in columns.items():
+        middle = np.where(np.isfinite(bulk[:, c]), bulk[:, c], np.nan)
+        values = np.concatenate([column.values[:k], middle, column.values[k:]])
+        gaps = {r if r < k else r + count: gap for r, gap in column.gaps.items()}
+        gaps |= {k + int(r): Gap("not a finite number", "nan") for r in np.flatnonzero(~np.isfinite(bulk[:, c]))}
+        gaps |= without_marks(values)
+        made.append(replace(column, values=values, gaps=gaps))
+    first = int(lines[k - 1])
+    numbers = np.concatenate([lines[:k], np.arange(first + 1, first + 1 + count), lines[k:]])
+    return Part(tuple(made), tuple(title), numbers)
 
 
 _CARRIED = 0.15  # share of the rows that hold a value, up to which it counts for the rows below as well
@@ -313,10 +346,14 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
     shared = [column for c, column in columns.items() if not any(c in places for places in many)]
     if not shared:
         return []
+    corner = ""  # a head over cells in another unit names the values: "Force [N]" over "300 mm"
+    first = taken_apart(shared[0].head).unit
+    if first is not None and shared[0].unit and unit_of(shared[0].unit) != first and len(shared) == 1:
+        corner, shared = shared[0].head, [replace(shared[0], head="")]
     parts = []
     for k in range(len(many[0])):
         chosen = [columns[places[k]] for places in many]
-        block = [*shared, *(replace(c, head=_without_quantity(c.head) or _subject(run)) for c in chosen)]
+        block = [*shared, *(replace(c, head=_without_quantity(c.head) or corner or _subject(run)) for c in chosen)]
         keep = ~np.all([np.isnan(c.values) for c in chosen], axis=0)
         over = [Span(c.where, c.head) for c in chosen]
         parts.append(Part(tuple(_kept(c, keep) for c in block), tuple([*title, *over]), lines[keep]))
@@ -439,8 +476,6 @@ def _are_signals(words: Sequence[str]) -> bool:
 
 
 def _are_units(words: Sequence[str]) -> bool:
-    from mckibben.measurement.reading.units import unit_of
-
     names = {word.strip() for word in words if word.strip()}
     return bool(names) and len(names) <= _MOST_NAMES and all(unit_of(name) is not None for name in names)
 

@@ -7,6 +7,8 @@ import re
 from collections import Counter
 from collections.abc import Sequence
 
+import numpy as np
+
 from mckibben.measurement.reading.encodings import decoded
 from mckibben.measurement.reading.limits import MAX_CELLS, MAX_COLUMNS, MAX_ROWS, SPLIT
 from mckibben.measurement.reading.model import Cell, Sheet
@@ -14,6 +16,7 @@ from mckibben.measurement.reading.numbers import CLOCK, NUMBER, TEXT, kind_of, s
 from mckibben.physics.errors import InputError
 
 _FIRST, _MIDDLE = 150, 300  # lines from which the delimiter is told
+_LONG, _HEAD_ROWS, _TAIL_ROWS = 20_000, 3_000, 2_000  # lines: of a long table, and of its parts that are cells
 _DELIMITERS = (";", "\t", ",", "|", None)  # None: blanks
 _PREFERENCE = 0.03  # share of the score that each later delimiter must have more
 _LONGEST = 20_000  # characters of a line that are looked at for the delimiter
@@ -38,8 +41,8 @@ def text_sheets(data: bytes, name: str) -> list[Sheet]:
     return [sheet_of_text(text, name, messages)]
 
 
-def sheet_of_text(text: str, name: str, messages: Sequence[str] = ()) -> Sheet:
-    """The cells of a decoded text."""
+def sheet_of_text(text: str, name: str, messages: Sequence[str] = (), *, whole: bool = False) -> Sheet:
+    """The cells of a decoded text; the middle of a long one as numbers, unless all rows are wanted as cells."""
     lines = text.split("\n")
     if len(lines) > MAX_ROWS:
         raise InputError(f"{name}: it has {len(lines)} lines, at most {MAX_ROWS} are read", field="file", hint=SPLIT)
@@ -50,6 +53,8 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = ()) -> Sheet:
     sample = _sample(lines)
     hint = next((m[1] for line in lines[:3] if (m := _SEPARATOR_HINT.fullmatch(line.strip()))), None)
     delimiter = hint or best_delimiter(sample)
+    if len(lines) > _LONG and not whole and (sheet := _with_bulk(lines, delimiter, name, messages)) is not None:
+        return sheet
     rows, numbers = _split(lines, delimiter, name)
     usual = _usual_width(lines, delimiter)
     chosen = [row for row in rows[:_FIRST] + rows[len(rows) // 2 : len(rows) // 2 + _MIDDLE] if len(row) == usual]
@@ -57,6 +62,38 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = ()) -> Sheet:
     return Sheet(
         rows=rows, noun="line", decimal=style.decimal, thousands=style.thousands, lines=tuple(numbers), messages=tuple(messages)
     )
+
+
+def _with_bulk(lines: list[str], delimiter: str | None, name: str, messages: Sequence[str]) -> Sheet | None:
+    """A long table of plain numbers: its first and last rows as cells, those between as numbers; None = it is none."""
+    first, last = lines[:_HEAD_ROWS], lines[-_TAIL_ROWS:]
+    width = _usual_width(lines, delimiter)
+    if width < 2 or delimiter == "|":
+        return None
+    rows, numbers = _split(first, delimiter, name)
+    usual = [row for row in rows if len(row) == width]
+    style = style_of(cell for row in usual[-_MIDDLE:] for cell in row)
+    middle = lines[_HEAD_ROWS:-_TAIL_ROWS]
+    if style.decimal == ",":
+        if delimiter == ",":
+            return None
+        middle = [line.replace(",", ".") for line in middle]
+    try:
+        bulk = np.loadtxt(middle, delimiter=delimiter, comments=None, ndmin=2)
+    except ValueError:
+        return None
+    if bulk.shape != (len(middle), width):
+        return None
+    below, later = _split(last, delimiter, name)
+    offset = len(lines) - len(last)
+
+    def whole() -> Sheet:
+        return sheet_of_text("\n".join(lines), name, messages, whole=True)
+
+    return Sheet(
+        rows=[*rows, *below], noun="line", decimal=style.decimal, thousands=style.thousands,
+        lines=(*numbers, *(n + offset for n in later)), messages=tuple(messages), bulk=(len(rows), bulk), whole=whole,
+    )  # fmt: skip
 
 
 def _sample(lines: Sequence[str]) -> list[str]:
