@@ -146,6 +146,7 @@ def _packed(data: bytes, name: str, *, packed: bool) -> list[Sheet]:
             names = {part.filename for part in parts}
             if any(n.startswith("xl/") for n in names) or "content.xml" in names:
                 _check_parts(parts, name)
+                _check_extent(archive, parts, name)
                 return _workbook(data, name)
             if names and all(n.endswith(".npy") for n in names):
                 raise _no_table(name, "an archive of numpy's arrays (.npz)")
@@ -168,6 +169,32 @@ def _check_parts(parts: list[zipfile.ZipInfo], name: str) -> None:
         if part.file_size > max(_RATIO_FROM, _RATIO * part.compress_size):
             why = f"its part '{part.filename[:80]}' is compressed too far, more than {_RATIO} times"
             raise _refusal(name, why, "send the file itself")
+
+
+_CELL_AT = re.compile(rb"""\sr\s?=\s?["']([A-Za-z]{0,9})(\d{1,12})["']""")
+_MOST_OF_A_SHEET = 12_000_000  # cells of the rectangle that a sheet spans; the library takes memory for all of them
+
+
+def _check_extent(archive: zipfile.ZipFile, parts: list[zipfile.ZipInfo], name: str) -> None:
+    """Refuse a workbook with a cell so far out that the rectangle to it takes too much memory, whatever lies within."""
+    for part in parts:
+        if not part.filename.startswith("xl/worksheets/") or not part.filename.endswith(".xml"):
+            continue
+        rows = columns = 0
+        for match in _CELL_AT.finditer(archive.read(part)):
+            rows = max(rows, int(match[2]))
+            columns = max(columns, _column_number(match[1]))
+        if rows * columns > _MOST_OF_A_SHEET:
+            why = f"'{part.filename}' spans {rows} rows and {columns} columns, more than {_MOST_OF_A_SHEET} cells are not read"
+            raise _refusal(name, why, "delete what stands far from the table, or save the table as CSV")
+
+
+def _column_number(letters: bytes) -> int:
+    """1 of ``A``, 28 of ``AB``."""
+    number = 0
+    for letter in letters:
+        number = 26 * number + (letter & 31)
+    return number
 
 
 def _of_archive(archive: zipfile.ZipFile, parts: list[zipfile.ZipInfo], name: str, *, packed: bool) -> list[Sheet]:

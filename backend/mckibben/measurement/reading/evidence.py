@@ -165,7 +165,7 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
     """What one text claims."""
     found: list[Evidence] = []
     text = span.text[:MAX_TEXT]
-    noted = _of_note(span)
+    noted = _of_note(span, named=table.format in ("json", "mat", "hdf5") and target == FILE)
     if noted is not None and noted.facet.partition(":")[2] in (*CONDITION_UNITS, "kind", "ignore", "bad_rows"):
         return [noted]
     found += [] if noted is None else [noted]
@@ -206,7 +206,7 @@ def unit_of_air(value: str) -> str | None:
     return next((unit for unit, (low, high) in _SHOWN_BY_BAROMETERS.items() if low <= number < high), None)
 
 
-def _of_note(span: Span) -> Evidence | None:
+def _of_note(span: Span, *, named: bool = False) -> Evidence | None:
     """A condition under the name of this program: ``load_mass: 12 kg``, ``kind: static``."""
     match = _NOTE.fullmatch(span.text.strip())
     if match is None:
@@ -217,7 +217,7 @@ def _of_note(span: Span) -> Evidence | None:
         if key == "pressure" and folded(value) not in REFERENCES and not value.lower().startswith(("abs", "gau", "rel")):
             return None
         return Evidence(FILE, f"condition:{key}", f"{value} {unit}" if unit else value, 9.0, span, "note")
-    if span.text.lstrip().startswith("#"):
+    if span.text.lstrip().startswith("#") or named:
         return Evidence(FILE, "note", (key, value), 1.0, span, "note")
     return None
 

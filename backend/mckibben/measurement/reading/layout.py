@@ -15,7 +15,7 @@ import numpy as np
 
 from mckibben.measurement.reading.heads import head_claims, head_score, taken_apart, without_run
 from mckibben.measurement.reading.lexicon import word_set, words_of
-from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_TEXT, MAX_TEXTS
+from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_ROWS, MAX_TEXT, MAX_TEXTS, SPLIT
 from mckibben.measurement.reading.model import Cell, Column, Sheet, Span, Table
 from mckibben.measurement.reading.numbers import CLOCK, EMPTY, MARK, NUMBER, TEXT, kind_of
 from mckibben.measurement.reading.shapes import NeedsCellsError, Part, column_of, parts_of, transposed
@@ -32,6 +32,7 @@ _POOR_HEADS = 0.8  # nats a column, below which other names are looked for
 _EMPTY_HEADS = 2.0  # score of a run without heads
 _MOST_OF_A_HEAD = 3.0  # what one head adds to the score of its run
 _SHOWN_ROWS, _SHOWN_BELOW, _SHOWN_ABOVE, _SHOWN_CELLS, _SHOWN_LENGTH = 60, 8, 20, 60, 80
+_LONGEST_HEAD = 300  # characters of a head
 _LONGEST_WORDS = 32  # characters of a cell of a row that groups columns
 _HINT = "e.g. a header 'pressure_bar,length_mm,force_N'"
 
@@ -160,9 +161,20 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         parts, texts, where=f"{name}, sheet '{best.sheet.name}'" if best.sheet.name else name, format=best.sheet.format,
         head_row=head_row, unit_where="" if best.unit_row is None else best.sheet.place(best.unit_row),
         others=tuple(others), tables=tables if len(tables) > 1 else (), rivals=rivals,
-        raw=_shown(best.sheet, best.head_row), messages=tuple(m for s in sheets for m in s.messages),
+        raw=_shown(best.sheet, best.head_row), messages=(*(m for s in sheets for m in s.messages), *_below(alike, best)),
         headless=not any(best.heads.values()),
     )  # fmt: skip
+
+
+def _below(alike: Sequence[Run], best: Run) -> list[str]:
+    """What is said of texts below the last row of a table."""
+    last = max(run.rows[-1] for run in alike if run.sheet is best.sheet)
+    rows = best.sheet.rows
+    found = [i for i in range(last + 1, min(len(rows), last + 200)) if any(c != "" for c in rows[i])]
+    if not found:
+        return []
+    shown = ", ".join(f"'{sentence(rows[i])[:40]}'" for i in found[:4])
+    return [f"the text below the table, from row {best.sheet.line(found[0])} on, is not read: {shown}"]
 
 
 def _rivals(alike: list[Run], best: Run, runs: list[Run]) -> tuple[tuple[str, str], ...]:
@@ -544,7 +556,7 @@ def _text(cell: Cell) -> str:
     """A cell of the head as a text, without what marks a comment."""
     if isinstance(cell, float):
         return f"{cell:g}"
-    return str(cell).strip().strip('"').lstrip("#%! ").strip()
+    return str(cell)[:_LONGEST_HEAD].strip().strip('"').lstrip("#%! ").strip()
 
 
 def _is_numeric(row: Sequence[Cell]) -> bool:
@@ -652,10 +664,13 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
     for sheet in named:
         columns = [
             column for head, values in (sheet.arrays or {}).items()
-            if (column := column_of(list(values), head=head, unit=sheet.units.get(head, ""), sheet=sheet, where=f"{sheet.noun} '{head}'")) is not None
+            if (column := column_of(values if isinstance(values, np.ndarray) else list(values), head=head, unit=sheet.units.get(head, ""), sheet=sheet, where=f"{sheet.noun} '{head}'")) is not None
         ]  # fmt: skip
         if columns:
             tables.append((sheet, columns))
+    most = max((len(t[0].values) for _, t in tables), default=0)
+    if most > MAX_ROWS:
+        raise InputError(f"{name}: it has {most} rows, at most {MAX_ROWS} are read", field="rows", hint=SPLIT)
     if not tables:
         raise InputError(f"{name}: no arrays of numbers of one length", field="file", hint=_HINT)
 

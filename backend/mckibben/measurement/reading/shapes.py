@@ -7,7 +7,7 @@ from itertools import pairwise
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from types import MappingProxyType
-from typing import TYPE_CHECKING, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -33,6 +33,7 @@ if TYPE_CHECKING:
     from mckibben.measurement.reading.layout import Run
 
 _NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
+_MOST_GAPS = 1_000_000
 _TRUTH = 0.3  # share of the cells that are numbers, from which a column is one of numbers
 _CLOCKS = 0.7  # share of the cells that are times, from which a column is one of times
 _FEWEST_ACROSS = 4  # numbers in a row of a transposed table
@@ -51,10 +52,16 @@ class Part(NamedTuple):
 
 
 def column_of(
-    cells: Sequence[Cell], *, head: str, sheet: Sheet, where: str, unit: str = "", above: tuple[str, ...] = (),
+    cells: Sequence[Cell] | NDArray[Any], *, head: str, sheet: Sheet, where: str, unit: str = "", above: tuple[str, ...] = (),
     described: tuple[str, ...] = (), place: int = -1,
 ) -> Column | None:  # fmt: skip
     """A column of numbers, of times or of words; None = all of its cells are empty."""
+    if isinstance(cells, np.ndarray) and cells.dtype.kind in "biuf":
+        numbers = cells.astype(float).ravel()
+        holes = {int(r): Gap("not a finite number", "nan") for r in np.flatnonzero(~np.isfinite(numbers))[:_MOST_GAPS]}
+        numbers[~np.isfinite(numbers)] = np.nan
+        holes |= without_marks(numbers)
+        return Column(head, numbers, where, unit, above, described, None, holes, False, place) if np.isfinite(numbers).any() else None
     style = NumberStyle(sheet.decimal, sheet.thousands)
     cells = [float(c) if isinstance(c, (int, np.floating, np.integer)) and not isinstance(c, bool) else c for c in cells]
     cells = [cell.strip() if isinstance(cell, str) else cell for cell in cells]

@@ -15,6 +15,7 @@ from mckibben.measurement.reading.units import unit_of
 
 _FEWEST = 2  # values of an array
 _NAMES = ("name", "label", "title", "channel", "signal", "quantity", "id", "key")
+_MOST_LISTS = 50  # lists of names further up that are tried for a matrix
 _WIDEST = 12  # columns of a matrix without names
 _MOST_FIELDS = 12  # of a mapping that is one channel
 
@@ -173,6 +174,7 @@ def _size(value: Any) -> int:
 
 def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span, ...], units: Mapping[str, str], depth: int) -> None:
     texts, arrays, below = [*above], {}, []
+    lists = [*_name_lists(node), *reversed(walk.names[-_MOST_LISTS:])]
     own = dict(units)
     for key, value in node.items():
         if isinstance(value, dict) and not _has_arrays(value):
@@ -193,7 +195,7 @@ def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span
             if channel[2]:
                 own[name] = channel[2]
             texts += [Span(f"{path}{head}", f"{name}: {t}"[:MAX_TEXT]) for t in channel[3]]
-        elif (columns := _matrix(value, [*_name_lists(node), *reversed(walk.names)])) is not None:
+        elif (columns := _matrix(value, lists)) is not None:
             arrays |= columns
         elif isinstance(value, np.ndarray) and value.size >= _FEWEST and min(value.shape, default=0) == 1 or isinstance(value, np.ndarray) and value.ndim == 1 and value.size >= _FEWEST:
             arrays[head] = np.ravel(value)
@@ -320,7 +322,7 @@ def _emit(walk: _Walk, path: str, arrays: Mapping[str, Any], units: Mapping[str,
     if not sizes or max(sizes) < _FEWEST:
         return
     size = max(set(sizes), key=lambda n: (sizes.count(n) > 1, sizes.count(n) * n))
-    chosen = {k: v for k, v in arrays.items() if len(v) == size}
+    chosen = dict([(k, v) for k, v in arrays.items() if len(v) == size][:MAX_COLUMNS])
     rest = tuple(Span(f"{path}{k}", f"array {k} of {len(v)} values") for k, v in arrays.items() if len(v) != size)
     lists = tuple(
         Span(f"{path}{k}", f"{k}: {'; '.join(map(str, v))}"[:MAX_TEXT]) for k, v in arrays.items()
