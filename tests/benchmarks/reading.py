@@ -48,16 +48,33 @@ from mckibben.physics.errors import InputError
 ROOT = Path(__file__).parents[2]
 SHARED = Path(__file__).parents[3] / "shared" / "data"
 VERDICTS = ("right", "asked", "useful", "poor", "part", "wrong", "bold", "crashed")
-CONDITIONS = ("nominal_length", "load_mass", "load_force", "supply_pressure", "force_zero", "ambient_pressure")
+CONDITIONS = (
+    "nominal_length",
+    "load_mass",
+    "load_force",
+    "supply_pressure",
+    "force_zero",
+    "ambient_pressure",
+)
 SAME = 1e-6  # of the largest value of a channel
 
 #: File -> what must come of it: (kind, rows, channel -> (smallest, largest) in SI, words that a question must name).
 FAILING: Mapping[str, tuple[str, int, Mapping[str, tuple[float, float]], tuple[str, ...]]] = {
     "length_that_is_a_stroke.csv": ("", 0, {}, ("Pressure", "Length")),
     "wide_paper_table.csv": ("isotonic", 100, {"pressure": (0.0, 6e5), "displacement": (0.0, 0.0152)}, ()),
-    "joint_with_moment_arm.csv": ("", 17, {"pressure": (276.7e3, 612.6e3), "length": (0.3385, 0.401), "force": (25.0, 260.0)}, ()),
+    "joint_with_moment_arm.csv": (
+        "",
+        17,
+        {"pressure": (276.7e3, 612.6e3), "length": (0.3385, 0.401), "force": (25.0, 260.0)},
+        (),
+    ),
     "step_response.csv": ("", 600, {"pressure": (-2300.0, 6.008e5)}, ("U_valve",)),
-    "Kraftkennfeld_DMSP20_250.xlsx": ("isobaric", 360, {"pressure": (1e5, 6e5), "displacement": (0.0, 0.05)}, ()),
+    "Kraftkennfeld_DMSP20_250.xlsx": (
+        "isobaric",
+        360,
+        {"pressure": (1e5, 6e5), "displacement": (0.0, 0.05)},
+        (),
+    ),
     "pushing_forces.csv": ("", 58, {"pressure": (0.0, 6e5), "contraction": (-0.04, 0.25)}, ()),
 }
 
@@ -110,7 +127,9 @@ def answer(reader: Callable[..., Measurement], look: Callable[..., Any], case: C
         return Answer(crash=traceback.format_exc(), seconds=time.process_time() - start)
 
 
-def differences(truth: Measurement, found: Measurement) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
+def differences(
+    truth: Measurement, found: Measurement
+) -> tuple[list[tuple[str, str]], list[tuple[str, str]]]:
     """((subject, text) of what is wrong, of what is missing)."""
     wrong, missing = [], []
     if truth.kind != found.kind:
@@ -118,7 +137,12 @@ def differences(truth: Measurement, found: Measurement) -> tuple[list[tuple[str,
     if truth.rows != found.rows:
         wrong.append(("rows", f"{found.rows} rows, not {truth.rows}"))
     a, b = _length(truth), _length(found)
-    same_stroke = a is not None and b is not None and len(a) == len(b) and np.allclose(a, b, rtol=0.0, atol=SAME * np.max(np.abs(a)))
+    same_stroke = (
+        a is not None
+        and b is not None
+        and len(a) == len(b)
+        and np.allclose(a, b, rtol=0.0, atol=SAME * np.max(np.abs(a)))
+    )
     for channel in CHANNEL_UNITS:
         if channel in ("group", "direction") or (same_stroke and channel in STROKES):
             continue
@@ -136,14 +160,18 @@ def differences(truth: Measurement, found: Measurement) -> tuple[list[tuple[str,
             if channel == "time":
                 a, b = a - a.min(), b - b.min()
             if not np.allclose(a, b, rtol=0.0, atol=SAME * max(float(np.max(np.abs(a))), 1e-12)):
-                wrong.append((channel, f"{channel} {b.min():.5g} to {b.max():.5g}, not {a.min():.5g} to {a.max():.5g}"))
+                wrong.append(
+                    (channel, f"{channel} {b.min():.5g} to {b.max():.5g}, not {a.min():.5g} to {a.max():.5g}")
+                )
     for key in CONDITIONS:
         mine, theirs = found.conditions.get(key), truth.conditions.get(key)
         if key in ("load_mass", "load_force") and "force" in truth.columns and truth.kind != "transient":
             continue
         if theirs is None and isinstance(mine, float) and key in ("nominal_length", "load_mass"):
             wrong.append((key, f"{key} {mine:.5g} that is not there"))
-        elif isinstance(theirs, float) and (not isinstance(mine, float) or abs(mine - theirs) > 1e-6 * abs(theirs)):
+        elif isinstance(theirs, float) and (
+            not isinstance(mine, float) or abs(mine - theirs) > 1e-6 * abs(theirs)
+        ):
             (missing if mine is None else wrong).append((key, f"{key} {mine!r}, not {theirs!r}"))
     return wrong, missing
 
@@ -160,7 +188,11 @@ def _length(read: Measurement) -> np.ndarray | None:
 
 def _sorted(read: Measurement) -> np.ndarray:
     """The order of rows by all channels."""
-    keys = [np.round(np.asarray(read.columns[c], float), 9) for c in ("force", *STROKES, "pressure") if c in read.columns]
+    keys = [
+        np.round(np.asarray(read.columns[c], float), 9)
+        for c in ("force", *STROKES, "pressure")
+        if c in read.columns
+    ]
     return np.lexsort(keys)
 
 
@@ -185,7 +217,9 @@ def judged(truth: Answer, new: Answer) -> tuple[str, str]:
         if new.measurement is None:
             return ("useful" if new.hint or new.questions else "poor"), new.refusal
         named = bool(new.questions)
-        return ("asked" if named else "bold"), f"read as {new.measurement.kind}; the truth: {truth.refusal[:150]}"
+        return (
+            "asked" if named else "bold"
+        ), f"read as {new.measurement.kind}; the truth: {truth.refusal[:150]}"
     if new.measurement is None:
         if new.questions:
             return "asked", new.refusal
@@ -211,7 +245,9 @@ def of_corpus(case: Case, new: Answer) -> tuple[str, str]:
     assert case.entry is not None
     if new.crash:
         return "crashed", new.crash.strip().splitlines()[-1]
-    open_items = [i["about"] for i in case.entry["ask"] if not all(re.search(w, new.asks) for w in i["words"])]
+    open_items = [
+        i["about"] for i in case.entry["ask"] if not all(re.search(w, new.asks) for w in i["words"])
+    ]
     if new.measurement is None:
         if case.entry["ask"] and not open_items:
             return "asked", new.refusal
@@ -259,7 +295,9 @@ def _corpus() -> Iterator[Case]:
         say("corpus skipped: ../shared/data/lab-formats is not there")
         return
     for entry in json.loads(index.read_text(encoding="utf-8"))["files"]:
-        yield Case("corpus", Path(entry["file"]).name, (index.parent / entry["file"]).read_bytes(), entry=entry)
+        yield Case(
+            "corpus", Path(entry["file"]).name, (index.parent / entry["file"]).read_bytes(), entry=entry
+        )
 
 
 def _failing() -> Iterator[Case]:
@@ -354,7 +392,21 @@ def _tests() -> Iterator[Case]:
         import pytest
 
         recorder = _Recorder()
-        pytest.main(["-q", "-x", "--no-header", "-p", "no:cacheprovider", "-n", "0", "--dist", "no", str(ROOT / "tests/measurement/read")], [recorder])
+        pytest.main(
+            [
+                "-q",
+                "-x",
+                "--no-header",
+                "-p",
+                "no:cacheprovider",
+                "-n",
+                "0",
+                "--dist",
+                "no",
+                str(ROOT / "tests/measurement/read"),
+            ],
+            [recorder],
+        )
         kept.write_bytes(pickle.dumps(list(recorder.kept.values())))
     for name, data, correction in pickle.loads(kept.read_bytes()):
         yield Case("tests", name, data, correction)
@@ -371,7 +423,9 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
     parser.add_argument("--group", default="corpus,failing,data,labs,tests")
     parser.add_argument("--only", default="")
-    parser.add_argument("--list", default="wrong,bold,poor,part,crashed,asked", help="verdicts whose files are listed")
+    parser.add_argument(
+        "--list", default="wrong,bold,poor,part,crashed,asked", help="verdicts whose files are listed"
+    )
     parser.add_argument("--trace", action="store_true", help="print the traces of crashes")
     parser.add_argument("--save", help="folder into which the listed files are written")
     given = parser.parse_args()
@@ -391,7 +445,15 @@ def main() -> None:
             before, _ = of_failing(case, old)
         else:
             verdict, why = judged(old, new)
-            before = "crashed" if old.crash else "right" if old.measurement is not None else "asked" if old.questions else "useful"
+            before = (
+                "crashed"
+                if old.crash
+                else "right"
+                if old.measurement is not None
+                else "asked"
+                if old.questions
+                else "useful"
+            )
         counts[f"{group} new", verdict] += 1
         counts[f"{group} old", before] += 1
         seconds[f"{group} new"] += new.seconds
@@ -399,7 +461,9 @@ def main() -> None:
         if before == "right" and verdict != "right":
             worse[f"{group}: right -> {verdict}"] += 1
         if verdict in given.list.split(","):
-            say(f"{verdict:8} {number:4} {case.group} {case.name} {case.correction.canonical()[:80]}: {why[:260]}")
+            say(
+                f"{verdict:8} {number:4} {case.group} {case.name} {case.correction.canonical()[:80]}: {why[:260]}"
+            )
             if given.trace and new.crash:
                 say(new.crash)
             if given.save:

@@ -8,21 +8,34 @@ from dataclasses import replace
 import numpy as np
 
 from mckibben.measurement.kind import FORCE_KINDS, lifts_fast, starts_of_lifts, weights_of_runs
-from mckibben.measurement.measurement import CHANNEL_UNITS, REFERENCE, STROKES, UNIT_OF, Measurement, StatedValue, build
+from mckibben.measurement.measurement import (
+    CHANNEL_UNITS,
+    REFERENCE,
+    STROKES,
+    UNIT_OF,
+    Measurement,
+    StatedValue,
+    build,
+)
 from mckibben.measurement.order import FROM_ROWS, order_of_rows
 from mckibben.measurement.question import Question
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.reading.containers import sheets_of
 from mckibben.measurement.reading.decide import decide, roles_of
-from mckibben.measurement.reading.derived import with_derived
+from mckibben.measurement.reading.derived import with_derived, without_stated_marks
 from mckibben.measurement.reading.evidence import evidence_of
 from mckibben.measurement.reading.facts import Known, known_of
 from mckibben.measurement.reading.layout import table_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table
 from mckibben.measurement.reading.questions import Reading, questions_of
 from mckibben.measurement.reading.rows import rows_of
+from mckibben.measurement.reading.units import dimension_of
 from mckibben.physics.errors import InputError
 
+_SIGNALS = {
+    "voltage": "a voltage", "current": "a current", "count": "a count", "bridge": "the output of a bridge",
+    "share of range": "a share of a range",
+}  # fmt: skip
 _LOADS = ("load_mass", "load_force")
 UNKNOWN = "its name is not known"
 
@@ -30,7 +43,9 @@ UNKNOWN = "its name is not known"
 def looked_at(data: bytes, name: str, correction: Correction) -> tuple[Table, tuple[Evidence, ...], Known]:
     """The table of a file, the claims about it, and what is known beside its columns."""
     sheets = sheets_of(data, name)
-    table = with_derived(table_of(sheets, name, wanted=correction.sheet, head=correction.head))
+    table = without_stated_marks(
+        with_derived(table_of(sheets, name, wanted=correction.sheet, head=correction.head))
+    )
     evidence = tuple(evidence_of(table, name))
     return table, evidence, known_of(table, evidence, name, correction)
 
@@ -45,7 +60,9 @@ def reading_of(data: bytes, name: str, correction: Correction) -> Reading:
     return decided(name, table, evidence, known, correction)
 
 
-def decided(name: str, table: Table, evidence: tuple[Evidence, ...], known: Known, correction: Correction) -> Reading:
+def decided(
+    name: str, table: Table, evidence: tuple[Evidence, ...], known: Known, correction: Correction
+) -> Reading:
     """The decision about a table, and its rows."""
     decision = decide(table, evidence, known.facts(table))
     if not set(decision.uses) - {"time", "temperature"}:
@@ -59,13 +76,25 @@ def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputEr
     heads = ", ".join(f"'{c.title}'" for c in table.columns[:12])
     if table.headless:
         why = f"{name}: the file has no heads: say what its columns are; the first numbers are {_first_numbers(table)}"
-        return InputError(why, field="columns", hint='--column "pressure=column 1 [bar]" --column "length=column 2 [mm]"')
-    raw = [table.columns[e.target].title for e in evidence if e.facet == "role" and e.value == "raw" and e.target >= 0]
+        return InputError(
+            why, field="columns", hint='--column "pressure=column 1 [bar]" --column "length=column 2 [mm]"'
+        )
+    raw = [
+        table.columns[e.target].title
+        for e in evidence
+        if e.facet == "role" and e.value == "raw" and e.target >= 0
+    ]
     if raw:
         why = f"{name}: {table.noun} '{raw[0]}' is a signal without a scale, and no other column is known; columns: {heads}"
-        return InputError(why, field=f"{table.noun} {raw[0]}", hint=f'--column "pressure={raw[0]} [0 to 10 V = 0 to 10 bar]"')
+        return InputError(
+            why,
+            field=f"{table.noun} {raw[0]}",
+            hint=f'--column "pressure={raw[0]} [0 to 10 V = 0 to 10 bar]"',
+        )
     return InputError(
-        f"{name}: no {table.noun} is known: {heads}", field=f"{table.noun}s", hint="e.g. a header 'pressure_bar,length_mm,force_N'"
+        f"{name}: no {table.noun} is known: {heads}",
+        field=f"{table.noun}s",
+        hint="e.g. a header 'pressure_bar,length_mm,force_N'",
     )
 
 
@@ -89,7 +118,9 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
     stated_kind = conditions.pop("kind", None)
     kind = reading.correction.kind or (None if stated_kind is None else str(stated_kind).lower())
     messages = [*table.messages, *known.messages, *said(reading), *rows.messages]
-    messages += [f"{_rows(s.rows)} left out: {reason} (first: {s.first})" for reason, s in rows.skipped.items()]
+    messages += [
+        f"{_rows(s.rows)} left out: {reason} (first: {s.first})" for reason, s in rows.skipped.items()
+    ]
     messages += [f"{q.text} ({q.option})" for q in questions if not q.stops]
     fast = known.kind == "isotonic" and lifts_fast(channels)
     if kind is None and known.kind and not fast and _suits(known.kind, channels):
@@ -105,6 +136,10 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
     if "group" in channels:
         channels["group"] = channels["group"].astype(np.int64)
     unread = unread_of(reading)
+    messages += [
+        f"{table.noun} '{title}' is not used: {why}" for title, why in unread
+        if any(c.title == title and any(e.facet == "channel" and e.rule != "unit" for e in reading.own(i)) for i, c in enumerate(table.columns))
+    ]  # fmt: skip
     measurement = build(
         {c: channels[c] for c in CHANNEL_UNITS if c in channels}, name=reading.name, id=id, kind=kind,
         origins={c: _origin(reading, c) for c in channels}, ignored=[head for head, _ in unread], conditions=conditions,
@@ -167,12 +202,22 @@ def said(reading: Reading) -> list[str]:
         if channel == "pressure":
             air = reading.known.facts(reading.table).ambient
             if use.absolute:
-                whose = "the standard atmosphere" if isinstance(air, float) and air == 101_325.0 else "the surrounding air that the file states"
-                amount = f"{air:.0f} Pa subtracted" if isinstance(air, float) else "the pressure of the surrounding air is subtracted row by row"
-                lines.append(f"{label} is absolute pressure: {amount}, {whose}; {_reason(reading, i, 'absolute', True)}")
+                whose = (
+                    "the standard atmosphere"
+                    if isinstance(air, float) and air == 101_325.0
+                    else "the surrounding air that the file states"
+                )
+                amount = (
+                    f"{air:.0f} Pa subtracted"
+                    if isinstance(air, float)
+                    else "the pressure of the surrounding air is subtracted row by row"
+                )
+                lines.append(
+                    f"{label} is absolute pressure: {amount}, {whose}; {_reason(reading, i, 'absolute', True)}"
+                )
             elif not any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence):
                 lines.append(f"{label} read as gauge pressure")
-        if channel == "force" and use.unit in ("kg", "g", "kgf", "gf"):
+        if channel == "force" and dimension_of(use.unit) == "mass":
             lines.append(f"{label} is a mass: its weight is the force")
         if use.zero:
             lines.append(f"{label} is read from {use.zero:g} m on: {_reason(reading, i, 'zero', None)}")
@@ -183,7 +228,11 @@ def _reason(reading: Reading, i: int, facet: str, value: object) -> str:
     """The words that decided, and where they stand."""
     if i in reading.known.chosen:
         return "you say so"
-    found = [e for e in reading.evidence if e.facet == facet and e.target in (i, FILE) and (value is None or e.value == value)]
+    found = [
+        e
+        for e in reading.evidence
+        if e.facet == facet and e.target in (i, FILE) and (value is None or e.value == value)
+    ]
     if not found:
         return "its readings behave so, no words say it"
     best = max(found, key=lambda e: e.weight)
@@ -192,9 +241,14 @@ def _reason(reading: Reading, i: int, facet: str, value: object) -> str:
 
 def unread_of(reading: Reading) -> tuple[tuple[str, str], ...]:
     """All columns that nothing is read from, and why."""
-    used = {i for c, (i, _) in reading.decision.uses.items() if c in reading.rows.channels} | set(reading.rows.labels.values())
+    used = {i for c, (i, _) in reading.decision.uses.items() if c in reading.rows.channels} | set(
+        reading.rows.labels.values()
+    )
+    used |= {i for i, values in reading.known.columns.values() if len(values) == 1}
     found = [
-        (column.title, _why_unread(reading, i, column)) for i, column in enumerate(reading.table.columns) if i not in used
+        (column.title, _why_unread(reading, i, column))
+        for i, column in enumerate(reading.table.columns)
+        if i not in used
     ]
     return (*found, *reading.table.others)
 
@@ -203,13 +257,29 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
     if i in reading.rows.dropped:
         return reading.rows.dropped[i]
     if i in reading.known.chosen:
-        return "you do not want it" if i in {j for j, c in reading.known.chosen.items() if c is None} else "it cannot be read as you say"
+        return (
+            "you do not want it"
+            if i in {j for j, c in reading.known.chosen.items() if c is None}
+            else "it cannot be read as you say"
+        )
     own = reading.own(i)
-    roles = {r: w for r, w in roles_of(own).items() if r not in ("measured", "less wanted", "words", "at the valve")}
+    roles = {
+        r: w
+        for r, w in roles_of(own).items()
+        if r not in ("measured", "less wanted", "words", "at the valve")
+    }
+    unit = next((e.value for e in own if e.facet == "unit"), None)
+    if "raw" in roles and unit is not None and dimension_of(unit) in _SIGNALS:
+        named = next((e.value for e in own if e.facet == "channel" and e.rule != "unit"), "calibrated value")
+        return f"'{unit}' is {_SIGNALS[dimension_of(unit)]}, not a {named}"
     if roles:
         role = max(roles, key=lambda r: roles[r])
         article = "" if role.startswith("a ") or role in ("air",) else "a "
-        return {"air": "it is the surrounding air", "supply": "it is the supply", "at rest": "it is a length at rest"}.get(role, f"it is {article}{role}")
+        return {
+            "air": "it is the surrounding air",
+            "supply": "it is the supply",
+            "at rest": "it is a length at rest",
+        }.get(role, f"it is {article}{role}")
     if column.words is not None:
         return "it holds words"
     claimed = [e.value for e in own if e.facet == "channel"]
@@ -225,7 +295,9 @@ def _undecided(reading: Reading) -> tuple[str, ...]:
     """Columns that nothing is read from because neither their name nor their unit tells what they are."""
     unread = unread_of(reading)
     titles = [title for title, why in unread if why in (UNKNOWN, "it is a raw")]
-    return tuple(title for title in titles if any(c.title == title and c.words is None for c in reading.table.columns))
+    return tuple(
+        title for title in titles if any(c.title == title and c.words is None for c in reading.table.columns)
+    )
 
 
 def stated_of(reading: Reading, conditions: Mapping[str, float | str]) -> tuple[StatedValue, ...]:
@@ -233,12 +305,27 @@ def stated_of(reading: Reading, conditions: Mapping[str, float | str]) -> tuple[
     found = []
     for key, value in conditions.items():
         where = reading.known.stated.get(key)
-        by_you = where is not None and where.where.where == "you" and reading.correction.conditions.get(key) is not None
-        found.append(StatedValue(key, value, "you", "") if by_you else StatedValue(key, value, "file", where.where.where if where else ""))
+        by_you = (
+            where is not None
+            and where.where.where == "you"
+            and reading.correction.conditions.get(key) is not None
+        )
+        found.append(
+            StatedValue(key, value, "you", "")
+            if by_you
+            else StatedValue(key, value, "file", where.where.where if where else "")
+        )
     for channel, (i, use) in reading.decision.uses.items():
         choice = reading.known.chosen.get(i)
         if choice is not None and choice.assumed:
-            found.append(StatedValue(f"{UNIT_OF}{channel}", use.unit, "assumed", f"{reading.table.noun} '{reading.table.columns[i].title}'"))
+            found.append(
+                StatedValue(
+                    f"{UNIT_OF}{channel}",
+                    use.unit,
+                    "assumed",
+                    f"{reading.table.noun} '{reading.table.columns[i].title}'",
+                )
+            )
     return tuple(found)
 
 
@@ -248,7 +335,9 @@ def _in_words(reading: Reading) -> frozenset[str]:
     if "pressure" in reading.decision.uses:
         i = reading.decision.uses["pressure"][0]
         choice = reading.known.chosen.get(i)
-        if any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence) or (choice and choice.absolute is not None):
+        if any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence) or (
+            choice and choice.absolute is not None
+        ):
             words.add(REFERENCE)
     return frozenset(words)
 

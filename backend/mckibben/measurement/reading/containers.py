@@ -60,7 +60,9 @@ def sheets_of(data: bytes, name: str, *, packed: bool = False) -> list[Sheet]:
         InputError: a format that is not read, a damaged file, or one that is too large.
     """
     if len(data) > MAX_BYTES:
-        raise InputError(f"{name}: it has {len(data)} bytes, at most {MAX_BYTES} are read", field="file", hint=SPLIT)
+        raise InputError(
+            f"{name}: it has {len(data)} bytes, at most {MAX_BYTES} are read", field="file", hint=SPLIT
+        )
     for first, (what, remedy) in _REFUSED.items():
         if data.startswith(first):
             raise _refusal(name, f"the file is {what}", remedy)
@@ -83,7 +85,9 @@ def _refusal(name: str, why: str, hint: str) -> InputError:
     return InputError(f"{name}: no column can be read: {why}", field="file", hint=hint)
 
 
-def _guarded(reader: Callable[[bytes, str], list[Sheet]], data: bytes, name: str, why: str, hint: str) -> list[Sheet]:
+def _guarded(
+    reader: Callable[[bytes, str], list[Sheet]], data: bytes, name: str, why: str, hint: str
+) -> list[Sheet]:
     """What a library reads; whatever it raises on a damaged file is a refusal."""
     try:
         return reader(data, name)
@@ -124,14 +128,18 @@ def _json(text: str, name: str) -> Any:
     try:
         return json.loads(text)
     except RecursionError as error:
-        raise InputError(f"{name}: the JSON is nested too deeply", field="file", hint="objects of lists") from error
+        raise InputError(
+            f"{name}: the JSON is nested too deeply", field="file", hint="objects of lists"
+        ) from error
     except ValueError as error:
         lines = [line for line in text.split("\n") if line.strip()]
         try:
             return [json.loads(line) for line in lines]
         except (ValueError, RecursionError):
             if re.match(r'\s*[{\[]\s*["{\[\]}]', text):
-                raise InputError(f"{name}: it is not valid JSON: {error}", field="file", hint="export it again") from error
+                raise InputError(
+                    f"{name}: it is not valid JSON: {error}", field="file", hint="export it again"
+                ) from error
             return None
 
 
@@ -156,13 +164,17 @@ def _packed(data: bytes, name: str, *, packed: bool) -> list[Sheet]:
             _check_parts(parts, name)
             return _of_archive(archive, wanted, name, packed=packed)
     except (zipfile.BadZipFile, EOFError, NotImplementedError, OSError, zlib.error) as error:
-        raise _refusal(name, "the archive is damaged and cannot be unpacked", "create the archive again") from error
+        raise _refusal(
+            name, "the archive is damaged and cannot be unpacked", "create the archive again"
+        ) from error
 
 
 def _check_parts(parts: list[zipfile.ZipInfo], name: str) -> None:
     """Refuse an archive that unpacks to more than is read, or is protected."""
     if len(parts) > _PARTS or sum(part.file_size for part in parts) > _UNPACKED:
-        raise _refusal(name, f"the archive has {len(parts)} parts, or unpacks to more than {_UNPACKED} bytes", "split it")
+        raise _refusal(
+            name, f"the archive has {len(parts)} parts, or unpacks to more than {_UNPACKED} bytes", "split it"
+        )
     for part in parts:
         if part.flag_bits & 1:
             raise _refusal(name, "the archive is protected by a password", "create it without a password")
@@ -172,7 +184,9 @@ def _check_parts(parts: list[zipfile.ZipInfo], name: str) -> None:
 
 
 _CELL_AT = re.compile(rb"""\sr\s?=\s?["']([A-Za-z]{0,9})(\d{1,12})["']""")
-_MOST_OF_A_SHEET = 12_000_000  # cells of the rectangle that a sheet spans; the library takes memory for all of them
+_MOST_OF_A_SHEET = (
+    12_000_000  # cells of the rectangle that a sheet spans; the library takes memory for all of them
+)
 
 
 def _check_extent(archive: zipfile.ZipFile, parts: list[zipfile.ZipInfo], name: str) -> None:
@@ -197,9 +211,13 @@ def _column_number(letters: bytes) -> int:
     return number
 
 
-def _of_archive(archive: zipfile.ZipFile, parts: list[zipfile.ZipInfo], name: str, *, packed: bool) -> list[Sheet]:
+def _of_archive(
+    archive: zipfile.ZipFile, parts: list[zipfile.ZipInfo], name: str, *, packed: bool
+) -> list[Sheet]:
     tables = [p for p in parts if PurePosixPath(p.filename).suffix.lower() in _TABLES]
-    if tables and (len(tables) > 1 or len(parts) > 1 and any(p.filename.lower().endswith(".csv") for p in parts)):
+    if tables and (
+        len(tables) > 1 or (len(parts) > 1 and any(p.filename.lower().endswith(".csv") for p in parts))
+    ):
         shown = ", ".join(f"'{part.filename[:40]}'" for part in parts[:6])
         raise _refusal(name, f"the archive holds several tables, {shown}", "send one of them, or texts only")
     if tables or len(parts) == 1:
@@ -251,8 +269,12 @@ def _workbook(data: bytes, name: str) -> list[Sheet]:
             sheet = book.get_sheet_by_name(title)
             count += sheet.total_height * sheet.total_width
             if count > MAX_CELLS:
-                raise InputError(f"{name}, sheet '{title}': more than {MAX_CELLS} cells", field="file", hint=SPLIT)
-            rows: list[list[Cell]] = [[_cell(c) for c in row[:MAX_COLUMNS]] for row in sheet.to_python(skip_empty_area=False)]
+                raise InputError(
+                    f"{name}, sheet '{title}': more than {MAX_CELLS} cells", field="file", hint=SPLIT
+                )
+            rows: list[list[Cell]] = [
+                [_cell(c) for c in row[:MAX_COLUMNS]] for row in sheet.to_python(skip_empty_area=False)
+            ]
             _carry_merged(rows, sheet)
             style = style_of(cell for row in rows[:400] for cell in row)
             sheets.append(
@@ -263,7 +285,9 @@ def _workbook(data: bytes, name: str) -> list[Sheet]:
     except (KeyboardInterrupt, SystemExit, MemoryError):
         raise
     except BaseException as error:  # a panic of the library is no Exception
-        raise _refusal(name, f"the workbook cannot be opened ({str(error)[:100]})", "save it again as .xlsx, or as CSV") from None
+        raise _refusal(
+            name, f"the workbook cannot be opened ({str(error)[:100]})", "save it again as .xlsx, or as CSV"
+        ) from None
     if not any(sheet.rows for sheet in sheets):
         raise _refusal(name, "the workbook is empty", "it needs a header and one row per reading")
     return sheets
@@ -310,7 +334,8 @@ def _mat5(data: bytes, name: str) -> list[Sheet]:
 def _hdf5(data: bytes, name: str) -> list[Sheet]:
     import h5py
 
-    from mckibben.measurement.read.mat73 import _Mat73Reader, _of_matlab as is_matlab
+    from mckibben.measurement.read.mat73 import _Mat73Reader
+    from mckibben.measurement.read.mat73 import _of_matlab as is_matlab
 
     with h5py.File(io.BytesIO(data), "r") as file:
         by_matlab = b"MATLAB" in data[:128] or is_matlab(file)
@@ -362,12 +387,23 @@ def _tdms(data: bytes, name: str) -> list[Sheet]:
             size = max(set(sizes), key=lambda n: (sizes.count(n), n), default=0)
             own = _properties(group.properties, f"group '{group.name}'")
             kept = {k: v for k, v in arrays.items() if v is not None and len(v) == size}
-            sheets.append(Sheet(str(group.name), noun="channel", format="tdms", arrays=kept, units=units, texts=(*top, *own)))
+            sheets.append(
+                Sheet(
+                    str(group.name),
+                    noun="channel",
+                    format="tdms",
+                    arrays=kept,
+                    units=units,
+                    texts=(*top, *own),
+                )
+            )
     return sheets
 
 
 def _properties(properties: Any, where: str) -> tuple[Span, ...]:
-    return tuple(Span(f"{where}, '{k}'", f"{k}: {v}"[:1000]) for k, v in properties.items() if not isinstance(v, bool))
+    return tuple(
+        Span(f"{where}, '{k}'", f"{k}: {v}"[:1000]) for k, v in properties.items() if not isinstance(v, bool)
+    )
 
 
 def _tdms_values(values: Any) -> Any:
@@ -381,7 +417,11 @@ def _add_time(arrays: dict[str, Any], units: dict[str, str], channels: Any) -> N
     """A time axis from the properties of a waveform, where no channel is one."""
     from mckibben.measurement.reading.heads import head_claims
 
-    if any(c.facet == "channel" and c.value == "time" for head in arrays for c in head_claims(head[:200], units.get(head, ""))):
+    if any(
+        c.facet == "channel" and c.value == "time"
+        for head in arrays
+        for c in head_claims(head[:200], units.get(head, ""))
+    ):
         return
     for channel in channels:
         step, start = channel.properties.get("wf_increment"), channel.properties.get("wf_start_offset", 0.0)
@@ -395,7 +435,11 @@ def _parquet(data: bytes, name: str) -> list[Sheet]:
     try:
         import pyarrow.parquet as parquet
     except ImportError:
-        raise _refusal(name, "a Parquet file needs pyarrow, which is not installed", "pip install pyarrow, or save it as CSV") from None
+        raise _refusal(
+            name,
+            "a Parquet file needs pyarrow, which is not installed",
+            "pip install pyarrow, or save it as CSV",
+        ) from None
     table = parquet.read_table(io.BytesIO(data))
     if table.num_rows * table.num_columns > MAX_CELLS:
         raise InputError(f"{name}: more than {MAX_CELLS} cells", field="file", hint=SPLIT)
@@ -406,6 +450,11 @@ def _parquet(data: bytes, name: str) -> list[Sheet]:
             (values - values[0]) / np.timedelta64(1, "s") if values.dtype.kind == "M"
             else values.astype(float) if values.dtype.kind in "biuf" else ["" if v is None else str(v) for v in values]
         )  # fmt: skip
-    said = {k.decode("utf-8", "replace"): v.decode("utf-8", "replace") for k, v in (table.schema.metadata or {}).items()}
-    texts = tuple(Span("metadata", f"{k}: {v}"[:1000]) for k, v in said.items() if k not in ("pandas", "ARROW:schema"))
+    said = {
+        k.decode("utf-8", "replace"): v.decode("utf-8", "replace")
+        for k, v in (table.schema.metadata or {}).items()
+    }
+    texts = tuple(
+        Span("metadata", f"{k}: {v}"[:1000]) for k, v in said.items() if k not in ("pandas", "ARROW:schema")
+    )
     return [Sheet("", noun="column", format="parquet", arrays=arrays, texts=texts)]

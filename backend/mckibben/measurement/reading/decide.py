@@ -34,7 +34,18 @@ _NO_WORDS = -3.0  # nats of a column of which nothing says what it is
 _RANK = 0.15  # nats that each less usual unit costs
 _UNFIT = -9.0  # nats of a unit that is none of the channel
 _MASS = -1.0  # nats of a mass as a force
-_FINAL = ("supply", "air", "at rest", "preload", "deviation", "tube size", "a value", "lever", "slack", "condition")
+_FINAL = (
+    "supply",
+    "air",
+    "at rest",
+    "preload",
+    "deviation",
+    "tube size",
+    "a value",
+    "lever",
+    "slack",
+    "condition",
+)
 _ASIDE = ("set value", "running number", "remark", "raw", "words", "counter", "slack", *_FINAL)
 SLOTS = {
     "time": "time", "pressure": "pressure", "force": "force", "length": "stroke", "contraction": "stroke",
@@ -123,7 +134,9 @@ def uses_of(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts) ->
     for channel in SLOTS:
         if channels and channel not in channels:
             continue
-        words = channels.get(channel, 0.0) - 0.5 * max([w for c, w in channels.items() if c != channel], default=0.0)
+        words = channels.get(channel, 0.0) - 0.5 * max(
+            [w for c, w in channels.items() if c != channel], default=0.0
+        )
         words = words if channels else _NO_WORDS
         words -= _aside(channel, roles, scaled=scale is not None, worded=channels.get(channel, 0.0) >= 2.0)
         for unit, cost, scaling in _units(i, channel, table, own, scale):
@@ -138,15 +151,24 @@ def _aside(channel: str, roles: Mapping[str, float], *, scaled: bool, worded: bo
         weight = roles.get(role, 0.0)
         if scaled and role in ("raw", "counter", "running number", "remark", "set value"):
             continue
-        if (role == "set value" and channel == "command" and worded) or (role == "tube size" and channel != "diameter"):
+        if (role == "set value" and channel == "command" and worded) or (
+            role == "tube size" and channel != "diameter"
+        ):
             continue
         if role == "at rest" and channel in ("displacement", "contraction", "pressure", "force"):
             continue
         aside = max(aside, (2.5 if role in _FINAL else 1.0) * weight)
-    return aside - roles.get("measured", 0.0) + roles.get("less wanted", 0.0) + (roles.get("at the valve", 0.0) if channel == "pressure" else 0.0)
+    return (
+        aside
+        - roles.get("measured", 0.0)
+        + roles.get("less wanted", 0.0)
+        + (roles.get("at the valve", 0.0) if channel == "pressure" else 0.0)
+    )
 
 
-def _units(i: int, channel: str, table: Table, own: Sequence[Evidence], scale: Scale | None) -> list[tuple[str, float, Scale | None]]:
+def _units(
+    i: int, channel: str, table: Table, own: Sequence[Evidence], scale: Scale | None
+) -> list[tuple[str, float, Scale | None]]:
     """(unit, its cost, scale) that a column may have as a channel."""
     column = table.columns[i]
     if column.clock:
@@ -192,11 +214,17 @@ def _signed(
     if channel == "pressure":
         near, far = ({a: sum(e.weight for e in among if e.facet == "absolute" and e.value is a) for a in (True, False)}
                      for among in (own, [e for e in evidence if e.target == FILE]))  # fmt: skip
-        said = (near[True] - near[False]) if max(near.values()) else min(far[True], 6.0) - min(far[False], 6.0)
+        said = (
+            (near[True] - near[False]) if max(near.values()) else min(far[True], 6.0) - min(far[False], 6.0)
+        )
         if scale is not None and scale.absolute is not None:
             said = 6.0 if scale.absolute else -6.0
         return [
-            Option(score + (0.5 if absolute else -0.5) * (said - GAUGE), i, Use(channel, unit, 1, absolute, *scaling))
+            Option(
+                score + (0.5 if absolute else -0.5) * (said - GAUGE),
+                i,
+                Use(channel, unit, 1, absolute, *scaling),
+            )
             for absolute in (False, True)
         ]
     facet = {"force": "sign_force", "displacement": "sign_stroke", "contraction": "sign_stroke"}.get(channel)
@@ -204,10 +232,15 @@ def _signed(
         return [Option(score, i, Use(channel, unit, 1, False, *scaling))]
     near = [e for e in own if e.facet == facet]
     far = [e for e in evidence if e.target == FILE and e.facet == facet]
-    said = sum(e.weight * e.value for e in (near if near and max(e.weight for e in near) > 2.0 else [*near, *far]))
+    said = sum(
+        e.weight * e.value for e in (near if near and max(e.weight for e in near) > 2.0 else [*near, *far])
+    )
     said += _PULL if channel == "force" else _SHORTER
     zero = next((e.value for e in evidence if e.facet == "zero"), 0.0) if channel == "displacement" else 0.0
-    return [Option(score + 0.5 * sign * said, i, Use(channel, unit, sign, False, *scaling, zero)) for sign in (1, -1)]
+    return [
+        Option(score + 0.5 * sign * said, i, Use(channel, unit, sign, False, *scaling, zero))
+        for sign in (1, -1)
+    ]
 
 
 def _chosen(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts, choice: Choice) -> list[Option]:
@@ -215,17 +248,31 @@ def _chosen(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts, ch
     if choice.channel not in SLOTS:
         return []
     own = [e for e in evidence if e.target == i]
-    scale = answered_scale(choice.scale) if choice.scale else next((e.value for e in own if e.facet == "scale"), None)
+    scale = (
+        answered_scale(choice.scale)
+        if choice.scale
+        else next((e.value for e in own if e.facet == "scale"), None)
+    )
     if scale is not None and dimension_of(scale.unit) not in FITTING[choice.channel]:
         scale = None
     stated = next((e.value for e in own if e.facet == "unit"), None)
-    if scale is None and stated is not None and dimension_of(stated) in RAW and dimension_of(choice.unit or stated) in RAW and choice.channel != "command":
+    if (
+        scale is None
+        and stated is not None
+        and dimension_of(stated) in RAW
+        and dimension_of(choice.unit or stated) in RAW
+        and choice.channel != "command"
+    ):
         return []  # its scale is asked
     if choice.unit is not None and scale is None:
         units: list[tuple[str, float, Scale | None]] = [(choice.unit, 0.0, None)]
     else:
         units = _units(i, choice.channel, table, own, scale)
-    options = [o for unit, cost, scaling in units for o in _signed(i, choice.channel, unit, YOU + cost, scaling, own, evidence)]
+    options = [
+        o
+        for unit, cost, scaling in units
+        for o in _signed(i, choice.channel, unit, YOU + cost, scaling, own, evidence)
+    ]
     if choice.channel in ("force", "displacement", "contraction"):
         options = [o for o in options if o.use.sign == choice.sign]
     elif choice.sign == -1:
@@ -259,7 +306,9 @@ class _Scorer:
         values = self.look(option.column, option.use)
         if self.table.rows < physics.ENOUGH:
             return []  # so few readings show nothing
-        return physics.alone(option.use.channel, values[np.isfinite(values)], self.facts.rest, len(self.table.titles))
+        return physics.alone(
+            option.use.channel, values[np.isfinite(values)], self.facts.rest, len(self.table.titles)
+        )
 
     def joint(self, p: Option | None, f: Option | None, x: Option | None) -> Terms:
         """What pressure, force and stroke say together; a constant of the test stands for a missing pressure."""
@@ -300,12 +349,24 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
     uses: dict[str, tuple[int, Use]] = {o.use.channel: (o.column, o.use) for o in winner if o is not None}
     taken = {o.column for o in winner if o is not None}
     for slot in ("time", "command", "diameter", "temperature", "velocity"):
-        best = next((o for o in slots[slot] if o.column not in taken and o.score > 0.0 and _is_share(slot, o, table, facts)), None)
+        best = next(
+            (
+                o
+                for o in slots[slot]
+                if o.column not in taken and o.score > 0.0 and _is_share(slot, o, table, facts)
+            ),
+            None,
+        )
         if best is not None:
             uses[best.use.channel] = best.column, best.use
             taken.add(best.column)
     for option in sorted(slots["stroke"], key=lambda o: -o.score):  # the same stroke in another form
-        if option.use.channel not in uses and option.column not in taken and option.score >= 2.0 and any(c in uses for c in STROKES):
+        if (
+            option.use.channel not in uses
+            and option.column not in taken
+            and option.score >= 2.0
+            and any(c in uses for c in STROKES)
+        ):
             uses[option.use.channel] = option.column, option.use
             taken.add(option.column)
     for channel, (i, use) in uses.items():
@@ -327,9 +388,15 @@ def _is_share(slot: str, option: Option, table: Table, facts: Facts) -> bool:
     return bool(np.nanmax(np.abs(values)) <= 1.001)
 
 
-def _ranked(slots: Mapping[str, Sequence[Option]], scorer: _Scorer) -> list[tuple[float, tuple[Option | None, ...]]]:
+def _ranked(
+    slots: Mapping[str, Sequence[Option]], scorer: _Scorer
+) -> list[tuple[float, tuple[Option | None, ...]]]:
     """All combinations of a pressure, a force and a stroke, the best first; each may be absent."""
-    aside = [{o.column: o.score for o in reversed(slots[slot]) if o.score > 0.0} for slot in slots if slot not in _MAIN]
+    aside = [
+        {o.column: o.score for o in reversed(slots[slot]) if o.score > 0.0}
+        for slot in slots
+        if slot not in _MAIN
+    ]
     found = []
     for combination in itertools.product(*([*slots[slot], None] for slot in _MAIN)):
         chosen = [o for o in combination if o is not None]
@@ -337,7 +404,10 @@ def _ranked(slots: Mapping[str, Sequence[Option]], scorer: _Scorer) -> list[tupl
         if len(columns) < len(chosen):
             continue
         score = sum(o.score for o in chosen) + sum(v for _, v in scorer.joint(*combination))
-        score += sum(max((s for column, s in of_slot.items() if column not in columns), default=0.0) for of_slot in aside)
+        score += sum(
+            max((s for column, s in of_slot.items() if column not in columns), default=0.0)
+            for of_slot in aside
+        )
         found.append((score, combination))
     found.sort(key=lambda item: -item[0])
     return found
@@ -360,7 +430,9 @@ def _rivals(ranked: Sequence[tuple[float, tuple[Option | None, ...]]]) -> list[R
         for part, read in _PARTS.items():
             for score, combination in ranked:
                 other = combination[place]
-                if read(other) == read(mine) or (part != "column" and (other is None or other.column != mine.column)):
+                if read(other) == read(mine) or (
+                    part != "column" and (other is None or other.column != mine.column)
+                ):
                     continue
                 found.append(Rival(slot, part, top - score, other))
                 break

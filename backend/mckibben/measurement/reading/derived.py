@@ -7,9 +7,32 @@ from dataclasses import replace
 
 import numpy as np
 
+from mckibben.measurement.reading.evidence import stated_marks
 from mckibben.measurement.reading.heads import head_claims, taken_apart
-from mckibben.measurement.reading.model import Column, Table
+from mckibben.measurement.reading.model import Column, Gap, Table
 from mckibben.measurement.reading.units import Unit, quantity_si
+
+_FEW = 0.3  # share of the rows that may be lost
+
+
+def without_stated_marks(table: Table) -> Table:
+    """A table without the numbers that its texts say to stand for a lost reading."""
+    marks = stated_marks(table)
+    if not marks:
+        return table
+    columns = []
+    for column in table.columns:
+        here = np.isin(column.values, [mark for mark, _ in marks])
+        if column.words is None and here.any() and not here.all() and np.mean(here) < _FEW:
+            gaps = {
+                int(r): Gap(f"{column.values[r]:g} means no reading", f"{column.values[r]:g}")
+                for r in np.flatnonzero(here)
+            }
+            column = replace(
+                column, values=np.where(here, np.nan, column.values), gaps={**column.gaps, **gaps}
+            )
+        columns.append(column)
+    return replace(table, columns=tuple(columns))
 
 
 def with_derived(table: Table) -> Table:
@@ -22,7 +45,11 @@ def with_derived(table: Table) -> Table:
     if torque is None or lever is None:
         return table
     t, a = table.columns[torque], table.columns[lever]
-    moment, arm = (c.values * quantity_si(1.0, u.name, si) for c, u, si in ((t, units[torque], "N*m"), (a, units[lever], "m")) if u)
+    moment, arm = (
+        c.values * quantity_si(1.0, u.name, si)
+        for c, u, si in ((t, units[torque], "N*m"), (a, units[lever], "m"))
+        if u
+    )
     with np.errstate(divide="ignore", invalid="ignore"):
         force = np.where(arm != 0.0, moment / arm, np.nan)
     head = f"force = {t.title} / {a.title}"
@@ -31,7 +58,9 @@ def with_derived(table: Table) -> Table:
     return replace(table, columns=(*table.columns, made), messages=(*table.messages, message))
 
 
-def _only(columns: Sequence[Column], units: Sequence[Unit | None], dimension: str, role: str | None) -> int | None:
+def _only(
+    columns: Sequence[Column], units: Sequence[Unit | None], dimension: str, role: str | None
+) -> int | None:
     """The one column of numbers in a unit, with a role; None = there is none, or several."""
     found = [
         i for i, (c, u) in enumerate(zip(columns, units, strict=True))

@@ -13,7 +13,12 @@ _WORD = re.compile(r"[^\W\d_]+")
 _KANA_OR_KANJI = re.compile("[\u3040-\u30ff\u4e00-\u9fff]+")
 _HALF_WIDTH = re.compile("[\uff61-\uff9f]")  # single bytes: any letter of Latin-1 looks like one
 #: Alphabets of one byte: codec -> name for people; the first of equally good ones is taken.
-_ALPHABETS = {"latin-1": "Latin-1", "cp1250": "Windows-1250", "cp1251": "Windows-1251", "cp1254": "Windows-1254"}
+_ALPHABETS = {
+    "latin-1": "Latin-1",
+    "cp1250": "Windows-1250",
+    "cp1251": "Windows-1251",
+    "cp1254": "Windows-1254",
+}
 #: Alphabets of two bytes, whose texts do not decode by chance.
 _PAIRED = {"gb18030": "GB 18030", "euc-kr": "EUC-KR", "big5": "Big5"}
 #: Letters of Windows-1250 whose bytes are signs in Latin-1; signs do not stand inside of words.
@@ -34,7 +39,11 @@ def decoded(data: bytes, name: str) -> tuple[str, tuple[str, ...]]:
     """
     messages: tuple[str, ...] = ()
     head = data[:4000]
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or (len(head) > 20 and max(head[::2].count(0), head[1::2].count(0)) > _ZEROS * len(head) and min(head[::2].count(0), head[1::2].count(0)) == 0):
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff") or (
+        len(head) > 20
+        and max(head[::2].count(0), head[1::2].count(0)) > _ZEROS * len(head)
+        and min(head[::2].count(0), head[1::2].count(0)) == 0
+    ):
         data = _from_utf16(data, name)
     if control := _CONTROL.search(data):
         what = "NUL bytes" if control.group() == b"\0" else "control characters"
@@ -49,7 +58,11 @@ def decoded(data: bytes, name: str) -> tuple[str, tuple[str, ...]]:
         text, encoding = _otherwise(data)
         messages = (f"the file is not UTF-8: read as {encoding}",)
     if not text.strip():
-        raise InputError(f"{name}, row 1: the file is empty", field="row 1", hint="it needs a header and one line per reading")
+        raise InputError(
+            f"{name}, row 1: the file is empty",
+            field="row 1",
+            hint="it needs a header and one line per reading",
+        )
     return (text.replace("\r\n", "\n").replace("\r", "\n") if "\r" in text else text), messages
 
 
@@ -64,7 +77,9 @@ def _from_utf16(data: bytes, name: str) -> bytes:
     except UnicodeError as error:
         if codec != "utf-16":
             return data
-        raise InputError(f"{name}, row 1: the UTF-16 text is damaged", field="row 1", hint="save it as 'CSV UTF-8'") from error
+        raise InputError(
+            f"{name}, row 1: the UTF-16 text is damaged", field="row 1", hint="save it as 'CSV UTF-8'"
+        ) from error
 
 
 def _otherwise(data: bytes) -> tuple[str, str]:

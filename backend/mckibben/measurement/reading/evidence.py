@@ -38,21 +38,47 @@ _OVER = 0.35  # of the weight of a head, that texts over it have
 NAME = "the file's name"
 _CLAUSES = re.compile(r"[,;.|()\[\]](?!\d)|\s[/–-]\s|\s(?:and|und|et|e|y|og|och|en|i|a|ve|и|та)\s")
 _SIGN_BEFORE = re.compile(r"(?<![\w.,+-])\(?(?P<sign>[+−-])\)?(?=\s?(?:[A-Za-z]\w{0,2}\s?)?(?:=|≙|->|→))")
-_SIGN_BEHIND = re.compile(r"(?<=[^\W\d_])\s?[:=]?\s?\(?(?P<sign>\+)\)?(?=\s?(?:[,;.)/]|$))|(?<=[^\W\d_])\s?[:=]?\s\(?(?P<minus>[−-])\)?(?=\s?(?:[,;.)/]|$))")
+_SIGN_BEHIND = re.compile(
+    r"(?<=[^\W\d_])\s?[:=]?\s?\(?(?P<sign>\+)\)?(?=\s?(?:[,;.)/]|$))|(?<=[^\W\d_])\s?[:=]?\s\(?(?P<minus>[−-])\)?(?=\s?(?:[,;.)/]|$))"
+)
 _L_ZERO = re.compile(r"(?<![^\W_])[Ll](?:_\{?0\}?|_?o(?=\s?[=:≈])|[ ]0(?=\s?[=:≈])|₀)")
-_NO_PRESSURE = re.compile(r"(?<![\w.,])(?:p\s?=\s?)?0(?:[.,]0{1,4})?\s?(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s?\(g\))?(?!\w)")
+_NO_PRESSURE = re.compile(
+    r"(?<![\w.,])(?:p\s?=\s?)?0(?:[.,]0{1,4})?\s?(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s?\(g\))?(?!\w)"
+)
 _AT_PRESSURE = re.compile(
     r"(?i)[\s(,]{0,3}(?:at|bei|@|à|a|con|mit|with|under)?\s?[0-9.,]{0,6}[1-9][0-9.,]{0,6}\s?(?:mbar|bar|[hkM]?Pa|psi)(?!\w)"
 )
-_MERCURY = re.compile(r"(?i)мм\s?рт\.?\s?ст\.?|mm\s?hg\b|mm\s(?:of\s|de\s|di\s)?(?:mercur\w{0,6}|quecksilber\w{0,6}|qs\b)")
+_MERCURY = re.compile(
+    r"(?i)мм\s?рт\.?\s?ст\.?|mm\s?hg\b|mm\s(?:of\s|de\s|di\s)?(?:mercur\w{0,6}|quecksilber\w{0,6}|qs\b)"
+)
 _NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?)\s?[:=]\s?(?P<value>.{1,200})")
-_CODE = re.compile(r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?(?![0-9a-z])")
-_OTHER_GAUGES = re.compile(r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]?gau?ges?|gau?ge length")
+_CODE = re.compile(
+    r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?(?![0-9a-z])"
+)
+_OTHER_GAUGES = re.compile(
+    r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]?gau?ges?|gau?ge length"
+)
 _BEHIND_UPTO = re.compile(r"[,;.:(](?!\d)|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s")
-_SCALED = re.compile(r"(?i)[0-9]\s?(?:%|m?V|m?A|counts?|digits?)\s?(?:=|≙|->|→)|(?:=|≙|->|→)\s?[0-9.]{1,8}\s?(?:V|mA|counts?)")
+_SCALED = re.compile(
+    r"(?i)[0-9]\s?(?:%|m?V|m?A|counts?|digits?)\s?(?:=|≙|->|→)|(?:=|≙|->|→)\s?[0-9.]{1,8}\s?(?:V|mA|counts?)"
+)
 _HELD_BY = {"length": "length", "mass": "load_mass", "pressure": "pressure", "ratio": "contraction"}
 _SHORT_LENGTH = 0.08  # m; a title that says less without a word names a stroke, not a length
 _COLUMN_SAMPLE = 5000
+
+
+_LOST = re.compile(r"(?<![\w.])([-+]?\d{1,7}(?:[.,]\d{1,6})?)(?![\w.]*\d)")
+
+
+def stated_marks(table: Table) -> tuple[tuple[float, Span], ...]:
+    """Numbers that texts say to stand for a lost reading: "a force of -1.0 marks a lost sample", "NoValue: -9999"."""
+    found = []
+    for span in table.texts:
+        words = words_of(span.text[:MAX_TEXT])
+        if word_set("no_reading").among(words) or "novalue" in words or ("no" in words and "value" in words):
+            numbers = _LOST.findall(span.text[:MAX_TEXT])
+            found += [(number_of(n), span) for n in numbers[:1] if len(numbers) == 1]
+    return tuple(found)
 
 
 def evidence_of(table: Table, name: str) -> list[Evidence]:
@@ -79,7 +105,11 @@ def of_column(i: int, column: Column) -> list[Evidence]:
     for text in column.above:
         found += [_from_claim(i, c, Span(column.where, text), _OVER) for c in head_claims(text[:200])]
     for text in column.described:
-        found += [_from_claim(i, c, Span(column.where, text), 0.9) for c in head_claims(text[:200]) if c.facet != "role"]
+        found += [
+            _from_claim(i, c, Span(column.where, text), 0.9)
+            for c in head_claims(text[:200])
+            if c.facet != "role"
+        ]
     absolute = taken_apart(column.head, column.unit).absolute
     texts = [t for t in (*column.above, *column.described) if absolute is None]
     for text in texts:
@@ -87,7 +117,11 @@ def of_column(i: int, column: Column) -> list[Evidence]:
     if absolute is not None:
         found.append(Evidence(i, "absolute", absolute, _UNIT_STATED, span, "reference"))
     if unit is not None:
-        found.append(Evidence(i, "unit", unit.name, _UNIT_STATED, Span(column.where, column.unit or column.head), "unit"))
+        found.append(
+            Evidence(
+                i, "unit", unit.name, _UNIT_STATED, Span(column.where, column.unit or column.head), "unit"
+            )
+        )
         found += [Evidence(i, "channel", c, w, span, "unit") for c, w in BY_UNIT.get(unit.dimension, ())]
         if unit.dimension in RAW:
             found.append(Evidence(i, "role", "raw", _TEXTS, span, "raw signal"))
@@ -118,7 +152,9 @@ def _of_cells(i: int, column: Column, unit: Unit | None, span: Span) -> list[Evi
         return found
     values = column.values[np.isfinite(column.values)][:_COLUMN_SAMPLE]
     if len(values) > 5 and unit is None and np.all(np.diff(values) == 1.0) and values[0] in (0.0, 1.0):
-        found.append(Evidence(i, "role", "running number", _COUNTS, Span(span.where, "counts 1, 2, 3, ..."), "counts"))
+        found.append(
+            Evidence(i, "role", "running number", _COUNTS, Span(span.where, "counts 1, 2, 3, ..."), "counts")
+        )
     if not len(values):
         return found
     low, high = float(np.min(values)), float(np.max(values))
@@ -127,7 +163,13 @@ def _of_cells(i: int, column: Column, unit: Unit | None, span: Span) -> list[Evi
             since = Span(span.where, f"counts {name} since 1970")
             found.append(Evidence(i, "unit_word", name, _SINCE_1970, since, "since 1970"))
             found.append(Evidence(i, "channel", "time", _CLOCK_SHOWN, since, "since 1970"))
-    if unit is None and 36_000.0 < low and high < 80_000.0 and high - low < 60.0 and np.any(values != np.round(values)):
+    if (
+        unit is None
+        and low > 36_000.0
+        and high < 80_000.0
+        and high - low < 60.0
+        and np.any(values != np.round(values))
+    ):
         since = Span(span.where, "counts days as spreadsheets do")
         found.append(Evidence(i, "unit_word", "day", _SINCE_1970, since, "serial days"))
     return found
@@ -156,7 +198,12 @@ def _contexts(text: str) -> list[_Context]:
         begin = quantity.end
         behind = _BEHIND_UPTO.split(text[begin : min(upto, begin + 60)].lstrip(" ("))[0]
         contexts.append(
-            _Context(quantity, words_of(before), words_of(behind), _AT_PRESSURE.match(text, quantity.end) is not None)
+            _Context(
+                quantity,
+                words_of(before),
+                words_of(behind),
+                _AT_PRESSURE.match(text, quantity.end) is not None,
+            )
         )
     return contexts
 
@@ -166,7 +213,12 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
     found: list[Evidence] = []
     text = span.text[:MAX_TEXT]
     noted = _of_note(span, named=table.format in ("json", "mat", "hdf5") and target == FILE)
-    if noted is not None and noted.facet.partition(":")[2] in (*CONDITION_UNITS, "kind", "ignore", "bad_rows"):
+    if noted is not None and noted.facet.partition(":")[2] in (
+        *CONDITION_UNITS,
+        "kind",
+        "ignore",
+        "bad_rows",
+    ):
         return [noted]
     found += [] if noted is None else [noted]
     if noted is not None and noted.facet == "condition:pressure":
@@ -181,11 +233,22 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         for facet, value in rule.claims.items():
             if facet == "kind" and rule.pattern.search(folded(text)):
                 found.append(Evidence(FILE, "kind", value, rule.weight, span, rule.id))
-            elif facet == "condition" and (match := rule.pattern.search(text)) and (name := unit_of_air(match["value"])):
+            elif (
+                facet == "condition"
+                and (match := rule.pattern.search(text))
+                and (name := unit_of_air(match["value"]))
+            ):
                 unit = Unit(name, "pressure")
                 quantity = Quantity(match.start(), match.end(), number_of(match["value"]), unit, match[0])
                 found.append(Evidence(FILE, f"condition:{value}", quantity, rule.weight, span, rule.id))
-    found += [*_of_description(span, table), *_of_legend(span, table), *_of_list(span, table), *_of_zero(span), *_of_scales(span, table), *of_code(span)]
+    found += [
+        *_of_description(span, table),
+        *_of_legend(span, table),
+        *_of_list(span, table),
+        *_of_zero(span),
+        *_of_scales(span, table),
+        *of_code(span),
+    ]
     return [e for e in found if e is not None]
 
 
@@ -214,7 +277,11 @@ def _of_note(span: Span, *, named: bool = False) -> Evidence | None:
     key, unit = key_of(match["key"])
     value = match["value"].strip().strip('";,')
     if key in ("kind", "ignore", "bad_rows", *CONDITION_UNITS, *TEXT_CONDITIONS):
-        if key == "pressure" and folded(value) not in REFERENCES and not value.lower().startswith(("abs", "gau", "rel")):
+        if (
+            key == "pressure"
+            and folded(value) not in REFERENCES
+            and not value.lower().startswith(("abs", "gau", "rel"))
+        ):
             return None
         return Evidence(FILE, f"condition:{key}", f"{value} {unit}" if unit else value, 9.0, span, "note")
     if span.text.lstrip().startswith("#") or named:
@@ -234,21 +301,29 @@ def _of_clauses(span: Span, table: Table) -> list[Evidence]:
         if not words or len(words) > 40:
             continue
         for rule in rules("clause"):
-            if all(word_set(name).among(words) for name in rule.needs) and not any(word_set(n).among(words) for n in rule.without):
+            if all(word_set(name).among(words) for name in rule.needs) and not any(
+                word_set(n).among(words) for n in rule.without
+            ):
                 for facet, value in rule.claims.items():
                     column = _column_named(clause, table)
                     target = column if column is not None else owner if owner is not None else FILE
-                    found.append(Evidence(target, facet, value, rule.weight, Span(span.where, span.text), rule.id))
+                    found.append(
+                        Evidence(target, facet, value, rule.weight, Span(span.where, span.text), rule.id)
+                    )
     return found
 
 
 def _column_named(text: str, table: Table) -> int | None:
     """The one column whose head a text begins with, or whose number it names; None = none, or several."""
-    number = re.search(r"(?i)(?<![^\W_])(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?(\d{1,2})(?![^\W_])", text)
+    number = re.search(
+        r"(?i)(?<![^\W_])(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?(\d{1,2})(?![^\W_])", text
+    )
     found = set()
     for i, column in enumerate(table.columns):
         head = column.head.strip()
-        if number and re.search(rf"(?i)(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?{number[1]}(?!\d)", head):
+        if number and re.search(
+            rf"(?i)(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?{number[1]}(?!\d)", head
+        ):
             found.add(i)
         name = taken_apart(head, column.unit).name
         if len(name) > 0 and re.match(rf"[\s#%/*-]{{0,6}}{re.escape(name)}(?![^\W_])", text, re.IGNORECASE):
@@ -263,7 +338,7 @@ def _of_quantity(context: _Context, target: int, span: Span) -> Evidence | None:
     for rule in rules("quantity"):
         if quantity.unit.dimension not in rule.dimension or not _fires(rule, before, behind):
             continue
-        (facet, key), = rule.claims.items()
+        ((facet, key),) = rule.claims.items()
         if context.pressed and key == "nominal_length":
             continue
         if best is None or rule.weight > best.weight:
@@ -297,7 +372,11 @@ def _of_title(span: Span, target: int, table: Table) -> list[Evidence]:
         if evidence is not None:
             found.append(evidence)
     for clause_evidence in _of_clauses(span, Table((), (), np.zeros(0, np.intp))):
-        found.append(clause_evidence._replace(target=target if clause_evidence.target == FILE else clause_evidence.target))
+        found.append(
+            clause_evidence._replace(
+                target=target if clause_evidence.target == FILE else clause_evidence.target
+            )
+        )
     return found
 
 
@@ -314,7 +393,11 @@ def _of_name(name: str, table: Table) -> list[Evidence]:
     for context in _contexts(text):
         quantity = context.quantity
         evidence = _of_quantity(context, FILE, span)
-        if quantity.unit.dimension == "length" and context.before[-1:] in (("l",), ("length",)) and not _HELD_STEM.search(stem):
+        if (
+            quantity.unit.dimension == "length"
+            and context.before[-1:] in (("l",), ("length",))
+            and not _HELD_STEM.search(stem)
+        ):
             found.append(Evidence(FILE, "condition:nominal_length", quantity, 1.5, span, "name"))
         if evidence is None:
             channel = _HELD_BY.get(quantity.unit.dimension)
@@ -359,13 +442,19 @@ def _of_legend(span: Span, table: Table) -> list[Evidence]:
             if unit is not None and column.head.strip() == match["head"] and _unit_of(column) is None:
                 more = f"{' '.join(words[1:])} {match['more'] or ''}".strip()
                 made = Column(f"{column.head} {more}", np.zeros(0), span.where, unit.name)
-                found += [e._replace(span=span) for e in of_column(i, made) if e.facet != "channel" or e.rule != "letter"]
+                found += [
+                    e._replace(span=span)
+                    for e in of_column(i, made)
+                    if e.facet != "channel" or e.rule != "letter"
+                ]
                 if unit.absolute is not None:
                     found.append(Evidence(i, "absolute", unit.absolute, rule.weight, span, rule.id))
     return found
 
 
-_DESCRIBES = re.compile(r"\s{0,3}(?P<link>[=:]|\s(?:in|is|unit|units|dtype)\s?=?:?)\s?(?P<words>[^,;=|]{1,80})|\s{1,3}(?P<bracket>\[[^\[\]]{1,20}\])")
+_DESCRIBES = re.compile(
+    r"\s{0,3}(?P<link>[=:]|\s(?:in|is|unit|units|dtype)\s?=?:?)\s?(?P<words>[^,;=|]{1,80})|\s{1,3}(?P<bracket>\[[^\[\]]{1,20}\])"
+)
 _UNIT_KEY = re.compile(r"(?i)(?<![^\W_])units?\s?[=:]\s?(?P<unit>\S{1,12})")
 
 
@@ -387,18 +476,39 @@ def _of_description(span: Span, table: Table) -> list[Evidence]:
             continue
         words = (match["bracket"] or match["words"]).strip()
         key = _UNIT_KEY.search(text, at)
-        unit = (unit_of(key["unit"]) if key else None) or unit_of(words) or unit_of(words.split()[0] if match["link"] and match["link"].strip() in ("in", "unit", "units") else "")
+        unit = (
+            (unit_of(key["unit"]) if key else None)
+            or unit_of(words)
+            or unit_of(
+                words.split()[0] if match["link"] and match["link"].strip() in ("in", "unit", "units") else ""
+            )
+        )
         apart = taken_apart(words)
         unit = unit or apart.unit
         if unit is not None and not unit.dimension:
             unit = None
-        if _unit_of(column) is None and unit is not None and (key or not any(c.isdigit() for c in words.split("[")[0][:20].split(" ")[0])):
-            made = Column(f"{head} {words}" if not unit_of(words) else head, np.zeros(0), span.where, unit.name)
-            found += [e._replace(span=span) for e in of_column(i, made) if e.facet in ("unit", "channel", "absolute", "sign_stroke", "sign_force") and e.rule != "letter"]
+        if (
+            _unit_of(column) is None
+            and unit is not None
+            and (key or not any(c.isdigit() for c in words.split("[")[0][:20].split(" ")[0]))
+        ):
+            made = Column(
+                f"{head} {words}" if not unit_of(words) else head, np.zeros(0), span.where, unit.name
+            )
+            found += [
+                e._replace(span=span)
+                for e in of_column(i, made)
+                if e.facet in ("unit", "channel", "absolute", "sign_stroke", "sign_force")
+                and e.rule != "letter"
+            ]
             if unit.absolute is not None:
                 found.append(Evidence(i, "absolute", unit.absolute, _UNIT_STATED, span, "description"))
         elif unit is None and match["words"] and not head_claims(head[:200], column.unit):
-            found += [_from_claim(i, c, span, 0.9) for c in head_claims(words[:200]) if c.facet == "channel" and c.rule != "letter"]
+            found += [
+                _from_claim(i, c, span, 0.9)
+                for c in head_claims(words[:200])
+                if c.facet == "channel" and c.rule != "letter"
+            ]
         if apart.absolute is not None and match["words"] and taken_apart(head, column.unit).absolute is None:
             found.append(Evidence(i, "absolute", apart.absolute, _UNIT_STATED, span, "description"))
     return found
@@ -420,10 +530,16 @@ def _of_list(span: Span, table: Table) -> list[Evidence]:
 def _numbered(number: int, table: Table) -> Iterator[int]:
     """The column that a number means: one whose head has it, else that place, where no head names a channel."""
     heads = [c.head for c in table.columns]
-    named = [i for i, h in enumerate(heads) if re.search(rf"(?i)(?:ch|channel|kanal|ai|column|col|spalte)[ _-]?{number}(?!\d)", h)]
+    named = [
+        i
+        for i, h in enumerate(heads)
+        if re.search(rf"(?i)(?:ch|channel|kanal|ai|column|col|spalte)[ _-]?{number}(?!\d)", h)
+    ]
     if len(named) == 1:
         yield named[0]
-    elif 0 < number <= len(heads) and not any(c.facet == "channel" for c in head_claims(heads[number - 1][:200])):
+    elif 0 < number <= len(heads) and not any(
+        c.facet == "channel" for c in head_claims(heads[number - 1][:200])
+    ):
         yield number - 1
 
 
@@ -446,10 +562,20 @@ def _of_scales(span: Span, table: Table) -> list[Evidence]:
         i = _scaled_column(scale, around, table)
         if i is not None:
             found.append(Evidence(i, "scale", scale, scale.weight, span, scale.rule))
-            channels = [c for c, _ in BY_UNIT.get(_dimension(scale.unit), ())] if scale.rule != "valve states" else ["command"]
-            claims = {c.value for c in head_claims(table.columns[i].head[:200], table.columns[i].unit) if c.facet == "channel"}
+            channels = (
+                [c for c, _ in BY_UNIT.get(_dimension(scale.unit), ())]
+                if scale.rule != "valve states"
+                else ["command"]
+            )
+            claims = {
+                c.value
+                for c in head_claims(table.columns[i].head[:200], table.columns[i].unit)
+                if c.facet == "channel"
+            }
             if not claims & set(channels):
-                found += [Evidence(i, "channel", c, 3.0 if c != "length" else 1.0, span, "scale") for c in channels]
+                found += [
+                    Evidence(i, "channel", c, 3.0 if c != "length" else 1.0, span, "scale") for c in channels
+                ]
             if scale.absolute is not None:
                 found.append(Evidence(i, "absolute", scale.absolute, scale.weight, span, scale.rule))
     return found
@@ -459,11 +585,13 @@ def _scaled_column(scale: Scale, around: str, table: Table) -> int | None:
     """The raw column that a calibration is of: it is named beside it, or it is called like what it leads to."""
     words = set(words_of(around))
     scores: list[tuple[float, int]] = []
-    channels = {c for c, _ in BY_UNIT.get(_dimension(scale.unit), ())} | ({"displacement", "length"} if _dimension(scale.unit) == "length" else set())
+    channels = {c for c, _ in BY_UNIT.get(_dimension(scale.unit), ())} | (
+        {"displacement", "length"} if _dimension(scale.unit) == "length" else set()
+    )
     named = _column_named(around, table)
     for i, column in enumerate(table.columns):
         unit = _unit_of(column)
-        raw = unit is None or unit.dimension in RAW or unit.name == "%" and scale.raw == "%"
+        raw = unit is None or unit.dimension in RAW or (unit.name == "%" and scale.raw == "%")
         if column.words is not None or column.clock or not raw:
             continue
         claims = {c.value for c in head_claims(column.head[:200], column.unit) if c.facet == "channel"}

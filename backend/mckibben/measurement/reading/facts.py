@@ -125,7 +125,12 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
             continue
         ranked = _ranked(key, found, name, messages)
         stated[key] = ranked[0][1]
-        if key in _ASKED and len(ranked) > 1 and ranked[1][0] >= _STATED and not _is_note(ranked[0][1], found):
+        if (
+            key in _ASKED
+            and len(ranked) > 1
+            and ranked[1][0] >= _STATED
+            and not _is_note(ranked[0][1], found)
+        ):
             contradictions.append(Contradiction(key, *_ASKED[key], (ranked[0][1], ranked[1][1])))
     if "load_mass" in stated and "load_force" in stated and "name" in stated["load_mass"].where.where:
         del stated["load_mass"]
@@ -144,10 +149,25 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
     said = {e.value for e in evidence if e.facet == "kind"}
     held, several = _held(table, evidence, conditions)
     ignored = next((str(s.value) for k, s in stated.items() if k == "ignore"), "")
-    unwanted = {n.strip(): None for e in claims.get("ignore", ()) for n in str(e.value).split(",")} if not ignored else {}
-    chosen = _chosen(table, {**{k: v for k, v in unwanted.items() if _places(k, table)}, **correction.columns}, name)
+    unwanted = (
+        {n.strip(): None for e in claims.get("ignore", ()) for n in str(e.value).split(",")}
+        if not ignored
+        else {}
+    )
+    chosen = _chosen(
+        table, {**{k: v for k, v in unwanted.items() if _places(k, table)}, **correction.columns}, name
+    )
     return Known(
-        conditions, stated, tuple(contradictions), held, _air_of_rows(table, columns), columns, several, said.pop() if len(said) == 1 else "", chosen, tuple(messages)
+        conditions,
+        stated,
+        tuple(contradictions),
+        held,
+        _air_of_rows(table, columns),
+        columns,
+        several,
+        said.pop() if len(said) == 1 else "",
+        chosen,
+        tuple(messages),
     )
 
 
@@ -163,7 +183,9 @@ def _columns_of_conditions(
 ) -> dict[str, tuple[int, tuple[float, ...]]]:  # fmt: skip
     """Condition -> (column, its different values in SI) of the columns that hold one: a rest length, the supply, a load."""
     found: dict[str, tuple[int, tuple[float, ...]]] = {}
-    named = {i for said, choice in correction.columns.items() if choice is not None for i in _places(said, table)}
+    named = {
+        i for said, choice in correction.columns.items() if choice is not None for i in _places(said, table)
+    }
     for i, column in enumerate(table.columns):
         own = [e for e in evidence if e.target == i]
         unit = next((e.value for e in own if e.facet == "unit"), None)
@@ -172,7 +194,10 @@ def _columns_of_conditions(
         roles = {e.value for e in own if e.facet == "role" and e.weight >= _ROLE}
         dimension = dimension_of(unit)
         key = next((_OF_ROLES[role, dimension] for role in roles if (role, dimension) in _OF_ROLES), None)
-        if any(e.facet == "channel" and e.value in ("displacement", "contraction") and e.rule != "unit" for e in own):
+        if any(
+            e.facet == "channel" and e.value in ("displacement", "contraction") and e.rule != "unit"
+            for e in own
+        ):
             key = None  # "shortening from rest length"
         values = np.unique(column.values[np.isfinite(column.values)])
         mass = any(e.rule == "hanging_mass" for e in own) and dimension == "mass"
@@ -222,7 +247,9 @@ def _is_note(best: Stated, found: Sequence[Evidence]) -> bool:
     return any(e.rule == "note" and e.span == best.where for e in found)
 
 
-def _ranked(key: str, found: Sequence[Evidence], name: str, messages: list[str]) -> list[tuple[float, Stated]]:
+def _ranked(
+    key: str, found: Sequence[Evidence], name: str, messages: list[str]
+) -> list[tuple[float, Stated]]:
     """The values of a condition, with what is said for each, the best first."""
     groups: list[list[tuple[Evidence, float | str]]] = []
     for e in found:
@@ -236,8 +263,12 @@ def _ranked(key: str, found: Sequence[Evidence], name: str, messages: list[str])
     ranked = []
     for group in groups:
         strongest = max(group, key=lambda item: item[0].weight)
-        text = strongest[0].value.text if isinstance(strongest[0].value, Quantity) else str(strongest[0].value)
-        ranked.append((strongest[0].weight + 0.1 * (len(group) - 1), Stated(strongest[1], strongest[0].span, text)))
+        text = (
+            strongest[0].value.text if isinstance(strongest[0].value, Quantity) else str(strongest[0].value)
+        )
+        ranked.append(
+            (strongest[0].weight + 0.1 * (len(group) - 1), Stated(strongest[1], strongest[0].span, text))
+        )
     return sorted(ranked, key=lambda item: -item[0])
 
 
@@ -249,7 +280,9 @@ def _value(key: str, e: Evidence, name: str, messages: list[str]) -> float | str
             value -= ATMOSPHERE
         return value
     if key in (*CONDITION_UNITS, *TEXT_CONDITIONS):
-        return condition_value(key, str(e.value), where=f"{name}, {e.span.where}, {key}", field=key, messages=messages)
+        return condition_value(
+            key, str(e.value), where=f"{name}, {e.span.where}, {key}", field=key, messages=messages
+        )
     return str(e.value)
 
 
@@ -270,9 +303,14 @@ def _held(
               "held:contraction": "contraction", "condition:load_mass": "load_mass", "condition:load_force": "load_force"}  # fmt: skip
     for facet, channel in facets.items():
         claims = [e for e in evidence if e.facet == facet and isinstance(e.value, Quantity)]
-        own = {k: max((e for e in claims if e.target == BLOCK - k), key=lambda e: e.weight, default=None) for k in range(blocks)}
+        own = {
+            k: max((e for e in claims if e.target == BLOCK - k), key=lambda e: e.weight, default=None)
+            for k in range(blocks)
+        }
         if blocks > 1 and all(e is not None for e in own.values()):
-            values = np.array([_held_value(channel, e, conditions, evidence, k) for k, e in own.items() if e is not None])
+            values = np.array(
+                [_held_value(channel, e, conditions, evidence, k) for k, e in own.items() if e is not None]
+            )
             first = own[0]
             assert first is not None
             held[channel] = Held(values, first.value.text, first.span.where, first.value.unit.name)
@@ -285,17 +323,27 @@ def _held(
         chosen = texts or names
         distinct = {round(_held_value(channel, e, conditions, evidence, None), 12): e for e in chosen}
         if len(distinct) > 1 and texts and names:
-            agreed = {round(_held_value(channel, e, conditions, evidence, None), 12) for e in names} & set(distinct)
+            agreed = {round(_held_value(channel, e, conditions, evidence, None), 12) for e in names} & set(
+                distinct
+            )
             distinct = {value: distinct[value] for value in agreed} if len(agreed) == 1 else distinct
         if len(distinct) == 1:
             value, e = next(iter(distinct.items()))
-            held[channel] = Held(np.full(max(blocks, 1), value), e.value.text, e.span.where, e.value.unit.name, not texts)
+            held[channel] = Held(
+                np.full(max(blocks, 1), value), e.value.text, e.span.where, e.value.unit.name, not texts
+            )
         elif distinct:
             several[channel] = tuple(distinct.values())
     return held, several
 
 
-def _held_value(channel: str, e: Evidence, conditions: Mapping[str, float | str], evidence: Sequence[Evidence], block: int | None) -> float:
+def _held_value(
+    channel: str,
+    e: Evidence,
+    conditions: Mapping[str, float | str],
+    evidence: Sequence[Evidence],
+    block: int | None,
+) -> float:
     unit = {"load_mass": "kg", "load_force": "N"}.get(channel) or CHANNEL_UNITS[channel]
     value = quantity_si(e.value.value, e.value.unit.name, unit)
     if channel != "pressure":
@@ -304,7 +352,11 @@ def _held_value(channel: str, e: Evidence, conditions: Mapping[str, float | str]
     if absolute is None:
         targets = (FILE,) if block is None else (BLOCK - block, FILE)
         marks = [m for m in evidence if m.facet == "absolute" and m.target in targets]
-        absolute = max(marks, key=lambda m: m.weight).value if marks else REFERENCES.get(folded(str(conditions.get("pressure", ""))))
+        absolute = (
+            max(marks, key=lambda m: m.weight).value
+            if marks
+            else REFERENCES.get(folded(str(conditions.get("pressure", ""))))
+        )
     air = conditions.get("ambient_pressure")
     return value - (air if isinstance(air, float) else ATMOSPHERE) if absolute else value
 
@@ -319,7 +371,11 @@ def _places(name: str, table: Table) -> list[int]:
         [taken_apart(h, c.unit).name for h, c in zip(heads, table.columns, strict=True)],
         [h.casefold() for h in heads], [_square(h) for h in heads], _numbered_names(table),
     ):  # fmt: skip
-        found = [i for i, one in enumerate(names) if one == wanted or one == wanted.casefold() or one == _square(wanted)]
+        found = [
+            i
+            for i, one in enumerate(names)
+            if one == wanted or one == wanted.casefold() or one == _square(wanted)
+        ]
         if found:
             return found
     if (number := re.fullmatch(r"(?i)column (\d{1,4})", wanted)) is not None:
@@ -352,7 +408,9 @@ def _chosen(table: Table, columns: Mapping[str, Choice | None], name: str) -> di
         if not places:
             names = [c.title for c in table.columns]
             raise InputError(
-                f"{name}: there is no {table.noun} '{said[:80]}'", field=f"{table.noun} {said[:80]}", hint=did_you_mean(said, names)
+                f"{name}: there is no {table.noun} '{said[:80]}'",
+                field=f"{table.noun} {said[:80]}",
+                hint=did_you_mean(said, names),
             )
         if len(places) > 1:
             raise InputError(

@@ -10,7 +10,7 @@ from mckibben.measurement.reading.lexicon import EXACT, Rule, rules, word_set, w
 from mckibben.measurement.reading.units import FITTING, RAW, Unit, dimension_of, reference_of, unit_of
 
 _LAST = re.compile(r"(.*?)\s*[\[({<]([^\[\](){}<>]{0,60}(?:\([^()]{0,20}\))?)[\])}>]\s*")
-_WITHIN = re.compile(r"[\[({<]([^\[\](){}<>]{1,40}(?:\([^()]{0,20}\))?)[\])}>](?=[\s,;:.]|$)")
+_WITHIN = re.compile(r"[\[({<]([^\[\](){}<>]{1,40}(?:\([^()]{0,20}\))?)[\])}>](?=[\s,;:./]|$)")
 _BEHIND = (
     re.compile(r"([^/]+)\s?/\s?([^/]+)"),
     re.compile(r"(.+),\s?([^,]+)"),
@@ -18,14 +18,14 @@ _BEHIND = (
     re.compile(r"([^:]+):\s?(\S{1,8})"),
 )
 _SURE = frozenset(
-    "mm cm bar mbar kPa MPa hPa mmHg inHg psi kN daN cN mN lbf ozf kgf gf ms mV kg pct percent promille permille deg degC degF psig psia barg bara".split()
+    ["mm", "cm", "bar", "mbar", "kPa", "MPa", "hPa", "mmHg", "inHg", "psi", "kN", "daN", "cN", "mN", "lbf", "ozf", "kgf", "gf", "ms", "mV", "kg", "pct", "percent", "promille", "permille", "deg", "degC", "degF", "psig", "psia", "barg", "bara"]
 )  # no name ends like them
 _RUN = re.compile(
     r"(?P<name>.*?[^\W\d_].*?)[\s_,;:-]{1,3}(?P<word>[^\W\d_]+)[\s_]?(?:#|n[or]\.?)?[\s_]?(?P<number>\d{1,3})"
     r"(?:\s?(?P<unit>[\[(][^\[\]()]{1,20}[\])]))?",
     re.I,
 )
-_MORE_RUNS = frozenset("run trial test series messung block".split())
+_MORE_RUNS = frozenset(["run", "trial", "test", "series", "messung", "block"])
 #: "ΔL/L0", "(L0-L)/L0": the change of length as a share of the rest length.
 _SHARE = re.compile(
     r"(?:.{0,40}[=:\s])?(?:(?P<longer>(?:d|Δ|∆|δ|delta[ _]?|Delta[ _]?)[Ll]|\(\s?[Ll]\s?[-−–]\s?[Ll]_?[0₀o]\s?\))"
@@ -40,9 +40,9 @@ _LETTERS = {
     "d": "diameter", "v": "velocity", "u": "command", "h": "contraction", "k": "contraction", "κ": "contraction",
     "ε": "contraction", "e": "contraction",
 }  # fmt: skip
-_SHARES = frozenset("h k e ε κ eps epsilon kappa".split())
+_SHARES = frozenset(["h", "k", "e", "ε", "κ", "eps", "epsilon", "kappa"])
 _ALONE = frozenset("tpflxdvuκε")  # letters that name a channel without a unit
-_VOLTAGES = frozenset("u v uout vout".split())
+_VOLTAGES = frozenset(["u", "v", "uout", "vout"])
 _LONGEST = 200  # characters of a head that are looked at
 _NO_FORCE = ("出力", "入力", "能力", "电力", "電力", "功力")  # "output": no word of a force
 _QUANTITY_FIRST = re.compile(r"\d{1,12}(?:[.,]\d{1,9})?\s?[^\W\d_%]{1,6}")
@@ -86,7 +86,9 @@ def taken_apart(head: str, unit_below: str = "") -> Head:
             break
         inside = found[2].strip()
         mark = reference_of(inside)
-        if mark is not None and (len(inside) > 1 or not inside.isascii() or "pressure" in _channels_of(found[1])):
+        if mark is not None and (
+            len(inside) > 1 or not inside.isascii() or "pressure" in _channels_of(found[1])
+        ):
             absolute = mark
         elif (inner := unit_of(inside) or _first_unit(inside)) is not None and unit is None:
             unit = inner
@@ -127,7 +129,11 @@ def _first_unit(text: str) -> Unit | None:
 
 
 def _reference_among(words: tuple[str, ...]) -> bool | None:
-    said = {name == "absolute" for name in ("absolute", "gauge") if word_set(name).among(w for w in words if len(w) > 2)}
+    said = {
+        name == "absolute"
+        for name in ("absolute", "gauge")
+        if word_set(name).among(w for w in words if len(w) > 2)
+    }
     return said.pop() if len(said) == 1 else None
 
 
@@ -169,7 +175,9 @@ def _behind(text: str) -> tuple[str, Unit | None]:
         unit = unit_of(token) if token in _SURE else None
         if unit is not None and any(unit.dimension in FITTING[c] for c in _channels_of(bare) if c in FITTING):
             return bare.replace(f"_{token}", "", 1), unit
-    if text.startswith(("psi", "PSI")) or (unit_of(bare) is not None and unit_of(bare).dimension in ("time",) and len(bare) > 1):  # type: ignore[union-attr]
+    if text.startswith(("psi", "PSI")) or (
+        unit_of(bare) is not None and unit_of(bare).dimension in ("time",) and len(bare) > 1
+    ):  # type: ignore[union-attr]
         return text, unit_of(bare)
     return text, None
 
@@ -183,7 +191,7 @@ def _is_sure(name: str, text: str, unit: Unit) -> bool:
     letters = {_LETTERS[m[1]] for word in words if (m := _LETTER.fullmatch(word)) and m[1] in _LETTERS}
     if any(unit.dimension in FITTING[channel] for channel in letters):
         return True
-    if text in ("V", "mV", "mA") and (named or words[:1] and words[0] in _VOLTAGES):
+    if text in ("V", "mV", "mA") and (named or (words[:1] and words[0] in _VOLTAGES)):
         return True
     return text in _SURE
 
@@ -219,9 +227,13 @@ def head_claims(head: str, unit_below: str = "") -> tuple[Claim, ...]:
         return (Claim("role", "a value", 6.0, "a value"),)
     if (share := _SHARE.fullmatch(name)) is not None and dimension in ("", "ratio"):
         claims = [Claim("channel", "contraction", 4.0, "change of length")]
-        return tuple([*claims, Claim("sign_stroke", -1, 3.0, "change of length")] if share["longer"] else claims)
+        return tuple(
+            [*claims, Claim("sign_stroke", -1, 3.0, "change of length")] if share["longer"] else claims
+        )
     words = words_of(name)
-    found = [c for c in _of_words(words) if not (needed := _DIMENSIONS.get(c.rule, ())) or dimension in needed]
+    found = [
+        c for c in _of_words(words) if not (needed := _DIMENSIONS.get(c.rule, ())) or dimension in needed
+    ]
     if _DESIRED.search(name):
         found.append(Claim("role", "set value", 4.0, "desired"))
     if dimension in RAW:
@@ -231,10 +243,19 @@ def head_claims(head: str, unit_below: str = "") -> tuple[Claim, ...]:
         found = [claim for claim in found if claim.value != "running number"]
     if "command" in channels and dimension in ("pressure", "length", "force") and "valve" not in words:
         found.append(Claim("role", "set value", 4.0, "command in a physical unit"))
-    if dimension == "ratio" and apart.unit is not None and apart.unit.name != "1" and channels & {"pressure", "force", "length"} and not channels & {"contraction", "command", "displacement"}:
+    if (
+        dimension == "ratio"
+        and apart.unit is not None
+        and apart.unit.name != "1"
+        and channels & {"pressure", "force", "length"}
+        and not channels & {"contraction", "command", "displacement"}
+    ):
         found.append(Claim("role", "raw", 4.0, "share of a range"))
     if "contraction" in channels and dimension == "length":
-        found += [Claim("channel", "displacement", 2.8, "contraction as a length"), Claim("sign_stroke", 1, 2.0, "contraction as a length")]
+        found += [
+            Claim("channel", "displacement", 2.8, "contraction as a length"),
+            Claim("sign_stroke", 1, 2.0, "contraction as a length"),
+        ]
     if "displacement" in channels and dimension == "ratio":
         found.append(Claim("channel", "contraction", 2.5, "stroke as a share"))
     if (change := _CHANGE.match(name)) is not None and dimension in ("", "length"):
@@ -289,7 +310,11 @@ def _of_words(words: tuple[str, ...]) -> tuple[Claim, ...]:
     last = max(channels.values(), default=0)
     claims = []
     for rule, weight in found.values():
-        more = 0.4 if rule.id in channels and channels[rule.id] == last and len(set(channels.values())) > 1 else 0.0
+        more = (
+            0.4
+            if rule.id in channels and channels[rule.id] == last and len(set(channels.values())) > 1
+            else 0.0
+        )
         claims += [Claim(facet, value, weight + more, rule.id) for facet, value in rule.claims.items()]
     return tuple(claims)
 
@@ -297,7 +322,11 @@ def _of_words(words: tuple[str, ...]) -> tuple[Claim, ...]:
 def _compound_roles(word: str) -> list[Rule]:
     """The roles of a compound whose rest names a channel: "Solldruck" is a set value, "Sollwert" is one by itself."""
     if word and word[0] >= "\u3000":
-        return [rule for rule in rules("head") if "role" in rule.claims and rule.words is not None and rule.words.inside(word) > 1]
+        return [
+            rule
+            for rule in rules("head")
+            if "role" in rule.claims and rule.words is not None and rule.words.inside(word) > 1
+        ]
     found = []
     for rule in rules("head"):
         if "role" not in rule.claims or rule.words is None:
@@ -312,13 +341,14 @@ def _compound_roles(word: str) -> list[Rule]:
 @lru_cache(maxsize=8192)
 def _names_channel(word: str) -> bool:
     return any(
-        rule.words is not None and "channel" in rule.claims and rule.words.strength(word) for rule in rules("head")
+        rule.words is not None and "channel" in rule.claims and rule.words.strength(word)
+        for rule in rules("head")
     )
 
 
 def head_score(head: str, unit: str = "") -> float:
     """What a head says of channels [nats]; with it the layout tells heads from other texts."""
-    if head[:1].isdigit() and _QUANTITY_FIRST.match(head) or _VALUE.fullmatch(head.strip()):
+    if (head[:1].isdigit() and _QUANTITY_FIRST.match(head)) or _VALUE.fullmatch(head.strip()):
         return 0.0
     apart = taken_apart(head, unit)
     best = max((c.weight for c in head_claims(head, unit) if c.facet in ("channel", "role")), default=0.0)

@@ -58,10 +58,20 @@ class Run:
     @property
     def names(self) -> list[tuple[str, str]]:
         """Heads with their units, in their order."""
-        return [(self.heads.get(c, "").strip(), self.units.get(c, "")) for c in sorted(set(self.heads) | set(self.columns))]
+        return [
+            (self.heads.get(c, "").strip(), self.units.get(c, ""))
+            for c in sorted(set(self.heads) | set(self.columns))
+        ]
 
 
-def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, head: int | None = None, _stripped: bool = False) -> Table:
+def table_of(
+    sheets: Sequence[Sheet],
+    name: str,
+    *,
+    wanted: str | None = None,
+    head: int | None = None,
+    _stripped: bool = False,
+) -> Table:
     """The measurement among the sheets.
 
     Args:
@@ -79,32 +89,48 @@ def table_of(sheets: Sequence[Sheet], name: str, *, wanted: str | None = None, h
             hint = did_you_mean(wanted, [s.name for s in sheets if s.name])
             raise InputError(f"{name}: there is no sheet '{wanted}'", field="sheet", hint=hint)
         others = tuple(Span(s.place(0), s.name) for s in sheets if s not in chosen)
-        sheets = [*chosen, *(replace(s, rows=s.rows[:200], arrays=None) for s in sheets if s not in chosen and not _runs(s))]
+        sheets = [
+            *chosen,
+            *(replace(s, rows=s.rows[:200], arrays=None) for s in sheets if s not in chosen and not _runs(s)),
+        ]
         del others
     named = [s for s in sheets if s.arrays is not None]
     if named:
         return _of_named(named, sheets, name)
     grids = [without_statistics(cornered(transposed(s))) for s in sheets]
-    grids = [s.whole() if s.whole is not None and s is not old else s for s, old in zip(grids, sheets, strict=True)]
+    grids = [
+        s.whole() if s.whole is not None and s is not old else s for s, old in zip(grids, sheets, strict=True)
+    ]
     runs = [run for sheet in grids for run in _runs(sheet)]
     for run in runs:
         _head(run, head)
-        known = sum(min(_MOST_OF_A_HEAD, max(0.0, head_score(h, run.units.get(c, "")))) for c, h in run.heads.items())
+        known = sum(
+            min(_MOST_OF_A_HEAD, max(0.0, head_score(h, run.units.get(c, "")))) for c, h in run.heads.items()
+        )
         run.score = (_EMPTY_HEADS + known) * (len(run.rows) * len(run.columns)) ** 0.5
     if head is not None:
         runs = [run for run in runs if run.head_row is not None and run.sheet.line(run.head_row) == head]
         if not runs:
             raise InputError(
-                f"{name}, row {head}: no table has its names in row {head}", field="head", hint="a row with names above numbers"
+                f"{name}, row {head}: no table has its names in row {head}",
+                field="head",
+                hint="a row with names above numbers",
             )
     if not runs and head is None and not _stripped:
         bare = [without_units(s) for s in sheets]
         return table_of(bare, name, wanted=wanted, _stripped=True)
     if not runs:
-        raise InputError(f"{name}: no table: no rows of numbers with at least two columns", field="file", hint=_HINT)
+        raise InputError(
+            f"{name}: no table: no rows of numbers with at least two columns", field="file", hint=_HINT
+        )
     best = max(runs, key=lambda run: run.score)
     for run in runs:  # a block without heads of its own goes on with those above
-        if not run.heads and run.sheet is best.sheet and run.columns == best.columns and run.rows[0] > best.rows[0]:
+        if (
+            not run.heads
+            and run.sheet is best.sheet
+            and run.columns == best.columns
+            and run.rows[0] > best.rows[0]
+        ):
             run.heads, run.units, run.more, run.described = best.heads, best.units, best.more, best.described
     alike = [run for run in runs if _is_same(run, best)]
     try:
@@ -137,7 +163,12 @@ def without_units(sheet: Sheet) -> Sheet:
 
 def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet], name: str) -> Table:
     """The blocks of a table one below the other."""
-    used = {(id(run.sheet), row) for run in alike for row in (*run.rows, run.head_row, run.unit_row) if row is not None}
+    used = {
+        (id(run.sheet), row)
+        for run in alike
+        for row in (*run.rows, run.head_row, run.unit_row)
+        if row is not None
+    }
     several = len({id(run.sheet) for run in alike}) > 1
     parts: list[Part] = []
     for run in alike:
@@ -181,7 +212,9 @@ def _rivals(alike: list[Run], best: Run, runs: list[Run]) -> tuple[tuple[str, st
     """Sheets with as good a table, of which nothing tells which one is meant, or whether they are runs of one test."""
     sheets = list(dict.fromkeys(run.sheet.name for run in alike))
     if len(sheets) > 1:
-        if _are_runs(sheets) or any(run.title and any(quantities(t.text) for t in run.title) for run in alike):
+        if _are_runs(sheets) or any(
+            run.title and any(quantities(t.text) for t in run.title) for run in alike
+        ):
             return ()
         return tuple((sheet, ", ".join(h for h, _ in best.names)[:80]) for sheet in sheets)
     others = [
@@ -204,7 +237,10 @@ def _are_runs(names: Sequence[str]) -> bool:
 
 def _channels(run: Run) -> int:
     """Number of different channels that the heads of a run name."""
-    return len({c.value for h, u in run.names for c in head_claims(h[:200], u) if c.facet == "channel"} - {"group", "direction"})
+    return len(
+        {c.value for h, u in run.names for c in head_claims(h[:200], u) if c.facet == "channel"}
+        - {"group", "direction"}
+    )
 
 
 def stacked(parts: Sequence[Part], texts: Sequence[Span], **about: object) -> Table:
@@ -251,7 +287,9 @@ def _is_same(run: Run, best: Run) -> bool:
     """Whether a run has the heads of another one, numbers and names of runs in them apart."""
     if run is best:
         return True
-    mine, theirs = ([(re.sub(r"\d+(?:[.,]\d+)?", "#", h), u) for h, u in r.names if h or u] for r in (run, best))
+    mine, theirs = (
+        [(re.sub(r"\d+(?:[.,]\d+)?", "#", h), u) for h, u in r.names if h or u] for r in (run, best)
+    )
     return bool(mine) and mine == theirs
 
 
@@ -261,7 +299,12 @@ def without_statistics(sheet: Sheet) -> Sheet:
         _, _, first, _ = _kinds(row)
         if first and _is_statistic(first) and any(kind_of(c) == NUMBER for c in row):
             above = [c for c in sheet.rows[i - 1] if c != ""]
-            if len(above) > 1 and not _is_numeric(sheet.rows[i - 1]) or i > 1 and _is_statistic(str(sheet.rows[i - 1][0])):
+            if (
+                (len(above) > 1
+                and not _is_numeric(sheet.rows[i - 1]))
+                or (i > 1
+                and _is_statistic(str(sheet.rows[i - 1][0])))
+            ):
                 rows = [r for j, r in enumerate(sheet.rows) if j != i]
                 lines = tuple(sheet.line(j) for j in range(len(sheet.rows)) if j != i)
                 return without_statistics(replace(sheet, rows=rows, lines=lines))
@@ -273,22 +316,48 @@ def cornered(sheet: Sheet) -> Sheet:
     for i, row in enumerate(sheet.rows[:60]):
         numbers = [j for j, c in enumerate(row) if kind_of(c) == NUMBER]
         corner = str(row[0]).strip() if row else ""
-        if len(numbers) < 2 or 0 in numbers or numbers != list(range(1, len(row))) or i == 0 or (corner and head_score(corner) < 2.0):
+        if (
+            len(numbers) < 2
+            or 0 in numbers
+            or numbers != list(range(1, len(row)))
+            or i == 0
+            or (corner and head_score(corner) < 2.0)
+        ):
             continue
         below = sheet.rows[i + 1 : i + 3]
         if len(below) < 2 or any(kind_of(r[0] if r else "") != NUMBER or len(r) > len(row) for r in below):
             continue
         found: list[str] = []
         for above in sheet.rows[max(0, i - 3) : i]:
-            found += [part for c in above if c != "" for part in re.split(r"(?i)(?:,\s|\bcolumns?\s?:|\brows?\s?:|\bspalten\s?:|\bzeilen\s?:)", str(c)) if head_score(part.strip()) >= 3.0]
+            found += [
+                part
+                for c in above
+                if c != ""
+                for part in re.split(
+                    r"(?i)(?:,\s|\bcolumns?\s?:|\brows?\s?:|\bspalten\s?:|\bzeilen\s?:)", str(c)
+                )
+                if head_score(part.strip()) >= 3.0
+            ]
         names = [*found, corner] if corner else found
-        axes = [n.strip() for n in names if {c.value for c in head_claims(n.strip()[:200]) if c.facet == "channel"} - {"force"}]
-        values = [n.strip() for n in names if any(c.facet == "channel" and c.value == "force" for c in head_claims(n.strip()[:200]))]
+        axes = [
+            n.strip()
+            for n in names
+            if {c.value for c in head_claims(n.strip()[:200]) if c.facet == "channel"} - {"force"}
+        ]
+        values = [
+            n.strip()
+            for n in names
+            if any(c.facet == "channel" and c.value == "force" for c in head_claims(n.strip()[:200]))
+        ]
         if len(axes) == 2 and values:
             head: list[Cell] = [f"{axes[0]} / {axes[1]}", *row[1:]]
             title: list[Cell] = [values[0]]
             rows = [*sheet.rows[:i], title, head, *sheet.rows[i + 1 :]]
-            lines = (*(sheet.line(j) for j in range(i)), sheet.line(i), *(sheet.line(j) for j in range(i, len(sheet.rows))))
+            lines = (
+                *(sheet.line(j) for j in range(i)),
+                sheet.line(i),
+                *(sheet.line(j) for j in range(i, len(sheet.rows))),
+            )
             return replace(sheet, rows=rows, lines=lines)
     return sheet
 
@@ -301,11 +370,23 @@ def _runs(sheet: Sheet) -> list[Run]:
     for i, row in enumerate(sheet.rows):
         places, texts, first, marks = _kinds(row)
         is_data = len(places) >= 2 and texts <= len(places) and not _is_statistic(first)
-        if is_data and texts and current is not None and len(current.rows) > 2 and len(places) < _INSIDE * len(current.columns):
+        if (
+            is_data
+            and texts
+            and current is not None
+            and len(current.rows) > 2
+            and len(places) < _INSIDE * len(current.columns)
+        ):
             is_data = False
         if is_data and texts == len(places) and current is not None and len(current.rows) > 2 and first:
             is_data = _was_labelled(current)
-        if not is_data and len(places) >= 1 and len(places) + marks >= 2 and texts == 0 and current is not None:
+        if (
+            not is_data
+            and len(places) >= 1
+            and len(places) + marks >= 2
+            and texts == 0
+            and current is not None
+        ):
             is_data = set(places) <= set(current.columns)
         if is_data and texts and first and current is None:
             is_data = _goes_on(sheet, i, places)
@@ -410,27 +491,38 @@ def _head(run: Run, wanted: int | None) -> None:
         names = [i for i in names if run.sheet.line(i) == wanted] or names
     if names and not run.heads:
         names = [i for i in names if not _is_row_of_values(rows[i])] or names
-        scored = {i: sum(head_score(_text(c)) for c in rows[i] if c != "") - 0.2 * k for k, i in enumerate(names)}
+        scored = {
+            i: sum(head_score(_text(c)) for c in rows[i] if c != "") - 0.2 * k for k, i in enumerate(names)
+        }
         best = max(scored, key=scored.__getitem__)
         width = range(min(MAX_COLUMNS, max(len(rows[r]) for r in (*run.rows[:50], best))))
         run.heads = {c: _text(rows[best][c]) if c < len(rows[best]) else "" for c in width}
         run.head_row = best
         own = {h.strip().casefold() for h in run.heads.values() if len(h.strip()) > 1}
-        others = [i for i in names if i != best and _is_row_of_words(rows[i]) and _text(rows[i][0]).casefold() not in own]
+        others = [
+            i
+            for i in names
+            if i != best and _is_row_of_words(rows[i]) and _text(rows[i][0]).casefold() not in own
+        ]
         run.more = {
             c: tuple(t for i in others if (t := _spanning(rows[i], c, carried=i < best))) for c in run.heads
         }
+        if units_at is None:
+            _second_row(run)
     elif names and run.head_row is None:
         run.head_row = names[0]
     run.above = list(candidates)
     if units_at is not None:
-        run.units = {c: _text(rows[units_at][c]) for c in range(len(rows[units_at])) if rows[units_at][c] != ""}
+        run.units = {
+            c: _text(rows[units_at][c]) for c in range(len(rows[units_at])) if rows[units_at][c] != ""
+        }
         run.unit_row = units_at
         if not run.heads:
             run.head_row = units_at
     else:
         _labelled_units(run)
-    if sum(head_score(h) for h in run.heads.values()) < _POOR_HEADS * len(run.columns):
+    _descriptions(run)
+    if not run.described and sum(head_score(h) for h in run.heads.values()) < _POOR_HEADS * len(run.columns):
         _listed_names(run)
     for i in range((run.head_row if run.head_row is not None else run.rows[0]) + 1, run.rows[0]):
         for c, head in run.heads.items():  # a cell below an empty head
@@ -438,7 +530,8 @@ def _head(run: Run, wanted: int | None) -> None:
                 run.heads[c] = _text(rows[i][c])
     _completed(run)
     _shift_heads(run)
-    _descriptions(run)
+    if not run.described:
+        _descriptions(run)
     _titles(run, min([run.rows[0], *run.above]))
 
 
@@ -446,7 +539,7 @@ def _listed_names(run: Run) -> None:
     """Names of all columns in one line further above, where the heads themselves say nothing."""
     for i in range(run.rows[0] - 1, max(-1, run.rows[0] - _LOOK), -1):
         filled = [str(c) for c in run.sheet.rows[i] if c != ""]
-        if i in run.above and len(filled) > 1 or len(filled) != 1:
+        if (i in run.above and len(filled) > 1) or len(filled) != 1:
             continue
         names = _split_head(filled[0], len(run.columns))
         if names and sum(head_score(n) for n in names) > sum(head_score(h) for h in run.heads.values()):
@@ -488,6 +581,27 @@ def _is_row_of_values(row: Sequence[Cell]) -> bool:
     return len(filled) > 1 and len(values) > 0.5 * len(filled)
 
 
+def _second_row(run: Run) -> None:
+    """A row of units and of names with units below the heads: "Druck" over "Soll [bar]" and "Ist [bar]"."""
+    assert run.head_row is not None
+    rows = run.sheet.rows
+    below = [i for i in range(run.head_row + 1, run.rows[0]) if any(c != "" for c in rows[i])]
+    if len(below) != 1:
+        return
+    cells = {c: _text(cell) for c, cell in enumerate(rows[below[0]]) if cell != ""}
+    with_unit = [
+        c for c, text in cells.items() if unit_of(text) is not None or taken_apart(text).unit is not None
+    ]
+    if len(with_unit) < max(2, _UNITS_SHARE * len(cells)):
+        return
+    for c, text in cells.items():
+        name = _spanning(rows[run.head_row], c, carried=True)
+        if unit_of(text) is not None:
+            run.units[c] = text
+        run.heads[c] = name if unit_of(text) is not None else f"{name} {text}".strip()
+    run.more = {}
+
+
 def _candidates(run: Run) -> list[int]:
     """Rows right above a run that can be its heads, from below."""
     rows = run.sheet.rows
@@ -501,7 +615,13 @@ def _candidates(run: Run) -> list[int]:
         elif len(filled) >= max(2, _HEAD_SHARE * len(run.columns)) and not _is_numeric(rows[i]):
             found.append(i)
         elif found:
-            if len(filled) >= 2 and not _is_numeric(rows[i]) and not _is_row_of_values(rows[i]) and not any(quantities(str(c)) for c in filled) and len(found) == 1:
+            if (
+                len(filled) >= 2
+                and not _is_numeric(rows[i])
+                and not _is_row_of_values(rows[i])
+                and not any(quantities(str(c)) for c in filled)
+                and len(found) == 1
+            ):
                 found.append(i)  # a row of groups above the heads
             break
         elif split := _split_head(str(filled[0]), len(run.columns)) if len(filled) == 1 else []:
@@ -517,10 +637,14 @@ def _candidates(run: Run) -> list[int]:
 def _split_head(text: str, width: int) -> list[str]:
     """The names of columns in one cell: parted by signs, wide gaps or blanks, brackets kept with their name."""
     bare = re.sub(r"^[\s#%/!;*]+", "", text)
-    bare = re.sub(r"^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?", "", bare, flags=re.I)
+    bare = re.sub(
+        r"^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?", "", bare, flags=re.I
+    )
     ways = [re.split(r"\s?[,;\t|]\s?", bare), re.split(r"\s{2,}|\t", bare), _joined_units(bare.split())]
     for cells in ways:
         cells = [cell.strip().strip('"') for cell in cells if cell.strip()]
+        if any(kind_of(cell) in (NUMBER, CLOCK) for cell in cells):
+            continue
         if len(cells) == width and sum(head_score(cell) > 0 for cell in cells) >= min(2, width):
             return cells
     return []
@@ -565,7 +689,9 @@ def _is_numeric(row: Sequence[Cell]) -> bool:
 
 
 def _unit_share(row: Sequence[Cell]) -> float:
-    filled = [str(c).lstrip("#% ") for c in row if c != "" and str(c).lower() not in ("n.", "nr.", "no.", "#")]
+    filled = [
+        str(c).lstrip("#% ") for c in row if c != "" and str(c).lower() not in ("n.", "nr.", "no.", "#")
+    ]
     good = sum(unit_of(c) is not None and not (len(c) > 3 and head_score(c) >= 2.0) for c in filled)
     return good / len(filled) if len(filled) > 1 else 0.0
 
@@ -577,7 +703,11 @@ def _labelled_units(run: Run) -> None:
         cells = [c for c in rows[i] if c != ""]
         if len(cells) > 2 and "horizontal" in words_of(str(cells[0])[:40]):
             continue
-        if len(cells) > 2 and word_set("unit").among(words_of(str(cells[0])[:40])) and _unit_share(cells[1:]) >= _UNITS_SHARE:
+        if (
+            len(cells) > 2
+            and word_set("unit").among(words_of(str(cells[0])[:40]))
+            and _unit_share(cells[1:]) >= _UNITS_SHARE
+        ):
             shift = 1 if run.columns and run.columns[0] == 0 and len(cells) - 1 < len(run.columns) else 0
             run.units = {c: _text(u) for c, u in zip(run.columns[shift:], cells[1:], strict=False)}
             run.unit_row = i
@@ -626,7 +756,12 @@ def sentence(row: Sequence[Cell]) -> str:
             text = shown
         elif before == NUMBER and kind == TEXT and unit_of(shown) is not None:
             text += f" {shown}"
-        elif text.endswith(":") or before == TEXT and (kind == NUMBER or shown[:1].isdigit()) and not text.endswith(("=", ":")):
+        elif (
+            text.endswith(":")
+            or (before == TEXT
+            and (kind == NUMBER or shown[:1].isdigit())
+            and not text.endswith(("=", ":")))
+        ):
             text += f": {shown}" if not text.endswith(":") else f" {shown}"
         else:
             text += f"; {shown}"
@@ -651,7 +786,11 @@ def _texts(sheets: Sequence[Sheet], used: set[tuple[int, int]]) -> list[Span]:
 def _shown(sheet: Sheet, head: int | None) -> tuple[tuple[int, tuple[str, ...]], ...]:
     """The rows that are shown: the first ones, and those about a head further down."""
     last = max(_SHOWN_ROWS, (head or 0) + _SHOWN_BELOW)
-    gap = range(_SHOWN_ROWS - _SHOWN_BELOW - _SHOWN_ABOVE, (head or 0) - _SHOWN_ABOVE) if last > _SHOWN_ROWS else range(0)
+    gap = (
+        range(_SHOWN_ROWS - _SHOWN_BELOW - _SHOWN_ABOVE, (head or 0) - _SHOWN_ABOVE)
+        if last > _SHOWN_ROWS
+        else range(0)
+    )
     return tuple(
         (sheet.line(i), tuple(("" if c == "" else f"{c:g}" if isinstance(c, float) else str(c))[:_SHOWN_LENGTH] for c in row[:_SHOWN_CELLS]))
         for i, row in enumerate(sheet.rows[:last]) if i not in gap
@@ -681,7 +820,12 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
     best_sheet, best = max(tables, key=score)
     heads = [(c.head, c.unit) for c in best]
     alike = [(s, t) for s, t in tables if [(c.head, c.unit) for c in t] == heads]
-    unread = [(f"{s.name}/{c.head}".lstrip("/"), "it is in another table") for s, t in tables if (s, t) not in alike for c in t]
+    unread = [
+        (f"{s.name}/{c.head}".lstrip("/"), "it is in another table")
+        for s, t in tables
+        if (s, t) not in alike
+        for c in t
+    ]
     parts = [
         Part(tuple(t), (*s.texts, Span(s.name, s.name)), np.arange(1, len(t[0].values) + 1)) for s, t in alike
     ]  # fmt: skip
@@ -690,7 +834,9 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
     titles = tuple((s.name, s.name in read) for s, _ in tables if s.name)
     rivals = ()
     if len(alike) == 1:
-        close = [s for s, t in tables if s is not best_sheet and s.name and _claimed(t) >= max(2, _claimed(best))]
+        close = [
+            s for s, t in tables if s is not best_sheet and s.name and _claimed(t) >= max(2, _claimed(best))
+        ]
         rivals = tuple((s.name, "") for s in (best_sheet, *close)) if close else ()
     where = f"{name}, {best_sheet.noun} '{best_sheet.name}'" if best_sheet.name and len(alike) == 1 else name
     return stacked(
@@ -700,7 +846,12 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
 
 
 def _claimed(columns: Sequence[Column]) -> int:
-    found = {c.value for column in columns for c in head_claims(column.head, column.unit) if c.facet == "channel" and not _is_raw(column)}
+    found = {
+        c.value
+        for column in columns
+        for c in head_claims(column.head, column.unit)
+        if c.facet == "channel" and not _is_raw(column)
+    }
     return len(found - {"group", "direction"})
 
 

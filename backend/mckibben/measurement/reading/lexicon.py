@@ -89,7 +89,7 @@ class WordSet:
         """Whether a word is known, or begins like a long known one, or holds an unparted one."""
         if word in self.words:
             return True
-        if word and word[-1] >= _UNPARTED or word and word[0] >= _UNPARTED:
+        if (word and word[-1] >= _UNPARTED) or (word and word[0] >= _UNPARTED):
             return self.inside(word) > 0
         beginnings = [word[:end] for end in range(_STEM, len(word))]
         return any(b in self.stems for b in beginnings) or any(
@@ -130,7 +130,9 @@ def _entries(name: str) -> list[str]:
     """The words of a set, or of a channel: ``@pressure``."""
     if not name.startswith("@"):
         return _words()["words"][name]
-    return next(r["words"] for r in _data("rules.toml")["rule"] if r["on"] == "head" and r["id"] == f"head_{name[1:]}")
+    return next(
+        r["words"] for r in _data("rules.toml")["rule"] if r["on"] == "head" and r["id"] == f"head_{name[1:]}"
+    )
 
 
 @dataclass(frozen=True)

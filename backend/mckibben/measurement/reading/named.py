@@ -18,7 +18,9 @@ _NUMBER = re.compile(r"(?<![0-9.,])[0-9]+(?:[.,][0-9]+)?(?![0-9])")
 _CODE = re.compile(r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?")
 _YEARS = range(1900, 2100)
 _BEHIND_A_WORD = re.compile(r"([^\W\d_]+)[\s_#.-]*$")
-_OTHER_LENGTHS = frozenset("stroke hub corsa course travel hose tube schlauch tuyau cable diameter durchmesser wire".split())
+_OTHER_LENGTHS = frozenset(
+    ["stroke", "hub", "corsa", "course", "travel", "hose", "tube", "schlauch", "tuyau", "cable", "diameter", "durchmesser", "wire"]
+)
 
 
 class NamedLength(NamedTuple):
@@ -34,7 +36,9 @@ def is_isometric(name: str) -> bool:
     return any(word == "iso" or word.startswith("isometr") for word in words_of(PurePath(name).stem))
 
 
-def length_of_name(name: str, rest: float, *, isometric: bool, others: Sequence[str] = ()) -> NamedLength | None:
+def length_of_name(
+    name: str, rest: float, *, isometric: bool, others: Sequence[str] = ()
+) -> NamedLength | None:
     """The length at which a name says that the muscle was held; None = it says none, or several.
 
     A length with its unit says so itself. A bare number counts millimetres where the test is isometric: the one number
@@ -50,9 +54,17 @@ def length_of_name(name: str, rest: float, *, isometric: bool, others: Sequence[
     isometric = isometric or is_isometric(name)
     said = {}
     for quantity in quantities(re.sub(r"(?<=\d)_(?=[A-Za-zµ])", " ", _without_codes(stem))):
-        metres = quantity_si(quantity.value, quantity.unit.name, "m") if quantity.unit.dimension == "length" else 0.0
+        metres = (
+            quantity_si(quantity.value, quantity.unit.name, "m")
+            if quantity.unit.dimension == "length"
+            else 0.0
+        )
         before = words_of(re.split(r"\d", stem[: quantity.begin])[-1])
-        if _can_be_held(1e3 * metres, rest) and not set(before) & _OTHER_LENGTHS and (isometric or before[-1:] in (("l",), ("length",))):
+        if (
+            _can_be_held(1e3 * metres, rest)
+            and not set(before) & _OTHER_LENGTHS
+            and (isometric or before[-1:] in (("l",), ("length",)))
+        ):
             said[metres] = quantity.text
     if said:
         return NamedLength(*next(iter(said.items()))) if len(said) == 1 else None
@@ -90,7 +102,9 @@ def _has_unit(behind: str) -> bool:
 
 
 def _is_length(word: str) -> bool:
-    return word.lower() == "l" or any(c.facet == "channel" and c.value == "length" for c in head_claims(word[:40]))
+    return word.lower() == "l" or any(
+        c.facet == "channel" and c.value == "length" for c in head_claims(word[:40])
+    )
 
 
 def _value(found: re.Match[str]) -> float:
@@ -130,10 +144,14 @@ def _which_differs(stem: str, rest: float, others: Sequence[str]) -> NamedLength
 
 
 def _alone(stem: str, rest: float) -> NamedLength | None:
-    found = [each for each in _numbers(stem) if _can_stand_alone(stem, each) and _can_be_held(_value(each), rest)]
+    found = [
+        each for each in _numbers(stem) if _can_stand_alone(stem, each) and _can_be_held(_value(each), rest)
+    ]
     if len(found) != 1:
         return None
-    return NamedLength(1e-3 * _value(found[0]), found[0][0], _why(found[0], rest, "no other number can be it"))
+    return NamedLength(
+        1e-3 * _value(found[0]), found[0][0], _why(found[0], rest, "no other number can be it")
+    )
 
 
 def _why(found: re.Match[str], rest: float, reason: str) -> str:

@@ -27,7 +27,9 @@ _DAY = r"(?:[0-9]{4}[-/.][0-9]{1,2}[-/.][0-9]{1,2}|[0-9]{1,2}[./-][0-9]{1,2}[./-
 _TIME = r"[0-9]{1,2}:[0-9]{2}(?::[0-9]{2}(?:[.,:][0-9]{1,9})?)?(?: ?[aApP][mM])?"
 _MINUTES = r"[0-9]{1,3}:[0-5][0-9][.,][0-9]{1,9}"  # and seconds: hours and minutes have no fraction
 _HOURS = r"([0-9]{1,2}) ?[hH] ?([0-5][0-9])(?: ?(?:m|min|mn|') ?([0-5][0-9]) ?(?:s|\")?)?"  # 14h02, 14h02m10
-_CLOCK = re.compile(rf"{_TIME}|{_HOURS}|{_MINUTES}|{_DAY}(?:[T ]{{1,3}}{_TIME}(?:Z| ?[+-][0-9]{{2}}:?[0-9]{{2}})?)?")
+_CLOCK = re.compile(
+    rf"{_TIME}|{_HOURS}|{_MINUTES}|{_DAY}(?:[T ]{{1,3}}{_TIME}(?:Z| ?[+-][0-9]{{2}}:?[0-9]{{2}})?)?"
+)
 
 
 class NumberStyle(NamedTuple):
@@ -122,7 +124,11 @@ def numbers_of(cells: Sequence[Any], style: NumberStyle) -> tuple[Array, dict[in
     plain = style == NumberStyle()
     for row, cell in enumerate(cells):
         try:
-            value = float(cell) if isinstance(cell, float) or (plain and cell.isascii() and "_" not in cell) else number_of(cell, style)
+            value = (
+                float(cell)
+                if isinstance(cell, float) or (plain and cell.isascii() and "_" not in cell)
+                else number_of(cell, style)
+            )
         except (ValueError, TypeError, AttributeError):
             value = number_of(cell, style)
         if not np.isfinite(value):
@@ -149,7 +155,8 @@ def with_units(cells: Sequence[Any]) -> tuple[list[Any], str]:
     if len(units) != 1 or sum(map(bool, found)) < 0.7 * len(texts):
         return list(cells), ""
     stripped = [
-        match[1] if isinstance(cell, str) and (match := _WITH_UNIT.fullmatch(cell.strip())) else cell for cell in cells
+        match[1] if isinstance(cell, str) and (match := _WITH_UNIT.fullmatch(cell.strip())) else cell
+        for cell in cells
     ]
     return stripped, units.pop()
 
@@ -157,7 +164,11 @@ def with_units(cells: Sequence[Any]) -> tuple[list[Any], str]:
 def seconds_of(cells: Sequence[Any], *, falling: bool = False) -> Array:
     """Times of day or dates as seconds from the first; a day is added at midnight. NaN where a cell is none."""
     texts = [cell.strip() for cell in cells if isinstance(cell, str) and kind_of(cell) == CLOCK]
-    elapsed = bool(texts) and all(re.fullmatch(r"[0-9]{1,3}:[0-9]{2}", t) for t in texts) and texts[0][:-3] in ("0", "00")
+    elapsed = (
+        bool(texts)
+        and all(re.fullmatch(r"[0-9]{1,3}:[0-9]{2}", t) for t in texts)
+        and texts[0][:-3] in ("0", "00")
+    )
     stamps = [absolute_seconds(cell) for cell in cells]
     steps = [b[0] - a[0] for a, b in pairwise(s for s in stamps if s is not None)]
     falling = falling or sum(step < 0.0 for step in steps) > sum(step > 0.0 for step in steps)
@@ -197,7 +208,9 @@ def absolute_seconds(cell: Any) -> tuple[float, bool] | None:
     found = re.match(rf"({_DAY})?[T ]{{0,3}}(.*)", text)
     assert found is not None
     day, rest = found.groups()
-    time = re.match(r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,:]([0-9]{1,9}))?)? ?([aApP][mM])?", rest or "0:00")
+    time = re.match(
+        r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,:]([0-9]{1,9}))?)? ?([aApP][mM])?", rest or "0:00"
+    )
     if time is None:
         return None
     hours, minutes, seconds, fraction, half = time.groups()

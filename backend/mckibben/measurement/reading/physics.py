@@ -118,7 +118,9 @@ def _pressure(p: Array) -> Terms:
     low, high = np.percentile(p, 1), np.percentile(p, 99)
     terms = []
     if not 0.3e5 <= high <= 10e5:
-        terms.append(("the highest pressure is not that of a muscle", -1.5 if 0.1e5 <= high <= 17e5 else -6.0))
+        terms.append(
+            ("the highest pressure is not that of a muscle", -1.5 if 0.1e5 <= high <= 17e5 else -6.0)
+        )
     if low < -0.15e5:
         terms.append(("the pressure is far below the atmosphere", -5.0 if low < -0.4e5 else -1.5))
     return terms
@@ -181,7 +183,9 @@ def _time(t: Array, blocks: int) -> Terms:
     return terms
 
 
-def together(p: Array | None, f: Array | None, channel: str, x: Array | None, diameter: float | None, *, gauge: bool) -> Terms:
+def together(
+    p: Array | None, f: Array | None, channel: str, x: Array | None, diameter: float | None, *, gauge: bool
+) -> Terms:
     """Force over P A (3 cos^2 - 1); force falls with contraction and rises with pressure; the zero of the pressure.
 
     Args:
@@ -197,11 +201,17 @@ def together(p: Array | None, f: Array | None, channel: str, x: Array | None, di
     zero: Terms = []
     if p is not None and f is not None:
         terms += _of_size(p, f, diameter)
-        terms += [(text, value - (3.0 if value > 0 else 0.0)) for text, value in _force(f, p) if text == "a muscle pulls"]
+        terms += [
+            (text, value - (3.0 if value > 0 else 0.0))
+            for text, value in _force(f, p)
+            if text == "a muscle pulls"
+        ]
         zero += _at_rest(p, f)
         if s is not None:
             if _varies(s, 0.003) and np.std(f) > 0:
-                apart = 1.0 - _corr(s, p) ** 2  # where pressure and stroke go together, neither tells the other's part
+                apart = (
+                    1.0 - _corr(s, p) ** 2
+                )  # where pressure and stroke go together, neither tells the other's part
                 terms.append(("the force falls as it contracts", -3.0 * _partial(f, s, p) * apart**0.5))
             if np.ptp(p) > 0.1 * max(np.max(np.abs(p)), 1.0):
                 terms.append(("the force rises with the pressure", _clip(2.0 * _partial(f, p, s), 2.0)))
@@ -221,7 +231,9 @@ def _of_size(p: Array, f: Array, diameter: float | None) -> Terms:
     ratio = np.median(f[top]) / max(np.median(p[top]), 1.0)
     if ratio <= 0:
         return []
-    usual, spread = (3.0 * np.pi * diameter**2 / 4, _SPREAD_KNOWN) if diameter else (_USUAL_AREA, _SPREAD_UNKNOWN)
+    usual, spread = (
+        (3.0 * np.pi * diameter**2 / 4, _SPREAD_KNOWN) if diameter else (_USUAL_AREA, _SPREAD_UNKNOWN)
+    )
     off = (np.log(ratio) - np.log(usual)) / spread
     return [("force over pressure times area", max(-6.0, -0.5 * off**2))]
 
@@ -232,14 +244,23 @@ def _zeros(p: Array, f: Array, s: Array) -> Terms:
         return []
     z = (s - np.percentile(s, 10)) / (np.std(s) or 1.0)  # 0 near the least contraction
     q = p / 1e5
-    base = np.column_stack([q, q * z, q * z * z, np.ones_like(q), z, z * z]) if np.std(s) > 0 else np.column_stack([q, np.ones_like(q)])
+    base = (
+        np.column_stack([q, q * z, q * z * z, np.ones_like(q), z, z * z])
+        if np.std(s) > 0
+        else np.column_stack([q, np.ones_like(q)])
+    )
     found = np.linalg.lstsq(base, f, rcond=None)[0]
     left = f - base @ found
     gain, loss = found[0], found[3 if len(found) > 2 else 1]
     if gain <= 0 or np.std(left) > 0.15 * np.std(f):
         return []
     zero = -loss / gain  # bar; the threshold of the rubber adds some
-    return [("the force vanishes without pressure", _clip(((zero - 1.2) ** 2 - (zero - 0.2) ** 2) / (2 * 0.4**2), 3.0))]
+    return [
+        (
+            "the force vanishes without pressure",
+            _clip(((zero - 1.2) ** 2 - (zero - 0.2) ** 2) / (2 * 0.4**2), 3.0),
+        )
+    ]
 
 
 def _at_rest(p: Array, f: Array) -> Terms:

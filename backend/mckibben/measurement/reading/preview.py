@@ -41,11 +41,20 @@ def preview_here(data: bytes, name: str, correction: Correction | None = None) -
         measurement = measurement_of(reading, asked, correction.identity(data))
     except InputError as error:
         problem = error
-    if problem is None and reading is not None and reading.rows.first_bad is not None and not correction.skip_bad_rows:
+    if (
+        problem is None
+        and reading is not None
+        and reading.rows.first_bad is not None
+        and not correction.skip_bad_rows
+    ):
         problem, refused = reading.rows.first_bad, True
     if (open_questions := refusal(name, asked, strict=correction.strict)) is not None:
         problem, refused = open_questions, False
-    conditions = dict(measurement.conditions) if measurement is not None else {k: v for k, v in known.conditions.items() if k != "kind"}
+    conditions = (
+        dict(measurement.conditions)
+        if measurement is not None
+        else {k: v for k, v in known.conditions.items() if k != "kind"}
+    )
     kept = measurement if problem is None or refused else None
     valid = 0 if reading is None else len(reading.rows.lines)
     skipped = {} if reading is None else reading.rows.skipped
@@ -65,7 +74,11 @@ def preview_here(data: bytes, name: str, correction: Correction | None = None) -
 
 def _points(measurement: Measurement) -> Mapping[str, np.ndarray]:
     step = max(1, -(-measurement.rows // _POINTS))
-    return {n: np.asarray(v)[::step].astype(np.float64) for n, v in measurement.columns.items() if n in CHANNEL_UNITS}
+    return {
+        n: np.asarray(v)[::step].astype(np.float64)
+        for n, v in measurement.columns.items()
+        if n in CHANNEL_UNITS
+    }
 
 
 def _sample(table: Table) -> tuple[tuple[str, ...], ...]:
@@ -75,7 +88,13 @@ def _sample(table: Table) -> tuple[tuple[str, ...], ...]:
         cells = []
         for column in table.columns:
             gap = column.gaps.get(r)
-            cells.append(column.words[r] if column.words is not None else gap.text if gap is not None else f"{column.values[r]:.10g}")
+            cells.append(
+                column.words[r]
+                if column.words is not None
+                else gap.text
+                if gap is not None
+                else f"{column.values[r]:.10g}"
+            )
         shown.append(tuple(cells))
     return tuple(shown)
 
@@ -88,8 +107,14 @@ def _raw(table: Table) -> RawRows | None:
     return RawRows(table.raw, places, head_moves=table.head_row is not None)
 
 
-def _columns(table: Table, reading: Reading | None, measurement: Measurement | None) -> tuple[PreviewColumn, ...]:
-    used = {} if reading is None else {i: (c, u) for c, (i, u) in reading.decision.uses.items() if c in reading.rows.channels}
+def _columns(
+    table: Table, reading: Reading | None, measurement: Measurement | None
+) -> tuple[PreviewColumn, ...]:
+    used = (
+        {}
+        if reading is None
+        else {i: (c, u) for c, (i, u) in reading.decision.uses.items() if c in reading.rows.channels}
+    )
     labels = {} if reading is None else {i: use for use, i in reading.rows.labels.items()}
     ranges = {} if measurement is None else {c.name: c for c in measurement.channels}
     unread = {} if reading is None else dict(unread_of(reading))
@@ -101,7 +126,15 @@ def _columns(table: Table, reading: Reading | None, measurement: Measurement | N
         if use is not None and reading is not None and channel is not None:
             choice = reading.known.chosen.get(i)
             by_you = choice is not None and choice.unit is not None
-            origin = "assumed" if choice is not None and choice.assumed else "you" if by_you else "file" if reading.said_unit(channel) else "proposed"
+            origin = (
+                "assumed"
+                if choice is not None and choice.assumed
+                else "you"
+                if by_you
+                else "file"
+                if reading.said_unit(channel)
+                else "proposed"
+            )
         found.append(
             PreviewColumn(
                 header=column.title, channel=channel, unit=use.unit if use is not None else None,

@@ -17,15 +17,31 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.questions import column_option, ignore_option
 from mckibben.measurement.reading import physics
-from mckibben.measurement.reading.decide import MARGIN, SLOTS, Decision, Option, roles_of, unit_is_stated, value_of
+from mckibben.measurement.reading.decide import (
+    MARGIN,
+    SLOTS,
+    Decision,
+    Option,
+    roles_of,
+    unit_is_stated,
+    value_of,
+)
 from mckibben.measurement.reading.facts import Known
 from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table, Use
+from mckibben.measurement.reading.named import is_isometric
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
-from mckibben.measurement.reading.named import is_isometric
-from mckibben.measurement.reading.units import FITTING, RAW, WEIGHTS, Quantity, dimension_of, quantities, quantity_si
+from mckibben.measurement.reading.units import (
+    FITTING,
+    RAW,
+    WEIGHTS,
+    Quantity,
+    dimension_of,
+    quantities,
+    quantity_si,
+)
 from mckibben.physics.units import convert
 
 REVERSE, KEEP = "reverse the sign", "keep the sign"
@@ -37,9 +53,27 @@ _LONGEST, _SHORTEST = 1.25, 0.4  # of the rest length, that a muscle can have
 _REST_BAND = (0.9e5, 1.1e5)  # Pa; the air outside
 _LONG_TEST, _SWING, _JUMP, _JUMPS = 900.0, 0.1, 0.6, 2
 _OPPOSED = -0.5  # correlation of the pressures of a pair, of which one is filled as the other is vented
-_FINAL = ("supply", "air", "at rest", "preload", "deviation", "tube size", "remark", "running number", "a value", "lever")
+_FINAL = (
+    "supply",
+    "air",
+    "at rest",
+    "preload",
+    "deviation",
+    "tube size",
+    "remark",
+    "running number",
+    "a value",
+    "lever",
+)
 _CARRIES = {"force": "force", "pressure": "pressure", "length": "displacement"}
-_RAW_SPANS = {"V": "0 to 10 V", "mV": "0 to 20 mV", "mA": "4 to 20 mA", "count": "0 to 1023 counts", "mV/V": "0 to 2 mV/V", "%FS": "0 to 100 %FS"}
+_RAW_SPANS = {
+    "V": "0 to 10 V",
+    "mV": "0 to 20 mV",
+    "mA": "4 to 20 mA",
+    "count": "0 to 1023 counts",
+    "mV/V": "0 to 2 mV/V",
+    "%FS": "0 to 100 %FS",
+}
 _SCALED = {"pressure": "0 to 10 bar", "force": "0 to 2000 N", "length": "0 to 300 mm", "displacement": "0 to 100 mm",
            "contraction": "0 to 100 mm", "command": "-100 to 100 %"}  # fmt: skip
 
@@ -73,7 +107,9 @@ class Reading:
         """Whether the file or the user says the unit of a channel."""
         i = self.decision.uses[channel][0]
         choice = self.known.chosen.get(i)
-        return (choice is not None and (choice.unit is not None or choice.scale is not None)) or unit_is_stated(i, self.evidence)
+        return (
+            choice is not None and (choice.unit is not None or choice.scale is not None)
+        ) or unit_is_stated(i, self.evidence)
 
     def own(self, i: int) -> list[Evidence]:
         """What is claimed of a column."""
@@ -119,7 +155,11 @@ def _sheets(reading: Reading) -> Iterator[Question]:
 def _units(reading: Reading) -> Iterator[Question]:
     """A unit that nobody says, and a stated one that no muscle can have."""
     for channel, (i, use) in reading.decision.uses.items():
-        if channel not in reading.rows.channels or channel in ("command", "temperature") or use.unit == "clock":
+        if (
+            channel not in reading.rows.channels
+            or channel in ("command", "temperature")
+            or use.unit == "clock"
+        ):
             continue
         column, values = reading.table.columns[i], reading.rows.channels[channel]
         choice = reading.known.chosen.get(i)
@@ -173,21 +213,28 @@ def _back(values: Array, use: Use, channel: str) -> Array:
 
 def _open_force(reading: Reading, choices: Sequence[str]) -> bool:
     """Whether a force without unit may be in several: N is sure only where the whole file is in SI."""
-    others = [(c, u.unit) for c, (_, u) in reading.decision.uses.items() if c in ("pressure", *STROKES, "diameter")]
+    others = [
+        (c, u.unit) for c, (_, u) in reading.decision.uses.items() if c in ("pressure", *STROKES, "diameter")
+    ]
     return len(choices) > 1 and any(unit != CHANNEL_UNITS[channel] for channel, unit in others)
 
 
 def _forced(reading: Reading, pressure: Array) -> bool:
     """Whether the force is more than any muscle gives at such a pressure."""
     force = reading.rows.channels.get("force")
-    return force is not None and bool(np.max(np.abs(force)) > _LARGEST_AREA * max(float(np.max(np.abs(pressure))), 1e-9))
+    return force is not None and bool(
+        np.max(np.abs(force)) > _LARGEST_AREA * max(float(np.max(np.abs(pressure))), 1e-9)
+    )
 
 
 def _moves(reading: Reading) -> bool:
     """Whether a test of many minutes goes up and down all the way, as no slow drift and no creep does."""
     channels = reading.rows.channels
     pressure = channels.get("pressure")
-    jumps = pressure is not None and np.count_nonzero(np.abs(np.diff(pressure)) > _JUMP * float(np.ptp(pressure))) >= _JUMPS
+    jumps = (
+        pressure is not None
+        and np.count_nonzero(np.abs(np.diff(pressure)) > _JUMP * float(np.ptp(pressure))) >= _JUMPS
+    )
     if float(np.ptp(channels["time"])) < _LONG_TEST or jumps:
         return False
     for channel in ("pressure", *STROKES, "force"):
@@ -201,7 +248,11 @@ def _moves(reading: Reading) -> bool:
 def _unnamed(reading: Reading) -> Iterator[Question]:
     """A column that no word calls what it is read as."""
     for channel, (i, use) in reading.decision.uses.items():
-        if channel not in reading.rows.channels or i in reading.known.chosen or channel not in ("pressure", "force", *STROKES, "time"):
+        if (
+            channel not in reading.rows.channels
+            or i in reading.known.chosen
+            or channel not in ("pressure", "force", *STROKES, "time")
+        ):
             continue
         claims = [e for e in reading.own(i) if e.facet == "channel" and e.value == channel]
         column = reading.table.columns[i]
@@ -228,10 +279,22 @@ def _unread(reading: Reading) -> Iterator[Question]:
     filled = {SLOTS.get(c, c) for c in reading.rows.channels}
     for i, column in enumerate(reading.table.columns):
         conditions = {place for place, _ in reading.known.columns.values()}
-        if i in used or column.words is not None or i in reading.rows.dropped or i in conditions or reading.known.chosen.get(i, 0) is None:
+        if (
+            i in used
+            or column.words is not None
+            or i in reading.rows.dropped
+            or i in conditions
+            or reading.known.chosen.get(i, 0) is None
+        ):
             continue
         if (choice := reading.known.chosen.get(i)) is not None:
-            yield from _raw_signal(reading, column, {choice.channel}, filled, next((e.value for e in reading.own(i) if e.facet == "unit"), None))
+            yield from _raw_signal(
+                reading,
+                column,
+                {choice.channel},
+                filled,
+                next((e.value for e in reading.own(i) if e.facet == "unit"), None),
+            )
             continue
         own = reading.own(i)
         roles = roles_of(own)
@@ -243,7 +306,9 @@ def _unread(reading: Reading) -> Iterator[Question]:
         if dimension in RAW or roles.get("raw", 0.0) >= 3.0 or roles.get("counter", 0.0) >= 3.0:
             yield from _raw_signal(reading, column, claimed, filled, unit)
             continue
-        channel = _CARRIES.get(dimension) or ("force" if dimension == "mass" and "force" not in filled else None)
+        channel = _CARRIES.get(dimension) or (
+            "force" if dimension == "mass" and "force" not in filled else None
+        )
         if channel is None or (roles.get("set value", 0.0) >= 2.0 and SLOTS[channel] in filled):
             continue
         if claimed & set(SLOTS) and SLOTS[next(iter(claimed & set(SLOTS)))] in filled:
@@ -262,14 +327,29 @@ def _unread(reading: Reading) -> Iterator[Question]:
         )  # fmt: skip
 
 
-def _raw_signal(reading: Reading, column: Column, claimed: set[str], filled: set[str], unit: str | None) -> Iterator[Question]:
+def _raw_signal(
+    reading: Reading, column: Column, claimed: set[str], filled: set[str], unit: str | None
+) -> Iterator[Question]:
     """A signal without a scale where the channel that it is called like is missing."""
-    wanted = next((c for c in ("pressure", "force", *STROKES, "command") if c in claimed and SLOTS[c] not in filled), None)
-    if reading.correction.columns and wanted is None and column.key in {str(k) for k in reading.correction.columns}:
+    wanted = next(
+        (c for c in ("pressure", "force", *STROKES, "command") if c in claimed and SLOTS[c] not in filled),
+        None,
+    )
+    if (
+        reading.correction.columns
+        and wanted is None
+        and column.key in {str(k) for k in reading.correction.columns}
+    ):
         return
     if wanted is None:
         missing = [c for c in ("pressure", "force", "displacement") if SLOTS[c] not in filled]
-        if claimed or unit is None or not missing or "pressure" not in missing and "displacement" not in missing:
+        if (
+            claimed
+            or unit is None
+            or not missing
+            or ("pressure" not in missing
+            and "displacement" not in missing)
+        ):
             return
         wanted = missing[0]
     span = _RAW_SPANS.get(unit or "count", "0 to 10 V")
@@ -285,7 +365,9 @@ def _raw_signal(reading: Reading, column: Column, claimed: set[str], filled: set
 def _seconds(reading: Reading) -> Iterator[Question]:
     """Two columns for one channel that are about as likely and show different values."""
     for slot in ("pressure", "force", "stroke"):
-        channel = next((c for c in reading.decision.uses if SLOTS.get(c) == slot and c in reading.rows.channels), None)
+        channel = next(
+            (c for c in reading.decision.uses if SLOTS.get(c) == slot and c in reading.rows.channels), None
+        )
         if channel is None or reading.by_user(channel):
             continue
         i, use = reading.decision.uses[channel]
@@ -293,7 +375,12 @@ def _seconds(reading: Reading) -> Iterator[Question]:
         used = {u[0] for u in reading.decision.uses.values()}
         rivals: dict[int, Option] = {}
         for option in reading.decision.options[slot]:
-            if option.column not in used and option.use.channel == channel and mine is not None and option.score > mine.score - MARGIN:
+            if (
+                option.column not in used
+                and option.use.channel == channel
+                and mine is not None
+                and option.score > mine.score - MARGIN
+            ):
                 rivals.setdefault(option.column, option)
         for option in rivals.values():
             if option.column in reading.known.chosen or _aside(reading, option.column) != _aside(reading, i):
@@ -328,7 +415,12 @@ def _joint(reading: Reading, i: int, j: int) -> str:
     """What two pressures that run against each other are."""
     a, b = reading.table.columns[i].values, reading.table.columns[j].values
     both = np.isfinite(a) & np.isfinite(b)
-    if both.sum() > 3 and np.ptp(a[both]) > 0 and np.ptp(b[both]) > 0 and np.corrcoef(a[both], b[both])[0, 1] < _OPPOSED:
+    if (
+        both.sum() > 3
+        and np.ptp(a[both]) > 0
+        and np.ptp(b[both]) > 0
+        and np.corrcoef(a[both], b[both])[0, 1] < _OPPOSED
+    ):
         return ", one filled as the other is vented, as the two muscles of a joint are"
     return ""
 
@@ -341,12 +433,20 @@ def _signs(reading: Reading) -> Iterator[Question]:
             continue
         i, use = reading.decision.uses[channel]
         facet = "sign_force" if channel == "force" else "sign_stroke"
-        said = [e for e in reading.evidence if e.facet == facet and e.target in (i, FILE) and e.value == use.sign]
-        rival = next((r for r in reading.decision.rivals if r.slot == SLOTS[channel] and r.part == "sign"), None)
+        said = [
+            e for e in reading.evidence if e.facet == facet and e.target in (i, FILE) and e.value == use.sign
+        ]
+        rival = next(
+            (r for r in reading.decision.rivals if r.slot == SLOTS[channel] and r.part == "sign"), None
+        )
         close = rival is not None and rival.margin < MARGIN
-        if use.sign == 1 and not close or use.sign == -1 and said and not close:
+        if (use.sign == 1 and not close) or (use.sign == -1 and said and not close):
             continue
-        what = {"force": "a pulling force is positive here", "displacement": "shortening is positive here", "contraction": "shortening is positive here"}[channel]
+        what = {
+            "force": "a pulling force is positive here",
+            "displacement": "shortening is positive here",
+            "contraction": "shortening is positive here",
+        }[channel]
         other = option_of(channel, column, sign=-use.sign)
         text = (
             f"{reading.table.noun} '{column.head}' is read with its sign reversed: {what}, and its readings run the other way"
@@ -363,7 +463,10 @@ def _reference(reading: Reading) -> Iterator[Question]:
     if column is None or reading.by_user("pressure"):
         return
     i, use = reading.decision.uses["pressure"]
-    if any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence) or "pressure" in reading.known.conditions:
+    if (
+        any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence)
+        or "pressure" in reading.known.conditions
+    ):
         return
     pressure = reading.rows.channels["pressure"]
     lowest = float(np.min(pressure)) + (physics.ATMOSPHERE if use.absolute else 0.0)
@@ -447,12 +550,15 @@ def _contradicted(reading: Reading) -> Iterator[Question]:
 def _close(reading: Reading) -> Iterator[Question]:
     """Another answer for what a column is that is nearly as likely."""
     for rival in reading.decision.rivals:
-        channel = next((c for c in reading.decision.uses if SLOTS.get(c) == rival.slot and c in reading.rows.channels), None)
+        channel = next(
+            (c for c in reading.decision.uses if SLOTS.get(c) == rival.slot and c in reading.rows.channels),
+            None,
+        )
         if channel is None or rival.margin >= MARGIN or reading.by_user(channel) or rival.part != "channel":
             continue
         column, use = reading.table.columns[reading.decision.uses[channel][0]], reading.use(channel)
         other = rival.other
-        if other is None or rival.part == "unit" and reading.said_unit(channel):
+        if other is None or (rival.part == "unit" and reading.said_unit(channel)):
             continue
         yield Question(
             f"{rival.part} of {column.title}" if rival.part == "channel" else f"unit of {channel}",
@@ -470,7 +576,9 @@ def _runs_against(reading: Reading) -> Iterator[Question]:
             continue
         i, use = reading.decision.uses[channel]
         worst = min((v for t, v in reading.decision.terms if t in _MOTION), default=0.0)
-        if worst > _AGAINST or any(e.facet == "sign_stroke" and e.target in (i, FILE) for e in reading.evidence):
+        if worst > _AGAINST or any(
+            e.facet == "sign_stroke" and e.target in (i, FILE) for e in reading.evidence
+        ):
             continue
         rest = reading.known.conditions.get("nominal_length")
         stroke = reading.rows.channels[channel]
@@ -504,7 +612,11 @@ def _zero(reading: Reading) -> Iterator[Question]:
     turned = use.sign == -1 and float(np.median(reading.rows.channels["displacement"])) < 0.0
     if turned and "nominal_length" in reading.known.conditions:
         pass
-    elif not any(e.facet == "zero_open" and e.target == i for e in about) or use.zero or any(e.facet in ("zero_known", "sign_stroke") for e in about):
+    elif (
+        not any(e.facet == "zero_open" and e.target == i for e in about)
+        or use.zero
+        or any(e.facet in ("zero_known", "sign_stroke") for e in about)
+    ):
         return
     stroke = reading.rows.channels["displacement"]
     rest = reading.known.conditions.get("nominal_length")
@@ -536,9 +648,22 @@ def _by_valve(reading: Reading) -> Iterator[Question]:
     i = reading.decision.uses["pressure"][0]
     if roles_of(reading.own(i)).get("at the valve", 0.0) <= 0.0 or reading.use("pressure").scale != 1.0:
         return
-    said = any(word_set("measured").among(words_of(t.text)) and _of_pressure(t.text) for t in reading.table.texts)
-    commands = [e.target for e in reading.evidence if e.facet == "channel" and e.value == "command" and e.target not in (i, FILE)]
-    if said or commands or is_sensed(column.values, [reading.rows.channels[c] for c in ("force", *STROKES) if c in reading.rows.channels]):
+    said = any(
+        word_set("measured").among(words_of(t.text)) and _of_pressure(t.text) for t in reading.table.texts
+    )
+    commands = [
+        e.target
+        for e in reading.evidence
+        if e.facet == "channel" and e.value == "command" and e.target not in (i, FILE)
+    ]
+    if (
+        said
+        or commands
+        or is_sensed(
+            column.values,
+            [reading.rows.channels[c] for c in ("force", *STROKES) if c in reading.rows.channels],
+        )
+    ):
         return
     yield Question(
         f"column '{bare(column)}'",
@@ -581,7 +706,11 @@ def _counted(reading: Reading) -> Iterator[Question]:
         if i in used or i in reading.known.chosen or column.words is not None or not (angle or counter):
             continue
         low, high = float(np.nanmin(column.values)), float(np.nanmax(column.values))
-        what = f"an angle, {low:.4g} to {high:.4g} {unit}" if angle else f"counts of an encoder, {low:.6g} to {high:.6g}"
+        what = (
+            f"an angle, {low:.4g} to {high:.4g} {unit}"
+            if angle
+            else f"counts of an encoder, {low:.6g} to {high:.6g}"
+        )
         span = f"{low:.4g} to {high:.4g} {unit if angle else 'counts'} = 0 to 60 mm"
         yield Question(
             "stroke", f"{reading.table.noun} '{column.head}' holds {what}, and the file has no other stroke; no text states how it counts",
@@ -592,17 +721,38 @@ def _counted(reading: Reading) -> Iterator[Question]:
 
 def _tares(reading: Reading) -> Iterator[Question]:
     """A tare, or the weight of a hanger, that a text states without saying whether the readings contain it."""
-    if "force" not in reading.rows.channels or "force_zero" in reading.known.conditions or "load_mass" in reading.correction.conditions:
+    if (
+        "force" not in reading.rows.channels
+        or "force_zero" in reading.known.conditions
+        or "load_mass" in reading.correction.conditions
+    ):
         return
     for span in reading.table.texts:
         words = words_of(span.text)
         if not any(character.isdigit() for character in span.text):
             continue
-        tare = word_set("tare_tare").among(words) or (word_set("tare_reads").among(words) and _EMPTY.search(span.text) is not None)
-        hanger = word_set("hanger").among(words) and any(q.unit.dimension == "mass" for q in quantities(span.text))
-        if not (tare or hanger) or word_set("tare_done").among(words) and not word_set("without").among(words) and "not" not in words:
+        tare = word_set("tare_tare").among(words) or (
+            word_set("tare_reads").among(words) and _EMPTY.search(span.text) is not None
+        )
+        hanger = word_set("hanger").among(words) and any(
+            q.unit.dimension == "mass" for q in quantities(span.text)
+        )
+        if (
+            not (tare or hanger)
+            or (word_set("tare_done").among(words)
+            and not word_set("without").among(words)
+            and "not" not in words)
+        ):
             continue
-        if hanger and not tare and ("mass" not in {dimension_of(reading.use("force").unit)} if "force" in reading.decision.uses else True):
+        if (
+            hanger
+            and not tare
+            and (
+                "mass" not in {dimension_of(reading.use("force").unit)}
+                if "force" in reading.decision.uses
+                else True
+            )
+        ):
             continue
         column = reading.column("force")
         yield Question(
@@ -614,20 +764,27 @@ def _tares(reading: Reading) -> Iterator[Question]:
         return
 
 
-_EMPTY = re.compile(r"(?i)nothing (?:attached|hung|on it)|(?:without|with no|no) load|ohne (?:last|kraft)|sans charge|senza carico|sin carga|sem carga")
+_EMPTY = re.compile(
+    r"(?i)nothing (?:attached|hung|on it)|(?:without|with no|no) load|ohne (?:last|kraft)|sans charge|senza carico|sin carga|sem carga"
+)
 
 
 def _air(reading: Reading) -> Iterator[Question]:
     """A pressure of the surrounding air that cannot be, or is stated twice, where an absolute pressure needs it."""
     column = reading.column("pressure")
-    if column is None or not reading.use("pressure").absolute or "pressure_zero" in reading.known.conditions or reading.known.air is not None:
+    if (
+        column is None
+        or not reading.use("pressure").absolute
+        or "pressure_zero" in reading.known.conditions
+        or reading.known.air is not None
+    ):
         return
     said = reading.known.conditions.get("ambient_pressure")
     stated = {}
     for e in reading.evidence:
         if e.facet == "condition:ambient_pressure" and isinstance(e.value, Quantity):
             stated[round(quantity_si(e.value.value, e.value.unit.name, "Pa"), -2)] = e.value.text
-    if not isinstance(said, float) or len(stated) < 2 and 5e4 <= said <= 1.1e5:
+    if not isinstance(said, float) or (len(stated) < 2 and 5e4 <= said <= 1.1e5):
         return
     twice = f"is stated as {' and as '.join(list(stated.values())[:3])}, which one is right"
     what = twice if len(stated) > 1 else f"is read as {said:.6g} Pa, which is impossible; what was it"
@@ -681,7 +838,9 @@ def _rest_length(reading: Reading) -> Iterator[Question]:
     shown = _beyond(channels, rest)
     if shown:
         said = reading.known.stated["nominal_length"]
-        option = '--rest-length "300 mm"' + (' or --column "length=NAME [0 to 72 mm = 228 to 300 mm]"' if "stretch" in shown else "")
+        option = '--rest-length "300 mm"' + (
+            ' or --column "length=NAME [0 to 72 mm = 228 to 300 mm]"' if "stretch" in shown else ""
+        )
         yield Question(
             "rest length",
             f"the rest length is read as {said.text or rest} ({said.where.where}), {shown}, which is impossible for it; "
@@ -710,8 +869,16 @@ def _beyond(channels: dict[str, Array], rest: float) -> str:
 def _held_length(reading: Reading) -> Iterator[Question]:
     """An isometric test without the length at which the muscle was held."""
     channels = reading.rows.channels
-    named = reading.known.kind == "isometric" or str(reading.known.conditions.get("kind", "")) == "isometric" or is_isometric(reading.name)
-    if named and {"pressure", "force"} <= set(channels) and not set(channels) & {*STROKES, "diameter", "command"}:
+    named = (
+        reading.known.kind == "isometric"
+        or str(reading.known.conditions.get("kind", "")) == "isometric"
+        or is_isometric(reading.name)
+    )
+    if (
+        named
+        and {"pressure", "force"} <= set(channels)
+        and not set(channels) & {*STROKES, "diameter", "command"}
+    ):
         yield Question(
             "length",
             "the file says that the test is isometric, but neither a column nor a text states the length at which the muscle was held",
@@ -722,11 +889,19 @@ def _held_length(reading: Reading) -> Iterator[Question]:
 def _of_columns(reading: Reading) -> Iterator[Question]:
     """A condition of which a column holds several values."""
     for key, (i, values) in reading.known.columns.items():
-        needed = key == "nominal_length" or key == "load_mass" and "force" not in reading.rows.channels
-        if len(values) < 2 or not needed or key in reading.correction.conditions or key == "load_mass" and "load_force" in reading.correction.conditions:
+        needed = key == "nominal_length" or (key == "load_mass" and "force" not in reading.rows.channels)
+        if (
+            len(values) < 2
+            or not needed
+            or key in reading.correction.conditions
+            or (key == "load_mass"
+            and "load_force" in reading.correction.conditions)
+        ):
             continue
         column = reading.table.columns[i]
-        what, option = {"nominal_length": ("rest length", "--rest-length"), "load_mass": ("load", "--load")}[key]
+        what, option = {"nominal_length": ("rest length", "--rest-length"), "load_mass": ("load", "--load")}[
+            key
+        ]
         unit = "kg" if key == "load_mass" else "m"
         shown = ", ".join(f"{v:.6g} {unit}" for v in values[:4])
         yield Question(
@@ -743,7 +918,11 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
         if i in reading.known.chosen or column.words is not None or column.clock:
             continue
         own = reading.own(i)
-        claimed = [e.value for e in own if e.facet == "channel" and e.rule not in ("unit", "letter") and e.weight >= 2.5]
+        claimed = [
+            e.value
+            for e in own
+            if e.facet == "channel" and e.rule not in ("unit", "letter") and e.weight >= 2.5
+        ]
         claimed = [c for c in claimed if c in ("pressure", "force", "length", "time", "displacement")]
         stated = next((e.value for e in own if e.facet == "unit"), None)
         used = next((c for c, (j, _) in reading.decision.uses.items() if j == i), None)
@@ -754,12 +933,22 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
             continue  # a statistic
         channel = claimed[0]
         si = CHANNEL_UNITS[channel]
-        if stated is None and bracket is not None and used in ("pressure", "force", *STROKES, "time") and not column.unit:
+        if (
+            stated is None
+            and bracket is not None
+            and used in ("pressure", "force", *STROKES, "time")
+            and not column.unit
+        ):
             yield Question(
                 f"unit of {used}", f"{reading.table.noun} '{column.head}': '{bracket[1]}' is not a known unit", option_of(used, column, reading.use(used).unit),
                 column.head, reading.use(used).unit, (reading.use(used).unit,),
             )  # fmt: skip
-        elif stated is not None and used not in claimed and dimension_of(stated) not in (*RAW, "ratio", "") and not any(dimension_of(stated) in FITTING[c] for c in claimed):
+        elif (
+            stated is not None
+            and used not in claimed
+            and dimension_of(stated) not in (*RAW, "ratio", "")
+            and not any(dimension_of(stated) in FITTING[c] for c in claimed)
+        ):
             yield Question(
                 f"unit of {channel}", f"{reading.table.noun} '{column.head}': the unit '{stated}' is a {dimension_of(stated)}, a unit of {channel} is needed",
                 f"{option_of(channel, column, si)} or {ignore_option(bare(column))}", column.head,
@@ -783,8 +972,17 @@ def _twice(reading: Reading) -> Iterator[Question]:
     """Conditions that the file states with two values."""
     channels = reading.rows.channels
     for found in reading.known.contradictions:
-        needed = "command" in channels if found.key == "supply_pressure" else found.key == "nominal_length" or "force" not in channels
-        if not needed or found.key in reading.rows.held or "load_mass" in reading.known.held and found.key.startswith("load"):
+        needed = (
+            "command" in channels
+            if found.key == "supply_pressure"
+            else found.key == "nominal_length" or "force" not in channels
+        )
+        if (
+            not needed
+            or found.key in reading.rows.held
+            or ("load_mass" in reading.known.held
+            and found.key.startswith("load"))
+        ):
             continue
         first, second = found.values
         yield Question(
@@ -817,7 +1015,17 @@ POLICIES: tuple[Policy, ...] = (
     _units, _unnamed, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs, _runs_against, _reference, _zero, _contradicted, _close, _tare,
 )  # fmt: skip
 #: Asked always.
-ALWAYS: tuple[Policy, ...] = (_unknown_unit, _rest_length, _load, _twice, _several, _held_length, _of_columns, _tares, _air)
+ALWAYS: tuple[Policy, ...] = (
+    _unknown_unit,
+    _rest_length,
+    _load,
+    _twice,
+    _several,
+    _held_length,
+    _of_columns,
+    _tares,
+    _air,
+)
 
 
 def without_prefix(text: str) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,7 +28,9 @@ _ENOUGH_ROWS = 20
 _MOST_WITHOUT = 4  # rows without a reading for each other one; more are a slow signal or a wrong column
 _FEWEST_TO_TURN = 3  # rows
 _DISORDERED = 1.0 / 3.0  # share of steps back in time from which rows are in no order; a half by chance
-_RUN_CHANGES = 0.1  # share of rows that begin another run, above which the runs do not follow each other in time
+_RUN_CHANGES = (
+    0.1  # share of rows that begin another run, above which the runs do not follow each other in time
+)
 _CLEAR = 0.2  # of the range of a channel, from which its change on the way shows a direction
 _MOST_WORDS = 40  # different ones of a column of directions
 _UNKNOWN_WAYS = frozenset(("", "-", "unknown", "none", "nan", "na", "n/a"))
@@ -77,7 +80,9 @@ class Rows:
     first_bad: InputError | None = None
 
 
-def rows_of(table: Table, decision: Decision, known: Known, evidence: Sequence[Evidence], correction: Correction) -> Rows:
+def rows_of(
+    table: Table, decision: Decision, known: Known, evidence: Sequence[Evidence], correction: Correction
+) -> Rows:
     """The rows of a table that can be read.
 
     Raises:
@@ -86,20 +91,26 @@ def rows_of(table: Table, decision: Decision, known: Known, evidence: Sequence[E
     """
     rows = Rows()
     facts = known.facts(table)
-    values = {c: value_of(table.columns[i].values, use, facts.ambient) for c, (i, use) in decision.uses.items()}
+    values = {
+        c: value_of(table.columns[i].values, use, facts.ambient) for c, (i, use) in decision.uses.items()
+    }
     bad = str(known.conditions.get("bad_rows", "")).lower() == "skip" or correction.skip_bad_rows
     used = dict(decision.uses)
     for channel in [c for c in used if c in _OPTIONAL and used[c][0] not in known.chosen]:
         i = used[channel][0]
         others = [u[0] for c, u in used.items() if c != channel]
-        if table.columns[i].gaps and not set(table.columns[i].gaps) <= {r for o in others for r in table.columns[o].gaps}:
+        if table.columns[i].gaps and not set(table.columns[i].gaps) <= {
+            r for o in others for r in table.columns[o].gaps
+        }:
             rows.dropped[i] = f"it holds no number in {len(table.columns[i].gaps)} rows"
             rows.messages.append(f"{table.noun} '{table.columns[i].title}' is not used: {rows.dropped[i]}")
             del used[channel], values[channel]
     keep = _readable(table, [i for i, _ in used.values()], rows, skip=bad)
     keep &= _possible(table, used, values, keep, facts.ambient, rows, skip=bad)
     if not keep.any():
-        raise rows.first_bad or InputError(f"{table.where}: no row can be read", field="rows", hint="rows of numbers below the header")
+        raise rows.first_bad or InputError(
+            f"{table.where}: no row can be read", field="rows", hint="rows of numbers below the header"
+        )
     rows.channels = {c: v[keep].astype(float) for c, v in values.items()}
     rows.lines, rows.blocks = table.lines[keep], table.blocks[keep]
     _even_time(rows, table, decision, evidence)
@@ -107,7 +118,9 @@ def rows_of(table: Table, decision: Decision, known: Known, evidence: Sequence[E
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
     if "time" in rows.channels and "time" in decision.uses and rows.channels["time"][0] > 1e8:
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
-        rows.messages.append(f"{table.noun} '{table.columns[decision.uses['time'][0]].title}' counts from 1970: its first row is 0 s")
+        rows.messages.append(
+            f"{table.noun} '{table.columns[decision.uses['time'][0]].title}' counts from 1970: its first row is 0 s"
+        )
     _hold(rows, known, correction, table.where)
     _labels(rows, table, known, evidence, keep, {i for i, _ in used.values()})
     _oldest_first(rows, table, decision)
@@ -121,20 +134,33 @@ _COARSE = 0.6  # share of the steps of a clock that are 0, from which a stated i
 
 def _even_time(rows: Rows, table: Table, decision: Decision, evidence: Sequence[Evidence]) -> None:
     """The time by a stated interval of sampling, where the file has none, or a clock that stands still for several rows."""
-    step = max((e for e in evidence if e.facet == "condition:sampling_step"), key=lambda e: e.weight, default=None)
+    step = max(
+        (e for e in evidence if e.facet == "condition:sampling_step"), key=lambda e: e.weight, default=None
+    )
     if step is None or len(table.titles) > 1:
         return
     time = rows.channels.get("time")
     unit = step.value.unit
-    seconds = 1.0 / quantity_si(step.value.value, unit.name, "Hz") if unit.dimension == "frequency" else quantity_si(step.value.value, unit.name, "s")
+    seconds = (
+        1.0 / quantity_si(step.value.value, unit.name, "Hz")
+        if unit.dimension == "frequency"
+        else quantity_si(step.value.value, unit.name, "s")
+    )
     if time is not None:
         column = table.columns[decision.uses["time"][0]]
-        if not column.clock or len(time) < _FEWEST_TO_TURN or np.mean(np.diff(time) == 0.0) < 1.0 - _COARSE or seconds >= 1.0:
+        if (
+            not column.clock
+            or len(time) < _FEWEST_TO_TURN
+            or np.mean(np.diff(time) == 0.0) < 1.0 - _COARSE
+            or seconds >= 1.0
+        ):
             return
     elif not {"force", *STROKES} & set(rows.channels):
         return
     rows.channels["time"] = np.arange(len(rows.lines)) * seconds
-    rows.messages.append(f"time is counted by the interval of sampling, '{step.span.text[:60]}' ({step.span.where})")
+    rows.messages.append(
+        f"time is counted by the interval of sampling, '{step.span.text[:60]}' ({step.span.where})"
+    )
 
 
 def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) -> NDArray[np.bool_]:
@@ -178,9 +204,21 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
         _count(rows, reason, 1, where)
     if rows.first_bad is not None and not skip:
         raise rows.first_bad
-    if missing and not skip and len(missing) > keep.sum() and not (keep.sum() >= _ENOUGH_ROWS and len(missing) <= _MOST_WITHOUT * keep.sum()):
+    if (
+        missing
+        and not skip
+        and len(missing) > keep.sum()
+        and not (keep.sum() >= _ENOUGH_ROWS and len(missing) <= _MOST_WITHOUT * keep.sum())
+    ):
         line, title, reason, _ = missing[0]
-        _refuse(rows, table, line, title, f"{reason}, and in {len(missing)} rows in all", "a number in each row, or leave the column out")
+        _refuse(
+            rows,
+            table,
+            line,
+            title,
+            f"{reason}, and in {len(missing)} rows in all",
+            "a number in each row, or leave the column out",
+        )
         assert rows.first_bad is not None
         raise rows.first_bad
     return keep
@@ -189,7 +227,11 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
 def _refuse(rows: Rows, table: Table, line: int, title: str, what: str, hint: str) -> None:
     if rows.first_bad is None:
         column = f", {table.noun} '{title}'" if title else ""
-        rows.first_bad = InputError(f"{table.where}, row {line}{column}: {what}", field=f"row {line}{column.replace(chr(39), '')}", hint=hint)
+        rows.first_bad = InputError(
+            f"{table.where}, row {line}{column}: {what}",
+            field=f"row {line}{column.replace(chr(39), '')}",
+            hint=hint,
+        )
 
 
 def _count(rows: Rows, reason: str, count: int, first: str) -> None:
@@ -219,7 +261,12 @@ def _possible(
         title = table.columns[i].title
         more = f" (and {int(bad.sum()) - 1} more such rows)" if bad.sum() > 1 else ""
         _refuse(rows, table, int(table.lines[r]), title, f"{table.columns[i].values[r]:g} {what}{more}", hint)
-        _count(rows, what.removeprefix("is "), int(bad.sum()), f"row {int(table.lines[r])}, {table.noun} '{title}'")
+        _count(
+            rows,
+            what.removeprefix("is "),
+            int(bad.sum()),
+            f"row {int(table.lines[r])}, {table.noun} '{title}'",
+        )
         if not skip:
             assert rows.first_bad is not None
             raise rows.first_bad
@@ -231,7 +278,11 @@ def _hold(rows: Rows, known: Known, correction: Correction, where: str) -> None:
     """What texts say was held, for the channels that no column holds."""
     columns = rows.channels
     stroke = bool(set(columns) & {*STROKES, "diameter"})
-    if "pressure" not in columns and "pressure" in known.held and ("force" in columns or stroke and "load_mass" in known.held):
+    if (
+        "pressure" not in columns
+        and "pressure" in known.held
+        and ("force" in columns or (stroke and "load_mass" in known.held))
+    ):
         _take(rows, known, "pressure")
     if not stroke and "command" not in columns and {"pressure", "force"} <= set(columns):
         for channel in ("length", "contraction", "displacement"):
@@ -245,7 +296,9 @@ def _hold(rows: Rows, known: Known, correction: Correction, where: str) -> None:
             if key in known.held and np.ptp(known.held[key].values) > 0.0:
                 columns["force"] = known.held[key].values[rows.blocks] * factor
                 rows.held["force"] = known.held[key]
-                rows.messages.append(f"force is the weight that the titles of the blocks state, '{known.held[key].text}' first")
+                rows.messages.append(
+                    f"force is the weight that the titles of the blocks state, '{known.held[key].text}' first"
+                )
 
 
 def _by_name(rows: Rows, known: Known, correction: Correction, where: str) -> None:
@@ -263,7 +316,9 @@ def _by_name(rows: Rows, known: Known, correction: Correction, where: str) -> No
     rows.held["length"] = Held(np.array([found.value]), found.text, NAME, "m", True)
     if stated is not None and stated.where.where == NAME:
         known.conditions.pop("nominal_length", None)
-    rows.messages.append(f"length is taken from {NAME}: '{found.text}'{f' ({found.why})' if found.why else ''}")
+    rows.messages.append(
+        f"length is taken from {NAME}: '{found.text}'{f' ({found.why})' if found.why else ''}"
+    )
 
 
 def _take(rows: Rows, known: Known, channel: str) -> None:
@@ -289,7 +344,11 @@ def _labels(
                 rows.dropped[i] = "its words are not known, e.g. 'filling' and 'venting'"
         elif use == "group":
             made = _group(words)
-        elif use == SLACK and "force" in rows.channels and {w.lower() for w in words} <= {"0", "1", "true", "false"}:
+        elif (
+            use == SLACK
+            and "force" in rows.channels
+            and {w.lower() for w in words} <= {"0", "1", "true", "false"}
+        ):
             rows.slack = np.array([w.lower() in ("1", "true") for w in words])
         elif use == SAMPLE:
             rows.samples = tuple(dict.fromkeys(w for w in words if w))
@@ -302,7 +361,9 @@ def _labels(
             used.add(i)
 
 
-def _label_column(use: str, table: Table, known: Known, evidence: Sequence[Evidence], used: set[int]) -> int | None:
+def _label_column(
+    use: str, table: Table, known: Known, evidence: Sequence[Evidence], used: set[int]
+) -> int | None:
     """The column of a use that is no quantity."""
     said = [i for i, choice in known.chosen.items() if choice is not None and choice.channel == use]
     if said:
@@ -318,7 +379,11 @@ def _label_column(use: str, table: Table, known: Known, evidence: Sequence[Evide
         if use == "direction" and not claimed and word_set("phases").among(words_of(column.head)):
             claimed = 2.0
         numeric = column.words is None
-        if claimed <= 0.0 or (use == SAMPLE and numeric) or (use == "group" and numeric and not _are_labels(column.values)):
+        if (
+            claimed <= 0.0
+            or (use == SAMPLE and numeric)
+            or (use == "group" and numeric and not _are_labels(column.values))
+        ):
             continue
         if any(e.facet == "unit" for e in own) and use != "direction":
             continue
@@ -328,7 +393,9 @@ def _label_column(use: str, table: Table, known: Known, evidence: Sequence[Evide
 
 def _are_labels(values: Array) -> bool:
     finite = values[np.isfinite(values)]
-    return bool(len(finite)) and bool(np.all(finite == np.round(finite))) and bool(np.max(np.abs(finite)) < 1e9)
+    return (
+        bool(len(finite)) and bool(np.all(finite == np.round(finite))) and bool(np.max(np.abs(finite)) < 1e9)
+    )
 
 
 def _words(column: Column, keep: NDArray[np.bool_]) -> list[str]:
@@ -351,14 +418,19 @@ def direction_of(words: Sequence[str], channels: Mapping[str, Array], messages: 
     "load" alone says too little (a weight lengthens, air shortens), nor does "rising": there the stroke, else the
     pressure, of neighbouring rows decides.
     """
-    known = {word: way_of_word(word) for word in dict.fromkeys(words)}
-    if len(known) > _MOST_WORDS or None in known.values():
+    distinct = dict.fromkeys(words)
+    if len(distinct) > _MOST_WORDS:
+        return None
+    known = {word: way_of_word(word) for word in distinct}
+    if None in known.values():
         return None
     sides = np.array([_SIDES.get(str(known[word]), 0.0) for word in words])
     sign = _sign_of_sides(sides, channels) if sides.any() else 0.0
     sure = {"shortening": -1.0, "lengthening": 1.0}
     value = {
-        word: float(str(way)) if re.fullmatch(r"-?[01]", str(way)) else sure.get(str(way), _SIDES.get(str(way), 0.0) * sign)
+        word: float(str(way))
+        if re.fullmatch(r"-?[01]", str(way))
+        else sure.get(str(way), _SIDES.get(str(way), 0.0) * sign)
         for word, way in known.items()
     }
     meaning = {-1.0: "shortening", 1.0: "lengthening", 0.0: "unknown"}
@@ -366,6 +438,7 @@ def direction_of(words: Sequence[str], channels: Mapping[str, Array], messages: 
     return np.array([value[word] for word in words]) + 0.0
 
 
+@lru_cache(maxsize=4096)
 def way_of_word(word: str) -> str | None:
     """The way that a word says, ``"0"``, ``"1"`` or ``"-1"``; None = not understood."""
     low = word.strip().lower()
@@ -399,7 +472,13 @@ def _sign_of_sides(side: Array, channels: Mapping[str, Array]) -> float:
 def _oldest_first(rows: Rows, table: Table, decision: Decision) -> None:
     """Turn or sort the rows of a file whose time does not run forwards."""
     time = rows.channels.get("time")
-    if time is None or "time" not in decision.uses or len(time) < _FEWEST_TO_TURN or time.min() == time.max() or len(table.titles) > 1:
+    if (
+        time is None
+        or "time" not in decision.uses
+        or len(time) < _FEWEST_TO_TURN
+        or time.min() == time.max()
+        or len(table.titles) > 1
+    ):
         return
     if (np.diff(time) <= 0.0).all():
         order = np.arange(len(time))[::-1]

@@ -14,8 +14,12 @@ _ANSWER_RANGE = re.compile(
     rf"(?P<low>{_NUMBER})\s?(?P<rawfirst>[^\W\d_]{{1,7}}|%FS|%)?\s?(?:-|–|to|bis|\.{{2,3}}|…)\s?(?P<high>{_NUMBER})\s?(?P<raw>[^\W\d_]{{0,7}}(?:/V)?|%FS|%)"
     rf"\s?(?:=|->|→|≙)\s?(?P<from>{_NUMBER})\s?(?P<unitfirst>[^\W\d_]{{1,7}})?\s?(?:-|–|to|bis|\.{{2,3}}|…)\s?(?P<value>{_NUMBER})\s?(?P<unit>\S{{1,12}})"
 )
-_ANSWER_ONE = re.compile(rf"(?P<high>{_NUMBER})\s?(?P<raw>[^\W\d_]{{1,7}}(?:/V)?|%FS|%)\s?(?:=|->|→|≙)\s?(?P<value>{_NUMBER})\s?(?P<unit>\S{{1,12}})")
-_ANSWER_PER = re.compile(rf"(?P<value>{_NUMBER})\s?(?P<unit>[^\s/\d]{{1,8}})\s?/\s?(?P<raw>[^\W\d_]{{1,7}}(?:/V)?)")
+_ANSWER_ONE = re.compile(
+    rf"(?P<high>{_NUMBER})\s?(?P<raw>[^\W\d_]{{1,7}}(?:/V)?|%FS|%)\s?(?:=|->|→|≙)\s?(?P<value>{_NUMBER})\s?(?P<unit>\S{{1,12}})"
+)
+_ANSWER_PER = re.compile(
+    rf"(?P<value>{_NUMBER})\s?(?P<unit>[^\s/\d]{{1,8}})\s?/\s?(?P<raw>[^\W\d_]{{1,7}}(?:/V)?)"
+)
 
 
 class Scale(NamedTuple):
@@ -56,18 +60,38 @@ def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
                 before = re.split(r"[;,](?!\d)", text[: match.start()])[-1]
                 shift = _SHIFTED.search(text, match.end())
                 if shift is not None and shift.start() - match.end() < 4 and not scale.offset:
-                    scale = scale._replace(offset=number_of(shift["number"]) * (1.0 if shift["sign"] != "+" else -1.0))
-                zero = next((m for m in _POINT.finditer(text) if number_of(m["y"]) == 0.0 and number_of(m["x"]) != 0.0), None)
-                if zero is not None and not scale.offset and scale.rule in ("calibration_per_volt", "calibration_point"):
+                    scale = scale._replace(
+                        offset=number_of(shift["number"]) * (1.0 if shift["sign"] != "+" else -1.0)
+                    )
+                zero = next(
+                    (
+                        m
+                        for m in _POINT.finditer(text)
+                        if number_of(m["y"]) == 0.0 and number_of(m["x"]) != 0.0
+                    ),
+                    None,
+                )
+                if (
+                    zero is not None
+                    and not scale.offset
+                    and scale.rule in ("calibration_per_volt", "calibration_point")
+                ):
                     scale = scale._replace(offset=number_of(zero["x"]))
                 at_rest = _AT_REST.search(text)
-                if at_rest is not None and not scale.offset and unit_of(scale.unit) is not None and unit_of(scale.unit).dimension == "length":  # type: ignore[union-attr]
+                if (
+                    at_rest is not None
+                    and not scale.offset
+                    and unit_of(scale.unit) is not None
+                    and unit_of(scale.unit).dimension == "length"
+                ):  # type: ignore[union-attr]
                     scale = scale._replace(offset=number_of(at_rest[1]))
                 yield scale, f"{before} {match[0]}"
 
 
 #: The reading that is taken off: "(U - 1 V)".
-_SHIFTED = re.compile(rf"\(\s?[^\W\d]\w{{0,20}}\s?(?P<sign>[-−–+])\s?(?P<number>\d{{1,7}}(?:[.,]\d{{1,6}})?)\s?(?:V|mV|mA|counts?)?\s?\)")
+_SHIFTED = re.compile(
+    r"\(\s?[^\W\d]\w{0,20}\s?(?P<sign>[-−–+])\s?(?P<number>\d{1,7}(?:[.,]\d{1,6})?)\s?(?:V|mV|mA|counts?)?\s?\)"
+)
 #: The reading at the rest length: "4 mA at the rest length", "0 V bei Ruhelänge".
 _AT_REST = re.compile(
     r"(?i)(?<![\w.,])(\d{1,7}(?:[.,]\d{1,6})?)\s?(?:counts?|m?V|m?A|%)\s?(?:=|at|bei|à|a|for|when|in)\s?(?:the\s|der\s|la\s)?"
@@ -90,7 +114,9 @@ def _points(text: str) -> list[tuple[tuple[float, float, str, str], tuple[int, i
     for match in _POINT.finditer(text):
         unit = unit_of(match["unit"])
         if unit is not None and unit.dimension:
-            found.append(((number_of(match["x"]), number_of(match["y"]), match["raw"], unit.name), match.span()))
+            found.append(
+                ((number_of(match["x"]), number_of(match["y"]), match["raw"], unit.name), match.span())
+            )
     return found if len({f[0][0] for f in found}) > 1 and len({f[0][2:] for f in found}) == 1 else None
 
 
@@ -102,7 +128,9 @@ def _through(points: list[tuple[tuple[float, float, str, str], tuple[int, int]]]
     if not slope or any(abs(y0 + slope * (x - x0) - y) > _STRAIGHT * abs(y1 - y0) for x, y in distinct):
         return None
     raw = unit_of(points[0][0][2])
-    return Scale(slope, x0 - y0 / slope, points[0][0][3], "" if raw is None else raw.name, "points", 6.6, "points")
+    return Scale(
+        slope, x0 - y0 / slope, points[0][0][3], "" if raw is None else raw.name, "points", 6.6, "points"
+    )
 
 
 def valve_scale(text: str) -> Scale | None:
@@ -133,7 +161,11 @@ def valve_scale(text: str) -> Scale | None:
 def state_of(text: str) -> str | None:
     """The state of a valve in words: "closed", "open" (it fills), "exhaust"; None = none, or several."""
     words = words_of(text)
-    known = {"closed": "valve_closed", "open": "valve_open|way_shortening", "exhaust": "valve_exhaust|way_lengthening"}
+    known = {
+        "closed": "valve_closed",
+        "open": "valve_open|way_shortening",
+        "exhaust": "valve_exhaust|way_lengthening",
+    }
     found = [state for state, names in known.items() if word_set(names).among(words)]
     return found[0] if len(found) == 1 else None
 
@@ -168,4 +200,6 @@ def _of_match(match: re.Match[str], rule: str, weight: float) -> Scale | None:
     shift = groups.get("offset")
     offset = 0.0 if not shift else -number_of(shift.replace(" ", ""))
     offset = offset if groups.get("paren") else offset / value
-    return Scale(value, offset, unit.name, raw_name or (groups.get("raw") or ""), rule, weight, match[0], unit.absolute)
+    return Scale(
+        value, offset, unit.name, raw_name or (groups.get("raw") or ""), rule, weight, match[0], unit.absolute
+    )

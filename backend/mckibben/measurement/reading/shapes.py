@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import re
-from itertools import pairwise
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
+from itertools import pairwise
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -58,12 +58,22 @@ def column_of(
     """A column of numbers, of times or of words; None = all of its cells are empty."""
     if isinstance(cells, np.ndarray) and cells.dtype.kind in "biuf":
         numbers = cells.astype(float).ravel()
-        holes = {int(r): Gap("not a finite number", "nan") for r in np.flatnonzero(~np.isfinite(numbers))[:_MOST_GAPS]}
+        holes = {
+            int(r): Gap("not a finite number", "nan")
+            for r in np.flatnonzero(~np.isfinite(numbers))[:_MOST_GAPS]
+        }
         numbers[~np.isfinite(numbers)] = np.nan
         holes |= without_marks(numbers)
-        return Column(head, numbers, where, unit, above, described, None, holes, False, place) if np.isfinite(numbers).any() else None
+        return (
+            Column(head, numbers, where, unit, above, described, None, holes, False, place)
+            if np.isfinite(numbers).any()
+            else None
+        )
     style = NumberStyle(sheet.decimal, sheet.thousands)
-    cells = [float(c) if isinstance(c, (int, np.floating, np.integer)) and not isinstance(c, bool) else c for c in cells]
+    cells = [
+        float(c) if isinstance(c, (int, np.floating, np.integer)) and not isinstance(c, bool) else c
+        for c in cells
+    ]
     cells = [cell.strip() if isinstance(cell, str) else cell for cell in cells]
     filled = [cell for cell in cells if cell not in ("", None)]
     if not filled:
@@ -75,13 +85,23 @@ def column_of(
         sample = filled[:400]
         if sum(absolute_seconds(c) is not None for c in sample) > _CLOCKS * len(sample):
             seconds = seconds_of(cells)
-            return replace(made, values=seconds, gaps={r: g for r, g in gaps.items() if not np.isfinite(seconds[r])}, clock=True)
+            return replace(
+                made,
+                values=seconds,
+                gaps={r: g for r, g in gaps.items() if not np.isfinite(seconds[r])},
+                clock=True,
+            )
         bare, own = with_units([str(c) if not isinstance(c, float) else c for c in filled])
-        if own and sum(isinstance(c, str) and _NUMBER.match(c.lstrip("+-")) is not None for c in bare) > _CLOCKS * len(bare):
+        if own and sum(
+            isinstance(c, str) and _NUMBER.match(c.lstrip("+-")) is not None for c in bare
+        ) > _CLOCKS * len(bare):
             stripped, _ = with_units([c if isinstance(c, (str, float)) else "" for c in cells])
             values, gaps = numbers_of(stripped, style)
             return replace(made, values=values, gaps=gaps, unit=own)
-        words = tuple("" if c is None else c if isinstance(c, str) else f"{c:g}" if isinstance(c, float) else str(c) for c in cells)
+        words = tuple(
+            "" if c is None else c if isinstance(c, str) else f"{c:g}" if isinstance(c, float) else str(c)
+            for c in cells
+        )
         return replace(made, values=values, words=words, gaps={})
     return made
 
@@ -141,8 +161,17 @@ def _with_bulk(run: Run, columns: dict[int, Column], title: list[Span], lines: N
     assert run.sheet.bulk is not None
     at, bulk = run.sheet.bulk
     inside = at in run.rows and at - 1 in run.rows
-    plain = not (_two_ways(run, columns, title, lines) or _side_by_side(run, columns, title, lines) or _wide(run, columns, title, lines))
-    if not inside or not plain or any(c.words is not None or c.clock for c in columns.values()) or max(columns) >= bulk.shape[1]:
+    plain = not (
+        _two_ways(run, columns, title, lines)
+        or _side_by_side(run, columns, title, lines)
+        or _wide(run, columns, title, lines)
+    )
+    if (
+        not inside
+        or not plain
+        or any(c.words is not None or c.clock for c in columns.values())
+        or max(columns) >= bulk.shape[1]
+    ):
         raise NeedsCellsError
     k = run.rows.index(at)
     count = len(bulk)
@@ -151,7 +180,9 @@ def _with_bulk(run: Run, columns: dict[int, Column], title: list[Span], lines: N
         middle = np.where(np.isfinite(bulk[:, c]), bulk[:, c], np.nan)
         values = np.concatenate([column.values[:k], middle, column.values[k:]])
         gaps = {r if r < k else r + count: gap for r, gap in column.gaps.items()}
-        gaps |= {k + int(r): Gap("not a finite number", "nan") for r in np.flatnonzero(~np.isfinite(bulk[:, c]))}
+        gaps |= {
+            k + int(r): Gap("not a finite number", "nan") for r in np.flatnonzero(~np.isfinite(bulk[:, c]))
+        }
         gaps |= without_marks(values)
         made.append(replace(column, values=values, gaps=gaps))
     first = int(lines[k - 1])
@@ -167,7 +198,12 @@ def _carried(column: Column) -> Column:
     finite = np.isfinite(column.values)
     empty = {r for r, gap in column.gaps.items() if gap.reason == "empty"}
     count = int(finite.sum())
-    if column.words is not None or not finite[:1].any() or not 0 < count <= _CARRIED * len(finite) or len(empty) + count < len(finite):
+    if (
+        column.words is not None
+        or not finite[:1].any()
+        or not 0 < count <= _CARRIED * len(finite)
+        or len(empty) + count < len(finite)
+    ):
         return column
     if count > 1 and np.min(np.diff(np.flatnonzero(finite))) < 3:
         return column
@@ -179,14 +215,35 @@ def _joined_times(columns: list[Column]) -> list[Column]:
     """A clock with the milliseconds in the column beside it as one column."""
     for k, (clock, beside) in enumerate(pairwise(columns)):
         unit = taken_apart(beside.head, beside.unit).unit
-        is_ms = any(text.strip().lower() == "ms" for text in beside.above) or (unit is not None and unit.name == "ms") or beside.head.strip().lower() in ("ms", "msec", "millis")
+        is_ms = (
+            any(text.strip().lower() == "ms" for text in beside.above)
+            or (unit is not None and unit.name == "ms")
+            or beside.head.strip().lower() in ("ms", "msec", "millis")
+        )
         finite = beside.values[np.isfinite(beside.values)]
         fine = unit is not None and {"ns": 1e9, "us": 1e6, "µs": 1e6, "ms": 1e3}.get(unit.name, 0.0)
         own = taken_apart(clock.head, clock.unit).unit
-        if fine and own is not None and own.name == "s" and clock.words is None and len(finite) and 0.0 <= finite.min() and finite.max() < fine and np.nanmin(clock.values) > 1e8:
+        if (
+            fine
+            and own is not None
+            and own.name == "s"
+            and clock.words is None
+            and len(finite)
+            and finite.min() >= 0.0
+            and finite.max() < fine
+            and np.nanmin(clock.values) > 1e8
+        ):
             values = (clock.values - clock.values[0]) + np.nan_to_num(beside.values) / fine
             return [*columns[:k], replace(clock, values=values - values[0]), *columns[k + 2 :]]
-        if clock.clock and is_ms and np.any(np.diff(clock.values) == 0.0) and beside.words is None and len(finite) and finite.min() >= 0.0 and finite.max() < 1000.0:
+        if (
+            clock.clock
+            and is_ms
+            and np.any(np.diff(clock.values) == 0.0)
+            and beside.words is None
+            and len(finite)
+            and finite.min() >= 0.0
+            and finite.max() < 1000.0
+        ):
             values = clock.values + np.nan_to_num(beside.values) / 1000.0
             return [*columns[:k], replace(clock, values=values - values[0]), *columns[k + 2 :]]
     return columns
@@ -218,9 +275,19 @@ def _columns(run: Run) -> dict[int, Column]:
             sheet=sheet, where=f"column {c + 1}" if run.head_row is None else f"{sheet.place(run.head_row)}, column {c + 1}", place=c,
         )  # fmt: skip
         if column is not None:
-            short = {k: len(rows[r]) for k, r in enumerate(run.rows) if len(rows[r]) <= c} if sheet.format == "csv" and sheet.noun == "line" else {}
+            short = (
+                {k: len(rows[r]) for k, r in enumerate(run.rows) if len(rows[r]) <= c}
+                if sheet.format == "csv" and sheet.noun == "line"
+                else {}
+            )
             if short and len(short) < 0.5 * len(run.rows):
-                column = replace(column, gaps={**column.gaps, **{k: Gap("short", f"{n} cells, the header has {width}") for k, n in short.items()}})
+                column = replace(
+                    column,
+                    gaps={
+                        **column.gaps,
+                        **{k: Gap("short", f"{n} cells, the header has {width}") for k, n in short.items()},
+                    },
+                )
             found[c] = column
     return found
 
@@ -230,7 +297,9 @@ def _pattern(head: str) -> str:
     return _NUMBER.sub("#", without_run(head)[0])
 
 
-def _two_ways(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArray[np.int64]) -> list[Part]:
+def _two_ways(
+    run: Run, columns: dict[int, Column], title: list[Span], lines: NDArray[np.int64]
+) -> list[Part]:
     """Columns of one quantity for the way there and the way back: the rows once for each, with the way as a column."""
     ways = {c: _way(column.head) for c, column in columns.items()}
     pairs: dict[str, dict[str, int]] = {}
@@ -249,13 +318,29 @@ def _two_ways(run: Run, columns: dict[int, Column], title: list[Span], lines: ND
     for way in names:
         block = {c: column for c, column in columns.items() if c not in chosen}
         block |= {pair[way]: replace(columns[pair[way]], head=name) for name, pair in whole.items()}
-        words = Column("direction", np.full(len(lines), np.nan), columns[next(iter(chosen))].where, words=(way,) * len(lines))
+        words = Column(
+            "direction",
+            np.full(len(lines), np.nan),
+            columns[next(iter(chosen))].where,
+            words=(way,) * len(lines),
+        )
         made.append(({c: block[c] for c in sorted(block)}, words))
     del shared
     sides = []
     for number, (block, words) in enumerate(made):
-        inner = _side_by_side(run, block, title, lines) or _wide(run, block, title, lines) or [Part(tuple(block.values()), tuple(title), lines)]
-        sides.append([_turned(part._replace(columns=(*part.columns, _cut(words, len(part.lines)))), back=number == 1) for part in inner])
+        inner = (
+            _side_by_side(run, block, title, lines)
+            or _wide(run, block, title, lines)
+            or [Part(tuple(block.values()), tuple(title), lines)]
+        )
+        sides.append(
+            [
+                _turned(
+                    part._replace(columns=(*part.columns, _cut(words, len(part.lines)))), back=number == 1
+                )
+                for part in inner
+            ]
+        )
     return [part for pair in zip(*sides, strict=True) for part in pair]
 
 
@@ -295,7 +380,9 @@ def _names_quantity(head: str) -> bool:
     return bool(quantities(head.replace("_", " "))) or without_run(head)[1] != ""
 
 
-def _side_by_side(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArray[np.int64]) -> list[Part]:
+def _side_by_side(
+    run: Run, columns: dict[int, Column], title: list[Span], lines: NDArray[np.int64]
+) -> list[Part]:
     """Blocks beside each other: each head comes again in the same order, alike or with another number."""
     keys = {c: (_pattern(column.head), column.unit) for c, column in columns.items() if column.head.strip()}
     groups: dict[tuple[str, str], list[int]] = {}
@@ -313,8 +400,15 @@ def _side_by_side(run: Run, columns: dict[int, Column], title: list[Span], lines
         upto = min((places[k + 1] for places in groups.values()), default=10**6) if k + 1 < count else 10**6
         over = [] if exact else [Span(columns[c].where, columns[c].head) for c in chosen]
         over += _texts_over(run, chosen[0], upto, {columns[c].head.strip() for c in chosen})
-        block = [columns[c] if exact else replace(columns[c], head=_without_quantity(without_run(columns[c].head)[0])) for c in chosen]
-        keep = ~np.all([np.isnan(c.values) for c in block if c.words is None] or [np.zeros(len(lines), bool)], axis=0)
+        block = [
+            columns[c]
+            if exact
+            else replace(columns[c], head=_without_quantity(without_run(columns[c].head)[0]))
+            for c in chosen
+        ]
+        keep = ~np.all(
+            [np.isnan(c.values) for c in block if c.words is None] or [np.zeros(len(lines), bool)], axis=0
+        )
         parts.append(Part(tuple(_kept(c, keep) for c in block), tuple([*title, *over]), lines[keep]))
     return parts
 
@@ -360,7 +454,10 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
     parts = []
     for k in range(len(many[0])):
         chosen = [columns[places[k]] for places in many]
-        block = [*shared, *(replace(c, head=_without_quantity(c.head) or corner or _subject(run)) for c in chosen)]
+        block = [
+            *shared,
+            *(replace(c, head=_without_quantity(c.head) or corner or _subject(run)) for c in chosen),
+        ]
         keep = ~np.all([np.isnan(c.values) for c in chosen], axis=0)
         over = [Span(c.where, c.head) for c in chosen]
         parts.append(Part(tuple(_kept(c, keep) for c in block), tuple([*title, *over]), lines[keep]))
@@ -410,7 +507,9 @@ def _melted(run: Run, title: list[Span]) -> Part:
     upper, _ = numbers_of(list(top[1:]), style)
     body = [rows[r] for r in run.rows[1:]]
     down, _ = numbers_of([row[0] for row in body], style)
-    values = np.array([numbers_of([*row[1 : len(top)], *[""] * (len(top) - len(row))], style)[0] for row in body])
+    values = np.array(
+        [numbers_of([*row[1 : len(top)], *[""] * (len(top) - len(row))], style)[0] for row in body]
+    )
     corner = [part.strip() for part in _TRAILING.split(str(top[0])) if part.strip()] or [""]
     where = sheet.place(run.rows[0])
     over = [t.text for t in title] + [str(c) for r in run.remarks for c in rows[r] if c != ""]
@@ -420,10 +519,19 @@ def _melted(run: Run, title: list[Span]) -> Part:
     if len(corner) == 1 and _counts(down):
         down_name = "cycle"
     lines = np.array([sheet.line(r) for r in run.rows[1:]], np.int64)
-    columns = np.repeat(down, len(upper)), np.tile(upper, len(down)), values.ravel(), np.repeat(lines, len(upper))
+    columns = (
+        np.repeat(down, len(upper)),
+        np.tile(upper, len(down)),
+        values.ravel(),
+        np.repeat(lines, len(upper)),
+    )
     first, second, third, numbers = columns
     empty = np.isnan(third)
-    made = (Column(down_name, first[~empty], where), Column(across_name, second[~empty], where), Column(subject, third[~empty], where))
+    made = (
+        Column(down_name, first[~empty], where),
+        Column(across_name, second[~empty], where),
+        Column(subject, third[~empty], where),
+    )
     return Part(made, tuple(title), numbers[~empty])
 
 
@@ -434,7 +542,7 @@ def _counts(values: NDArray[np.float64]) -> bool:
 def _tall(columns: list[Column], lines: NDArray[np.int64]) -> tuple[list[Column], NDArray[np.int64]] | None:
     """A table with one value per line, a column of names and one of values, made wide; None = it is none."""
     numbers = [c for c in columns if c.words is None and np.isfinite(c.values).sum() > 1]
-    named = [c for c in columns if c.words is not None and _are_signals(c.words)]
+    named = [c for c in columns if c.words is not None and (_are_signals(c.words) or _are_tags(c, numbers))]
     if len(named) != 1 or not numbers:
         return None
     names = named[0]
@@ -457,7 +565,11 @@ def _tall(columns: list[Column], lines: NDArray[np.int64]) -> tuple[list[Column]
         if len(rows) * len(signals) > 2 * len(words):
             return None
     elif len(set(counts)) == 1:
-        at = np.concatenate([[np.sum(words[:i] == words[i])] for i in range(len(words))]) if len(words) < 5000 else None
+        at = (
+            np.concatenate([[np.sum(words[:i] == words[i])] for i in range(len(words))])
+            if len(words) < 5000
+            else None
+        )
         if at is None:
             return None
         first = np.array([int(np.flatnonzero(at == k)[0]) for k in range(counts[0])])
@@ -478,8 +590,30 @@ def _are_signals(words: Sequence[str]) -> bool:
     names = {word.strip() for word in words if word.strip()}
     if not 2 <= len(names) <= _MOST_NAMES or len(words) < 2 * len(names):
         return False
-    claims = [c for name in names for c in head_claims(name[:200]) if c.facet == "channel" and (c.rule != "letter" or len(name) > 1)]
+    claims = [
+        c
+        for name in names
+        for c in head_claims(name[:200])
+        if c.facet == "channel" and (c.rule != "letter" or len(name) > 1)
+    ]
     return len({claim.value for claim in claims} - {"group", "direction"}) >= 2
+
+
+_TAGS = frozenset(
+    ["tag", "signal", "channel", "kanal", "sensor", "name", "variable", "quantity", "grosse", "item", "point", "parameter"]
+)
+
+
+def _are_tags(names: Column, numbers: Sequence[Column]) -> bool:
+    """Whether a column called so holds a few names, and another one is called "value"."""
+    words = {word.strip() for word in names.words or () if word.strip()}
+    values = any(word_set("values").among(words_of(c.head)) for c in numbers)
+    return (
+        values
+        and bool(_TAGS & set(words_of(names.head)))
+        and 2 <= len(words) <= _MOST_NAMES
+        and len(names.words or ()) >= 2 * len(words)
+    )
 
 
 def _are_units(words: Sequence[str]) -> bool:
@@ -510,8 +644,16 @@ def transposed(sheet: Sheet) -> Sheet:
         return sheet
     rows = [sheet.rows[i] for i in best]
     across = max(len(row) for row in rows)
-    channels = {c.value for row in rows for c in head_claims(str(row[0])[:200]) if c.facet == "channel"} - {"group", "direction"}
-    if len(channels) < 2 or across - 1 < _FEWEST_ACROSS or across - 1 <= len(rows) and len(channels) < len(rows):
+    channels = {c.value for row in rows for c in head_claims(str(row[0])[:200]) if c.facet == "channel"} - {
+        "group",
+        "direction",
+    }
+    if (
+        len(channels) < 2
+        or across - 1 < _FEWEST_ACROSS
+        or (across - 1 <= len(rows)
+        and len(channels) < len(rows))
+    ):
         return sheet
     units = 1 if all(len(row) > 1 and kind_of(row[1]) == TEXT for row in rows) else 0
     heads: list[Cell] = [str(row[0]) + (f" [{row[1]}]" if units else "") for row in rows]
@@ -523,7 +665,9 @@ def transposed(sheet: Sheet) -> Sheet:
     numbers = [sheet.line(i) for i in range(best[0])] + [sheet.line(best[0])] * (len(body) + 1)
     numbers += [sheet.line(i) for i in range(best[-1] + 1, len(sheet.rows))]
     message = "the heads stand in the first column: the table is read turned"
-    return replace(sheet, rows=[*before, heads, *body, *after], lines=tuple(numbers), messages=(*sheet.messages, message))
+    return replace(
+        sheet, rows=[*before, heads, *body, *after], lines=tuple(numbers), messages=(*sheet.messages, message)
+    )
 
 
 def _is_row_of_readings(row: Sequence[Cell]) -> bool:
@@ -533,7 +677,12 @@ def _is_row_of_readings(row: Sequence[Cell]) -> bool:
     kinds = [kind_of(cell) for cell in row[1:]]
     numbers = sum(kind in (NUMBER, CLOCK) for kind in kinds)
     texts = sum(kind == TEXT for kind in kinds)
-    return numbers >= _FEWEST_ACROSS and texts <= 1 and numbers + kinds.count(MARK) >= 0.7 * len(kinds) and head_score(str(row[0])[:200]) >= 2.0
+    return (
+        numbers >= _FEWEST_ACROSS
+        and texts <= 1
+        and numbers + kinds.count(MARK) >= 0.7 * len(kinds)
+        and head_score(str(row[0])[:200]) >= 2.0
+    )
 
 
 def is_signal(text: str) -> bool:

@@ -16,13 +16,20 @@ from mckibben.measurement.reading.numbers import CLOCK, NUMBER, TEXT, kind_of, s
 from mckibben.physics.errors import InputError
 
 _FIRST, _MIDDLE = 150, 300  # lines from which the delimiter is told
-_LONG, _HEAD_ROWS, _TAIL_ROWS = 20_000, 3_000, 2_000  # lines: of a long table, and of its parts that are cells
+_MOST_REMARKS = 100_000  # rows, from which remarks are passed over
+_LONG, _HEAD_ROWS, _TAIL_ROWS = (
+    20_000,
+    3_000,
+    2_000,
+)  # lines: of a long table, and of its parts that are cells
 _DELIMITERS = (";", "\t", ",", "|", None)  # None: blanks
 _PREFERENCE = 0.03  # share of the score that each later delimiter must have more
 _LONGEST = 20_000  # characters of a line that are looked at for the delimiter
 _MOST_LINES_OF_A_CELL = 20  # a quoted cell of more is one whose quote is never closed
 _COMMENT = re.compile(r'\s{0,20}"?(?:#|%|//|!|\*\*)')
-_PAIR = re.compile(r"([^\W\d]\w{0,20}(?:\[[^\[\]]{1,10}\])?)\s?[:=]\s?([-+]?\d[\d.]{0,15}(?:[eE][-+]?\d{1,3})?)\s?([A-Za-z°%]{0,5})(?=$|[,;|\s])")
+_PAIR = re.compile(
+    r"([^\W\d]\w{0,20}(?:\[[^\[\]]{1,10}\])?)\s?[:=]\s?([-+]?\d[\d.]{0,15}(?:[eE][-+]?\d{1,3})?)\s?([A-Za-z°%]{0,5})(?=$|[,;|\s])"
+)
 _PAIRED_SHARE = 0.3  # of the lines, above which they are read as pairs of key and value
 _GAP = re.compile(r"\s{2,}|\t")
 _SEPARATOR_HINT = re.compile(r"sep=([,;\t|])")
@@ -45,7 +52,9 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = (), *, whole: 
     """The cells of a decoded text; the middle of a long one as numbers, unless all rows are wanted as cells."""
     lines = text.split("\n")
     if len(lines) > MAX_ROWS:
-        raise InputError(f"{name}: it has {len(lines)} lines, at most {MAX_ROWS} are read", field="file", hint=SPLIT)
+        raise InputError(
+            f"{name}: it has {len(lines)} lines, at most {MAX_ROWS} are read", field="file", hint=SPLIT
+        )
     pairs = _paired(lines)
     if pairs is not None:
         rows, numbers = pairs
@@ -53,14 +62,25 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = (), *, whole: 
     sample = _sample(lines)
     hint = next((m[1] for line in lines[:3] if (m := _SEPARATOR_HINT.fullmatch(line.strip()))), None)
     delimiter = hint or best_delimiter(sample)
-    if len(lines) > _LONG and not whole and (sheet := _with_bulk(lines, delimiter, name, messages)) is not None:
+    if (
+        len(lines) > _LONG
+        and not whole
+        and (sheet := _with_bulk(lines, delimiter, name, messages)) is not None
+    ):
         return sheet
     rows, numbers = _split(lines, delimiter, name)
     usual = _usual_width(lines, delimiter)
-    chosen = [row for row in rows[:_FIRST] + rows[len(rows) // 2 : len(rows) // 2 + _MIDDLE] if len(row) == usual]
+    chosen = [
+        row for row in rows[:_FIRST] + rows[len(rows) // 2 : len(rows) // 2 + _MIDDLE] if len(row) == usual
+    ]
     style = style_of(cell for row in chosen for cell in row)
     return Sheet(
-        rows=rows, noun="line", decimal=style.decimal, thousands=style.thousands, lines=tuple(numbers), messages=tuple(messages)
+        rows=rows,
+        noun="line",
+        decimal=style.decimal,
+        thousands=style.thousands,
+        lines=tuple(numbers),
+        messages=tuple(messages),
     )
 
 
@@ -121,7 +141,9 @@ def _score(sample: Sequence[str], delimiter: str | None) -> float:
             continue
         cells = _cells_of(line, delimiter)
         kinds = [kind_of(cell) for cell in cells]
-        with_unit = sum(k == TEXT and _NUMBER_AND_UNIT.fullmatch(c) is not None for k, c in zip(kinds, cells, strict=True))
+        with_unit = sum(
+            k == TEXT and _NUMBER_AND_UNIT.fullmatch(c) is not None for k, c in zip(kinds, cells, strict=True)
+        )
         numbers = kinds.count(NUMBER) + kinds.count(CLOCK) + with_unit
         if numbers >= 2:
             good.append((len(cells), numbers - 0.7 * (kinds.count(TEXT) - with_unit) - 0.2 * with_unit))
@@ -136,7 +158,9 @@ def _cells_of(line: str, delimiter: str | None) -> list[str]:
         return line.split()
     if '"' in line and delimiter != "|":
         try:
-            return [cell.strip() for cell in next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))]
+            return [
+                cell.strip() for cell in next(csv.reader([line], delimiter=delimiter, skipinitialspace=True))
+            ]
         except (csv.Error, StopIteration):
             pass
     cells = [cell.strip() for cell in line.split(delimiter)]
@@ -152,14 +176,22 @@ def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list
     count = 0
     for number, cells in _quoted(lines, str(delimiter), name) if quoted else enumerate(lines, 1):
         line = lines[number - 1]
+        if line.startswith("#") and len(rows) > _MOST_REMARKS:
+            continue
         row = cells if isinstance(cells, list) else _row(line, delimiter)
         if _RULE.fullmatch(line) and len(line) < _LONGEST:
             continue
-        if (_COMMENT.match(line) and not (len(row) == usual and str(row[0]) == "%")) or (len(row) != usual and _is_sentence(line, row, delimiter)):
+        if (_COMMENT.match(line) and not (len(row) == usual and str(row[0]) == "%")) or (
+            len(row) != usual and _is_sentence(line, row, delimiter)
+        ):
             bare = line.strip().lstrip('#%/!*" ').strip()
             again = _row(bare, delimiter)
             sentence = sum("=" in cell or ":" in cell for cell in again) * 2 >= len(again)
-            row = again if len(again) == usual and len(again) > 1 and not sentence else [line.strip().strip(',;\t "')]
+            row = (
+                again
+                if len(again) == usual and len(again) > 1 and not sentence
+                else [line.strip().strip(',;\t "')]
+            )
         count += len(row)
         if count > MAX_CELLS:
             raise InputError(f"{name}: it has more than {MAX_CELLS} cells", field="file", hint=SPLIT)
@@ -183,7 +215,11 @@ def _is_sentence(line: str, row: Sequence[object], delimiter: str | None) -> boo
     if delimiter != "," or len(row) < 2:
         return False
     cells = [str(cell) for cell in row if str(cell)]
-    return not any(kind_of(cell) == NUMBER for cell in cells) and len(line.split()) > 2 * len(cells) and ", " in line
+    return (
+        not any(kind_of(cell) == NUMBER for cell in cells)
+        and len(line.split()) > 2 * len(cells)
+        and ", " in line
+    )
 
 
 def _usual_width(lines: Sequence[str], delimiter: str | None) -> int:
@@ -195,21 +231,27 @@ def _usual_width(lines: Sequence[str], delimiter: str | None) -> int:
 def _quoted(lines: Sequence[str], delimiter: str, name: str) -> list[tuple[int, list[str]]]:
     """Rows with quoted cells, which may hold delimiters and ends of lines."""
     csv.field_size_limit(10_000_000)
-    reader = csv.reader((line + "\n" for line in lines), delimiter=delimiter, skipinitialspace=True, strict=True)
+    reader = csv.reader(
+        (line + "\n" for line in lines), delimiter=delimiter, skipinitialspace=True, strict=True
+    )
     rows: list[tuple[int, list[str]]] = []
     begin = 1
     try:
         for cells in reader:
             if any(cell.count("\n") > _MOST_LINES_OF_A_CELL for cell in cells):
                 raise InputError(
-                    f"{name}, row {begin}: a quote is never closed", field=f"row {begin}", hint='close it with "'
+                    f"{name}, row {begin}: a quote is never closed",
+                    field=f"row {begin}",
+                    hint='close it with "',
                 )
             rows.append((begin, [cell.strip() for cell in cells]))
             begin = reader.line_num + 1
     except csv.Error as error:
         closed = "unexpected end" not in str(error)
         what = f"the quotes are wrong: {error}" if closed else "a quote is opened and never closed"
-        raise InputError(f"{name}, row {begin}: {what}", field=f"row {begin}", hint='close it with "') from error
+        raise InputError(
+            f"{name}, row {begin}: {what}", field=f"row {begin}", hint='close it with "'
+        ) from error
     return rows
 
 
@@ -235,10 +277,17 @@ def _paired(lines: Sequence[str]) -> tuple[list[list[Cell]], list[int]] | None:
                 numbers.append(number)
             continue
         if not headed:
-            rows.append([*(["time"] if stamped else []), *(f"{key} [{units[key]}]" if units[key] else key for key in usual)])
+            rows.append(
+                [
+                    *(["time"] if stamped else []),
+                    *(f"{key} [{units[key]}]" if units[key] else key for key in usual),
+                ]
+            )
             numbers.append(number)
             headed = True
         stamp = _STAMP.match(line) if stamped else None
-        rows.append([*([stamp[1] if stamp else ""] if stamped else []), *(pairs.get(key, "") for key in usual)])
+        rows.append(
+            [*([stamp[1] if stamp else ""] if stamped else []), *(pairs.get(key, "") for key in usual)]
+        )
         numbers.append(number)
     return rows, numbers

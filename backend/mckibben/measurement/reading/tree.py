@@ -41,7 +41,9 @@ def sheets_of_tree(tree: Any, format: str, noun: str) -> list[Sheet]:
     return walk.sheets
 
 
-def _visit(walk: _Walk, node: Any, path: str, above: tuple[Span, ...], units: Mapping[str, str], depth: int) -> None:
+def _visit(
+    walk: _Walk, node: Any, path: str, above: tuple[Span, ...], units: Mapping[str, str], depth: int
+) -> None:
     walk.nodes += 1
     if isinstance(node, dict):
         walk.names += _name_lists(node)
@@ -63,7 +65,9 @@ def _is_grid(node: Sequence[Any]) -> bool:
     )  # fmt: skip
 
 
-def _of_grid(walk: _Walk, node: Sequence[Any], path: str, above: tuple[Span, ...], units: Mapping[str, str]) -> None:
+def _of_grid(
+    walk: _Walk, node: Sequence[Any], path: str, above: tuple[Span, ...], units: Mapping[str, str]
+) -> None:
     heads = [str(cell) for cell in node[0]][:MAX_COLUMNS]
     body = node[1:]
     if all(isinstance(cell, str) and unit_of(cell) is not None for cell in body[0]):
@@ -73,14 +77,34 @@ def _of_grid(walk: _Walk, node: Sequence[Any], path: str, above: tuple[Span, ...
     _emit(walk, path, arrays, units, above)
 
 
-def _of_list(walk: _Walk, node: list[dict[str, Any]], path: str, above: tuple[Span, ...], units: Mapping[str, str], depth: int) -> None:
+def _of_list(
+    walk: _Walk,
+    node: list[dict[str, Any]],
+    path: str,
+    above: tuple[Span, ...],
+    units: Mapping[str, str],
+    depth: int,
+) -> None:
     """Records, named channels, or runs one after another."""
     usual = [item for item in node if item.keys() == node[len(node) // 2].keys()]
     if len(usual) > 2 and len(usual) > len(node) / 2 and _is_record(usual[0]):
         for item in [item for item in node if item.keys() != usual[0].keys()][:20]:
             above = (*above, *_texts_of(item, path))
-            units = {**units, **{str(k): str(u) for v in item.values() if isinstance(v, dict) for k, u in v.items() if isinstance(u, str)}}
-    if all(_is_record(item) for item in usual) and len(usual) >= _FEWEST and not any(_channel(item) for item in node):
+            units = {
+                **units,
+                **{
+                    str(k): str(u)
+                    for v in item.values()
+                    if isinstance(v, dict)
+                    for k, u in v.items()
+                    if isinstance(u, str)
+                },
+            }
+    if (
+        all(_is_record(item) for item in usual)
+        and len(usual) >= _FEWEST
+        and not any(_channel(item) for item in node)
+    ):
         keys = list(dict.fromkeys(k for item in usual[:1000] for k in item))[:MAX_COLUMNS]
         flat = {str(k): [_leaf(item.get(k)) for item in usual] for k in keys}
         _emit(walk, path, flat, units, above)
@@ -89,7 +113,10 @@ def _of_list(walk: _Walk, node: list[dict[str, Any]], path: str, above: tuple[Sp
     if all(named):
         _of_names(walk, {f"{i}": item for i, item in enumerate(node)}, path, above, units, depth + 1)
         return
-    if all(not isinstance(v, (list, np.ndarray)) for item in usual[:5] for v in item.values()) and len(usual) > 2:
+    if (
+        all(not isinstance(v, (list, np.ndarray)) for item in usual[:5] for v in item.values())
+        and len(usual) > 2
+    ):
         flat_items = [_flattened(item) for item in usual]
         if all(_is_record(item) for item in flat_items[:5]):
             _of_list(walk, flat_items, path, above, units, depth + 1)
@@ -99,7 +126,10 @@ def _of_list(walk: _Walk, node: list[dict[str, Any]], path: str, above: tuple[Sp
 
 
 def _is_record(item: Mapping[str, Any]) -> bool:
-    return bool(item) and all(not isinstance(v, (dict, list, tuple)) and (not isinstance(v, np.ndarray) or v.size == 1) for v in item.values())
+    return bool(item) and all(
+        not isinstance(v, (dict, list, tuple)) and (not isinstance(v, np.ndarray) or v.size == 1)
+        for v in item.values()
+    )
 
 
 def _flattened(item: Mapping[str, Any], before: str = "", depth: int = 0) -> dict[str, Any]:
@@ -125,7 +155,9 @@ def _texts_of(item: Mapping[str, Any], path: str) -> list[Span]:
     for key, value in item.items():
         if isinstance(value, dict):
             unit = next((str(u) for k, u in value.items() if isinstance(u, str) and _says_unit(str(k))), "")
-            number = next((v for v in value.values() if isinstance(v, (int, float)) and not isinstance(v, bool)), None)
+            number = next(
+                (v for v in value.values() if isinstance(v, (int, float)) and not isinstance(v, bool)), None
+            )
             if unit and number is not None and len(value) <= 4:
                 found.append(Span(f"{path}{key}", f"{key}: {number:.12g} {unit}"))
             else:
@@ -154,10 +186,16 @@ def _says_unit(key: str) -> bool:
 
 def _channel(item: Any) -> tuple[str, Any, str, list[str]] | None:
     """(name, values, unit, remarks) of a mapping that is one channel: one array, a name or a unit beside it."""
-    if not isinstance(item, dict) or len(item) > _MOST_FIELDS or any(isinstance(v, dict) for v in item.values()):
+    if (
+        not isinstance(item, dict)
+        or len(item) > _MOST_FIELDS
+        or any(isinstance(v, dict) for v in item.values())
+    ):
         return None
     arrays = [v for v in item.values() if isinstance(v, (list, tuple, np.ndarray)) and _size(v) > _FEWEST]
-    if len(arrays) != 1 or (isinstance(arrays[0], (list, tuple)) and isinstance(arrays[0][0], (list, dict, tuple))):
+    if len(arrays) != 1 or (
+        isinstance(arrays[0], (list, tuple)) and isinstance(arrays[0][0], (list, dict, tuple))
+    ):
         return None
     texts = {str(k): v for k, v in item.items() if isinstance(v, str)}
     unit = next((v for k, v in texts.items() if _says_unit(k)), "")
@@ -172,7 +210,14 @@ def _size(value: Any) -> int:
     return int(value.size) if isinstance(value, np.ndarray) else len(value)
 
 
-def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span, ...], units: Mapping[str, str], depth: int) -> None:
+def _of_names(
+    walk: _Walk,
+    node: Mapping[str, Any],
+    path: str,
+    above: tuple[Span, ...],
+    units: Mapping[str, str],
+    depth: int,
+) -> None:
     texts, arrays, below = [*above], {}, []
     lists = [*_name_lists(node), *reversed(walk.names[-_MOST_LISTS:])]
     own = dict(units)
@@ -197,9 +242,20 @@ def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span
             texts += [Span(f"{path}{head}", f"{name}: {t}"[:MAX_TEXT]) for t in channel[3]]
         elif (columns := _matrix(value, lists)) is not None:
             arrays |= columns
-        elif isinstance(value, np.ndarray) and value.size >= _FEWEST and min(value.shape, default=0) == 1 or isinstance(value, np.ndarray) and value.ndim == 1 and value.size >= _FEWEST:
+        elif (
+            (isinstance(value, np.ndarray)
+            and value.size >= _FEWEST
+            and min(value.shape, default=0) == 1)
+            or (isinstance(value, np.ndarray)
+            and value.ndim == 1
+            and value.size >= _FEWEST)
+        ):
             arrays[head] = np.ravel(value)
-        elif isinstance(value, (list, tuple)) and len(value) >= _FEWEST and all(not isinstance(v, (dict, list, tuple, np.ndarray)) for v in value[:50]):
+        elif (
+            isinstance(value, (list, tuple))
+            and len(value) >= _FEWEST
+            and all(not isinstance(v, (dict, list, tuple, np.ndarray)) for v in value[:50])
+        ):
             arrays[head] = list(value)
         elif (text := _single(value)) is not None:
             texts.append(Span(f"{path}{head}", f"{head}: {text}"[:MAX_TEXT]))
@@ -223,12 +279,20 @@ def _of_names(walk: _Walk, node: Mapping[str, Any], path: str, above: tuple[Span
 
 def _map_of(node: Mapping[str, Any], arrays: dict[str, Any]) -> dict[str, Any]:
     """A matrix over the two vectors whose lengths are its sides, as three columns; these vectors are then taken away."""
-    matrices = [(k, v) for k, v in node.items() if isinstance(v, np.ndarray) and v.ndim == 2 and min(v.shape) > 1 and v.dtype.kind in "biuf"]
+    matrices = [
+        (k, v)
+        for k, v in node.items()
+        if isinstance(v, np.ndarray) and v.ndim == 2 and min(v.shape) > 1 and v.dtype.kind in "biuf"
+    ]
     if len(matrices) != 1:
         return {}
     name, matrix = matrices[0]
     down = [k for k, v in arrays.items() if len(v) == matrix.shape[0] and not isinstance(v[0], str)]
-    across = [k for k, v in arrays.items() if len(v) == matrix.shape[1] and k not in down[:1] and not isinstance(v[0], str)]
+    across = [
+        k
+        for k, v in arrays.items()
+        if len(v) == matrix.shape[1] and k not in down[:1] and not isinstance(v[0], str)
+    ]
     if len(down) < 1 or len(across) < 1 or (matrix.shape[0] == matrix.shape[1] and len(down) != 2):
         return {}
     first, second = np.asarray(arrays.pop(down[0]), float), np.asarray(arrays.pop(across[0]), float)
@@ -241,7 +305,12 @@ def _has_arrays(value: Any, depth: int = 0) -> bool:
     """Whether a mapping holds an array at any depth."""
     if isinstance(value, dict):
         return depth > MAX_DEPTH or any(_has_arrays(v, depth + 1) for v in value.values())
-    return isinstance(value, (list, tuple)) and len(value) > 1 or isinstance(value, np.ndarray) and value.size > 1
+    return (
+        (isinstance(value, (list, tuple))
+        and len(value) > 1)
+        or (isinstance(value, np.ndarray)
+        and value.size > 1)
+    )
 
 
 def _unit_beside(head: str, value: str, flat: Mapping[str, Any]) -> dict[str, str]:
@@ -257,7 +326,11 @@ def _listed_units(arrays: dict[str, Any], units: Mapping[str, str]) -> dict[str,
     """The units of columns in a list of as many texts, which is no column."""
     del units
     for head, values in list(arrays.items()):
-        if isinstance(values, list) and values and all(isinstance(v, str) and unit_of(v) is not None for v in values):
+        if (
+            isinstance(values, list)
+            and values
+            and all(isinstance(v, str) and unit_of(v) is not None for v in values)
+        ):
             others = [name for name in arrays if name != head and not isinstance(arrays[name][0], str)]
             if len(others) == len(values):
                 del arrays[head]
@@ -268,11 +341,24 @@ def _listed_units(arrays: dict[str, Any], units: Mapping[str, str]) -> dict[str,
 def _matrix(value: Any, lists: Sequence[tuple[list[str], list[str]]]) -> dict[str, Any] | None:
     """The named columns of a matrix; None = it is none, or nothing names its columns."""
     array: np.ndarray | None = None
-    if isinstance(value, np.ndarray) and value.ndim == 2 and min(value.shape) > 1 and value.dtype.kind in "biuf":
+    if (
+        isinstance(value, np.ndarray)
+        and value.ndim == 2
+        and min(value.shape) > 1
+        and value.dtype.kind in "biuf"
+    ):
         array = value
-    elif isinstance(value, (list, tuple)) and len(value) > _FEWEST and all(isinstance(r, (list, tuple)) for r in value):
+    elif (
+        isinstance(value, (list, tuple))
+        and len(value) > _FEWEST
+        and all(isinstance(r, (list, tuple)) for r in value)
+    ):
         width = len(value[0])
-        if width > 1 and all(len(row) == width for row in value) and not any(isinstance(c, (dict, list)) for c in value[0]):
+        if (
+            width > 1
+            and all(len(row) == width for row in value)
+            and not any(isinstance(c, (dict, list)) for c in value[0])
+        ):
             try:
                 array = np.array([[np.nan if c is None else c for c in row] for row in value], float)
             except (TypeError, ValueError):
@@ -289,7 +375,12 @@ def _matrix(value: Any, lists: Sequence[tuple[list[str], list[str]]]) -> dict[st
 
 def _unnamed(key: str, value: Any) -> dict[str, Any]:
     """The columns of a long matrix that nothing names, as MATLAB would write them: ``M(:,1)``."""
-    if not isinstance(value, np.ndarray) or value.ndim != 2 or value.dtype.kind not in "biuf" or not 1 < value.shape[1] <= _WIDEST < value.shape[0]:
+    if (
+        not isinstance(value, np.ndarray)
+        or value.ndim != 2
+        or value.dtype.kind not in "biuf"
+        or not 1 < value.shape[1] <= _WIDEST < value.shape[0]
+    ):
         return {}
     return {f"{key}(:,{i + 1})": value[:, i] for i in range(value.shape[1])}
 
@@ -316,14 +407,18 @@ def _name_lists(node: Mapping[str, Any], depth: int = 0) -> list[tuple[list[str]
     return found
 
 
-def _emit(walk: _Walk, path: str, arrays: Mapping[str, Any], units: Mapping[str, str], texts: tuple[Span, ...]) -> None:
+def _emit(
+    walk: _Walk, path: str, arrays: Mapping[str, Any], units: Mapping[str, str], texts: tuple[Span, ...]
+) -> None:
     """A sheet of the arrays of one length; the others are named beside it."""
     sizes = [len(v) for v in arrays.values()]
     if not sizes or max(sizes) < _FEWEST:
         return
     size = max(set(sizes), key=lambda n: (sizes.count(n) > 1, sizes.count(n) * n))
     chosen = dict([(k, v) for k, v in arrays.items() if len(v) == size][:MAX_COLUMNS])
-    rest = tuple(Span(f"{path}{k}", f"array {k} of {len(v)} values") for k, v in arrays.items() if len(v) != size)
+    rest = tuple(
+        Span(f"{path}{k}", f"array {k} of {len(v)} values") for k, v in arrays.items() if len(v) != size
+    )
     lists = tuple(
         Span(f"{path}{k}", f"{k}: {'; '.join(map(str, v))}"[:MAX_TEXT]) for k, v in arrays.items()
         if len(v) != size and isinstance(v, list) and all(isinstance(t, str) for t in v)

@@ -19,7 +19,14 @@ CLOCK = "clock"  # times of day or dates, as seconds
 COUNT = "count"  # of a converter
 BRIDGE = "mV/V"  # output of a bridge of strain gauges over its supply
 FULL_SCALE = "%FS"  # share of the range of a sensor
-_OWN = {CLOCK: "time", COUNT: "count", BRIDGE: "bridge", FULL_SCALE: "share of range", "1": "ratio", "-": "ratio"}
+_OWN = {
+    CLOCK: "time",
+    COUNT: "count",
+    BRIDGE: "bridge",
+    FULL_SCALE: "share of range",
+    "1": "ratio",
+    "-": "ratio",
+}
 #: What a unit may measure, in the words of the unit library -> here.
 _DIMENSIONS = {
     "a pressure": "pressure", "a force": "force", "a length": "length", "a time": "time", "a mass": "mass",
@@ -38,10 +45,12 @@ FITTING = {
 }  # fmt: skip
 #: Unit of a mass -> that of its weight.
 WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf", "oz": "ozf"}
-_NO_UNITS = frozenset(("a", "A", "t", "T", "D", "at", "h0", "L", "l", "F", "p", "P", "x", "X", "i", "n", "No", "no"))  # names rather than units
+_NO_UNITS = frozenset(
+    ("a", "A", "t", "T", "D", "at", "h0", "L", "l", "F", "p", "P", "x", "X", "i", "n", "No", "no")
+)  # names rather than units
 _CLOCKS = re.compile(r"(?i)h{1,2}\s?:\s?m{1,2}(?:\s?:\s?s{1,2})?[.,:msfz0]{0,6}|clock|iso ?8601|hms")
 _DEGREES = re.compile(r"(?i)(?:deg(?:rees?)?\.?|°|º)\s?([CF])")
-_COUNTS = frozenset("count counts cts digit digits lsb bit bits raw adc inc".split())
+_COUNTS = frozenset(["count", "counts", "cts", "digit", "digits", "lsb", "bit", "bits", "raw", "adc", "inc"])
 _BRIDGES = re.compile(r"(?:mV|µV|uV)\s?/\s?V")
 _SHARES = re.compile(
     r"(?i)%\s?(?:of\s)?(?:f\.?\s?s\.?o?\.?|full[ -]?scale|(?:the\s|full\s)?range|span|v\.?\s?e\.?|"
@@ -77,7 +86,7 @@ def unit_of(text: str) -> Unit | None:
     Unit(name='bar', dimension='pressure', absolute=False)
     """
     bare = _bare(text.strip())
-    if not bare or len(bare) > 40 or bare[0].isdigit() and bare != "1" and not bare.startswith("1/"):
+    if not bare or len(bare) > 40 or (bare[0].isdigit() and bare != "1" and not bare.startswith("1/")):
         return None
     if any(character >= "\u3000" for character in bare):
         bare = unicodedata.normalize("NFKC", bare)
@@ -135,7 +144,9 @@ def in_si(values: Array, unit: str, channel: str) -> Array:
     """Readings in the SI unit of a channel; a mass becomes its weight, times of day are seconds."""
     if unit in (CLOCK, "", "1", "-"):
         return np.array(values, float)
-    return convert(values, WEIGHTS.get(unit, unit) if channel == "force" else unit, CHANNEL_UNITS.get(channel, "1"))
+    return convert(
+        values, WEIGHTS.get(unit, unit) if channel == "force" else unit, CHANNEL_UNITS.get(channel, "1")
+    )
 
 
 def quantity_si(value: float, unit: str, si: str) -> float:
@@ -164,10 +175,16 @@ _QUANTITY = re.compile(
     rf"(?<![^\W_])(?<![.,])(?P<number>{NUMBER})\s{{0,3}}(?P<unit>(?:[^\W\d_]|[°%\"'½]){{1,12}}(?:/[^\W\d_]{{1,4}}[2²]?)?"
     r"(?:\s?\((?:a|g|abs|ü|gauge|rel)\)|\s(?:abs|gauge|rel|absolute)\b)?)(?![^\W_]|[.,]\d)"
 )
-_UNIT_FIRST = re.compile(rf"[\[(]\s?(?P<unit>[^\[\]()]{{1,12}})\s?[\])]\s?[:=;]?\s{{0,3}}(?P<number>{NUMBER})(?![\w.,]|\s[A-Za-z])")
+_UNIT_FIRST = re.compile(
+    rf"[\[(]\s?(?P<unit>[^\[\]()]{{1,12}})\s?[\])]\s?[:=;]?\s{{0,3}}(?P<number>{NUMBER})(?![\w.,]|\s[A-Za-z])"
+)
 _UNIT_IN_NAME = re.compile(rf"_(?P<unit>[^\W\d_]{{1,6}})\s?[:=]\s{{0,2}}(?P<number>{NUMBER})(?![\w.,])")
-_UNIT_BEFORE = re.compile(rf"[:;,\s](?P<unit>mm|cm|kg|m?bar|[kMh]Pa|psi|kN|lbf|inch)\s?[:=;,]\s{{0,2}}(?P<number>{NUMBER})(?![\w.,])")
-_GLUED_SYMBOL = re.compile(rf"(?<![^\W_])[^\W\d_]{{1,12}}0?=?(?P<number>\d{{1,5}}(?:[.,p]\d{{1,3}})?)(?P<unit>[^\W\d_]{{1,4}})(?![^\W_])")
+_UNIT_BEFORE = re.compile(
+    rf"[:;,\s](?P<unit>mm|cm|kg|m?bar|[kMh]Pa|psi|kN|lbf|inch)\s?[:=;,]\s{{0,2}}(?P<number>{NUMBER})(?![\w.,])"
+)
+_GLUED_SYMBOL = re.compile(
+    r"(?<![^\W_])[^\W\d_]{1,12}0?=?(?P<number>\d{1,5}(?:[.,p]\d{1,3})?)(?P<unit>[^\W\d_]{1,4})(?![^\W_])"
+)
 
 
 class Quantity(NamedTuple):
@@ -189,7 +206,11 @@ def quantities(text: str) -> list[Quantity]:
     """All quantities of a text, in their order; none overlaps another one."""
     found: list[Quantity] = []
     for pattern in (_UNIT_FIRST, _UNIT_IN_NAME, _QUANTITY, _UNIT_BEFORE, _GLUED_SYMBOL):
-        found += [q for q in _of_pattern(pattern, text) if not any(q.begin < o.end and o.begin < q.end for o in found)]
+        found += [
+            q
+            for q in _of_pattern(pattern, text)
+            if not any(q.begin < o.end and o.begin < q.end for o in found)
+        ]
     return sorted(found)
 
 
@@ -198,4 +219,6 @@ def _of_pattern(pattern: re.Pattern[str], text: str) -> Iterator[Quantity]:
         unit = unit_of(match["unit"]) or unit_of(match["unit"].partition("(")[0])
         if unit is not None and unit.dimension != "count" and match["unit"] not in ("at", "a", "A"):
             number = match["number"].replace("p", ".") if pattern is _GLUED_SYMBOL else match["number"]
-            yield Quantity(match.start("number"), match.end(), number_of(number), unit, match[0].strip(" :;,="))
+            yield Quantity(
+                match.start("number"), match.end(), number_of(number), unit, match[0].strip(" :;,=")
+            )
