@@ -1,10 +1,13 @@
 """The old reader beside the new one, over the same files.
 
-    python -m tests.benchmarks.reading [--group corpus,failing,labs,tests] [--only TEXT] [--list wrong,crashed]
+    python -m tests.benchmarks.reading [--group corpus,failing,labs,tests] [--only TEXT] [--list
+    wrong,crashed]
 
-Groups: *corpus*, the files of laboratories' exporters beside this checkout, judged by their index; *failing* and
+Groups: *corpus*, the files of laboratories' exporters beside this checkout, judged by their index; *failing*
+and
 *data*, beside this checkout, the first judged by `FAILING` below, the second by the old reader; *labs*, all
-files of `tests/laboratories` with what their users type; *tests*, what the tests of the old reader give it, gathered
+files of `tests/laboratories` with what their users type; *tests*, what the tests of the old reader give it,
+gathered
 by running them once. For the last three the old reader's answer is the truth. A verdict of the new reader is
 
 right     the same channels, values, rows, kind and conditions as the truth
@@ -20,6 +23,7 @@ crashed   an exception that is no refusal
 from __future__ import annotations
 
 import argparse
+import contextlib
 import hashlib
 import json
 import pickle
@@ -58,7 +62,8 @@ CONDITIONS = (
 )
 SAME = 1e-6  # of the largest value of a channel
 
-#: File -> what must come of it: (kind, rows, channel -> (smallest, largest) in SI, words that a question must name).
+#: File -> what must come of it: (kind, rows, channel -> (smallest, largest) in SI, words that a question must
+#: name).
 FAILING: Mapping[str, tuple[str, int, Mapping[str, tuple[float, float]], tuple[str, ...]]] = {
     "length_that_is_a_stroke.csv": ("", 0, {}, ("Pressure", "Length")),
     "wide_paper_table.csv": ("isotonic", 100, {"pressure": (0.0, 6e5), "displacement": (0.0, 0.0152)}, ()),
@@ -118,10 +123,8 @@ def answer(reader: Callable[..., Measurement], look: Callable[..., Any], case: C
         except InputError as error:
             refusal, hint = error.message, str(error.hint or "")
             seconds = time.process_time() - start
-            try:
+            with contextlib.suppress(InputError):
                 questions = look(case.data, case.name, case.correction).questions
-            except InputError:
-                pass
             return Answer(None, refusal, hint, questions, seconds=seconds)
     except Exception:
         return Answer(crash=traceback.format_exc(), seconds=time.process_time() - start)
@@ -196,7 +199,8 @@ def _sorted(read: Measurement) -> np.ndarray:
     return np.lexsort(keys)
 
 
-_SUBJECTS = {"nominal_length": "rest", "load_mass": "load", "load_force": "load", "displacement": "stroke", "length": "stroke",
+_SUBJECTS = {"nominal_length": "rest", "load_mass": "load", "load_force": "load",
+             "displacement": "stroke", "length": "stroke",
              "contraction": "stroke", "supply_pressure": "supply"}  # fmt: skip
 
 
@@ -462,7 +466,8 @@ def main() -> None:
             worse[f"{group}: right -> {verdict}"] += 1
         if verdict in given.list.split(","):
             say(
-                f"{verdict:8} {number:4} {case.group} {case.name} {case.correction.canonical()[:80]}: {why[:260]}"
+                f"{verdict:8} {number:4} {case.group} {case.name} {case.correction.canonical()[:80]}: "
+                f"{why[:260]}"
             )
             if given.trace and new.crash:
                 say(new.crash)

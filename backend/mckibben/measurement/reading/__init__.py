@@ -15,8 +15,8 @@ from mckibben.measurement.reading.preview import preview_here
 from mckibben.measurement.reading.questions import questions_of
 
 __all__ = [
-    "Correction", "Preview", "load_readers", "preview", "preview_here", "read_correction", "read_here", "read_measurement",
-    "spoken_correction",
+    "Correction", "Preview", "load_readers", "preview", "preview_here", "read_correction", "read_here",
+    "read_measurement", "spoken_correction",
 ]  # fmt: skip
 
 _ANY_FILE = b"# kind: static\npressure_bar;length_mm;force_N\n1;300;10\n1;290;5\n1;280;1\n"

@@ -75,7 +75,10 @@ def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputEr
     """The refusal of a table in which no column is a channel."""
     heads = ", ".join(f"'{c.title}'" for c in table.columns[:12])
     if table.headless:
-        why = f"{name}: the file has no heads: say what its columns are; the first numbers are {_first_numbers(table)}"
+        why = (
+            f"{name}: the file has no heads: say what its columns are; the first numbers are "
+            f"{_first_numbers(table)}"
+        )
         return InputError(
             why, field="columns", hint='--column "pressure=column 1 [bar]" --column "length=column 2 [mm]"'
         )
@@ -85,7 +88,10 @@ def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputEr
         if e.facet == "role" and e.value == "raw" and e.target >= 0
     ]
     if raw:
-        why = f"{name}: {table.noun} '{raw[0]}' is a signal without a scale, and no other column is known; columns: {heads}"
+        why = (
+            f"{name}: {table.noun} '{raw[0]}' is a signal without a scale, and no other column is "
+            f"known; columns: {heads}"
+        )
         return InputError(
             why,
             field=f"{table.noun} {raw[0]}",
@@ -130,26 +136,43 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
     if order is not None and "direction" not in channels:
         channels["direction"] = order.direction
         messages.append(
-            "no time, but the rows go there and back step by step: their order is taken as that of the test, and the direction of "
+            "no time, but the rows go there and back step by step: their order is taken as that of the "
+            "test, and the direction of "
             "each row from it"
         )
     if "group" in channels:
         channels["group"] = channels["group"].astype(np.int64)
     unread = unread_of(reading)
     messages += [
-        f"{table.noun} '{title}' is not used: {why}" for title, why in unread
-        if any(c.title == title and any(e.facet == "channel" and e.rule != "unit" for e in reading.own(i)) for i, c in enumerate(table.columns))
-    ]  # fmt: skip
+        f"{table.noun} '{title}' is not used: {why}"
+        for title, why in unread
+        if any(
+            c.title == title and any(e.facet == "channel" and e.rule != "unit" for e in reading.own(i))
+            for i, c in enumerate(table.columns)
+        )
+    ]
     measurement = build(
-        {c: channels[c] for c in CHANNEL_UNITS if c in channels}, name=reading.name, id=id, kind=kind,
-        origins={c: _origin(reading, c) for c in channels}, ignored=[head for head, _ in unread], conditions=conditions,
-        marked_slack=rows.slack, messages=messages, skipped={reason: s.rows for reason, s in rows.skipped.items()},
+        {c: channels[c] for c in CHANNEL_UNITS if c in channels},
+        name=reading.name,
+        id=id,
+        kind=kind,
+        origins={c: _origin(reading, c) for c in channels},
+        ignored=[head for head, _ in unread],
+        conditions=conditions,
+        marked_slack=rows.slack,
+        messages=messages,
+        skipped={reason: s.rows for reason, s in rows.skipped.items()},
         starts=order.starts if order is not None else _starts(channels, weights),
-    )  # fmt: skip
+    )
     return replace(
-        measurement, by_rows=order is not None, unread=unread, undecided=_undecided(reading), stated=stated_of(reading, conditions),
-        in_words=_in_words(reading), questions=tuple(questions),
-    )  # fmt: skip
+        measurement,
+        by_rows=order is not None,
+        unread=unread,
+        undecided=_undecided(reading),
+        stated=stated_of(reading, conditions),
+        in_words=_in_words(reading),
+        questions=tuple(questions),
+    )
 
 
 def _rows(count: int) -> str:
@@ -213,7 +236,8 @@ def said(reading: Reading) -> list[str]:
                     else "the pressure of the surrounding air is subtracted row by row"
                 )
                 lines.append(
-                    f"{label} is absolute pressure: {amount}, {whose}; {_reason(reading, i, 'absolute', True)}"
+                    f"{label} is absolute pressure: {amount}, {whose}; "
+                    f"{_reason(reading, i, 'absolute', True)}"
                 )
             elif not any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence):
                 lines.append(f"{label} read as gauge pressure")
@@ -330,7 +354,9 @@ def stated_of(reading: Reading, conditions: Mapping[str, float | str]) -> tuple[
 
 
 def _in_words(reading: Reading) -> frozenset[str]:
-    """Channels whose unit the file or the user says, and whether one of them says what the pressure counts from."""
+    """Channels whose unit the file or the user says, and whether one of them says what the pressure counts
+    from.
+    """
     words = {c for c in reading.decision.uses if c in reading.rows.channels and reading.said_unit(c)}
     if "pressure" in reading.decision.uses:
         i = reading.decision.uses["pressure"][0]

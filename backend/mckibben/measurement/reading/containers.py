@@ -1,4 +1,6 @@
-"""Bytes of any format -> sheets: which format it is shows in the first bytes; all others are refused with what to do."""
+"""Bytes of any format -> sheets: which format it is shows in the first bytes; all others are refused with
+what to do.
+"""
 
 from __future__ import annotations
 
@@ -105,7 +107,10 @@ def _of_text(data: bytes, name: str) -> list[Sheet]:
         raise _no_table(name, _NO_TABLE[suffix])
     expected = _BINARY.get(suffix)
     if expected is not None and (control := _CONTROL.search(data[:4096])):
-        why = f"the file does not begin as {expected} does (byte {control.start() + 1} is neither text nor a known mark)"
+        why = (
+            f"the file does not begin as {expected} does (byte {control.start() + 1} is neither text "
+            f"nor a known mark)"
+        )
         raise _refusal(name, why, "export it again, or save it as CSV")
     text, messages = decoded(data, name)
     if text.lstrip()[:1] in ("{", "["):
@@ -190,7 +195,9 @@ _MOST_OF_A_SHEET = (
 
 
 def _check_extent(archive: zipfile.ZipFile, parts: list[zipfile.ZipInfo], name: str) -> None:
-    """Refuse a workbook with a cell so far out that the rectangle to it takes too much memory, whatever lies within."""
+    """Refuse a workbook with a cell so far out that the rectangle to it takes too much memory, whatever lies
+    within.
+    """
     for part in parts:
         if not part.filename.startswith("xl/worksheets/") or not part.filename.endswith(".xml"):
             continue
@@ -199,7 +206,10 @@ def _check_extent(archive: zipfile.ZipFile, parts: list[zipfile.ZipInfo], name: 
             rows = max(rows, int(match[2]))
             columns = max(columns, _column_number(match[1]))
         if rows * columns > _MOST_OF_A_SHEET:
-            why = f"'{part.filename}' spans {rows} rows and {columns} columns, more than {_MOST_OF_A_SHEET} cells are not read"
+            why = (
+                f"'{part.filename}' spans {rows} rows and {columns} columns, more than {_MOST_OF_A_SHEET} "
+                f"cells are not read"
+            )
             raise _refusal(name, why, "delete what stands far from the table, or save the table as CSV")
 
 
@@ -352,9 +362,11 @@ def _of_matlab(values: dict[str, Any], name: str, format: str) -> list[Sheet]:
     if foreign and not any(sheet.arrays for sheet in sheets):
         key = foreign[0]
         raise InputError(
-            f"{name}, variable '{key}': it is a MATLAB {values[key].kind}, which is not read", field=f"variable {key}",
-            hint=f"save its columns: s = table2struct({key}, 'ToScalar', true); save('file.mat', '-struct', 's')",
-        )  # fmt: skip
+            f"{name}, variable '{key}': it is a MATLAB {values[key].kind}, which is not read",
+            field=f"variable {key}",
+            hint=f"save its columns: s = table2struct({key}, 'ToScalar', true); save('file.mat', '-struct', "
+            f"'s')",
+        )
     return sheets
 
 
@@ -447,9 +459,12 @@ def _parquet(data: bytes, name: str) -> list[Sheet]:
     for column in table.column_names[:MAX_COLUMNS]:
         values = table[column].to_numpy()
         arrays[column] = (
-            (values - values[0]) / np.timedelta64(1, "s") if values.dtype.kind == "M"
-            else values.astype(float) if values.dtype.kind in "biuf" else ["" if v is None else str(v) for v in values]
-        )  # fmt: skip
+            (values - values[0]) / np.timedelta64(1, "s")
+            if values.dtype.kind == "M"
+            else values.astype(float)
+            if values.dtype.kind in "biuf"
+            else ["" if v is None else str(v) for v in values]
+        )
     said = {
         k.decode("utf-8", "replace"): v.decode("utf-8", "replace")
         for k, v in (table.schema.metadata or {}).items()

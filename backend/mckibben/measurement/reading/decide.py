@@ -4,8 +4,10 @@
         + half of what is said for sign and reference - what makes the column something else]
         + physics of each column and of all of them together
 
-It is found exactly among the `KEPT` best uses of pressure, force and stroke; time, command and the others follow. The
-margin of a part of the answer is S less the best S without it. A user's answer is evidence with the weight `YOU`.
+It is found exactly among the `KEPT` best uses of pressure, force and stroke; time, command and the others
+follow. The
+margin of a part of the answer is S less the best S without it. A user's answer is evidence with the weight
+`YOU`.
 """
 
 from __future__ import annotations
@@ -49,7 +51,8 @@ _FINAL = (
 _ASIDE = ("set value", "running number", "remark", "raw", "words", "counter", "slack", *_FINAL)
 SLOTS = {
     "time": "time", "pressure": "pressure", "force": "force", "length": "stroke", "contraction": "stroke",
-    "displacement": "stroke", "command": "command", "diameter": "diameter", "temperature": "temperature", "velocity": "velocity",
+    "displacement": "stroke", "command": "command", "diameter": "diameter",
+    "temperature": "temperature", "velocity": "velocity",
 }  # fmt: skip
 _MAIN = ("pressure", "force", "stroke")
 
@@ -64,7 +67,9 @@ class Option(NamedTuple):
 
 @dataclass(frozen=True)
 class Facts:
-    """What the decision needs besides the table: conditions in SI, constants of blocks, what the user says."""
+    """What the decision needs besides the table: conditions in SI, constants of blocks, what the user
+    says.
+    """
 
     rest: float | None = None
     ambient: float | Array = ATMOSPHERE
@@ -203,17 +208,17 @@ def _units(
 
 
 #: Channel -> a unit that it may have, where the stated one is raw.
-LEAST = {channel: si for channel, si in CHANNEL_UNITS.items()}
+LEAST = dict(CHANNEL_UNITS.items())
 
 
 def _signed(
-    i: int, channel: str, unit: str, score: float, scale: Scale | None, own: Sequence[Evidence], evidence: Sequence[Evidence]
+    i: int, channel: str, unit: str, score: float, scale: Scale | None, own: Sequence[Evidence], evidence:
+        Sequence[Evidence]
 ) -> list[Option]:  # fmt: skip
     """The uses with each sign and reference, by what is said of them."""
     scaling = (1.0, 0.0) if scale is None else (scale.factor, scale.offset)
     if channel == "pressure":
-        near, far = ({a: sum(e.weight for e in among if e.facet == "absolute" and e.value is a) for a in (True, False)}
-                     for among in (own, [e for e in evidence if e.target == FILE]))  # fmt: skip
+        near, far = _references(own), _references([e for e in evidence if e.target == FILE])
         said = (
             (near[True] - near[False]) if max(near.values()) else min(far[True], 6.0) - min(far[False], 6.0)
         )
@@ -241,6 +246,11 @@ def _signed(
         Option(score + 0.5 * sign * said, i, Use(channel, unit, sign, False, *scaling, zero))
         for sign in (1, -1)
     ]
+
+
+def _references(claims: Sequence[Evidence]) -> dict[bool, float]:
+    """What is said for absolute (True) and for gauge (False)."""
+    return {a: sum(e.weight for e in claims if e.facet == "absolute" and e.value is a) for a in (True, False)}
 
 
 def _chosen(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts, choice: Choice) -> list[Option]:
@@ -290,7 +300,7 @@ class _Scorer:
     def __init__(self, table: Table, facts: Facts) -> None:
         self.table, self.facts = table, facts
         self.pick = np.unique(np.linspace(0, max(table.rows - 1, 0), physics.ROWS).astype(int))
-        self.ambient = facts.ambient if isinstance(facts.ambient, float) else facts.ambient[self.pick]
+        self.ambient = facts.ambient[self.pick] if isinstance(facts.ambient, np.ndarray) else facts.ambient
         self._values: dict[tuple[int, Use], Array] = {}
         self._joint: dict[tuple[object, ...], Terms] = {}
 
@@ -311,7 +321,9 @@ class _Scorer:
         )
 
     def joint(self, p: Option | None, f: Option | None, x: Option | None) -> Terms:
-        """What pressure, force and stroke say together; a constant of the test stands for a missing pressure."""
+        """What pressure, force and stroke say together; a constant of the test stands for a missing
+        pressure.
+        """
         key = tuple(o and (o.column, o.use) for o in (p, f, x))
         if key not in self._joint:
             arrays = [self.look(o.column, o.use) if o else None for o in (p, f, x)]
@@ -323,7 +335,7 @@ class _Scorer:
             if good.sum() >= physics.ENOUGH:
                 pp, ff, xx = (None if a is None else a[good] for a in arrays)
                 absolute = p is not None and p.use.absolute
-                air = self.ambient if isinstance(self.ambient, float) else self.ambient[good]
+                air = self.ambient[good] if isinstance(self.ambient, np.ndarray) else self.ambient
                 raw = pp + air if pp is not None and absolute else pp
                 channel = x.use.channel if x else "length"
                 with np.errstate(all="ignore"):
@@ -374,9 +386,13 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
         if bad:
             against[channel] = tuple(bad)
     return Decision(
-        uses, {slot: tuple(options) for slot, options in slots.items()}, tuple(_rivals(ranked)),
-        tuple(scorer.joint(*winner)), against, score,
-    )  # fmt: skip
+        uses,
+        {slot: tuple(options) for slot, options in slots.items()},
+        tuple(_rivals(ranked)),
+        tuple(scorer.joint(*winner)),
+        against,
+        score,
+    )
 
 
 def _is_share(slot: str, option: Option, table: Table, facts: Facts) -> bool:
@@ -414,7 +430,8 @@ def _ranked(
 
 
 _PARTS = {
-    "column": lambda o: o and o.column, "unit": lambda o: o and (o.use.unit, o.use.scale), "sign": lambda o: o and o.use.sign,
+    "column": lambda o: o and o.column, "unit": lambda o: o and (o.use.unit, o.use.scale),
+    "sign": lambda o: o and o.use.sign,
     "reference": lambda o: o and o.use.absolute, "channel": lambda o: o and o.use.channel,
 }  # fmt: skip
 

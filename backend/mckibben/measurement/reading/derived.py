@@ -1,4 +1,6 @@
-"""Columns that follow from others: a force from a torque and its lever, row by row; a stroke from an angle and a radius."""
+"""Columns that follow from others: a force from a torque and its lever, row by row; a stroke from an angle
+and a radius.
+"""
 
 from __future__ import annotations
 
@@ -63,8 +65,14 @@ def _only(
 ) -> int | None:
     """The one column of numbers in a unit, with a role; None = there is none, or several."""
     found = [
-        i for i, (c, u) in enumerate(zip(columns, units, strict=True))
-        if c.words is None and u is not None and u.dimension == dimension
-        and (role is None or any(x.facet == "role" and x.value == role for x in head_claims(c.head[:200], c.unit)))
-    ]  # fmt: skip
+        i
+        for i, (c, u) in enumerate(zip(columns, units, strict=True))
+        if c.words is None
+        and u is not None
+        and u.dimension == dimension
+        and (
+            role is None
+            or any(x.facet == "role" and x.value == role for x in head_claims(c.head[:200], c.unit))
+        )
+    ]
     return found[0] if len(found) == 1 else None

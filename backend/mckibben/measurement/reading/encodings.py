@@ -50,8 +50,9 @@ def decoded(data: bytes, name: str) -> tuple[str, tuple[str, ...]]:
         line = data.count(b"\n", 0, control.start()) + 1
         raise InputError(
             f"{name}, row {line}: the file holds {what}, it is not a text table",
-            field=f"row {line}", hint="save it as 'CSV UTF-8'",
-        )  # fmt: skip
+            field=f"row {line}",
+            hint="save it as 'CSV UTF-8'",
+        )
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError:
@@ -69,9 +70,11 @@ def decoded(data: bytes, name: str) -> tuple[str, tuple[str, ...]]:
 def _from_utf16(data: bytes, name: str) -> bytes:
     """UTF-16 as UTF-8; without a mark the order of the bytes shows by the zeros."""
     head = data[:4000]
-    codec = "utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else (
-        "utf-16-le" if head[1::2].count(0) > head[::2].count(0) else "utf-16-be"
-    )  # fmt: skip
+    codec = (
+        "utf-16"
+        if data[:2] in (b"\xff\xfe", b"\xfe\xff")
+        else ("utf-16-le" if head[1::2].count(0) > head[::2].count(0) else "utf-16-be")
+    )
     try:
         return data.decode(codec).encode()
     except UnicodeError as error:

@@ -12,7 +12,15 @@ import numpy as np
 
 from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, key_of
 from mckibben.measurement.reading.heads import Claim, head_claims, taken_apart
-from mckibben.measurement.reading.lexicon import REFERENCES, Rule, folded, rules, word_set, words_of
+from mckibben.measurement.reading.lexicon import (
+    REFERENCES,
+    Rule,
+    folded,
+    pattern_of,
+    rules,
+    word_set,
+    words_of,
+)
 from mckibben.measurement.reading.limits import MAX_TEXT
 from mckibben.measurement.reading.model import BLOCK, FILE, Column, Evidence, Span, Table
 from mckibben.measurement.reading.scales import Scale, scales_in
@@ -71,7 +79,9 @@ _LOST = re.compile(r"(?<![\w.])([-+]?\d{1,7}(?:[.,]\d{1,6})?)(?![\w.]*\d)")
 
 
 def stated_marks(table: Table) -> tuple[tuple[float, Span], ...]:
-    """Numbers that texts say to stand for a lost reading: "a force of -1.0 marks a lost sample", "NoValue: -9999"."""
+    """Numbers that texts say to stand for a lost reading: "a force of -1.0 marks a lost sample", "NoValue:
+    -9999".
+    """
     found = []
     for span in table.texts:
         words = words_of(span.text[:MAX_TEXT])
@@ -227,15 +237,15 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
     if noted is not None and noted.facet == "condition:muscle":
         found[-1] = noted._replace(value=re.split(r"[,;]\s", str(noted.value))[0])
     found += _of_clauses(span, table)
-    found += [_of_quantity(context, target, span) for context in _contexts(text)]
+    claims = (_of_quantity(context, target, span) for context in _contexts(text))
+    found += [claim for claim in claims if claim is not None]
     for rule in rules("text"):
-        assert rule.pattern is not None
         for facet, value in rule.claims.items():
-            if facet == "kind" and rule.pattern.search(folded(text)):
+            if facet == "kind" and pattern_of(rule).search(folded(text)):
                 found.append(Evidence(FILE, "kind", value, rule.weight, span, rule.id))
             elif (
                 facet == "condition"
-                and (match := rule.pattern.search(text))
+                and (match := pattern_of(rule).search(text))
                 and (name := unit_of_air(match["value"]))
             ):
                 unit = Unit(name, "pressure")
@@ -254,7 +264,8 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
 
 #: Unit -> what a barometer shows in it, from 2000 m above the sea to a high at the sea; none overlap.
 _SHOWN_BY_BAROMETERS = {
-    "bar": (0.78, 1.09), "psi": (11.3, 15.8), "inHg": (23.0, 32.3), "kPa": (78.0, 109.0), "mmHg": (585.0, 815.0),
+    "bar": (0.78, 1.09), "psi": (11.3, 15.8), "inHg": (23.0, 32.3), "kPa": (78.0, 109.0),
+    "mmHg": (585.0, 815.0),
     "hPa": (815.0, 1090.0), "Pa": (7.8e4, 1.09e5),
 }  # fmt: skip
 
@@ -434,8 +445,7 @@ def _of_legend(span: Span, table: Table) -> list[Evidence]:
     """Units that a text gives to columns by their names: ``units: t[ms] p[mbar, gauge]``."""
     found: list[Evidence] = []
     rule = _text_rule("legend")
-    assert rule.pattern is not None
-    for match in rule.pattern.finditer(span.text[:MAX_TEXT]):
+    for match in pattern_of(rule).finditer(span.text[:MAX_TEXT]):
         words = match["unit"].split()
         unit = unit_of(match["unit"]) or (unit_of(words[0]) if words else None)
         for i, column in enumerate(table.columns):
@@ -459,7 +469,9 @@ _UNIT_KEY = re.compile(r"(?i)(?<![^\W_])units?\s?[=:]\s?(?P<unit>\S{1,12})")
 
 
 def _of_description(span: Span, table: Table) -> list[Evidence]:
-    """What a text says of a column by its name: ``p = Absolutdruck in mbar``, ``time in s``, ``/rig/p: kPa``."""
+    """What a text says of a column by its name: ``p = Absolutdruck in mbar``, ``time in s``, ``/rig/p:
+    kPa``.
+    """
     found: list[Evidence] = []
     text = span.text[:MAX_TEXT]
     for i, column in enumerate(table.columns):
@@ -518,8 +530,7 @@ def _of_list(span: Span, table: Table) -> list[Evidence]:
     """Names that a text gives to columns by their numbers, where they have none of their own."""
     found: list[Evidence] = []
     rule = _text_rule("column_list")
-    assert rule.pattern is not None
-    for match in rule.pattern.finditer(span.text[:MAX_TEXT]):
+    for match in pattern_of(rule).finditer(span.text[:MAX_TEXT]):
         for i in _numbered(int(match["number"]), table):
             words = re.sub(r"\s+in\s+(\S{1,8})$", r" [\1]", match["words"].strip())
             made = Column(words, np.zeros(0), span.where)
@@ -528,7 +539,9 @@ def _of_list(span: Span, table: Table) -> list[Evidence]:
 
 
 def _numbered(number: int, table: Table) -> Iterator[int]:
-    """The column that a number means: one whose head has it, else that place, where no head names a channel."""
+    """The column that a number means: one whose head has it, else that place, where no head names a
+    channel.
+    """
     heads = [c.head for c in table.columns]
     named = [
         i
@@ -546,8 +559,7 @@ def _numbered(number: int, table: Table) -> Iterator[int]:
 def _of_zero(span: Span) -> list[Evidence]:
     """The reading of a sensor at the rest length."""
     rule = _text_rule("zero_reading")
-    assert rule.pattern is not None
-    match = rule.pattern.search(span.text[:MAX_TEXT])
+    match = pattern_of(rule).search(span.text[:MAX_TEXT])
     unit = unit_of(match["unit"]) if match else None
     if match is None or unit is None:
         return []
@@ -582,7 +594,9 @@ def _of_scales(span: Span, table: Table) -> list[Evidence]:
 
 
 def _scaled_column(scale: Scale, around: str, table: Table) -> int | None:
-    """The raw column that a calibration is of: it is named beside it, or it is called like what it leads to."""
+    """The raw column that a calibration is of: it is named beside it, or it is called like what it leads
+    to.
+    """
     words = set(words_of(around))
     scores: list[tuple[float, int]] = []
     channels = {c for c, _ in BY_UNIT.get(_dimension(scale.unit), ())} | (

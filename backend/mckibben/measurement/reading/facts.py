@@ -1,4 +1,6 @@
-"""What a file states about the test: conditions, quantities held constant; each with the place that says it."""
+"""What a file states about the test: conditions, quantities held constant; each with the place that says
+it.
+"""
 
 from __future__ import annotations
 
@@ -29,7 +31,8 @@ _SIZE = re.compile(r"(?:DMSP|MAS)-(\d{1,3})")
 _YOU = Span("you", "")
 #: Conditions of which two values are asked about -> (their name, the option that sets them).
 _ASKED = {
-    "nominal_length": ("rest length", "--rest-length"), "load_mass": ("load", "--load"), "load_force": ("load", "--load"),
+    "nominal_length": ("rest length", "--rest-length"), "load_mass": ("load", "--load"),
+    "load_force": ("load", "--load"),
     "supply_pressure": ("supply pressure", "--supply"),
 }  # fmt: skip
 
@@ -43,7 +46,9 @@ class Stated(NamedTuple):
 
 
 class Contradiction(NamedTuple):
-    """A condition with two values: its key, its name, the option that sets it, both values with their places."""
+    """A condition with two values: its key, its name, the option that sets it, both values with their
+    places.
+    """
 
     key: str
     name: str
@@ -100,10 +105,15 @@ class Known:
         aside: dict[int, Choice | None] = {i: None for i, _ in self.columns.values()}
         return Facts(
             rest=rest if isinstance(rest, float) and rest > 0.0 else None,
-            ambient=self.air if self.air is not None
-            else air if isinstance(air, float) and _POSSIBLE_AIR[0] <= air <= _POSSIBLE_AIR[1] else ATMOSPHERE,
-            diameter=diameter if isinstance(diameter, float) else None, held=held, chosen=aside | dict(self.chosen),
-        )  # fmt: skip
+            ambient=self.air
+            if self.air is not None
+            else air
+            if isinstance(air, float) and _POSSIBLE_AIR[0] <= air <= _POSSIBLE_AIR[1]
+            else ATMOSPHERE,
+            diameter=diameter if isinstance(diameter, float) else None,
+            held=held,
+            chosen=aside | dict(self.chosen),
+        )
 
 
 def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: Correction) -> Known:
@@ -173,7 +183,8 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
 
 #: Role of a column, dimension of its unit -> the condition that it holds.
 _OF_ROLES = {
-    ("at rest", "length"): "nominal_length", ("supply", "pressure"): "supply_pressure", ("air", "pressure"): "ambient_pressure",
+    ("at rest", "length"): "nominal_length", ("supply", "pressure"): "supply_pressure",
+    ("air", "pressure"): "ambient_pressure",
 }  # fmt: skip
 _ROLE = 2.0  # nats from which a column holds a condition
 
@@ -181,7 +192,9 @@ _ROLE = 2.0  # nats from which a column holds a condition
 def _columns_of_conditions(
     table: Table, evidence: Sequence[Evidence], correction: Correction
 ) -> dict[str, tuple[int, tuple[float, ...]]]:  # fmt: skip
-    """Condition -> (column, its different values in SI) of the columns that hold one: a rest length, the supply, a load."""
+    """Condition -> (column, its different values in SI) of the columns that hold one: a rest length, the
+    supply, a load.
+    """
     found: dict[str, tuple[int, tuple[float, ...]]] = {}
     named = {
         i for said, choice in correction.columns.items() if choice is not None for i in _places(said, table)
@@ -295,12 +308,15 @@ def _same(a: float | str, b: float | str) -> bool:
 def _held(
     table: Table, evidence: Sequence[Evidence], conditions: Mapping[str, float | str]
 ) -> tuple[dict[str, Held], dict[str, tuple[Evidence, ...]]]:
-    """Channel -> what was held in each block, or in the file; and channels of which texts name several values."""
+    """Channel -> what was held in each block, or in the file; and channels of which texts name several
+    values.
+    """
     held: dict[str, Held] = {}
     several: dict[str, tuple[Evidence, ...]] = {}
     blocks = len(table.titles)
     facets = {"held:pressure": "pressure", "held:length": "length", "held:displacement": "displacement",
-              "held:contraction": "contraction", "condition:load_mass": "load_mass", "condition:load_force": "load_force"}  # fmt: skip
+              "held:contraction": "contraction", "condition:load_mass": "load_mass",
+              "condition:load_force": "load_force"}  # fmt: skip
     for facet, channel in facets.items():
         claims = [e for e in evidence if e.facet == facet and isinstance(e.value, Quantity)]
         own = {
@@ -311,8 +327,7 @@ def _held(
             values = np.array(
                 [_held_value(channel, e, conditions, evidence, k) for k, e in own.items() if e is not None]
             )
-            first = own[0]
-            assert first is not None
+            first = next(e for e in own.values() if e is not None)
             held[channel] = Held(values, first.value.text, first.span.where, first.value.unit.name)
             continue
         if facet.startswith("condition"):
@@ -366,11 +381,17 @@ def _places(name: str, table: Table) -> list[int]:
     wanted = " ".join(name.split())
     heads = [" ".join(c.head.split()) for c in table.columns]
     for names in (
-        [c.title for c in table.columns], heads,
-        [f"{h} [{c.unit.strip('[]() ')}]" if c.unit else h for h, c in zip(heads, table.columns, strict=True)],
+        [c.title for c in table.columns],
+        heads,
+        [
+            f"{h} [{c.unit.strip('[]() ')}]" if c.unit else h
+            for h, c in zip(heads, table.columns, strict=True)
+        ],
         [taken_apart(h, c.unit).name for h, c in zip(heads, table.columns, strict=True)],
-        [h.casefold() for h in heads], [_square(h) for h in heads], _numbered_names(table),
-    ):  # fmt: skip
+        [h.casefold() for h in heads],
+        [_square(h) for h in heads],
+        _numbered_names(table),
+    ):
         found = [
             i
             for i, one in enumerate(names)
@@ -414,8 +435,9 @@ def _chosen(table: Table, columns: Mapping[str, Choice | None], name: str) -> di
             )
         if len(places) > 1:
             raise InputError(
-                f"{name}: several {table.noun}s are called '{said[:80]}'", field=f"{table.noun} {said[:80]}",
+                f"{name}: several {table.noun}s are called '{said[:80]}'",
+                field=f"{table.noun} {said[:80]}",
                 hint=f"say its place, 'column {places[0] + 1}'",
-            )  # fmt: skip
+            )
         chosen[places[0]] = choice
     return chosen

@@ -1,4 +1,6 @@
-"""A head of a column taken apart: its name, its unit, what a pressure counts from; and what its words claim."""
+"""A head of a column taken apart: its name, its unit, what a pressure counts from; and what its words
+claim.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +20,40 @@ _BEHIND = (
     re.compile(r"([^:]+):\s?(\S{1,8})"),
 )
 _SURE = frozenset(
-    ["mm", "cm", "bar", "mbar", "kPa", "MPa", "hPa", "mmHg", "inHg", "psi", "kN", "daN", "cN", "mN", "lbf", "ozf", "kgf", "gf", "ms", "mV", "kg", "pct", "percent", "promille", "permille", "deg", "degC", "degF", "psig", "psia", "barg", "bara"]
+    [
+        "mm",
+        "cm",
+        "bar",
+        "mbar",
+        "kPa",
+        "MPa",
+        "hPa",
+        "mmHg",
+        "inHg",
+        "psi",
+        "kN",
+        "daN",
+        "cN",
+        "mN",
+        "lbf",
+        "ozf",
+        "kgf",
+        "gf",
+        "ms",
+        "mV",
+        "kg",
+        "pct",
+        "percent",
+        "promille",
+        "permille",
+        "deg",
+        "degC",
+        "degF",
+        "psig",
+        "psia",
+        "barg",
+        "bara",
+    ]
 )  # no name ends like them
 _RUN = re.compile(
     r"(?P<name>.*?[^\W\d_].*?)[\s_,;:-]{1,3}(?P<word>[^\W\d_]+)[\s_]?(?:#|n[or]\.?)?[\s_]?(?P<number>\d{1,3})"
@@ -28,7 +63,8 @@ _RUN = re.compile(
 _MORE_RUNS = frozenset(["run", "trial", "test", "series", "messung", "block"])
 #: "ΔL/L0", "(L0-L)/L0": the change of length as a share of the rest length.
 _SHARE = re.compile(
-    r"(?:.{0,40}[=:\s])?(?:(?P<longer>(?:d|Δ|∆|δ|delta[ _]?|Delta[ _]?)[Ll]|\(\s?[Ll]\s?[-−–]\s?[Ll]_?[0₀o]\s?\))"
+    r"(?:.{0,40}[=:\s])?"
+    r"(?:(?P<longer>(?:d|Δ|∆|δ|delta[ _]?|Delta[ _]?)[Ll]|\(\s?[Ll]\s?[-−–]\s?[Ll]_?[0₀o]\s?\))"
     r"|\(\s?[Ll]_?[0₀o]\s?[-−–]\s?[Ll]\s?\))\s?/\s?[Ll]_?[0₀o]"
 )
 _CHANGE = re.compile(r"(?:d|Δ|∆|δ|delta|Delta)[ _]?([Llxs])(?![^\W\d_])")
@@ -37,7 +73,8 @@ _VALUE = re.compile(r"[^\W\d_]{1,12}0?\s?[=≈]\s?\d{1,6}(?:[.,]\d{1,6})?\s?[^\W
 _LETTER = re.compile(r"([a-zκε])\d{0,2}")
 _LETTERS = {
     "t": "time", "p": "pressure", "f": "force", "l": "length", "x": "displacement", "s": "displacement",
-    "d": "diameter", "v": "velocity", "u": "command", "h": "contraction", "k": "contraction", "κ": "contraction",
+    "d": "diameter", "v": "velocity", "u": "command", "h": "contraction", "k": "contraction",
+    "κ": "contraction",
     "ε": "contraction", "e": "contraction",
 }  # fmt: skip
 _SHARES = frozenset(["h", "k", "e", "ε", "κ", "eps", "epsilon", "kappa"])
@@ -71,7 +108,8 @@ class Claim(NamedTuple):
 def taken_apart(head: str, unit_below: str = "") -> Head:
     """A head into name, unit and reference.
 
-    Units stand in brackets, at the end or before words such as a run, behind ``/``, a comma or "in", behind ``_``
+    Units stand in brackets, at the end or before words such as a run, behind ``/``, a comma or "in", behind
+    ``_``
     or a blank, or in a cell of their own.
 
     >>> taken_apart("Druck [bar] (abs)")
@@ -142,9 +180,11 @@ def _within(text: str) -> tuple[str, Unit | None]:
     found = [
         (match, unit)
         for match in _WITHIN.finditer(text)
-        if (unit := unit_of(match[1])) is not None and reference_of(match[1]) is None
-        and match[1].strip().lower() != "in" and not match[1].strip().isdigit()
-    ]  # fmt: skip
+        if (unit := unit_of(match[1])) is not None
+        and reference_of(match[1]) is None
+        and match[1].strip().lower() != "in"
+        and not match[1].strip().isdigit()
+    ]
     if len({unit.name for _, unit in found}) != 1:
         return text, None
     match, unit = found[0]
@@ -175,10 +215,9 @@ def _behind(text: str) -> tuple[str, Unit | None]:
         unit = unit_of(token) if token in _SURE else None
         if unit is not None and any(unit.dimension in FITTING[c] for c in _channels_of(bare) if c in FITTING):
             return bare.replace(f"_{token}", "", 1), unit
-    if text.startswith(("psi", "PSI")) or (
-        unit_of(bare) is not None and unit_of(bare).dimension in ("time",) and len(bare) > 1
-    ):  # type: ignore[union-attr]
-        return text, unit_of(bare)
+    alone = unit_of(bare)
+    if alone is not None and (bare.lower().startswith("psi") or (alone.dimension == "time" and len(bare) > 1)):
+        return text, alone
     return text, None
 
 
@@ -209,6 +248,7 @@ def without_run(name: str) -> tuple[str, str]:
 
 
 def counts_runs(word: str) -> bool:
+    """Whether a number behind a word counts runs: "run 12", "Versuch 3"."""
     plain = words_of(word)
     return bool(plain) and (plain[0] in _MORE_RUNS or any(c.value == "group" for c in _of_words(plain)))
 
@@ -320,7 +360,9 @@ def _of_words(words: tuple[str, ...]) -> tuple[Claim, ...]:
 
 
 def _compound_roles(word: str) -> list[Rule]:
-    """The roles of a compound whose rest names a channel: "Solldruck" is a set value, "Sollwert" is one by itself."""
+    """The roles of a compound whose rest names a channel: "Solldruck" is a set value, "Sollwert" is one by
+    itself.
+    """
     if word and word[0] >= "\u3000":
         return [
             rule

@@ -1,6 +1,8 @@
-"""Sheets of cells -> one table: runs of numeric rows, their heads and units, blocks, and the shapes of tables.
+"""Sheets of cells -> one table: runs of numeric rows, their heads and units, blocks, and the shapes of
+tables.
 
-A run is a number of rows whose numbers stand in the same columns. Its score is what its heads say times the root of
+A run is a number of rows whose numbers stand in the same columns. Its score is what its heads say times the
+root of
 its numbers; the best run is the measurement, others with the same heads are further blocks of it.
 """
 
@@ -150,7 +152,9 @@ def without_unit(cell: Cell) -> Cell:
 
 
 def without_units(sheet: Sheet) -> Sheet:
-    """A sheet whose cells hold their units, ``2,00 bar``, with these in a row of their own above the first of them."""
+    """A sheet whose cells hold their units, ``2,00 bar``, with these in a row of their own above the first of
+    them.
+    """
     rows, lines = sheet.rows, [sheet.line(i) for i in range(len(sheet.rows))]
     for i, row in enumerate(rows[:200]):
         found = [_CELL_WITH_UNIT.fullmatch(c) if isinstance(c, str) and len(c) < 40 else None for c in row]
@@ -178,23 +182,33 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
     if best.sheet.name and not several:
         texts.append(Span(f"name of sheet '{best.sheet.name}'", best.sheet.name))
     others = [
-        (f"{run.sheet.name or 'table'}, {run.sheet.noun}s {run.sheet.line(run.rows[0])} to {run.sheet.line(run.rows[-1])}",
-         "it is in another table")
-        for run in runs if not any(run is one for one in alike)
-    ]  # fmt: skip
+        (
+            f"{run.sheet.name or 'table'}, {run.sheet.noun}s {run.sheet.line(run.rows[0])} to "
+            f"{run.sheet.line(run.rows[-1])}",
+            "it is in another table",
+        )
+        for run in runs
+        if not any(run is one for one in alike)
+    ]
     read = {run.sheet.name for run in alike}
     tables = tuple(dict.fromkeys((run.sheet.name, run.sheet.name in read) for run in runs if run.sheet.name))
     rivals = _rivals(alike, best, runs)
     if rivals:
         parts = [part for run in alike if run.sheet is best.sheet for part in parts_of(run, list(run.title))]
     head_row = None if best.head_row is None else best.sheet.line(best.head_row)
-    return stacked(
-        parts, texts, where=f"{name}, sheet '{best.sheet.name}'" if best.sheet.name else name, format=best.sheet.format,
-        head_row=head_row, unit_where="" if best.unit_row is None else best.sheet.place(best.unit_row),
-        others=tuple(others), tables=tables if len(tables) > 1 else (), rivals=rivals,
-        raw=_shown(best.sheet, best.head_row), messages=(*(m for s in sheets for m in s.messages), *_below(alike, best)),
+    return replace(
+        stacked(parts, texts),
+        where=f"{name}, sheet '{best.sheet.name}'" if best.sheet.name else name,
+        format=best.sheet.format,
+        head_row=head_row,
+        unit_where="" if best.unit_row is None else best.sheet.place(best.unit_row),
+        others=tuple(others),
+        tables=tables if len(tables) > 1 else (),
+        rivals=rivals,
+        raw=_shown(best.sheet, best.head_row),
+        messages=(*(m for s in sheets for m in s.messages), *_below(alike, best)),
         headless=not any(best.heads.values()),
-    )  # fmt: skip
+    )
 
 
 def _below(alike: Sequence[Run], best: Run) -> list[str]:
@@ -209,7 +223,9 @@ def _below(alike: Sequence[Run], best: Run) -> list[str]:
 
 
 def _rivals(alike: list[Run], best: Run, runs: list[Run]) -> tuple[tuple[str, str], ...]:
-    """Sheets with as good a table, of which nothing tells which one is meant, or whether they are runs of one test."""
+    """Sheets with as good a table, of which nothing tells which one is meant, or whether they are runs of one
+    test.
+    """
     sheets = list(dict.fromkeys(run.sheet.name for run in alike))
     if len(sheets) > 1:
         if _are_runs(sheets) or any(
@@ -218,9 +234,10 @@ def _rivals(alike: list[Run], best: Run, runs: list[Run]) -> tuple[tuple[str, st
             return ()
         return tuple((sheet, ", ".join(h for h, _ in best.names)[:80]) for sheet in sheets)
     others = [
-        run for run in runs
+        run
+        for run in runs
         if run.sheet.name and run.sheet.name not in sheets and _channels(run) >= max(2, _channels(best))
-    ]  # fmt: skip
+    ]
     if not others:
         return ()
     names = dict.fromkeys([best.sheet.name, *(run.sheet.name for run in others)])
@@ -243,7 +260,7 @@ def _channels(run: Run) -> int:
     )
 
 
-def stacked(parts: Sequence[Part], texts: Sequence[Span], **about: object) -> Table:
+def stacked(parts: Sequence[Part], texts: Sequence[Span]) -> Table:
     """Blocks of the same columns as one table."""
     first = parts[0]
     columns = []
@@ -266,10 +283,13 @@ def stacked(parts: Sequence[Part], texts: Sequence[Span], **about: object) -> Ta
     blocks = np.concatenate([np.full(len(part.columns[0].values), k) for k, part in enumerate(parts)])
     columns = [column for column in columns if len(column.values) == len(blocks)]
     return Table(
-        columns=tuple(_keyed(columns)), texts=tuple(texts[:MAX_TEXTS]), blocks=blocks,
+        columns=tuple(_keyed(columns)),
+        texts=tuple(texts[:MAX_TEXTS]),
+        blocks=blocks,
         titles=tuple(part.title for part in parts) if len(parts) > 1 else ((),),
-        lines=np.concatenate([part.lines for part in parts]), bad=bad, **about,  # type: ignore[arg-type]
-    )  # fmt: skip
+        lines=np.concatenate([part.lines for part in parts]),
+        bad=bad,
+    )
 
 
 def _keyed(columns: Sequence[Column]) -> list[Column]:
@@ -299,11 +319,8 @@ def without_statistics(sheet: Sheet) -> Sheet:
         _, _, first, _ = _kinds(row)
         if first and _is_statistic(first) and any(kind_of(c) == NUMBER for c in row):
             above = [c for c in sheet.rows[i - 1] if c != ""]
-            if (
-                (len(above) > 1
-                and not _is_numeric(sheet.rows[i - 1]))
-                or (i > 1
-                and _is_statistic(str(sheet.rows[i - 1][0])))
+            if (len(above) > 1 and not _is_numeric(sheet.rows[i - 1])) or (
+                i > 1 and _is_statistic(str(sheet.rows[i - 1][0]))
             ):
                 rows = [r for j, r in enumerate(sheet.rows) if j != i]
                 lines = tuple(sheet.line(j) for j in range(len(sheet.rows)) if j != i)
@@ -418,7 +435,9 @@ def _runs(sheet: Sheet) -> list[Run]:
 
 
 def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
-    """(places of the numbers, number of texts, the text before all numbers, number of marks for no reading)."""
+    """(places of the numbers, number of texts, the text before all numbers, number of marks for no
+    reading).
+    """
     places: list[int] = []
     texts = marks = 0
     first = ""
@@ -455,7 +474,9 @@ def _is_title(row: Sequence[Cell]) -> bool:
 
 
 def _goes_on(sheet: Sheet, i: int, places: list[int]) -> bool:
-    """Whether the next rows have numbers at the same places: this one is a row of numbers with a label, or a map."""
+    """Whether the next rows have numbers at the same places: this one is a row of numbers with a label, or a
+    map.
+    """
     below = next((row for row in sheet.rows[i + 1 : i + 3] if any(c != "" for c in row)), [])
     at = {j for j, cell in enumerate(below) if kind_of(cell) in (NUMBER, CLOCK)}
     above = sheet.rows[i - 1] if i > 0 else []
@@ -466,7 +487,9 @@ def _goes_on(sheet: Sheet, i: int, places: list[int]) -> bool:
 
 
 def is_axis(sheet: Sheet, i: int) -> bool:
-    """Whether a row of numbers behind a text is the upper axis of a map: the text names it, full rows are below."""
+    """Whether a row of numbers behind a text is the upper axis of a map: the text names it, full rows are
+    below.
+    """
     row = sheet.rows[i]
     numbers = [j for j, cell in enumerate(row) if kind_of(cell) == NUMBER]
     if len(numbers) < 3 or 0 in numbers or not str(row[0]).strip():
@@ -479,7 +502,9 @@ def is_axis(sheet: Sheet, i: int) -> bool:
 
 
 def _head(run: Run, wanted: int | None) -> None:
-    """Find the row of names, that of units and what else stands above; what is left is the title of the block."""
+    """Find the row of names, that of units and what else stands above; what is left is the title of the
+    block.
+    """
     rows = run.sheet.rows
     if is_axis(run.sheet, run.rows[0]):
         _titles(run, run.rows[0])
@@ -558,7 +583,9 @@ def _completed(run: Run) -> None:
 
 
 def _shift_heads(run: Run) -> None:
-    """Names that are one fewer than the columns, of which the first numbers the rows: they belong to the others."""
+    """Names that are one fewer than the columns, of which the first numbers the rows: they belong to the
+    others.
+    """
     filled = [c for c, h in run.heads.items() if h]
     rows = run.sheet.rows
     if run.units or len(run.columns) < 3 or filled != list(range(len(filled))) or run.head_row is None:
@@ -583,8 +610,9 @@ def _is_row_of_values(row: Sequence[Cell]) -> bool:
 
 def _second_row(run: Run) -> None:
     """A row of units and of names with units below the heads: "Druck" over "Soll [bar]" and "Ist [bar]"."""
-    assert run.head_row is not None
     rows = run.sheet.rows
+    if run.head_row is None:
+        return
     below = [i for i in range(run.head_row + 1, run.rows[0]) if any(c != "" for c in rows[i])]
     if len(below) != 1:
         return
@@ -635,7 +663,9 @@ def _candidates(run: Run) -> list[int]:
 
 
 def _split_head(text: str, width: int) -> list[str]:
-    """The names of columns in one cell: parted by signs, wide gaps or blanks, brackets kept with their name."""
+    """The names of columns in one cell: parted by signs, wide gaps or blanks, brackets kept with their
+    name.
+    """
     bare = re.sub(r"^[\s#%/!;*]+", "", text)
     bare = re.sub(
         r"^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?", "", bare, flags=re.I
@@ -756,11 +786,8 @@ def sentence(row: Sequence[Cell]) -> str:
             text = shown
         elif before == NUMBER and kind == TEXT and unit_of(shown) is not None:
             text += f" {shown}"
-        elif (
-            text.endswith(":")
-            or (before == TEXT
-            and (kind == NUMBER or shown[:1].isdigit())
-            and not text.endswith(("=", ":")))
+        elif text.endswith(":") or (
+            before == TEXT and (kind == NUMBER or shown[:1].isdigit()) and not text.endswith(("=", ":"))
         ):
             text += f": {shown}" if not text.endswith(":") else f" {shown}"
         else:
@@ -792,9 +819,16 @@ def _shown(sheet: Sheet, head: int | None) -> tuple[tuple[int, tuple[str, ...]],
         else range(0)
     )
     return tuple(
-        (sheet.line(i), tuple(("" if c == "" else f"{c:g}" if isinstance(c, float) else str(c))[:_SHOWN_LENGTH] for c in row[:_SHOWN_CELLS]))
-        for i, row in enumerate(sheet.rows[:last]) if i not in gap
-    )  # fmt: skip
+        (
+            sheet.line(i),
+            tuple(
+                ("" if c == "" else f"{c:g}" if isinstance(c, float) else str(c))[:_SHOWN_LENGTH]
+                for c in row[:_SHOWN_CELLS]
+            ),
+        )
+        for i, row in enumerate(sheet.rows[:last])
+        if i not in gap
+    )
 
 
 def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Table:
@@ -802,9 +836,19 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
     tables: list[tuple[Sheet, list[Column]]] = []
     for sheet in named:
         columns = [
-            column for head, values in (sheet.arrays or {}).items()
-            if (column := column_of(values if isinstance(values, np.ndarray) else list(values), head=head, unit=sheet.units.get(head, ""), sheet=sheet, where=f"{sheet.noun} '{head}'")) is not None
-        ]  # fmt: skip
+            column
+            for head, values in (sheet.arrays or {}).items()
+            if (
+                column := column_of(
+                    values if isinstance(values, np.ndarray) else list(values),
+                    head=head,
+                    unit=sheet.units.get(head, ""),
+                    sheet=sheet,
+                    where=f"{sheet.noun} '{head}'",
+                )
+            )
+            is not None
+        ]
         if columns:
             tables.append((sheet, columns))
     most = max((len(t[0].values) for _, t in tables), default=0)
@@ -828,7 +872,7 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
     ]
     parts = [
         Part(tuple(t), (*s.texts, Span(s.name, s.name)), np.arange(1, len(t[0].values) + 1)) for s, t in alike
-    ]  # fmt: skip
+    ]
     texts = list(dict.fromkeys(t for s in sheets for t in s.texts))
     read = {s.name for s, _ in alike}
     titles = tuple((s.name, s.name in read) for s, _ in tables if s.name)
@@ -839,10 +883,16 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
         ]
         rivals = tuple((s.name, "") for s in (best_sheet, *close)) if close else ()
     where = f"{name}, {best_sheet.noun} '{best_sheet.name}'" if best_sheet.name and len(alike) == 1 else name
-    return stacked(
-        parts, texts, where=where, noun=best_sheet.noun, format=best_sheet.format, others=tuple(unread),
-        tables=titles, rivals=rivals, messages=tuple(m for s in sheets for m in s.messages),
-    )  # fmt: skip
+    return replace(
+        stacked(parts, texts),
+        where=where,
+        noun=best_sheet.noun,
+        format=best_sheet.format,
+        others=tuple(unread),
+        tables=titles,
+        rivals=rivals,
+        messages=tuple(m for s in sheets for m in s.messages),
+    )
 
 
 def _claimed(columns: Sequence[Column]) -> int:

@@ -1,6 +1,7 @@
 """Words and rules as data: `words.toml` and `rules.toml`, and how words of a file are compared with them.
 
-Every look-up is a hash of a word or of its beginnings and ends, so its cost grows with the length of a text only.
+Every look-up is a hash of a word or of its beginnings and ends, so its cost grows with the length of a text
+only.
 """
 
 from __future__ import annotations
@@ -20,6 +21,7 @@ _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue"})
 _STEM = 6  # letters from which a word counts as the beginning of its other forms
 _PART = 5  # letters from which a word counts as a part of a compound
 _LONGEST = 12  # letters of the longest unparted word that is looked for
+_END = 100  # strength of the end of a compound, above that of its beginning
 EXACT = 1000  # strength from which a word is known as it stands
 _ENDINGS = "aeiyаеияый"  # of words whose other forms end otherwise
 _FORMS = 7  # letters from which such a word is long enough to be known without its ending
@@ -50,7 +52,7 @@ def words_of(text: str) -> tuple[str, ...]:
 
 
 def _data(name: str) -> dict[str, Any]:
-    return tomllib.loads((files(__package__) / name).read_text(encoding="utf-8"))
+    return tomllib.loads((files("mckibben.measurement.reading") / name).read_text(encoding="utf-8"))
 
 
 @cache
@@ -115,7 +117,7 @@ class WordSet:
             return EXACT + len(word)
         if word and (word[-1] >= _UNPARTED or word[0] >= _UNPARTED):
             return 2 * self.inside(word)
-        ends = [2 * len(word[start:]) + 1 for start in range(1, len(word) - 2) if word[start:] in self.parts]
+        ends = [_END + len(word[start:]) for start in range(1, len(word) - 2) if word[start:] in self.parts]
         beginnings = [2 * end for end in range(3, len(word)) if word[:end] in self.parts]
         return max((*ends, *beginnings), default=0)
 
@@ -141,7 +143,8 @@ class Rule:
 
     Attributes:
         id: its name.
-        on: ``head``, ``clause`` or ``text`` of what stands beside a table, ``quantity``, ``name`` of the file.
+        on: ``head``, ``clause`` or ``text`` of what stands beside a table, ``quantity``, ``name`` of the
+            file.
         claims: facet -> value; ``captured`` = what its pattern captures.
         weight: log-likelihood ratio [nats].
         example: a text it fires on; its test.
@@ -168,6 +171,17 @@ class Rule:
     pattern: re.Pattern[str] | None = None
 
 
+def pattern_of(rule: Rule) -> re.Pattern[str]:
+    """The pattern of a rule that has one.
+
+    Raises:
+        ValueError: it has none, which is a mistake in `rules.toml`.
+    """
+    if rule.pattern is None:
+        raise ValueError(f"rule '{rule.id}' has no pattern")
+    return rule.pattern
+
+
 @cache
 def rules(on: str) -> tuple[Rule, ...]:
     """The rules for one kind of text."""
@@ -182,12 +196,19 @@ def all_rules() -> tuple[Rule, ...]:
 def _rule(given: Mapping[str, Any]) -> Rule:
     flags = 0 if given.get("case") else re.IGNORECASE
     return Rule(
-        id=given["id"], on=given["on"], claims=given["claims"], weight=float(given["weight"]), example=given["example"],
+        id=given["id"],
+        on=given["on"],
+        claims=given["claims"],
+        weight=float(given["weight"]),
+        example=given["example"],
         words=WordSet(given["words"]) if "words" in given else None,
-        needs=tuple(given.get("needs", ())), behind=tuple(given.get("behind", ())), both=bool(given.get("both")), without=tuple(given.get("without", ())),
+        needs=tuple(given.get("needs", ())),
+        behind=tuple(given.get("behind", ())),
+        both=bool(given.get("both")),
+        without=tuple(given.get("without", ())),
         dimension=tuple(given.get("dimension", ())),
         pattern=re.compile(given["pattern"], flags) if "pattern" in given else None,
-    )  # fmt: skip
+    )
 
 
 #: Other spelling of a unit, lower case -> its name in the unit library.

@@ -1,4 +1,6 @@
-"""What passes from step to step: sheets, tables, evidence, the decision. None of it is changed once it is made."""
+"""What passes from step to step: sheets, tables, evidence, the decision. None of it is changed once it is
+made.
+"""
 
 from __future__ import annotations
 
@@ -172,7 +174,8 @@ class Evidence(NamedTuple):
 
 
 class Use(NamedTuple):
-    """What a column may be: value in SI = sign * (scale * (reading - offset) in its unit - zero), less the air.
+    """What a column may be: value in SI = sign * (scale * (reading - offset) in its unit - zero), less the
+    air.
 
     ``unit`` is what the scaled reading is in; ``zero`` [SI] is subtracted before the sign.
     """

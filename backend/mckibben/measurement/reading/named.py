@@ -19,7 +19,21 @@ _CODE = re.compile(r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]
 _YEARS = range(1900, 2100)
 _BEHIND_A_WORD = re.compile(r"([^\W\d_]+)[\s_#.-]*$")
 _OTHER_LENGTHS = frozenset(
-    ["stroke", "hub", "corsa", "course", "travel", "hose", "tube", "schlauch", "tuyau", "cable", "diameter", "durchmesser", "wire"]
+    [
+        "stroke",
+        "hub",
+        "corsa",
+        "course",
+        "travel",
+        "hose",
+        "tube",
+        "schlauch",
+        "tuyau",
+        "cable",
+        "diameter",
+        "durchmesser",
+        "wire",
+    ]
 )
 
 
@@ -41,7 +55,8 @@ def length_of_name(
 ) -> NamedLength | None:
     """The length at which a name says that the muscle was held; None = it says none, or several.
 
-    A length with its unit says so itself. A bare number counts millimetres where the test is isometric: the one number
+    A length with its unit says so itself. A bare number counts millimetres where the test is isometric: the
+    one number
     that differs among the names of the test, or in a single name one of three or four digits.
 
     Args:
@@ -90,10 +105,11 @@ def _without_codes(text: str) -> str:
 def _numbers(stem: str) -> list[re.Match[str]]:
     """The bare numbers of a name: not those of "3bar" or of an order code, but that of "L138"."""
     return [
-        found for found in _NUMBER.finditer(_without_codes(stem))
+        found
+        for found in _NUMBER.finditer(_without_codes(stem))
         if not _has_unit(stem[found.end() :])
         and (not (before := re.search(r"[^\W\d_]+$", stem[: found.start()])) or _is_length(before[0]))
-    ]  # fmt: skip
+    ]
 
 
 def _has_unit(behind: str) -> bool:
@@ -135,10 +151,11 @@ def _which_differs(stem: str, rest: float, others: Sequence[str]) -> NamedLength
         values = sorted({_value(numbers[place]) for _, numbers in alike})
         steps = {round(high - low, 9) for low, high in pairwise(values)}
         if (
-            len(values) > 1 and steps != {1.0}  # they may count the runs
+            len(values) > 1
+            and steps != {1.0}  # they may count the runs
             and all(_can_be_held(value, rest) for value in values)
             and not any(_counts(one, numbers[place]) for one, numbers in alike)
-        ):  # fmt: skip
+        ):
             found.append(NamedLength(1e-3 * _value(own), own[0], _why(own, rest, "differs among the files")))
     return found[0] if len(found) == 1 else None
 

@@ -19,7 +19,8 @@ _LONGEST = 60  # characters of a cell that may be a number
 
 _PLAIN = re.compile(r"(?:[+-] ?)?(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eEdD][+-]?[0-9]{1,3})?")
 _GROUPED = re.compile(
-    r"[+-]?[0-9]{1,3}(?:(?P<mark>[.,'’ \u00a0\u202f])[0-9]{3})(?:(?P=mark)[0-9]{3}){0,8}(?P<rest>[.,][0-9]{0,15})?"
+    r"[+-]?[0-9]{1,3}(?:(?P<mark>[.,'’ \u00a0\u202f])[0-9]{3})(?:(?P=mark)[0-9]{3}){0,8}"
+    r"(?P<rest>[.,][0-9]{0,15})?"
 )
 _TOLERANCE = re.compile(r"([+-]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?(?:±|\+/-|\+-)\s?[0-9.,]{1,12}")
 _WITH_UNIT = re.compile(r"([+-]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")
@@ -148,7 +149,9 @@ def _why(cell: Any, text: str) -> str:
 
 
 def with_units(cells: Sequence[Any]) -> tuple[list[Any], str]:
-    """Cells ``12.5 bar`` as numbers and their one unit; the cells as they are where they have none in common."""
+    """Cells ``12.5 bar`` as numbers and their one unit; the cells as they are where they have none in
+    common.
+    """
     texts = [cell.strip() for cell in cells if isinstance(cell, str) and cell.strip()]
     found = [_WITH_UNIT.fullmatch(text) for text in texts]
     units = {match[2] for match in found if match}
@@ -162,7 +165,9 @@ def with_units(cells: Sequence[Any]) -> tuple[list[Any], str]:
 
 
 def seconds_of(cells: Sequence[Any], *, falling: bool = False) -> Array:
-    """Times of day or dates as seconds from the first; a day is added at midnight. NaN where a cell is none."""
+    """Times of day or dates as seconds from the first; a day is added at midnight. NaN where a cell is
+    none.
+    """
     texts = [cell.strip() for cell in cells if isinstance(cell, str) and kind_of(cell) == CLOCK]
     elapsed = (
         bool(texts)
@@ -206,8 +211,7 @@ def absolute_seconds(cell: Any) -> tuple[float, bool] | None:
         minutes, seconds = text.replace(",", ".").split(":")
         return 60.0 * int(minutes) + float(seconds), False
     found = re.match(rf"({_DAY})?[T ]{{0,3}}(.*)", text)
-    assert found is not None
-    day, rest = found.groups()
+    day, rest = found.groups() if found else (None, "")
     time = re.match(
         r"([0-9]{1,2}):([0-9]{2})(?::([0-9]{2})(?:[.,:]([0-9]{1,9}))?)? ?([aApP][mM])?", rest or "0:00"
     )

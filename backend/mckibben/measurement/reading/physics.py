@@ -1,6 +1,7 @@
 """Physical likelihood of readings in SI [nats]: what a muscle does, whatever the columns are called.
 
-Every term is bounded, so that one odd sensor does not outweigh clear words, and has its name for the messages. Terms
+Every term is bounded, so that one odd sensor does not outweigh clear words, and has its name for the
+messages. Terms
 are computed for all rival answers alike, or the answer without the term would win.
 """
 
@@ -34,19 +35,23 @@ class Range(NamedTuple):
 
 #: Muscles of 5 to 80 mm diameter, up to 12 bar and 10 m; the largest blocks with about 20 kN.
 POSSIBLE = {
-    "pressure": Range(2e3, 1.3e6), "force": Range(0.05, 3e4), "length": Range(1e-3, 12.0), "displacement": Range(2e-5, 2.0),
+    "pressure": Range(2e3, 1.3e6), "force": Range(0.05, 3e4), "length": Range(1e-3, 12.0),
+    "displacement": Range(2e-5, 2.0),
     "diameter": Range(1e-3, 0.3), "contraction": Range(1e-4, 0.75), "velocity": Range(1e-5, 10.0),
 }  # fmt: skip
 #: Where usual units overlap: ranges in which a bench really works.
 USUAL = {
-    "pressure": Range(3e4, 1.0e6), "force": Range(2.0, 1e4), "length": Range(0.04, 2.0), "displacement": Range(1e-3, 0.5),
+    "pressure": Range(3e4, 1.0e6), "force": Range(2.0, 1e4), "length": Range(0.04, 2.0),
+    "displacement": Range(1e-3, 0.5),
     "diameter": Range(4e-3, 0.12), "contraction": Range(0.01, 0.5), "velocity": Range(1e-4, 2.0),
 }  # fmt: skip
 #: Units that people leave out, the usual ones first.
 LEFT_OUT = {
     "pressure": ("bar", "kPa", "MPa", "psi", "mbar", "Pa"), "force": ("N", "kN", "lbf", "kgf"),
-    "length": ("mm", "cm", "m", "in"), "displacement": ("mm", "cm", "m", "in"), "diameter": ("mm", "cm", "m", "in"),
-    "contraction": ("%", "1"), "velocity": ("mm/s", "m/s"), "time": ("s", "ms", "min"), "temperature": ("degC", "K"),
+    "length": ("mm", "cm", "m", "in"), "displacement": ("mm", "cm", "m", "in"),
+    "diameter": ("mm", "cm", "m", "in"),
+    "contraction": ("%", "1"), "velocity": ("mm/s", "m/s"), "time": ("s", "ms", "min"),
+    "temperature": ("degC", "K"),
     "command": ("1", "%"),
 }  # fmt: skip
 _STEPS = Range(1e-6, 4.0)  # s between the readings of a moving muscle
@@ -149,7 +154,7 @@ def _stroke(channel: str, x: Array, rest: float | None) -> Terms:
             terms.append(("the length does not fit the rest length", -5.0))
         return terms
     scale = rest if channel == "displacement" else 1.0
-    if channel == "displacement" and scale is None:
+    if scale is None:
         if high <= 0.001 and low < -0.001:
             return [("all readings would be stretches", -5.0)]
         over = max(high, -low)
@@ -159,7 +164,6 @@ def _stroke(channel: str, x: Array, rest: float | None) -> Terms:
         if -min(0.0, low) > 0.3 * max(high, 1e-9) and over > 0.002:
             terms.append(("it would be stretched as far as it contracts", -4.0))
         return terms
-    assert scale is not None
     terms = []
     if high > LONGEST * scale:
         terms.append(("it contracts by more than 42 %", -2.0 if high < 0.5 * scale else -6.0))
@@ -186,7 +190,8 @@ def _time(t: Array, blocks: int) -> Terms:
 def together(
     p: Array | None, f: Array | None, channel: str, x: Array | None, diameter: float | None, *, gauge: bool
 ) -> Terms:
-    """Force over P A (3 cos^2 - 1); force falls with contraction and rises with pressure; the zero of the pressure.
+    """Force over P A (3 cos^2 - 1); force falls with contraction and rises with pressure; the zero of the
+    pressure.
 
     Args:
         p: pressure as it is counted in the file [Pa].
@@ -239,7 +244,9 @@ def _of_size(p: Array, f: Array, diameter: float | None) -> Terms:
 
 
 def _zeros(p: Array, f: Array, s: Array) -> Terms:
-    """Where the force vanishes by F = p g(s) - h(s): at no gauge pressure, or at one atmosphere; ``p`` as read."""
+    """Where the force vanishes by F = p g(s) - h(s): at no gauge pressure, or at one atmosphere; ``p`` as
+    read.
+    """
     if np.ptp(p) < 0.4 * np.max(np.abs(p)) or np.std(f) == 0:
         return []
     z = (s - np.percentile(s, 10)) / (np.std(s) or 1.0)  # 0 near the least contraction

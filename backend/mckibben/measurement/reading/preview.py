@@ -59,17 +59,29 @@ def preview_here(data: bytes, name: str, correction: Correction | None = None) -
     valid = 0 if reading is None else len(reading.rows.lines)
     skipped = {} if reading is None else reading.rows.skipped
     return Preview(
-        name=name, format=table.format, columns=_columns(table, reading, measurement),
-        sample=_sample(table), rows=valid + sum(s.rows for s in skipped.values()), valid=valid, skipped=skipped, measurement=kept,
+        name=name,
+        format=table.format,
+        columns=_columns(table, reading, measurement),
+        sample=_sample(table),
+        rows=valid + sum(s.rows for s in skipped.values()),
+        valid=valid,
+        skipped=skipped,
+        measurement=kept,
         conditions=conditions,
-        missing=missing_conditions(None if kept is None else kept.kind, {} if kept is None else kept.columns, conditions),
-        problem=problem, refused=refused,
+        missing=missing_conditions(
+            None if kept is None else kept.kind, {} if kept is None else kept.columns, conditions
+        ),
+        problem=problem,
+        refused=refused,
         messages=tuple(measurement.messages) if measurement is not None else table.messages,
         questions=tuple(asked),
         unread=unread_of(reading) if reading is not None else tuple((c.title, "") for c in table.columns),
         stated=stated_of(reading, conditions) if reading is not None else (),
-        tables=table.tables, raw=_raw(table), head_row=table.head_row, points={} if measurement is None else _points(measurement),
-    )  # fmt: skip
+        tables=table.tables,
+        raw=_raw(table),
+        head_row=table.head_row,
+        points={} if measurement is None else _points(measurement),
+    )
 
 
 def _points(measurement: Measurement) -> Mapping[str, np.ndarray]:
@@ -137,12 +149,18 @@ def _columns(
             )
         found.append(
             PreviewColumn(
-                header=column.title, channel=channel, unit=use.unit if use is not None else None,
+                header=column.title,
+                channel=channel,
+                unit=use.unit if use is not None else None,
                 absolute=use.absolute if use is not None and channel == "pressure" else None,
-                minimum=span.minimum if span else None, maximum=span.maximum if span else None, why=None, unit_origin=origin,
+                minimum=span.minimum if span else None,
+                maximum=span.maximum if span else None,
+                why=None,
+                unit_origin=origin,
                 unit_where=table.unit_where if column.unit and table.unit_where and channel else None,
-                sign=use.sign if use is not None else 1, unread=None if channel else unread.get(column.title),
+                sign=use.sign if use is not None else 1,
+                unread=None if channel else unread.get(column.title),
                 place=column.place if column.place >= 0 else None,
             )
-        )  # fmt: skip
+        )
     return tuple(found)

@@ -74,7 +74,8 @@ _RAW_SPANS = {
     "mV/V": "0 to 2 mV/V",
     "%FS": "0 to 100 %FS",
 }
-_SCALED = {"pressure": "0 to 10 bar", "force": "0 to 2000 N", "length": "0 to 300 mm", "displacement": "0 to 100 mm",
+_SCALED = {"pressure": "0 to 10 bar", "force": "0 to 2000 N", "length": "0 to 300 mm",
+           "displacement": "0 to 100 mm",
            "contraction": "0 to 100 mm", "command": "-100 to 100 %"}  # fmt: skip
 
 
@@ -177,9 +178,13 @@ def _units(reading: Reading) -> Iterator[Question]:
             choices = dict.fromkeys((use.unit, *found.choices[:4]))
             yield Question(
                 f"unit of {channel}",
-                f"{named} ({channel}) has no unit; its readings are {span}; they would be plausible in {' or '.join(choices)}",
-                option_of(channel, column, use.unit), column.head, use.unit, tuple(choices),
-            )  # fmt: skip
+                f"{named} ({channel}) has no unit; its readings are {span}; they would be plausible in "
+                f"{' or '.join(choices)}",
+                option_of(channel, column, use.unit),
+                column.head,
+                use.unit,
+                tuple(choices),
+            )
         elif not is_plausible(channel, values):
             yield from _implausible(reading, channel, column, use, raw, values, named, span)
 
@@ -198,9 +203,14 @@ def _implausible(
         what = f"{named} ({channel}) holds {span} {use.unit}, which is implausible for a muscle"
     hint = better[0] if better else use.unit
     yield Question(
-        f"unit of {channel}", f"{what}. Is its unit {' or '.join([*better[:2], use.unit])}?", option_of(channel, column, hint),
-        column.head, hint, (*better, use.unit), stops,
-    )  # fmt: skip
+        f"unit of {channel}",
+        f"{what}. Is its unit {' or '.join([*better[:2], use.unit])}?",
+        option_of(channel, column, hint),
+        column.head,
+        hint,
+        (*better, use.unit),
+        stops,
+    )
 
 
 def _back(values: Array, use: Use, channel: str) -> Array:
@@ -239,9 +249,10 @@ def _moves(reading: Reading) -> bool:
         return False
     for channel in ("pressure", *STROKES, "force"):
         values = channels.get(channel)
-        if values is not None and np.ptp(values) > _SWING * float(np.max(np.abs(values))):
-            if np.count_nonzero(turning_points(values, threshold=0.5 * float(np.ptp(values)))) >= 1:
-                return True
+        if values is None or not np.ptp(values) > _SWING * float(np.max(np.abs(values))):
+            continue
+        if np.any(turning_points(values, threshold=0.5 * float(np.ptp(values)))):
+            return True
     return False
 
 
@@ -259,22 +270,32 @@ def _unnamed(reading: Reading) -> Iterator[Question]:
         if not claims:
             yield Question(
                 f"column '{bare(column)}'",
-                f"nothing says what {reading.table.noun} '{column.title}' is; its readings behave like {channel} in {use.unit}",
-                f"{option_of(channel, column, use.unit)} or {ignore_option(bare(column))}", column.head or column.title, channel,
+                f"nothing says what {reading.table.noun} '{column.title}' is; its readings behave like "
+                f"{channel} in {use.unit}",
+                f"{option_of(channel, column, use.unit)} or {ignore_option(bare(column))}",
+                column.head or column.title,
+                channel,
                 (channel, "ignore"),
-            )  # fmt: skip
+            )
         elif channel in STROKES and all(e.rule in ("unit", "position_of_a_sensor") for e in claims):
             other = "length" if channel == "displacement" else "displacement"
             yield Question(
                 f"column '{bare(column)}'",
-                f"{reading.table.noun} '{column.title}' is read as {channel}{', with its sign reversed,' if use.sign < 0 else ''} because "
+                f"{reading.table.noun} '{column.title}' is read as "
+                f"{channel}{', with its sign reversed,' if use.sign < 0 else ''} because "
                 f"of its unit '{use.unit}' and its numbers; its name does not say so",
-                f"{option_of(other, column)} or {ignore_option(bare(column))}", column.head, channel, (channel, other, "ignore"), stops=False,
-            )  # fmt: skip
+                f"{option_of(other, column)} or {ignore_option(bare(column))}",
+                column.head,
+                channel,
+                (channel, other, "ignore"),
+                stops=False,
+            )
 
 
 def _unread(reading: Reading) -> Iterator[Question]:
-    """A column in N, bar or mm, or called like a channel that nothing is read for, of which nothing says what it is."""
+    """A column in N, bar or mm, or called like a channel that nothing is read for, of which nothing says what
+    it is.
+    """
     used = {i for i, _ in reading.decision.uses.values()} | set(reading.rows.labels.values())
     filled = {SLOTS.get(c, c) for c in reading.rows.channels}
     for i, column in enumerate(reading.table.columns):
@@ -318,13 +339,17 @@ def _unread(reading: Reading) -> Iterator[Question]:
         doubt = "; what is it"
         if channel == "displacement" and "stroke" not in filled:
             doubt = (
-                "; no text states its zero or whether it grows as the muscle shortens: is it the position of the muscle's end, "
+                "; no text states its zero or whether it grows as the muscle shortens: is it the position "
+                "of the muscle's end, "
                 "and how does it count"
             )
         yield Question(
-            f"column '{bare(column)}'", f"{reading.table.noun} '{column.head}' is in {unit} and is not read{why}{doubt}",
-            f"{ignore_option(bare(column))} or {option_of(channel, column)}", column.head, choices=("ignore", *others),
-        )  # fmt: skip
+            f"column '{bare(column)}'",
+            f"{reading.table.noun} '{column.head}' is in {unit} and is not read{why}{doubt}",
+            f"{ignore_option(bare(column))} or {option_of(channel, column)}",
+            column.head,
+            choices=("ignore", *others),
+        )
 
 
 def _raw_signal(
@@ -347,8 +372,7 @@ def _raw_signal(
             claimed
             or unit is None
             or not missing
-            or ("pressure" not in missing
-            and "displacement" not in missing)
+            or ("pressure" not in missing and "displacement" not in missing)
         ):
             return
         wanted = missing[0]
@@ -356,10 +380,14 @@ def _raw_signal(
     scale = f"{span} = {_SCALED[wanted]}"
     yield Question(
         f"scale of {wanted}",
-        f"{reading.table.noun} '{column.head}' is a signal in {unit or 'counts'}, and no text states its scale: which {wanted} is which reading",
-        f"{option_of(wanted, column, scale)} or {ignore_option(bare(column))}", column.head, None, ("ignore", wanted),
+        f"{reading.table.noun} '{column.head}' is a signal in {unit or 'counts'}, and no text states its "
+        f"scale: which {wanted} is which reading",
+        f"{option_of(wanted, column, scale)} or {ignore_option(bare(column))}",
+        column.head,
+        None,
+        ("ignore", wanted),
         stops=wanted != "command",
-    )  # fmt: skip
+    )
 
 
 def _seconds(reading: Reading) -> Iterator[Question]:
@@ -392,8 +420,11 @@ def _seconds(reading: Reading) -> Iterator[Question]:
                 f"second {channel}",
                 f"{reading.table.noun}s '{first.head}' and '{second.head}' are both {channel} and differ"
                 f"{_joint(reading, i, option.column)}; which one acts on the muscle",
-                f"{option_of(channel, first)} or {option_of(channel, second)}", second.head, first.head, (first.head, second.head),
-            )  # fmt: skip
+                f"{option_of(channel, first)} or {option_of(channel, second)}",
+                second.head,
+                first.head,
+                (first.head, second.head),
+            )
 
 
 def _aside(reading: Reading, i: int) -> bool:
@@ -449,11 +480,14 @@ def _signs(reading: Reading) -> Iterator[Question]:
         }[channel]
         other = option_of(channel, column, sign=-use.sign)
         text = (
-            f"{reading.table.noun} '{column.head}' is read with its sign reversed: {what}, and its readings run the other way"
+            f"{reading.table.noun} '{column.head}' is read with its sign reversed: {what}, and its readings "
+            f"run the other way"
             if use.sign == -1
-            else f"{reading.table.noun} '{column.head}': {what}, but its readings hardly show which way they count"
+            else f"{reading.table.noun} '{column.head}': {what}, but its readings hardly show which way "
+            f"they count"
         )
-        yield Question(f"sign of {channel}", text, f"{option_of(channel, column, sign=use.sign)} or {other}", column.head,
+        yield Question(f"sign of {channel}",
+        text, f"{option_of(channel, column, sign=use.sign)} or {other}", column.head,
                        REVERSE if use.sign == -1 else KEEP, (REVERSE, KEEP), stops=close)  # fmt: skip
 
 
@@ -478,9 +512,13 @@ def _reference(reading: Reading) -> Iterator[Question]:
     absolute, gauge = (option_of("pressure", column, f"{use.unit}({mark})") for mark in ("a", "g"))
     yield Question(
         "reference of pressure",
-        f"{reading.table.noun} '{column.head}' shows {lowest / 1e5:.2f} bar at its lowest; is it absolute or gauge pressure",
-        f"{absolute} or {gauge}", column.head, "absolute", ("absolute", "gauge"),
-    )  # fmt: skip
+        f"{reading.table.noun} '{column.head}' shows {lowest / 1e5:.2f} bar at its lowest; is it absolute "
+        f"or gauge pressure",
+        f"{absolute} or {gauge}",
+        column.head,
+        "absolute",
+        ("absolute", "gauge"),
+    )
 
 
 def _idle(reading: Reading, at_rest: np.ndarray) -> bool:
@@ -525,10 +563,15 @@ def _tare(reading: Reading) -> Iterator[Question]:
         return
     yield Question(
         "zero of force",
-        f"{reading.table.noun} '{column.head}' shows {offset:.3g} N at rest, without pressure and stroke; it is not subtracted; is it "
+        f"{reading.table.noun} '{column.head}' shows {offset:.3g} N at rest, without pressure and stroke; "
+        f"it is not subtracted; is it "
         "an offset of the sensor",
-        f'--experiment "force_zero={offset:.3g} N"', column.head, f"{offset:.3g} N", (), stops=False,
-    )  # fmt: skip
+        f'--experiment "force_zero={offset:.3g} N"',
+        column.head,
+        f"{offset:.3g} N",
+        (),
+        stops=False,
+    )
 
 
 def _contradicted(reading: Reading) -> Iterator[Question]:
@@ -542,9 +585,13 @@ def _contradicted(reading: Reading) -> Iterator[Question]:
         use = reading.use(channel)
         yield Question(
             f"{channel} in {column.title}",
-            f"{reading.table.noun} '{column.head}' is read as {channel} in {use.unit}, but {terms[0][0]}; what is it",
-            f"{option_of(channel, column)} or {ignore_option(bare(column))}", column.head, channel, (channel, "ignore"),
-        )  # fmt: skip
+            f"{reading.table.noun} '{column.head}' is read as {channel} in {use.unit}, but {terms[0][0]}; "
+            f"what is it",
+            f"{option_of(channel, column)} or {ignore_option(bare(column))}",
+            column.head,
+            channel,
+            (channel, "ignore"),
+        )
 
 
 def _close(reading: Reading) -> Iterator[Question]:
@@ -562,10 +609,14 @@ def _close(reading: Reading) -> Iterator[Question]:
             continue
         yield Question(
             f"{rival.part} of {column.title}" if rival.part == "channel" else f"unit of {channel}",
-            f"{reading.table.noun} '{column.head}' is read as {channel} in {use.unit}, but could as well be {other.use.channel} in {other.use.unit}",
-            f"{option_of(channel, column, use.unit)} or {option_of(other.use.channel, column, other.use.unit)}", column.head, channel,
+            f"{reading.table.noun} '{column.head}' is read as {channel} in {use.unit}, but could as well be "
+            f"{other.use.channel} in {other.use.unit}",
+            f"{option_of(channel, column, use.unit)} or "
+            f"{option_of(other.use.channel, column, other.use.unit)}",
+            column.head,
+            channel,
             (channel, other.use.channel),
-        )  # fmt: skip
+        )
 
 
 def _runs_against(reading: Reading) -> Iterator[Question]:
@@ -586,16 +637,27 @@ def _runs_against(reading: Reading) -> Iterator[Question]:
             reach, whole = (float(convert([v], "m", use.unit)[0]) for v in (float(np.max(stroke)), rest))
             yield Question(
                 "zero of displacement",
-                f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, up to {reach:.4g} {use.unit}: a muscle of {whole:.4g} {use.unit} "
+                f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, up to {reach:.4g} "
+                f"{use.unit}: a muscle of {whole:.4g} {use.unit} "
                 "is not at its rest length where it shows 0; which length has it there and at the end",
-                option_of("length", column, f"0 to {reach:.4g} {use.unit} = {whole - reach:.4g} to {whole:.4g} {use.unit}"), column.head,
-            )  # fmt: skip
+                option_of(
+                    "length",
+                    column,
+                    f"0 to {reach:.4g} {use.unit} = {whole - reach:.4g} to {whole:.4g} {use.unit}",
+                ),
+                column.head,
+            )
         else:
             as_length = f" or {option_of('length', column)}" if float(np.min(stroke)) > 0.0 else ""
             yield Question(
-                f"sign of {channel}", f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, but shortening is positive here; reverse its sign",
-                f"{option_of(channel, column, sign=-1)}{as_length}", column.head, REVERSE, (REVERSE, KEEP),
-            )  # fmt: skip
+                f"sign of {channel}",
+                f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, but shortening is "
+                f"positive here; reverse its sign",
+                f"{option_of(channel, column, sign=-1)}{as_length}",
+                column.head,
+                REVERSE,
+                (REVERSE, KEEP),
+            )
 
 
 _MOTION = ("the force falls as it contracts", "it contracts as the pressure rises")
@@ -626,18 +688,26 @@ def _zero(reading: Reading) -> Iterator[Question]:
         reach, whole = (float(convert([v], "m", unit)[0]) for v in (most, rest))
         yield Question(
             "zero of displacement",
-            f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, up to {reach:.4g} {unit}: a muscle of {whole:.4g} {unit} is "
+            f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, up to {reach:.4g} {unit}: "
+            f"a muscle of {whole:.4g} {unit} is "
             "not at its rest length where it shows 0; which length has it there and at the end",
-            option_of("length", column, f"0 to {reach:.4g} {unit} = {whole - reach:.4g} to {whole:.4g} {unit}"), column.head,
-        )  # fmt: skip
+            option_of(
+                "length", column, f"0 to {reach:.4g} {unit} = {whole - reach:.4g} to {whole:.4g} {unit}"
+            ),
+            column.head,
+        )
         return
     if float(np.min(np.abs(stroke))) <= 0.02 * float(np.max(np.abs(stroke))):
         return
     yield Question(
         "zero of displacement",
-        f"{reading.table.noun} '{column.head}' is a position; at which reading is the muscle at its rest length",
-        f"{option_of('displacement', column)} or {option_of('length', column)}", column.head, None, ("displacement", "length"),
-    )  # fmt: skip
+        f"{reading.table.noun} '{column.head}' is a position; at which reading is the muscle at its rest "
+        f"length",
+        f"{option_of('displacement', column)} or {option_of('length', column)}",
+        column.head,
+        None,
+        ("displacement", "length"),
+    )
 
 
 def _by_valve(reading: Reading) -> Iterator[Question]:
@@ -667,9 +737,13 @@ def _by_valve(reading: Reading) -> Iterator[Question]:
         return
     yield Question(
         f"column '{bare(column)}'",
-        f"{reading.table.noun} '{column.head}' is the only pressure and named after the valve; no text says that it was measured; take it",
-        f"{option_of('pressure', column)} or {ignore_option(bare(column))}", column.head, "pressure", ("pressure", "ignore"),
-    )  # fmt: skip
+        f"{reading.table.noun} '{column.head}' is the only pressure and named after the valve; no text says "
+        f"that it was measured; take it",
+        f"{option_of('pressure', column)} or {ignore_option(bare(column))}",
+        column.head,
+        "pressure",
+        ("pressure", "ignore"),
+    )
 
 
 def _of_pressure(text: str) -> bool:
@@ -677,7 +751,9 @@ def _of_pressure(text: str) -> bool:
 
 
 def is_sensed(values: Array, others: Sequence[Array]) -> bool:
-    """Whether readings scatter from row to row in motion as at rest, in step with no other column, as those of a sensor do."""
+    """Whether readings scatter from row to row in motion as at rest, in step with no other column, as those
+    of a sensor do.
+    """
     finite = values[np.isfinite(values)]
     if len(finite) < 20 or np.ptp(finite) == 0.0:
         return False
@@ -686,9 +762,10 @@ def is_sensed(values: Array, others: Sequence[Array]) -> bool:
         return False
     flips = np.mean(np.sign(bend[1:]) != np.sign(bend[:-1]))
     alike = [
-        abs(np.corrcoef(bend, o[2:] - 2.0 * o[1:-1] + o[:-2])[0, 1]) for o in others
+        abs(np.corrcoef(bend, o[2:] - 2.0 * o[1:-1] + o[:-2])[0, 1])
+        for o in others
         if len(o) == len(finite) and np.ptp(o[2:] - 2.0 * o[1:-1] + o[:-2]) > 0.0
-    ]  # fmt: skip
+    ]
     return bool(flips > 0.5 and max(alike, default=0.0) < 0.6)
 
 
@@ -713,14 +790,21 @@ def _counted(reading: Reading) -> Iterator[Question]:
         )
         span = f"{low:.4g} to {high:.4g} {unit if angle else 'counts'} = 0 to 60 mm"
         yield Question(
-            "stroke", f"{reading.table.noun} '{column.head}' holds {what}, and the file has no other stroke; no text states how it counts",
-            f"{option_of('displacement', column, span)} or {ignore_option(bare(column))}", column.head, None, ("displacement", "ignore"),
-        )  # fmt: skip
+            "stroke",
+            f"{reading.table.noun} '{column.head}' holds {what}, and the file has no other stroke; no text "
+            f"states how it counts",
+            f"{option_of('displacement', column, span)} or {ignore_option(bare(column))}",
+            column.head,
+            None,
+            ("displacement", "ignore"),
+        )
         return
 
 
 def _tares(reading: Reading) -> Iterator[Question]:
-    """A tare, or the weight of a hanger, that a text states without saying whether the readings contain it."""
+    """A tare, or the weight of a hanger, that a text states without saying whether the readings contain
+    it.
+    """
     if (
         "force" not in reading.rows.channels
         or "force_zero" in reading.known.conditions
@@ -737,11 +821,8 @@ def _tares(reading: Reading) -> Iterator[Question]:
         hanger = word_set("hanger").among(words) and any(
             q.unit.dimension == "mass" for q in quantities(span.text)
         )
-        if (
-            not (tare or hanger)
-            or (word_set("tare_done").among(words)
-            and not word_set("without").among(words)
-            and "not" not in words)
+        if not (tare or hanger) or (
+            word_set("tare_done").among(words) and not word_set("without").among(words) and "not" not in words
         ):
             continue
         if (
@@ -757,20 +838,26 @@ def _tares(reading: Reading) -> Iterator[Question]:
         column = reading.column("force")
         yield Question(
             "zero of force",
-            f"the file states {'a tare of the force' if tare else 'the weight of a hanger'}, '{span.text[:60]}' ({span.where}), but it is not clear "
-            f"whether the readings{f' of {chr(39)}{column.head}{chr(39)}' if column else ''} contain it; what do they show without pull",
-            '--experiment "force_zero=0 N"', None if column is None else column.head,
-        )  # fmt: skip
+            f"the file states {'a tare of the force' if tare else 'the weight of a hanger'}, "
+            f"'{span.text[:60]}' ({span.where}), but it is not clear "
+            f"whether the readings{f' of {chr(39)}{column.head}{chr(39)}' if column else ''} contain it; "
+            f"what do they show without pull",
+            '--experiment "force_zero=0 N"',
+            None if column is None else column.head,
+        )
         return
 
 
 _EMPTY = re.compile(
-    r"(?i)nothing (?:attached|hung|on it)|(?:without|with no|no) load|ohne (?:last|kraft)|sans charge|senza carico|sin carga|sem carga"
+    r"(?i)nothing (?:attached|hung|on it)|(?:without|with no|no) load|ohne (?:last|kraft)|sans charge|"
+    r"senza carico|sin carga|sem carga"
 )
 
 
 def _air(reading: Reading) -> Iterator[Question]:
-    """A pressure of the surrounding air that cannot be, or is stated twice, where an absolute pressure needs it."""
+    """A pressure of the surrounding air that cannot be, or is stated twice, where an absolute pressure needs
+    it.
+    """
     column = reading.column("pressure")
     if (
         column is None
@@ -789,9 +876,12 @@ def _air(reading: Reading) -> Iterator[Question]:
     twice = f"is stated as {' and as '.join(list(stated.values())[:3])}, which one is right"
     what = twice if len(stated) > 1 else f"is read as {said:.6g} Pa, which is impossible; what was it"
     yield Question(
-        "pressure of the surrounding air", f"column '{column.head}' is absolute, and the pressure of the surrounding air {what}",
-        'keep one value in the file, or state how much it exceeded 1013.25 hPa: --experiment "pressure_zero=-6 hPa"', column.head,
-    )  # fmt: skip
+        "pressure of the surrounding air",
+        f"column '{column.head}' is absolute, and the pressure of the surrounding air {what}",
+        "keep one value in the file, or state how much it exceeded 1013.25 hPa: --experiment "
+        '"pressure_zero=-6 hPa"',
+        column.head,
+    )
 
 
 def _set_point(reading: Reading) -> Iterator[Question]:
@@ -804,9 +894,14 @@ def _set_point(reading: Reading) -> Iterator[Question]:
         roles = roles_of(reading.own(i))
         if roles.get("set value", 0.0) >= 2.0 and not roles.get("measured"):
             yield Question(
-                f"column '{bare(column)}'", f"{reading.table.noun} '{column.head}' is a set value, and no measured {channel} is there; take it",
-                f"{option_of(channel, column)} or {ignore_option(bare(column))}", column.head, channel, (channel, "ignore"),
-            )  # fmt: skip
+                f"column '{bare(column)}'",
+                f"{reading.table.noun} '{column.head}' is a set value, and no measured {channel} is there; "
+                f"take it",
+                f"{option_of(channel, column)} or {ignore_option(bare(column))}",
+                column.head,
+                channel,
+                (channel, "ignore"),
+            )
 
 
 def _specimens(reading: Reading) -> Iterator[Question]:
@@ -817,10 +912,14 @@ def _specimens(reading: Reading) -> Iterator[Question]:
     column = reading.table.columns[reading.rows.labels["sample"]]
     yield Question(
         "specimens",
-        f"{reading.table.noun} '{column.head}' names {len(names)} specimens, {', '.join(map(repr, names[:4]))}; their readings belong to "
+        f"{reading.table.noun} '{column.head}' names {len(names)} specimens, "
+        f"{', '.join(map(repr, names[:4]))}; their readings belong to "
         "different muscles; split the file, or read all as one muscle",
-        ignore_option(bare(column)), column.head, None, names[:8],
-    )  # fmt: skip
+        ignore_option(bare(column)),
+        column.head,
+        None,
+        names[:8],
+    )
 
 
 def _rest_length(reading: Reading) -> Iterator[Question]:
@@ -829,9 +928,11 @@ def _rest_length(reading: Reading) -> Iterator[Question]:
     strokes = [c for c in STROKES if c in channels]
     if strokes == ["displacement"] and "nominal_length" not in reading.known.conditions:
         yield Question(
-            "rest length", "the file states no rest length (L0) of the muscle; a stroke alone gives no contraction",
-            '--rest-length "300 mm"', stops=False,
-        )  # fmt: skip
+            "rest length",
+            "the file states no rest length (L0) of the muscle; a stroke alone gives no contraction",
+            '--rest-length "300 mm"',
+            stops=False,
+        )
         return
     if "nominal_length" in reading.correction.conditions or not isinstance(rest, float) or rest <= 0.0:
         return
@@ -843,10 +944,11 @@ def _rest_length(reading: Reading) -> Iterator[Question]:
         )
         yield Question(
             "rest length",
-            f"the rest length is read as {said.text or rest} ({said.where.where}), {shown}, which is impossible for it; "
+            f"the rest length is read as {said.text or rest} ({said.where.where}), {shown}, which is "
+            f"impossible for it; "
             f"{'where is the stroke 0, or ' if 'stretch' in shown else ''}which rest length is right",
             option,
-        )  # fmt: skip
+        )
 
 
 def _beyond(channels: dict[str, Array], rest: float) -> str:
@@ -862,7 +964,10 @@ def _beyond(channels: dict[str, Array], rest: float) -> str:
             return f"the strokes measured are {low * 1e3:.4g} to {high * 1e3:.4g} mm"
         if float(np.quantile(stroke, _FEW)) < -_STRETCHED * rest:
             share = -100.0 * low / rest
-            return f"the strokes measured would stretch the muscle by up to {-low * 1e3:.4g} mm beyond its rest length ({share:.0f} %)"
+            return (
+                f"the strokes measured would stretch the muscle by up to {-low * 1e3:.4g} mm beyond its "
+                f"rest length ({share:.0f} %)"
+            )
     return ""
 
 
@@ -881,9 +986,10 @@ def _held_length(reading: Reading) -> Iterator[Question]:
     ):
         yield Question(
             "length",
-            "the file says that the test is isometric, but neither a column nor a text states the length at which the muscle was held",
+            "the file says that the test is isometric, but neither a column nor a text states the length at "
+            "which the muscle was held",
             "write the length as a column, 'length_mm', or into the file's name, 'iso_L138mm'",
-        )  # fmt: skip
+        )
 
 
 def _of_columns(reading: Reading) -> Iterator[Question]:
@@ -894,8 +1000,7 @@ def _of_columns(reading: Reading) -> Iterator[Question]:
             len(values) < 2
             or not needed
             or key in reading.correction.conditions
-            or (key == "load_mass"
-            and "load_force" in reading.correction.conditions)
+            or (key == "load_mass" and "load_force" in reading.correction.conditions)
         ):
             continue
         column = reading.table.columns[i]
@@ -906,10 +1011,13 @@ def _of_columns(reading: Reading) -> Iterator[Question]:
         shown = ", ".join(f"{v:.6g} {unit}" for v in values[:4])
         yield Question(
             what,
-            f"{reading.table.noun} '{column.head}' holds {len(values)} values, {shown}, but a measurement has one {what}; split the file by it, "
+            f"{reading.table.noun} '{column.head}' holds {len(values)} values, {shown}, but a measurement "
+            f"has one {what}; split the file by it, "
             "or state which one holds for all rows",
-            f'{option} "{values[0]:.6g} {unit}"' + (f" or {option_of('force', column)}" if key == "load_mass" else ""), column.head,
-        )  # fmt: skip
+            f'{option} "{values[0]:.6g} {unit}"'
+            + (f" or {option_of('force', column)}" if key == "load_mass" else ""),
+            column.head,
+        )
 
 
 def _unknown_unit(reading: Reading) -> Iterator[Question]:
@@ -940,9 +1048,13 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
             and not column.unit
         ):
             yield Question(
-                f"unit of {used}", f"{reading.table.noun} '{column.head}': '{bracket[1]}' is not a known unit", option_of(used, column, reading.use(used).unit),
-                column.head, reading.use(used).unit, (reading.use(used).unit,),
-            )  # fmt: skip
+                f"unit of {used}",
+                f"{reading.table.noun} '{column.head}': '{bracket[1]}' is not a known unit",
+                option_of(used, column, reading.use(used).unit),
+                column.head,
+                reading.use(used).unit,
+                (reading.use(used).unit,),
+            )
         elif (
             stated is not None
             and used not in claimed
@@ -950,9 +1062,12 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
             and not any(dimension_of(stated) in FITTING[c] for c in claimed)
         ):
             yield Question(
-                f"unit of {channel}", f"{reading.table.noun} '{column.head}': the unit '{stated}' is a {dimension_of(stated)}, a unit of {channel} is needed",
-                f"{option_of(channel, column, si)} or {ignore_option(bare(column))}", column.head,
-            )  # fmt: skip
+                f"unit of {channel}",
+                f"{reading.table.noun} '{column.head}': the unit '{stated}' is a {dimension_of(stated)}, a "
+                f"unit of {channel} is needed",
+                f"{option_of(channel, column, si)} or {ignore_option(bare(column))}",
+                column.head,
+            )
 
 
 def _load(reading: Reading) -> Iterator[Question]:
@@ -960,12 +1075,18 @@ def _load(reading: Reading) -> Iterator[Question]:
     loaded = "load_mass" in conditions or "load_force" in conditions or "force" in channels
     if not loaded and (set(STROKES) & set(channels) or "pressure" in channels) and "diameter" not in channels:
         yield Question(
-            "load", "the file states no load, which decides how far the muscle shortens", '--load "6 kg"', stops=False
-        )  # fmt: skip
+            "load",
+            "the file states no load, which decides how far the muscle shortens",
+            '--load "6 kg"',
+            stops=False,
+        )
     if "command" in channels and "supply_pressure" not in conditions:
         yield Question(
-            "supply", "the file states no supply pressure, from which the valve fills the muscle", '--supply "6 bar"', stops=False
-        )  # fmt: skip
+            "supply",
+            "the file states no supply pressure, from which the valve fills the muscle",
+            '--supply "6 bar"',
+            stops=False,
+        )
 
 
 def _twice(reading: Reading) -> Iterator[Question]:
@@ -980,17 +1101,20 @@ def _twice(reading: Reading) -> Iterator[Question]:
         if (
             not needed
             or found.key in reading.rows.held
-            or ("load_mass" in reading.known.held
-            and found.key.startswith("load"))
+            or ("load_mass" in reading.known.held and found.key.startswith("load"))
         ):
             continue
         first, second = found.values
         yield Question(
             found.name,
-            f"the file states two values for the {found.name}, {first.text} ({first.where.where}) and {second.text} ({second.where.where}); "
+            f"the file states two values for the {found.name}, {first.text} ({first.where.where}) and "
+            f"{second.text} ({second.where.where}); "
             "which one is right",
-            f'{found.option} "{first.text}" or {found.option} "{second.text}"', None, first.text, (first.text, second.text),
-        )  # fmt: skip
+            f'{found.option} "{first.text}" or {found.option} "{second.text}"',
+            None,
+            first.text,
+            (first.text, second.text),
+        )
 
 
 def _several(reading: Reading) -> Iterator[Question]:
@@ -1004,15 +1128,18 @@ def _several(reading: Reading) -> Iterator[Question]:
         if missing:
             shown = ", ".join(f"'{e.value.text}' ({e.span.where})" for e in claims[:6])
             yield Question(
-                channel, f"no column holds the {channel}, and the texts state several: {shown}; at which one was it measured",
+                channel,
+                f"no column holds the {channel}, and the texts state several: {shown}; at which one was it "
+                f"measured",
                 f"write the {channel} as a column, '{channel}_{'bar' if channel == 'pressure' else 'mm'}'",
-            )  # fmt: skip
+            )
 
 
 Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
-    _units, _unnamed, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs, _runs_against, _reference, _zero, _contradicted, _close, _tare,
+    _units, _unnamed, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs,
+    _runs_against, _reference, _zero, _contradicted, _close, _tare,
 )  # fmt: skip
 #: Asked always.
 ALWAYS: tuple[Policy, ...] = (

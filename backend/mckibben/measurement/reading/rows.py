@@ -1,4 +1,6 @@
-"""The rows of a decision in SI: which can be read, in which order, with directions, groups and what was held."""
+"""The rows of a decision in SI: which can be read, in which order, with directions, groups and what was
+held.
+"""
 
 from __future__ import annotations
 
@@ -39,7 +41,8 @@ _PAIRS = (("shortening", "lengthening"), ("pressure_rises", "pressure_falls"), (
 _SIDES = {"pressure_rises": 1.0, "pressure_falls": -1.0, "one_way": 1.0, "other_way": -1.0}
 _OPTIONAL = ("temperature", "velocity", "diameter")
 _IMPOSSIBLE = {
-    "length": ("is not a length", "a length above 0"), "diameter": ("is not a diameter", "a diameter above 0"),
+    "length": ("is not a length", "a length above 0"), "diameter": ("is not a diameter", "a diameter above "
+                                                                                         "0"),
     "temperature": ("is not a temperature", "a temperature above 0 K"),
     "contraction": ("is not possible", "contraction is (L0 - L)/L0 < 1; percent is 'contraction_pct'"),
     "pressure": (
@@ -86,7 +89,8 @@ def rows_of(
     """The rows of a table that can be read.
 
     Raises:
-        InputError: cells that are no numbers, values that cannot be, or too few rows; `Rows.first_bad` holds the
+        InputError: cells that are no numbers, values that cannot be, or too few rows; `Rows.first_bad` holds
+        the
             first of them where bad rows are left out.
     """
     rows = Rows()
@@ -119,7 +123,8 @@ def rows_of(
     if "time" in rows.channels and "time" in decision.uses and rows.channels["time"][0] > 1e8:
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
         rows.messages.append(
-            f"{table.noun} '{table.columns[decision.uses['time'][0]].title}' counts from 1970: its first row is 0 s"
+            f"{table.noun} '{table.columns[decision.uses['time'][0]].title}' counts from 1970: its first "
+            f"row is 0 s"
         )
     _hold(rows, known, correction, table.where)
     _labels(rows, table, known, evidence, keep, {i for i, _ in used.values()})
@@ -133,7 +138,9 @@ _COARSE = 0.6  # share of the steps of a clock that are 0, from which a stated i
 
 
 def _even_time(rows: Rows, table: Table, decision: Decision, evidence: Sequence[Evidence]) -> None:
-    """The time by a stated interval of sampling, where the file has none, or a clock that stands still for several rows."""
+    """The time by a stated interval of sampling, where the file has none, or a clock that stands still for
+    several rows.
+    """
     step = max(
         (e for e in evidence if e.facet == "condition:sampling_step"), key=lambda e: e.weight, default=None
     )
@@ -157,7 +164,7 @@ def _even_time(rows: Rows, table: Table, decision: Decision, evidence: Sequence[
             return
     elif not {"force", *STROKES} & set(rows.channels):
         return
-    rows.channels["time"] = np.arange(len(rows.lines)) * seconds
+    rows.channels["time"] = seconds * np.arange(len(rows.lines), dtype=float)
     rows.messages.append(
         f"time is counted by the interval of sampling, '{step.span.text[:60]}' ({step.span.where})"
     )
@@ -219,7 +226,7 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
             f"{reason}, and in {len(missing)} rows in all",
             "a number in each row, or leave the column out",
         )
-        assert rows.first_bad is not None
+    if missing and rows.first_bad is not None and not skip:
         raise rows.first_bad
     return keep
 
@@ -240,7 +247,8 @@ def _count(rows: Rows, reason: str, count: int, first: str) -> None:
 
 
 def _possible(
-    table: Table, used: Mapping[str, tuple[int, object]], values: Mapping[str, Array], keep: NDArray[np.bool_],
+    table: Table, used: Mapping[str, tuple[int, object]], values: Mapping[str, Array], keep:
+        NDArray[np.bool_],
     ambient: float | Array, rows: Rows, *, skip: bool,
 ) -> NDArray[np.bool_]:  # fmt: skip
     """The rows whose values can be: no length below 0, no absolute pressure below 0."""
@@ -267,8 +275,7 @@ def _possible(
             int(bad.sum()),
             f"row {int(table.lines[r])}, {table.noun} '{title}'",
         )
-        if not skip:
-            assert rows.first_bad is not None
+        if not skip and rows.first_bad is not None:
             raise rows.first_bad
         good &= ~bad
     return good
@@ -329,7 +336,8 @@ def _take(rows: Rows, known: Known, channel: str) -> None:
 
 
 def _labels(
-    rows: Rows, table: Table, known: Known, evidence: Sequence[Evidence], keep: NDArray[np.bool_], used: set[int]
+    rows: Rows, table: Table, known: Known, evidence: Sequence[Evidence], keep: NDArray[np.bool_], used:
+        set[int]
 ) -> None:  # fmt: skip
     """Directions, groups, marks of slack and names of specimens."""
     for use in ("direction", "group", SLACK, SAMPLE):
@@ -415,7 +423,8 @@ def _group(words: Sequence[str]) -> Array:
 def direction_of(words: Sequence[str], channels: Mapping[str, Array], messages: list[str]) -> Array | None:
     """-1 shortening, +1 lengthening, 0 unknown; None when a word is not understood.
 
-    "load" alone says too little (a weight lengthens, air shortens), nor does "rising": there the stroke, else the
+    "load" alone says too little (a weight lengthens, air shortens), nor does "rising": there the stroke, else
+    the
     pressure, of neighbouring rows decides.
     """
     distinct = dict.fromkeys(words)

@@ -1,4 +1,6 @@
-"""Scales of raw signals in texts and answers: ``0.5 bar/V``, ``0-10 V = 0-10 bar``, ``p = 1.25*U - 0.62 bar``."""
+"""Scales of raw signals in texts and answers: ``0.5 bar/V``, ``0-10 V = 0-10 bar``, ``p = 1.25*U - 0.62
+bar``.
+"""
 
 from __future__ import annotations
 
@@ -6,7 +8,7 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
-from mckibben.measurement.reading.lexicon import rules, word_set, words_of
+from mckibben.measurement.reading.lexicon import pattern_of, rules, word_set, words_of
 from mckibben.measurement.reading.units import number_of, unit_of
 
 _NUMBER = r"[-+]?\d{1,9}(?:[.,]\d{1,9})?"
@@ -50,8 +52,7 @@ def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
             before = re.split(r"[;,](?!\d)", text[: taken[0][0]])[-1]
             yield scale, f"{before} {text}"
     for rule in sorted((r for r in rules("text") if "scale" in r.claims), key=lambda r: -r.weight):
-        assert rule.pattern is not None
-        for match in rule.pattern.finditer(text):
+        for match in pattern_of(rule).finditer(text):
             if any(match.start() < end and begin < match.end() for begin, end in taken):
                 continue
             scale = _of_match(match, rule.id, rule.weight)
@@ -78,12 +79,7 @@ def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
                 ):
                     scale = scale._replace(offset=number_of(zero["x"]))
                 at_rest = _AT_REST.search(text)
-                if (
-                    at_rest is not None
-                    and not scale.offset
-                    and unit_of(scale.unit) is not None
-                    and unit_of(scale.unit).dimension == "length"
-                ):  # type: ignore[union-attr]
+                if at_rest is not None and not scale.offset and scale.unit in ("mm", "cm", "m", "in"):
                     scale = scale._replace(offset=number_of(at_rest[1]))
                 yield scale, f"{before} {match[0]}"
 
@@ -171,7 +167,9 @@ def state_of(text: str) -> str | None:
 
 
 def answered_scale(text: str) -> Scale | None:
-    """The scale that a user says: ``0-10 V = 0-10 bar``, ``1 V = 2 bar``, ``0.5 bar/V``; None = it is none."""
+    """The scale that a user says: ``0-10 V = 0-10 bar``, ``1 V = 2 bar``, ``0.5 bar/V``; None = it is
+    none.
+    """
     bare = text.strip()
     for pattern in (_ANSWER_RANGE, _ANSWER_ONE, _ANSWER_PER):
         match = pattern.fullmatch(bare)

@@ -1,4 +1,6 @@
-"""The shapes of tables: blocks side by side, wide tables, maps, tall tables and transposed ones, all as columns."""
+"""The shapes of tables: blocks side by side, wide tables, maps, tall tables and transposed ones, all as
+columns.
+"""
 
 from __future__ import annotations
 
@@ -52,7 +54,8 @@ class Part(NamedTuple):
 
 
 def column_of(
-    cells: Sequence[Cell] | NDArray[Any], *, head: str, sheet: Sheet, where: str, unit: str = "", above: tuple[str, ...] = (),
+    cells: Sequence[Cell] | NDArray[Any], *, head: str, sheet: Sheet, where: str, unit: str = "",
+    above: tuple[str, ...] = (),
     described: tuple[str, ...] = (), place: int = -1,
 ) -> Column | None:  # fmt: skip
     """A column of numbers, of times or of words; None = all of its cells are empty."""
@@ -111,7 +114,9 @@ _FAR = 0.5  # of a mark, below which all other readings are
 
 
 def without_marks(values: NDArray[np.float64]) -> dict[int, Gap]:
-    """Take numbers that stand for a lost reading out of a column: usual marks, and values of no physical size."""
+    """Take numbers that stand for a lost reading out of a column: usual marks, and values of no physical
+    size.
+    """
     found: dict[int, Gap] = {}
     finite = np.isfinite(values)
     if not finite.any():
@@ -158,8 +163,7 @@ def _with_bulk(run: Run, columns: dict[int, Column], title: list[Span], lines: N
     Raises:
         NeedsCellsError: it is no plain table, or its middle does not belong to this run.
     """
-    assert run.sheet.bulk is not None
-    at, bulk = run.sheet.bulk
+    at, bulk = run.sheet.bulk or (0, np.zeros((0, 0)))
     inside = at in run.rows and at - 1 in run.rows
     plain = not (
         _two_ways(run, columns, title, lines)
@@ -260,8 +264,9 @@ def _ragged(run: Run) -> dict[int, str]:
         return {}
     return {
         k: f"{len(rows[r])} cells, the header has {width}"
-        for k, r in enumerate(run.rows) if len(rows[r]) > width and any(c != "" for c in rows[r][width:])
-    }  # fmt: skip
+        for k, r in enumerate(run.rows)
+        if len(rows[r]) > width and any(c != "" for c in rows[r][width:])
+    }
 
 
 def _columns(run: Run) -> dict[int, Column]:
@@ -271,9 +276,17 @@ def _columns(run: Run) -> dict[int, Column]:
     for c in range(width):
         cells = [rows[r][c] if c < len(rows[r]) else "" for r in run.rows]
         column = column_of(
-            cells, head=run.heads.get(c, ""), unit=run.units.get(c, ""), above=run.more.get(c, ()), described=run.described.get(c, ()),
-            sheet=sheet, where=f"column {c + 1}" if run.head_row is None else f"{sheet.place(run.head_row)}, column {c + 1}", place=c,
-        )  # fmt: skip
+            cells,
+            head=run.heads.get(c, ""),
+            unit=run.units.get(c, ""),
+            above=run.more.get(c, ()),
+            described=run.described.get(c, ()),
+            sheet=sheet,
+            where=f"column {c + 1}"
+            if run.head_row is None
+            else f"{sheet.place(run.head_row)}, column {c + 1}",
+            place=c,
+        )
         if column is not None:
             short = (
                 {k: len(rows[r]) for k, r in enumerate(run.rows) if len(rows[r]) <= c}
@@ -300,7 +313,9 @@ def _pattern(head: str) -> str:
 def _two_ways(
     run: Run, columns: dict[int, Column], title: list[Span], lines: NDArray[np.int64]
 ) -> list[Part]:
-    """Columns of one quantity for the way there and the way back: the rows once for each, with the way as a column."""
+    """Columns of one quantity for the way there and the way back: the rows once for each, with the way as a
+    column.
+    """
     ways = {c: _way(column.head) for c, column in columns.items()}
     pairs: dict[str, dict[str, int]] = {}
     for c, way in ways.items():
@@ -352,10 +367,13 @@ def _turned(part: Part, *, back: bool) -> Part:
     count = len(order)
     columns = tuple(
         replace(
-            c, values=c.values[order], words=None if c.words is None else tuple(c.words[r] for r in order),
+            c,
+            values=c.values[order],
+            words=None if c.words is None else tuple(c.words[r] for r in order),
             gaps={count - 1 - r: gap for r, gap in c.gaps.items()},
-        ) for c in part.columns
-    )  # fmt: skip
+        )
+        for c in part.columns
+    )
     return part._replace(columns=columns, lines=part.lines[order])
 
 
@@ -409,7 +427,7 @@ def _side_by_side(
         keep = ~np.all(
             [np.isnan(c.values) for c in block if c.words is None] or [np.zeros(len(lines), bool)], axis=0
         )
-        parts.append(Part(tuple(_kept(c, keep) for c in block), tuple([*title, *over]), lines[keep]))
+        parts.append(Part(tuple(_kept(c, keep) for c in block), (*title, *over), lines[keep]))
     return parts
 
 
@@ -460,7 +478,7 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
         ]
         keep = ~np.all([np.isnan(c.values) for c in chosen], axis=0)
         over = [Span(c.where, c.head) for c in chosen]
-        parts.append(Part(tuple(_kept(c, keep) for c in block), tuple([*title, *over]), lines[keep]))
+        parts.append(Part(tuple(_kept(c, keep) for c in block), (*title, *over), lines[keep]))
     return parts
 
 
@@ -546,11 +564,10 @@ def _tall(columns: list[Column], lines: NDArray[np.int64]) -> tuple[list[Column]
     if len(named) != 1 or not numbers:
         return None
     names = named[0]
-    assert names.words is not None
     value = _value_column(numbers)
     if value is None:
         return None
-    words = np.array([word.strip() for word in names.words])
+    words = np.array([word.strip() for word in names.words or ()])
     signals = [word for word in dict.fromkeys(words) if word]
     units = next((c for c in columns if c.words is not None and c is not names and _are_units(c.words)), None)
     keys = [c for c in numbers if c is not value and len(np.unique(c.values)) < len(c.values)]
@@ -600,7 +617,20 @@ def _are_signals(words: Sequence[str]) -> bool:
 
 
 _TAGS = frozenset(
-    ["tag", "signal", "channel", "kanal", "sensor", "name", "variable", "quantity", "grosse", "item", "point", "parameter"]
+    [
+        "tag",
+        "signal",
+        "channel",
+        "kanal",
+        "sensor",
+        "name",
+        "variable",
+        "quantity",
+        "grosse",
+        "item",
+        "point",
+        "parameter",
+    ]
 )
 
 
@@ -631,7 +661,9 @@ def _value_column(numbers: Sequence[Column]) -> Column | None:
 
 
 def transposed(sheet: Sheet) -> Sheet:
-    """A sheet whose heads stand in its first column, with the readings beside them, turned; others as they are."""
+    """A sheet whose heads stand in its first column, with the readings beside them, turned; others as they
+    are.
+    """
     found: list[int] = []
     best: list[int] = []
     for i, row in enumerate([*sheet.rows[:400], []]):
@@ -651,15 +683,14 @@ def transposed(sheet: Sheet) -> Sheet:
     if (
         len(channels) < 2
         or across - 1 < _FEWEST_ACROSS
-        or (across - 1 <= len(rows)
-        and len(channels) < len(rows))
+        or (across - 1 <= len(rows) and len(channels) < len(rows))
     ):
         return sheet
     units = 1 if all(len(row) > 1 and kind_of(row[1]) == TEXT for row in rows) else 0
     heads: list[Cell] = [str(row[0]) + (f" [{row[1]}]" if units else "") for row in rows]
     body: list[list[Cell]] = [
         [row[j] if j < len(row) else "" for row in rows] for j in range(1 + units, across)
-    ]  # fmt: skip
+    ]
     before = [row for i, row in enumerate(sheet.rows) if i not in best and i < best[0]]
     after = [row for i, row in enumerate(sheet.rows) if i not in best and i > best[-1]]
     numbers = [sheet.line(i) for i in range(best[0])] + [sheet.line(best[0])] * (len(body) + 1)
@@ -671,7 +702,9 @@ def transposed(sheet: Sheet) -> Sheet:
 
 
 def _is_row_of_readings(row: Sequence[Cell]) -> bool:
-    """Whether a row begins with the name of a channel and goes on with numbers, a unit between them perhaps."""
+    """Whether a row begins with the name of a channel and goes on with numbers, a unit between them
+    perhaps.
+    """
     if len(row) < 1 + _FEWEST_ACROSS or kind_of(row[0]) != TEXT:
         return False
     kinds = [kind_of(cell) for cell in row[1:]]

@@ -49,7 +49,9 @@ def text_sheets(data: bytes, name: str) -> list[Sheet]:
 
 
 def sheet_of_text(text: str, name: str, messages: Sequence[str] = (), *, whole: bool = False) -> Sheet:
-    """The cells of a decoded text; the middle of a long one as numbers, unless all rows are wanted as cells."""
+    """The cells of a decoded text; the middle of a long one as numbers, unless all rows are wanted as
+    cells.
+    """
     lines = text.split("\n")
     if len(lines) > MAX_ROWS:
         raise InputError(
@@ -85,7 +87,9 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = (), *, whole: 
 
 
 def _with_bulk(lines: list[str], delimiter: str | None, name: str, messages: Sequence[str]) -> Sheet | None:
-    """A long table of plain numbers: its first and last rows as cells, those between as numbers; None = it is none."""
+    """A long table of plain numbers: its first and last rows as cells, those between as numbers; None = it is
+    none.
+    """
     first, last = lines[:_HEAD_ROWS], lines[-_TAIL_ROWS:]
     width = _usual_width(lines, delimiter)
     if width < 2 or delimiter == "|":
@@ -111,9 +115,15 @@ def _with_bulk(lines: list[str], delimiter: str | None, name: str, messages: Seq
         return sheet_of_text("\n".join(lines), name, messages, whole=True)
 
     return Sheet(
-        rows=[*rows, *below], noun="line", decimal=style.decimal, thousands=style.thousands,
-        lines=(*numbers, *(n + offset for n in later)), messages=tuple(messages), bulk=(len(rows), bulk), whole=whole,
-    )  # fmt: skip
+        rows=[*rows, *below],
+        noun="line",
+        decimal=style.decimal,
+        thousands=style.thousands,
+        lines=(*numbers, *(n + offset for n in later)),
+        messages=tuple(messages),
+        bulk=(len(rows), bulk),
+        whole=whole,
+    )
 
 
 def _sample(lines: Sequence[str]) -> list[str]:
@@ -256,7 +266,9 @@ def _quoted(lines: Sequence[str], delimiter: str, name: str) -> list[tuple[int, 
 
 
 def _paired(lines: Sequence[str]) -> tuple[list[list[Cell]], list[int]] | None:
-    """The lines of a log that writes each reading with its name, ``t:12 p:3.4``, as a table; None = it is none."""
+    """The lines of a log that writes each reading with its name, ``t:12 p:3.4``, as a table; None = it is
+    none.
+    """
     sample = [line[:1000] for line in lines[:2000] if line.strip()]
     found = [_PAIR.findall(line) for line in sample]
     many = [pairs for pairs in found if len(pairs) >= 2 and len({key for key, *_ in pairs}) == len(pairs)]

@@ -1,4 +1,6 @@
-"""Nested names (JSON, MATLAB, HDF5) -> sheets: columns are arrays of one length below one name, single values are texts."""
+"""Nested names (JSON, MATLAB, HDF5) -> sheets: columns are arrays of one length below one name, single values
+are texts.
+"""
 
 from __future__ import annotations
 
@@ -60,9 +62,11 @@ def _visit(
 def _is_grid(node: Sequence[Any]) -> bool:
     """Whether a list holds rows of which the first is one of names."""
     return (
-        len(node) > _FEWEST and all(isinstance(row, (list, tuple)) for row in node) and len(node[0]) > 1
+        len(node) > _FEWEST
+        and all(isinstance(row, (list, tuple)) for row in node)
+        and len(node[0]) > 1
         and all(isinstance(cell, str) for cell in node[0])
-    )  # fmt: skip
+    )
 
 
 def _of_grid(
@@ -185,7 +189,9 @@ def _says_unit(key: str) -> bool:
 
 
 def _channel(item: Any) -> tuple[str, Any, str, list[str]] | None:
-    """(name, values, unit, remarks) of a mapping that is one channel: one array, a name or a unit beside it."""
+    """(name, values, unit, remarks) of a mapping that is one channel: one array, a name or a unit beside
+    it.
+    """
     if (
         not isinstance(item, dict)
         or len(item) > _MOST_FIELDS
@@ -243,13 +249,8 @@ def _of_names(
         elif (columns := _matrix(value, lists)) is not None:
             arrays |= columns
         elif (
-            (isinstance(value, np.ndarray)
-            and value.size >= _FEWEST
-            and min(value.shape, default=0) == 1)
-            or (isinstance(value, np.ndarray)
-            and value.ndim == 1
-            and value.size >= _FEWEST)
-        ):
+            isinstance(value, np.ndarray) and value.size >= _FEWEST and min(value.shape, default=0) == 1
+        ) or (isinstance(value, np.ndarray) and value.ndim == 1 and value.size >= _FEWEST):
             arrays[head] = np.ravel(value)
         elif (
             isinstance(value, (list, tuple))
@@ -278,7 +279,9 @@ def _of_names(
 
 
 def _map_of(node: Mapping[str, Any], arrays: dict[str, Any]) -> dict[str, Any]:
-    """A matrix over the two vectors whose lengths are its sides, as three columns; these vectors are then taken away."""
+    """A matrix over the two vectors whose lengths are its sides, as three columns; these vectors are then
+    taken away.
+    """
     matrices = [
         (k, v)
         for k, v in node.items()
@@ -297,19 +300,18 @@ def _map_of(node: Mapping[str, Any], arrays: dict[str, Any]) -> dict[str, Any]:
         return {}
     first, second = np.asarray(arrays.pop(down[0]), float), np.asarray(arrays.pop(across[0]), float)
     return {
-        down[0]: np.repeat(first, len(second)), across[0]: np.tile(second, len(first)), str(name): np.asarray(matrix, float).ravel(),
-    }  # fmt: skip
+        down[0]: np.repeat(first, len(second)),
+        across[0]: np.tile(second, len(first)),
+        str(name): np.asarray(matrix, float).ravel(),
+    }
 
 
 def _has_arrays(value: Any, depth: int = 0) -> bool:
     """Whether a mapping holds an array at any depth."""
     if isinstance(value, dict):
         return depth > MAX_DEPTH or any(_has_arrays(v, depth + 1) for v in value.values())
-    return (
-        (isinstance(value, (list, tuple))
-        and len(value) > 1)
-        or (isinstance(value, np.ndarray)
-        and value.size > 1)
+    return (isinstance(value, (list, tuple)) and len(value) > 1) or (
+        isinstance(value, np.ndarray) and value.size > 1
     )
 
 
@@ -386,7 +388,9 @@ def _unnamed(key: str, value: Any) -> dict[str, Any]:
 
 
 def _name_lists(node: Mapping[str, Any], depth: int = 0) -> list[tuple[list[str], list[str]]]:
-    """Lists of names of columns, with their units: of texts, or of mappings with a name; those of inner mappings last."""
+    """Lists of names of columns, with their units: of texts, or of mappings with a name; those of inner
+    mappings last.
+    """
     found = []
     for other in node.values():
         if not isinstance(other, (list, tuple)) or not other:
@@ -396,10 +400,21 @@ def _name_lists(node: Mapping[str, Any], depth: int = 0) -> list[tuple[list[str]
         elif all(isinstance(v, dict) and any(str(k).lower() in _NAMES for k in v) for v in other):
             names = [next(str(x) for k, x in v.items() if str(k).lower() in _NAMES) for v in other]
             units = [
-                " ".join([next((str(x) for k, x in v.items() if _says_unit(str(k))), ""),
-                          next((str(x) for k, x in v.items() if str(x).lower() in ("absolute", "gauge", "relative")), "")]).strip()
+                " ".join(
+                    [
+                        next((str(x) for k, x in v.items() if _says_unit(str(k))), ""),
+                        next(
+                            (
+                                str(x)
+                                for k, x in v.items()
+                                if str(x).lower() in ("absolute", "gauge", "relative")
+                            ),
+                            "",
+                        ),
+                    ]
+                ).strip()
                 for v in other
-            ]  # fmt: skip
+            ]
             found.append((names, units))
     for other in node.values() if depth < 2 else ():
         if isinstance(other, dict):
@@ -420,12 +435,17 @@ def _emit(
         Span(f"{path}{k}", f"array {k} of {len(v)} values") for k, v in arrays.items() if len(v) != size
     )
     lists = tuple(
-        Span(f"{path}{k}", f"{k}: {'; '.join(map(str, v))}"[:MAX_TEXT]) for k, v in arrays.items()
+        Span(f"{path}{k}", f"{k}: {'; '.join(map(str, v))}"[:MAX_TEXT])
+        for k, v in arrays.items()
         if len(v) != size and isinstance(v, list) and all(isinstance(t, str) for t in v)
-    )  # fmt: skip
+    )
     walk.sheets.append(
         Sheet(
-            path.rstrip("."), noun=walk.noun, format=walk.format, arrays=chosen,
-            units={k: u for k in chosen if (u := units.get(k) or units.get(k.rpartition(".")[2], ""))}, texts=(*texts, *rest, *lists),
+            path.rstrip("."),
+            noun=walk.noun,
+            format=walk.format,
+            arrays=chosen,
+            units={k: u for k in chosen if (u := units.get(k) or units.get(k.rpartition(".")[2], ""))},
+            texts=(*texts, *rest, *lists),
         )
-    )  # fmt: skip
+    )

@@ -31,17 +31,21 @@ _OWN = {
 _DIMENSIONS = {
     "a pressure": "pressure", "a force": "force", "a length": "length", "a time": "time", "a mass": "mass",
     "a speed": "speed", "a temperature": "temperature", "a voltage": "voltage", "a current": "current",
-    "a plain number or a share": "ratio", "a frequency": "frequency", "a rate": "frequency", "a volume": "volume",
+    "a plain number or a share": "ratio", "a frequency": "frequency", "a rate": "frequency",
+    "a volume": "volume",
     "a volume flow": "flow", "an angle": "angle", "a power": "power", "an energy or a torque": "torque",
-    "a mass per length": "density", "a stiffness": "stiffness", "an acceleration": "acceleration", "an area": "area",
+    "a mass per length": "density", "a stiffness": "stiffness", "an acceleration": "acceleration",
+    "an area": "area",
 }  # fmt: skip
 #: What a signal is in before it has a scale.
 RAW = ("voltage", "current", "count", "bridge", "share of range")
-#: Channel -> what its unit may measure; a mass stands for its weight, a share of the rest length for a stroke.
+#: Channel -> what its unit may measure; a mass stands for its weight, a share of the rest length for a
+#: stroke.
 FITTING = {
     "time": ("time",), "pressure": ("pressure",), "force": ("force", "mass"), "length": ("length",),
     "displacement": ("length",), "contraction": ("ratio",), "diameter": ("length",), "velocity": ("speed",),
-    "command": ("ratio",), "temperature": ("temperature",), "group": ("", "ratio"), "direction": ("", "ratio"),
+    "command": ("ratio",), "temperature": ("temperature",), "group": ("", "ratio"),
+    "direction": ("", "ratio"),
 }  # fmt: skip
 #: Unit of a mass -> that of its weight.
 WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf", "oz": "ozf"}
