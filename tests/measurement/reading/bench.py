@@ -64,6 +64,8 @@ def assert_is(found: Measurement, wanted: Mapping[str, Array] = SI, *, rest: flo
     """All readings in SI, row by row, and the rest length."""
     for channel, values in wanted.items():
         scale = float(np.max(np.abs(values)))
-        np.testing.assert_allclose(found.columns[channel], values, rtol=0.0, atol=2e-5 * scale, err_msg=channel)
+        np.testing.assert_allclose(
+            found.columns[channel], values, rtol=0.0, atol=2e-5 * scale, err_msg=channel
+        )
     if rest is not None:
         assert found.conditions["nominal_length"] == rest

@@ -9,10 +9,21 @@ import numpy as np
 import pytest
 
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.reading import read_here
 from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.reading import read_here
 from mckibben.physics.errors import InputError
-from tests.measurement.reading.bench import ABOVE, FORCE, PRESSURE, SI, STROKE, TIME, asked, assert_is, read, table
+from tests.measurement.reading.bench import (
+    ABOVE,
+    FORCE,
+    PRESSURE,
+    SI,
+    STROKE,
+    TIME,
+    asked,
+    assert_is,
+    read,
+    table,
+)
 
 COLUMNS = {"Zeit [s]": TIME, "Druck [bar]": PRESSURE / 1e5, "Kraft [N]": FORCE, "Hub [mm]": STROKE * 1e3}
 REMARKS = (
@@ -78,14 +89,20 @@ def test_units_of_pressure_change_nothing(head: str, factor: float) -> None:
     assert_is(read(written(columns)))
 
 
-@pytest.mark.parametrize("extra", ["Nr", "Bemerkung", "Temperatur [°C]", "Spannung [V]", "Druck Versorgung [bar]"])
+@pytest.mark.parametrize(
+    "extra", ["Nr", "Bemerkung", "Temperatur [°C]", "Spannung [V]", "Druck Versorgung [bar]"]
+)
 def test_a_further_column_changes_nothing(extra: str) -> None:
-    values = {"Nr": np.arange(1.0, len(TIME) + 1), "Temperatur [°C]": 22.0 + 0.01 * TIME}.get(extra, 6.0 + 0.0 * TIME)
+    values = {"Nr": np.arange(1.0, len(TIME) + 1), "Temperatur [°C]": 22.0 + 0.01 * TIME}.get(
+        extra, 6.0 + 0.0 * TIME
+    )
     assert_is(read(written({extra: values, **COLUMNS})))
 
 
 def test_a_question_that_is_answered_is_gone() -> None:
-    data = written({"Druck": PRESSURE / 1e5, **{h: v for h, v in COLUMNS.items() if not h.startswith("Druck")}})
+    data = written(
+        {"Druck": PRESSURE / 1e5, **{h: v for h, v in COLUMNS.items() if not h.startswith("Druck")}}
+    )
     assert asked(data)["unit of pressure"]
     from tests.measurement.reading.bench import said
 

@@ -20,7 +20,11 @@ def claimed(rule: Rule) -> set[str]:
     if rule.on == "head":
         heads = [rule.example] if not rule.dimension else [f"{rule.example} [{u}]" for u in ("mm", "kg", "N")]
         return {claim.rule for head in (*heads, rule.example) for claim in head_claims(head)}
-    heads = ("", "p_muscle [V]", "") if rule.id == "column_list" else ("t", "p", "x", "CH1 pressure [V]", "U_p [V]")
+    heads = (
+        ("", "p_muscle [V]", "")
+        if rule.id == "column_list"
+        else ("t", "p", "x", "CH1 pressure [V]", "U_p [V]")
+    )
     columns = tuple(Column(head, np.arange(9.0) ** 2, "column") for head in heads)
     table = Table(columns, (Span("line 1", rule.example),), np.zeros(9, np.intp))
     return {claim.rule for claim in evidence_of(table, "a.csv")}
@@ -75,8 +79,17 @@ def test_quantities_of_texts(text: str, wanted: list[tuple[float, str]]) -> None
 
 
 def test_units_in_other_letters() -> None:
-    names = {text: unit.name for text in ("ｋＰａ", "мм", "Mpa", "mPa", "kgf/cm²", "°C") if (unit := unit_of(text))}
-    assert names == {"ｋＰａ": "kPa", "мм": "mm", "Mpa": "MPa", "mPa": "mPa", "kgf/cm²": "kgf/cm2", "°C": "degC"}
+    names = {
+        text: unit.name for text in ("ｋＰａ", "мм", "Mpa", "mPa", "kgf/cm²", "°C") if (unit := unit_of(text))
+    }
+    assert names == {
+        "ｋＰａ": "kPa",
+        "мм": "mm",
+        "Mpa": "MPa",
+        "mPa": "mPa",
+        "kgf/cm²": "kgf/cm2",
+        "°C": "degC",
+    }
     assert unit_of("Kraft") is None
     assert unit_of("t") is None
 

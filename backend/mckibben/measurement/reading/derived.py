@@ -54,8 +54,13 @@ def with_derived(table: Table) -> Table:
     )
     with np.errstate(divide="ignore", invalid="ignore"):
         force = np.where(arm != 0.0, moment / arm, np.nan)
-    head = f"force = {t.title} / {a.title}"
-    made = Column(head, force, f"{t.where} over {a.where}", "N", gaps={**t.gaps, **a.gaps}, key=head)
+    made = Column(
+        "force [N]",
+        force,
+        f"{t.where} over {a.where}",
+        gaps={**t.gaps, **a.gaps},
+        key=f"force = {t.title} / {a.title}",
+    )
     message = f"force is {t.title} over {a.title}, row by row"
     return replace(table, columns=(*table.columns, made), messages=(*table.messages, message))
 

@@ -216,7 +216,9 @@ def _behind(text: str) -> tuple[str, Unit | None]:
         if unit is not None and any(unit.dimension in FITTING[c] for c in _channels_of(bare) if c in FITTING):
             return bare.replace(f"_{token}", "", 1), unit
     alone = unit_of(bare)
-    if alone is not None and (bare.lower().startswith("psi") or (alone.dimension == "time" and len(bare) > 1)):
+    if alone is not None and (
+        bare.lower().startswith("psi") or (alone.dimension == "time" and len(bare) > 1)
+    ):
         return text, alone
     return text, None
 

@@ -510,7 +510,10 @@ def _head(run: Run, wanted: int | None) -> None:
         _titles(run, run.rows[0])
         return
     candidates = _candidates(run)
-    units_at = next((i for i in candidates if _unit_share(rows[i]) >= _UNITS_SHARE), None)
+    units_at = next(
+        (i for i in candidates if _unit_share(rows[i]) >= _UNITS_SHARE and not _names_with_units(rows[i])),
+        None,
+    )
     names = [i for i in candidates if i != units_at]
     if wanted is not None:
         names = [i for i in names if run.sheet.line(i) == wanted] or names
@@ -558,6 +561,13 @@ def _head(run: Run, wanted: int | None) -> None:
     if not run.described:
         _descriptions(run)
     _titles(run, min([run.rows[0], *run.above]))
+
+
+def _names_with_units(row: Sequence[Cell]) -> bool:
+    """Whether a row holds names with units: "Soll [bar]", and not units alone."""
+    return any(
+        unit_of(t) is None and taken_apart(t).unit is not None for c in row[:MAX_COLUMNS] if (t := _text(c))
+    )
 
 
 def _listed_names(run: Run) -> None:

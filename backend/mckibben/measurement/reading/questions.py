@@ -8,6 +8,7 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from itertools import islice
 
 import numpy as np
 
@@ -127,15 +128,18 @@ def option_of(channel: str, column: Column, unit: str | None = None, *, sign: in
     return column_option(channel, bare(column), unit, sign=sign)
 
 
+_MOST = 10  # questions of one kind at a time: what is answered first, often answers the rest
+
+
 def questions_of(reading: Reading) -> list[Question]:
     """All questions, those that stop the reading first."""
     asked = list(_sheets(reading))
     enough = len(next(iter(reading.rows.channels.values()), ())) >= ENOUGH
     with np.errstate(all="ignore"):
         for policy in POLICIES if enough else ():
-            asked += policy(reading)
+            asked += islice(policy(reading), _MOST)
         for policy in ALWAYS:
-            asked += policy(reading)
+            asked += islice(policy(reading), _MOST)
     seen: set[tuple[str, str | None]] = set()
     kept = []
     for question in asked:
@@ -298,8 +302,8 @@ def _unread(reading: Reading) -> Iterator[Question]:
     """
     used = {i for i, _ in reading.decision.uses.values()} | set(reading.rows.labels.values())
     filled = {SLOTS.get(c, c) for c in reading.rows.channels}
+    conditions = {place for place, _ in reading.known.columns.values()}
     for i, column in enumerate(reading.table.columns):
-        conditions = {place for place, _ in reading.known.columns.values()}
         if (
             i in used
             or column.words is not None
@@ -621,6 +625,8 @@ def _close(reading: Reading) -> Iterator[Question]:
 
 def _runs_against(reading: Reading) -> Iterator[Question]:
     """A stroke that runs against physics as it is read, and no word says its sign."""
+    if reading.by_user("force") or reading.by_user("pressure"):
+        return  # what the motion is judged by is the user's word
     for channel in ("displacement", "contraction"):
         column = reading.column(channel)
         if column is None or reading.by_user(channel):
