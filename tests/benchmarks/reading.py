@@ -70,7 +70,7 @@ FAILING: Mapping[str, tuple[str, int, Mapping[str, tuple[float, float]], tuple[s
     "joint_with_moment_arm.csv": (
         "",
         17,
-        {"pressure": (276.7e3, 612.6e3), "length": (0.3385, 0.401), "force": (25.0, 260.0)},
+        {"pressure": (276.7e3, 612.6e3), "length": (0.3385, 0.401), "force": (26.507, 621.0)},
         (),
     ),
     "step_response.csv": ("", 600, {"pressure": (-2300.0, 6.008e5)}, ("U_valve",)),

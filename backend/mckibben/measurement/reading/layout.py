@@ -19,7 +19,7 @@ from mckibben.measurement.reading.heads import head_claims, head_score, taken_ap
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_ROWS, MAX_TEXT, MAX_TEXTS, SPLIT
 from mckibben.measurement.reading.model import Cell, Column, Sheet, Span, Table
-from mckibben.measurement.reading.numbers import CLOCK, EMPTY, MARK, NUMBER, TEXT, kind_of
+from mckibben.measurement.reading.numbers import CLOCK, EMPTY, MARK, NUMBER, TEXT, kind_of, style_of
 from mckibben.measurement.reading.shapes import NeedsCellsError, Part, column_of, parts_of, transposed
 from mckibben.measurement.reading.units import RAW, quantities, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
@@ -36,6 +36,8 @@ _MOST_OF_A_HEAD = 3.0  # what one head adds to the score of its run
 _SHOWN_ROWS, _SHOWN_BELOW, _SHOWN_ABOVE, _SHOWN_CELLS, _SHOWN_LENGTH = 60, 8, 20, 60, 80
 _LONGEST_HEAD = 300  # characters of a head
 _LONGEST_WORDS = 32  # characters of a cell of a row that groups columns
+_QUANTITY = re.compile(r"\s*[-+]?[0-9.,]+\s*\S{0,12}\s*")
+_LABELS = 3  # rows of labels, from which a column of them is one
 _HINT = "e.g. a header 'pressure_bar,length_mm,force_N'"
 
 
@@ -162,7 +164,11 @@ def without_units(sheet: Sheet) -> Sheet:
             units: list[Cell] = [m[2] if m else "" for m in found]
             rows, lines = [*rows[:i], units, *rows[i:]], [*lines[:i], lines[i], *lines[i:]]
             break
-    return replace(sheet, rows=[[without_unit(c) for c in row] for row in rows], lines=tuple(lines))
+    bare = [[without_unit(c) for c in row] for row in rows]
+    style = style_of(cell for row in bare[:400] for cell in row)
+    return replace(
+        sheet, rows=bare, lines=tuple(lines), decimal=style.decimal, thousands=style.thousands
+    )
 
 
 def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet], name: str) -> Table:
@@ -558,9 +564,24 @@ def _head(run: Run, wanted: int | None) -> None:
                 run.heads[c] = _text(rows[i][c])
     _completed(run)
     _shift_heads(run)
+    _label_columns(run)
     if not run.described:
         _descriptions(run)
     _titles(run, min([run.rows[0], *run.above]))
+
+
+def _label_columns(run: Run) -> None:
+    """Columns that have the labels of the rows above as their heads: "Name;p;Name;F" over "Unit;bar;Unit;N".
+    They hold the time of the column beside.
+    """
+    cells = {c: (h, *run.more.get(c, ())) for c, h in run.heads.items() if c in run.columns}
+    for c, labels in cells.items():
+        if len(set(labels)) < _LABELS or sum(set(labels) == set(o) for o in cells.values()) < 2:
+            continue
+        units = [u for label in labels if (u := taken_apart(label).unit) is not None and u.dimension == "time"]
+        run.heads[c] = f"time [{units[0].name}]" if units else ""
+        run.more.pop(c, None)
+        run.units.pop(c, None)
 
 
 def _names_with_units(row: Sequence[Cell]) -> bool:
@@ -758,11 +779,16 @@ def _descriptions(run: Run) -> None:
     """Rows above that begin with the name of a column describe it."""
     rows = run.sheet.rows
     places = {h.casefold(): c for c, h in run.heads.items() if len(h) > 1 or h.isalpha()}
+    names = {taken_apart(h).name.casefold() or h: c for h, c in places.items()}
     for i in range(max(0, run.rows[0] - _LOOK), run.rows[0]):
-        if i in run.above or len(rows[i]) < 2:
+        if i in run.above or not rows[i]:
             continue
         place = places.get(_text(rows[i][0]).rstrip(":= ").casefold())
         if place is None:
+            key, _, rest = sentence(rows[i]).lstrip("#%/;' ").partition(":")
+            place = names.get(key.strip().casefold())
+            if place is not None and len(rest) < _LONGEST_HEAD and not _QUANTITY.fullmatch(rest):
+                run.described[place] = (*run.described.get(place, ()), rest.strip())
             continue
         cells = [_text(c) for c in rows[i][1:] if c != ""]
         unit = next((c for c in reversed(cells) if unit_of(c) is not None and not c.isdigit()), "")

@@ -17,7 +17,7 @@ from mckibben.measurement.reading.model import Array, Gap
 NUMBER, CLOCK, TEXT, MARK, EMPTY = "n", "c", "t", "m", ""
 _LONGEST = 60  # characters of a cell that may be a number
 
-_PLAIN = re.compile(r"(?:[+-] ?)?(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eEdD][+-]?[0-9]{1,3})?")
+_PLAIN = re.compile(r"(?:[+-] {0,8})?(?:[0-9]+[.,]?[0-9]*|[.,][0-9]+)(?:[eEdD][+-]?[0-9]{1,3})?")
 _GROUPED = re.compile(
     r"[+-]?[0-9]{1,3}(?:(?P<mark>[.,'’ \u00a0\u202f])[0-9]{3})(?:(?P=mark)[0-9]{3}){0,8}"
     r"(?P<rest>[.,][0-9]{0,15})?"
