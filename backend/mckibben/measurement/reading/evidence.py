@@ -118,7 +118,7 @@ def of_column(i: int, column: Column) -> list[Evidence]:
         found += [
             _from_claim(i, c, Span(column.where, text), 0.9)
             for c in head_claims(text[:200])
-            if c.facet != "role"
+            if c.facet != "role" or c.value == "set value"
         ]
     absolute = taken_apart(column.head, column.unit).absolute
     texts = [t for t in (*column.above, *column.described) if absolute is None]

@@ -166,9 +166,7 @@ def without_units(sheet: Sheet) -> Sheet:
             break
     bare = [[without_unit(c) for c in row] for row in rows]
     style = style_of(cell for row in bare[:400] for cell in row)
-    return replace(
-        sheet, rows=bare, lines=tuple(lines), decimal=style.decimal, thousands=style.thousands
-    )
+    return replace(sheet, rows=bare, lines=tuple(lines), decimal=style.decimal, thousands=style.thousands)
 
 
 def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet], name: str) -> Table:
@@ -578,7 +576,9 @@ def _label_columns(run: Run) -> None:
     for c, labels in cells.items():
         if len(set(labels)) < _LABELS or sum(set(labels) == set(o) for o in cells.values()) < 2:
             continue
-        units = [u for label in labels if (u := taken_apart(label).unit) is not None and u.dimension == "time"]
+        units = [
+            u for label in labels if (u := taken_apart(label).unit) is not None and u.dimension == "time"
+        ]
         run.heads[c] = f"time [{units[0].name}]" if units else ""
         run.more.pop(c, None)
         run.units.pop(c, None)

@@ -34,6 +34,7 @@ from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Ta
 from mckibben.measurement.reading.named import is_isometric
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
+from mckibben.measurement.reading.scatter import is_sensed
 from mckibben.measurement.reading.units import (
     FITTING,
     RAW,
@@ -732,9 +733,11 @@ def _by_valve(reading: Reading) -> Iterator[Question]:
         for e in reading.evidence
         if e.facet == "channel" and e.value == "command" and e.target not in (i, FILE)
     ]
+    steps = len(np.unique(column.values)) < _FEW_LEVELS * len(column.values)
     if (
         said
-        or commands
+        or roles_of(reading.own(i)).get("measured", 0.0) > 0.0
+        or (commands and not steps)
         or is_sensed(
             column.values,
             [reading.rows.channels[c] for c in ("force", *STROKES) if c in reading.rows.channels],
@@ -752,27 +755,11 @@ def _by_valve(reading: Reading) -> Iterator[Question]:
     )
 
 
+_FEW_LEVELS = 0.2  # different values by row, below which a series is that of a set value
+
+
 def _of_pressure(text: str) -> bool:
     return word_set("@pressure").among(words_of(text))
-
-
-def is_sensed(values: Array, others: Sequence[Array]) -> bool:
-    """Whether readings scatter from row to row in motion as at rest, in step with no other column, as those
-    of a sensor do.
-    """
-    finite = values[np.isfinite(values)]
-    if len(finite) < 20 or np.ptp(finite) == 0.0:
-        return False
-    bend = finite[2:] - 2.0 * finite[1:-1] + finite[:-2]
-    if np.mean(bend != 0.0) < 0.8 or np.median(np.abs(bend)) < 1e-5 * np.ptp(finite):
-        return False
-    flips = np.mean(np.sign(bend[1:]) != np.sign(bend[:-1]))
-    alike = [
-        abs(np.corrcoef(bend, o[2:] - 2.0 * o[1:-1] + o[:-2])[0, 1])
-        for o in others
-        if len(o) == len(finite) and np.ptp(o[2:] - 2.0 * o[1:-1] + o[:-2]) > 0.0
-    ]
-    return bool(flips > 0.5 and max(alike, default=0.0) < 0.6)
 
 
 def _counted(reading: Reading) -> Iterator[Question]:

@@ -341,8 +341,9 @@ def _two_ways(
         )
         made.append(({c: block[c] for c in sorted(block)}, words))
     del shared
+    back = _way_back(names, columns, whole)
     sides = []
-    for number, (block, words) in enumerate(made):
+    for way, (block, words) in zip(names, made, strict=True):
         inner = (
             _side_by_side(run, block, title, lines)
             or _wide(run, block, title, lines)
@@ -351,12 +352,34 @@ def _two_ways(
         sides.append(
             [
                 _turned(
-                    part._replace(columns=(*part.columns, _cut(words, len(part.lines)))), back=number == 1
+                    part._replace(columns=(*part.columns, _cut(words, len(part.lines)))), back=way == back
                 )
                 for part in inner
             ]
         )
     return [part for pair in zip(*sides, strict=True) for part in pair]
+
+
+def _way_back(
+    names: Sequence[str], columns: Mapping[int, Column], pairs: Mapping[str, Mapping[str, int]]
+) -> str:
+    """The way that was gone from the last row up: the way back, but of loading and unloading the one on which
+    the force would change the wrong way.
+    """
+    there = next((way for way in names if any(word_set(f"way_{w}").words >= {way} for w in _THERE)), names[0])
+    other = names[1 - names.index(there)]
+    if there not in word_set("loads").words:
+        return other
+    forces = [
+        columns[pair[there]].values
+        for name, pair in pairs.items()
+        if any(c.facet == "channel" and c.value == "force" for c in head_claims(name))
+    ]
+    falls = any(v[0] > v[-1] for values in forces if len(v := values[np.isfinite(values)]) > 1)
+    return there if falls else other
+
+
+_THERE = ("shortening", "pressure_rises", "one_way")
 
 
 def _turned(part: Part, *, back: bool) -> Part:
