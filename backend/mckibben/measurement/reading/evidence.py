@@ -25,6 +25,7 @@ from mckibben.measurement.reading.limits import MAX_TEXT
 from mckibben.measurement.reading.model import BLOCK, FILE, Column, Evidence, Span, Table
 from mckibben.measurement.reading.scales import Scale, scales_in
 from mckibben.measurement.reading.units import (
+    BRIDGE,
     RAW,
     Quantity,
     Unit,
@@ -98,6 +99,7 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
         found += of_column(i, column)
     for span in table.texts:
         found += _of_text(span, FILE, table)
+    found += of_bridge(table)
     for k, spans in enumerate(table.titles):
         for span in spans if len(table.titles) > 1 else ():
             found += _of_title(span, BLOCK - k, table)
@@ -465,6 +467,7 @@ def _of_legend(span: Span, table: Table) -> list[Evidence]:
 _DESCRIBES = re.compile(
     r"\s{0,3}(?P<link>[=:]|\s(?:in|is|unit|units|dtype)\s?=?:?)\s?(?P<words>[^,;=|]{1,80})|\s{1,3}(?P<bracket>\[[^\[\]]{1,20}\])"
 )
+_UNIT_BEHIND = re.compile(r",\s{0,3}(?P<unit>[^\s,;|]{1,12})\s{0,3}(?:[,;|]|$)")
 _UNIT_KEY = re.compile(r"(?i)(?<![^\W_])units?\s?[=:]\s?(?P<unit>\S{1,12})")
 
 
@@ -496,7 +499,8 @@ def _of_description(span: Span, table: Table) -> list[Evidence]:
             )
         )
         apart = taken_apart(words)
-        unit = unit or apart.unit
+        behind = _UNIT_BEHIND.match(text, match.end())
+        unit = unit or apart.unit or (unit_of(behind["unit"]) if behind else None)
         if unit is not None and not unit.dimension:
             unit = None
         if (
@@ -620,8 +624,63 @@ def _scaled_column(scale: Scale, around: str, table: Table) -> int | None:
         scores.append((score, i))
     if not scores:
         return None
+    if len(scores) == 1 and scale.raw and not _is_served(_dimension(scale.unit), table):
+        of_one = _unit_of(table.columns[scores[0][1]])
+        scores = [(scores[0][0] + 1.0 * (of_one is not None and of_one.name == scale.raw), scores[0][1])]
     best, i = max(scores)
     return i if best >= 1.5 and sum(s == best for s, _ in scores) == 1 else None
+
+
+_BRIDGED = re.compile(r"(?<![\w.,])(?P<output>\d{1,3}(?:[.,]\d{1,6})?)\s?mV\s?/\s?V(?![\w/])")
+NO_ZERO = "rated load, no zero"  # a load cell whose reading without a load is not known
+_RATED = re.compile(r"(?<![\w.,])(?P<value>\d{1,7}(?:[.,]\d{1,4})?)\s?(?P<unit>[^\W\d_]{1,4})(?![\w/])")
+
+
+def of_bridge(table: Table) -> list[Evidence]:
+    """The scale of the only column in mV/V, by the output of its load cell at the rated load; both may stand
+    in texts of their own.
+    """
+    raw = [i for i, c in enumerate(table.columns) if (unit := _unit_of(c)) and unit.dimension == "bridge"]
+    outputs: dict[float, Span] = {}
+    loads: dict[float, tuple[Span, float, str]] = {}
+    zeros: set[float] = set()
+    balanced = False
+    for span in table.texts if len(raw) == 1 else ():
+        text = span.text[:MAX_TEXT]
+        balanced |= word_set("balanced|zero_offset").among(words_of(text))
+        bridged = list(_BRIDGED.finditer(text))
+        for match in bridged:
+            before = re.split(r"[,;.(]\s", text[: match.start()])[-1]
+            value = number_of(match["output"])
+            if word_set("zero_offset").among(words_of(before)):
+                zeros.add(value)
+            elif value:
+                outputs.setdefault(value, span)
+        if bridged or word_set("rated").among(words_of(text)):
+            for match in _RATED.finditer(_BRIDGED.sub(" ", text)):
+                unit = unit_of(match["unit"])
+                if unit is not None and unit.dimension in ("force", "mass"):
+                    value = number_of(match["value"])
+                    loads.setdefault(
+                        quantity_si(value, unit.name, "N" if unit.dimension == "force" else "kg"),
+                        (span, value, unit.name),
+                    )
+    if len(outputs) != 1 or len(loads) != 1 or len(zeros) > 1:
+        return []
+    (output,), ((span, load, unit_name),) = outputs, loads.values()
+    rule = "rated load" if balanced or zeros else NO_ZERO
+    scale = Scale(load / output, next(iter(zeros), 0.0), unit_name, BRIDGE, rule, _TEXTS, span.text[:80])
+    return [
+        Evidence(raw[0], "scale", scale, _TEXTS, span, rule),
+        Evidence(raw[0], "channel", "force", 3.0, span, rule),
+    ]
+
+
+def _is_served(dimension: str, table: Table) -> bool:
+    """Whether another column is in a unit of a dimension."""
+    return any(
+        (unit := _unit_of(column)) is not None and unit.dimension == dimension for column in table.columns
+    )
 
 
 def _dimension(unit: str) -> str:

@@ -27,6 +27,7 @@ from mckibben.measurement.reading.decide import (
     unit_is_stated,
     value_of,
 )
+from mckibben.measurement.reading.evidence import NO_ZERO
 from mckibben.measurement.reading.facts import Known
 from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.lexicon import word_set, words_of
@@ -576,6 +577,28 @@ def _tare(reading: Reading) -> Iterator[Question]:
         f"{offset:.3g} N",
         (),
         stops=False,
+    )
+
+
+def _bridge(reading: Reading) -> Iterator[Question]:
+    """A load cell is read by its sensitivity alone, and no reading shows its zero; a force that comes down to
+    nothing shows it: a muscle does not push.
+    """
+    column, force = reading.column("force"), reading.rows.channels.get("force")
+    if column is None or force is None or reading.by_user("force") or not len(force):
+        return
+    unknown = any(
+        e.facet == "scale" and e.rule == NO_ZERO for e in reading.own(reading.decision.uses["force"][0])
+    )
+    smallest = float(np.min(np.abs(force)))
+    if not unknown or "force_zero" in reading.known.conditions or smallest <= 0.01 * np.max(np.abs(force)):
+        return
+    yield Question(
+        "zero of force",
+        f"{reading.table.noun} '{column.head}' is read by the sensitivity of its load cell, and neither the "
+        f"file nor a reading (all are at least {smallest:.4g} N) states what it shows at zero force",
+        '--experiment "force_zero=0 N"',
+        column.head,
     )
 
 
@@ -1132,7 +1155,7 @@ Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
     _units, _unnamed, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs,
-    _runs_against, _reference, _zero, _contradicted, _close, _tare,
+    _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
 )  # fmt: skip
 #: Asked always.
 ALWAYS: tuple[Policy, ...] = (

@@ -591,7 +591,7 @@ def _tall(columns: list[Column], lines: NDArray[np.int64]) -> tuple[list[Column]
     if value is None:
         return None
     words = np.array([word.strip() for word in names.words or ()])
-    signals = [word for word in dict.fromkeys(words) if word]
+    signals = [word for word in dict.fromkeys(words.tolist()) if word]
     units = next((c for c in columns if c.words is not None and c is not names and _are_units(c.words)), None)
     keys = [c for c in numbers if c is not value and len(np.unique(c.values)) < len(c.values)]
     counts = [int(np.sum(words == s)) for s in signals]
@@ -616,13 +616,31 @@ def _tall(columns: list[Column], lines: NDArray[np.int64]) -> tuple[list[Column]
     else:
         return None
     result = [replace(c, values=c.values[first], gaps={}) for c in keys]
+    lost = {**value.gaps, **_marked_bad([c for c in columns if c.words is not None and c is not names])}
     for signal in signals:
         column = np.full(len(first), np.nan)
         here = words == signal
         column[at[here]] = value.values[here]
+        gaps = {int(at[r]): gap for r, gap in lost.items() if here[r]}
+        gaps |= {int(r): Gap("no reading", "") for r in np.flatnonzero(np.isnan(column)) if r not in gaps}
+        column[list(gaps)] = np.nan
         unit = "" if units is None or units.words is None else units.words[int(np.argmax(here))]
-        result.append(replace(value, head=signal, unit=unit or value.unit, values=column, gaps={}, above=()))
+        result.append(
+            replace(value, head=signal, unit=unit or value.unit, values=column, gaps=gaps, above=())
+        )
     return result, lines[first]
+
+
+def _marked_bad(columns: Sequence[Column]) -> dict[int, Gap]:
+    """Rows whose state says that their reading is none: "Bad" beside it."""
+    bad = word_set("bad_reading")
+    return {
+        row: Gap("no reading", word.strip()[:40])
+        for column in columns
+        if word_set("states").among(words_of(column.head))
+        for row, word in enumerate(column.words or ())
+        if bad.among(words_of(word))
+    }
 
 
 def _are_signals(words: Sequence[str]) -> bool:

@@ -210,12 +210,17 @@ def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list
     return rows, numbers
 
 
+_QUOTED = re.compile(r'"[^"]*"|[^\s"]+')
+
+
 def _row(line: str, delimiter: str | None) -> list[str]:
     """The cells of a line; between blanks a line of words is parted at wide gaps only."""
     if delimiter is not None:
         return _cells_of(line, delimiter)
-    cells = line.split()
-    if sum(kind_of(cell) in (NUMBER, CLOCK) for cell in cells) * 2 >= len(cells):
+    quotes = line.count('"')
+    cells = [c.strip('"') for c in _QUOTED.findall(line)] if quotes and quotes % 2 == 0 else line.split()
+    numbers = sum(kind_of(cell) in (NUMBER, CLOCK) for cell in cells)
+    if max(numbers, quotes // 2) * 2 >= len(cells):
         return cells
     return [cell for cell in _GAP.split(line.strip()) if cell]
 
