@@ -34,7 +34,7 @@ from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table, Use
 from mckibben.measurement.reading.named import is_isometric
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
-from mckibben.measurement.reading.rows import Rows
+from mckibben.measurement.reading.rows import Rows, tares_of
 from mckibben.measurement.reading.scatter import is_sensed
 from mckibben.measurement.reading.units import (
     FITTING,
@@ -825,6 +825,7 @@ def _tares(reading: Reading) -> Iterator[Question]:
         "force" not in reading.rows.channels
         or "force_zero" in reading.known.conditions
         or "load_mass" in reading.correction.conditions
+        or len(tares_of(reading.evidence)) == 1
     ):
         return
     for span in reading.table.texts:
