@@ -533,8 +533,12 @@ def _head(run: Run, wanted: int | None) -> None:
         own = {h.strip().casefold() for h in run.heads.values() if len(h.strip()) > 1}
         others = [
             i
-            for i in names
-            if i != best and _is_row_of_words(rows[i]) and _text(rows[i][0]).casefold() not in own
+            for i in candidates
+            if i not in (best, units_at)
+            and (
+                _is_row_of_values(rows[i])
+                or (i in names and _is_row_of_words(rows[i]) and _text(rows[i][0]).casefold() not in own)
+            )
         ]
         run.more = {
             c: tuple(t for i in others if (t := _spanning(rows[i], c, carried=i < best))) for c in run.heads
@@ -741,7 +745,8 @@ def _text(cell: Cell) -> str:
     """A cell of the head as a text, without what marks a comment."""
     if isinstance(cell, float):
         return f"{cell:g}"
-    return str(cell)[:_LONGEST_HEAD].strip().strip('"').lstrip("#%! ").strip()
+    text = str(cell)[:_LONGEST_HEAD].strip().strip('"')
+    return text if text == "%" else text.lstrip("#%! ").strip()
 
 
 def _is_numeric(row: Sequence[Cell]) -> bool:

@@ -94,7 +94,7 @@ _AT_REST = re.compile(
     r"(?:rest|L_?0|ruhe|unloaded|relaxed|initial|natural|longueur au repos|riposo|reposo|repouso)"
 )
 _STATE = re.compile(
-    r"(?P<before>[^\W\d_]+)?\s?(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s?(?<![\d.,])(?P<number>-?\d{1,4}(?:[.,]\d{1,4})?)\s?(?P<raw>mV|V|mA|A|%|)(?![\d.,\w])\)?"
+    r"(?P<before>[^\W\d_]+)?\s?(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s?(?<![\d.,])(?P<number>-?\d{1,4}(?:[.,]\d{1,4})?)\s?(?P<raw>mV|V|mA|A|%|)(?!\w|[.,]\d)\)?"
     r"(?=(?:\s?(?:=|≙|:|->|→|is)?\s?(?P<behind>[^\W\d_]+(?:\s[^\W\d_]+)?))?)"
 )
 _POINT = re.compile(
