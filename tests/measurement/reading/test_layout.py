@@ -55,12 +55,14 @@ def test_delimiters_and_decimal_signs(separator: str, decimal: str) -> None:
 
 @pytest.mark.parametrize("encoding", ["utf-8", "utf-8-sig", "utf-16", "utf-16-le", "latin-1"])
 def test_encodings(encoding: str) -> None:
-    text = f"Ruhelänge 300 mm\nZeit [s];Druck [bar];Kraft [N];Verkürzung [mm]\n{table(TIME, BAR, FORCE, MM, separator=';')}\n"
+    head = "Ruhelänge 300 mm\nZeit [s];Druck [bar];Kraft [N];Verkürzung [mm]"
+    text = f"{head}\n{table(TIME, BAR, FORCE, MM, separator=';')}\n"
     assert_is(read(text.encode(encoding)))
 
 
 def test_units_below_the_names_and_statistics_below_the_table() -> None:
-    text = f"{ABOVE}Time,Pressure,Load,Stroke\n(s),(bar),(N),(mm)\n{table(TIME, BAR, FORCE, MM)}\n\nMean,1,2,3\nMax,4,5,6\n"
+    head = f"{ABOVE}Time,Pressure,Load,Stroke\n(s),(bar),(N),(mm)"
+    text = f"{head}\n{table(TIME, BAR, FORCE, MM)}\n\nMean,1,2,3\nMax,4,5,6\n"
     assert_is(read(text))
 
 
@@ -141,7 +143,8 @@ def test_a_map_and_its_corner() -> None:
 
 def test_two_ways_in_columns() -> None:
     up, down = MM[:12], MM[:12] + 1.0
-    text = f"rest length 300 mm, load 5 kg\nPressure [bar];Stroke up [mm];Stroke down [mm]\n{table(np.linspace(2, 6, 12), up, down, separator=';')}\n"
+    head = "rest length 300 mm, load 5 kg\nPressure [bar];Stroke up [mm];Stroke down [mm]"
+    text = f"{head}\n{table(np.linspace(2, 6, 12), up, down, separator=';')}\n"
     found = read(text)
     assert found.rows == 24
     assert found.columns["direction"].tolist() == [-1.0] * 12 + [1.0] * 12

@@ -79,10 +79,14 @@ def test_a_word_of_a_head_taken_away_changes_no_value_in_silence(place: int, par
 @pytest.mark.parametrize(
     ("head", "factor"),
     [
-        ("Druck [mbar]", 1e-2), ("Druck [kPa]", 1e-3), ("Druck [MPa]", 1e-6), ("Druck [psi]", 1 / 6894.757293168361),
-        ("Druck [kgf/cm2]", 1 / 98066.5), ("Druck [Pa]", 1.0),
+        ("Druck [mbar]", 1e-2),
+        ("Druck [kPa]", 1e-3),
+        ("Druck [MPa]", 1e-6),
+        ("Druck [psi]", 1 / 6894.757293168361),
+        ("Druck [kgf/cm2]", 1 / 98066.5),
+        ("Druck [Pa]", 1.0),
     ],
-)  # fmt: skip
+)
 def test_units_of_pressure_change_nothing(head: str, factor: float) -> None:
     columns = {head if h.startswith("Druck") else h: v for h, v in COLUMNS.items()}
     columns[head] = PRESSURE * factor
@@ -118,10 +122,20 @@ HOSTILE = {
     "a long remark": lambda n: "# " + "0-10 V = 0-" * n + "\np_bar,F_N\n1,2\n2,3\n3,4\n",
     "formulas": lambda n: "# " + "p=1*U+" * n + "\np_bar,F_N\n1,2\n2,3\n3,4\n",
     "nested lists": lambda n: "[" * n + "]" * n,
-    "many columns": lambda n: ",".join(f"c{i} [mm]" for i in range(n // 20)) + "\n" + (",".join(["1.5"] * (n // 20)) + "\n") * 20,
+    "many columns": lambda n: "\n".join(
+        [",".join(f"c{i} [mm]" for i in range(n // 20)), *[",".join(["1.5"] * (n // 20))] * 20]
+    ),
     "blocks": lambda n: "p_bar,F_N,L_mm\n1,2,3\n2,3,4\n3,4,5\n" * (n // 20),
     "markup": lambda n: "<!---->" * n,
 }  # fmt: skip
+
+
+def _refusal_of(data: bytes) -> str:
+    try:
+        read_here(data, "a.csv", Correction())
+    except InputError as error:
+        return error.message
+    return ""
 
 
 @pytest.mark.parametrize("kind", HOSTILE)
@@ -129,10 +143,8 @@ def test_the_time_grows_no_faster_than_the_file(kind: str) -> None:
     spent = []
     for size in (1000, 4000):
         begin = time.process_time()
-        try:
-            read_here(HOSTILE[kind](size).encode(), "a.csv", Correction())
-        except InputError as error:
-            assert len(error.message) < 3000
+        message = _refusal_of(HOSTILE[kind](size).encode())
+        assert len(message) < 3000
         spent.append(time.process_time() - begin)
     assert spent[1] < 8.0 * max(spent[0], 0.05), spent
 

@@ -48,13 +48,21 @@ def test_names_of_rules_differ() -> None:
 @pytest.mark.parametrize(
     ("head", "name", "unit", "absolute"),
     [
-        ("Innendruck (Ü)", "Innendruck", None, False), ("Kraft_N_", "Kraft", "N", None), ("p/bar", "p", "bar", None),
-        ("Druck, bar (abs)", "Druck", "bar", True), ("t (in ms)", "t", "ms", None), ("p [mbar, gauge]", "p", "mbar", False),
-        ("pressure_bar_unclipped", "pressure_unclipped", "bar", None), ("velocity_mm/s", "velocity", "mm/s", None),
-        ("Length (mm) inflating", "Length inflating", "mm", None), ("Kraft in N", "Kraft", "N", None),
-        ("weight [g]", "weight", "g", None), ("Sensor A", "Sensor A", None, None), ("psig", "psig", "psi", False),
+        ("Innendruck (Ü)", "Innendruck", None, False),
+        ("Kraft_N_", "Kraft", "N", None),
+        ("p/bar", "p", "bar", None),
+        ("Druck, bar (abs)", "Druck", "bar", True),
+        ("t (in ms)", "t", "ms", None),
+        ("p [mbar, gauge]", "p", "mbar", False),
+        ("pressure_bar_unclipped", "pressure_unclipped", "bar", None),
+        ("velocity_mm/s", "velocity", "mm/s", None),
+        ("Length (mm) inflating", "Length inflating", "mm", None),
+        ("Kraft in N", "Kraft", "N", None),
+        ("weight [g]", "weight", "g", None),
+        ("Sensor A", "Sensor A", None, None),
+        ("psig", "psig", "psi", False),
     ],
-)  # fmt: skip
+)
 def test_heads_are_taken_apart(head: str, name: str, unit: str | None, absolute: bool | None) -> None:
     found = taken_apart(head)
     assert (found.name, found.unit and found.unit.name, found.absolute) == (name, unit, absolute)
@@ -69,11 +77,16 @@ def test_the_end_of_a_compound_says_what_it_is() -> None:
 @pytest.mark.parametrize(
     ("text", "wanted"),
     [
-        ("Ruhelänge 290 mm", [(290.0, "mm")]), ("L0 [mm]: 250", [(250.0, "mm")]), ("L0_mm: 250", [(250.0, "mm")]),
-        ("load 6 kg, 3 bar (abs)", [(6.0, "kg"), (3.0, "bar")]), ("step_L360mm", [(360.0, "mm")]),
-        ("L0;cm;18.5", [(18.5, "cm")]), ("120 at the end", []), ("v1.3 of 2024", []),
+        ("Ruhelänge 290 mm", [(290.0, "mm")]),
+        ("L0 [mm]: 250", [(250.0, "mm")]),
+        ("L0_mm: 250", [(250.0, "mm")]),
+        ("load 6 kg, 3 bar (abs)", [(6.0, "kg"), (3.0, "bar")]),
+        ("step_L360mm", [(360.0, "mm")]),
+        ("L0;cm;18.5", [(18.5, "cm")]),
+        ("120 at the end", []),
+        ("v1.3 of 2024", []),
     ],
-)  # fmt: skip
+)
 def test_quantities_of_texts(text: str, wanted: list[tuple[float, str]]) -> None:
     assert [(q.value, q.unit.name) for q in quantities(text)] == wanted
 
@@ -97,10 +110,13 @@ def test_units_in_other_letters() -> None:
 @pytest.mark.parametrize(
     ("text", "at", "value"),
     [
-        ("0-10 V = 0-10 bar", 5.0, 5.0), ("1 V = 2 bar", 1.5, 3.0), ("0.5 bar/V", 4.0, 2.0), ("4-20 mA = 0-10 bar", 12.0, 5.0),
+        ("0-10 V = 0-10 bar", 5.0, 5.0),
+        ("1 V = 2 bar", 1.5, 3.0),
+        ("0.5 bar/V", 4.0, 2.0),
+        ("4-20 mA = 0-10 bar", 12.0, 5.0),
         ("0 to 72 mm = 228 to 300 mm", 36.0, 264.0),
     ],
-)  # fmt: skip
+)
 def test_scales_that_a_user_says(text: str, at: float, value: float) -> None:
     scale = answered_scale(text)
     assert scale is not None
