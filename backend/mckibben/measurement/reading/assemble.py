@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -115,7 +116,7 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
         InputError: its channels fit no kind of measurement.
     """
     rows, table, known = reading.rows, reading.table, reading.known
-    channels = dict(rows.channels)
+    channels: dict[str, Any] = dict(rows.channels)
     conditions = dict(known.conditions)
     weights = weights_of_runs(channels)
     if weights is not None and np.ptp(weights) > 0.0 and not set(_LOADS) & set(reading.correction.conditions):

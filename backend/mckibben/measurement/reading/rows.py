@@ -274,11 +274,10 @@ def _possible(
     """The rows whose values can be: no length below 0, no absolute pressure below 0."""
     good = np.ones(table.rows, bool)
     for channel, x in values.items():
+        what, hint = "is too large", "a number of physical size"
         with np.errstate(invalid="ignore"):
             bad = keep & ~(np.abs(x) < LARGEST)
-            if bad.any():
-                what, hint = "is too large", "a number of physical size"
-            elif channel in _IMPOSSIBLE:
+            if not bad.any() and channel in _IMPOSSIBLE:
                 what, hint = _IMPOSSIBLE[channel]
                 limit = {"pressure": x < -ambient, "contraction": x >= 1.0}.get(channel, x <= 0.0)
                 bad = keep & limit
