@@ -859,10 +859,17 @@ def _tares(reading: Reading) -> Iterator[Question]:
             f"'{span.text[:60]}' ({span.where}), but it is not clear "
             f"whether the readings{f' of {chr(39)}{column.head}{chr(39)}' if column else ''} contain it; "
             f"what do they show without pull",
-            '--experiment "force_zero=0 N"',
+            f'--experiment "force_zero={_amount(span.text)}"',
             None if column is None else column.head,
         )
         return
+
+
+def _amount(text: str) -> str:
+    """The first force that a text states, as an answer."""
+    return next(
+        (f"{q.value:g} {q.unit.name}" for q in quantities(text) if q.unit.dimension == "force"), "0 N"
+    )
 
 
 _EMPTY = re.compile(
