@@ -48,7 +48,9 @@ def looked_at(data: bytes, name: str, correction: Correction) -> tuple[Table, tu
         with_derived(table_of(sheets, name, wanted=correction.sheet, head=correction.head))
     )
     evidence = tuple(evidence_of(table, name))
-    return table, evidence, known_of(table, evidence, name, correction)
+    known = known_of(table, evidence, name, correction)
+    stated = {f"zero:{key.removesuffix('_zero')}" for key in known.conditions if key.endswith("_zero")}
+    return table, tuple(e for e in evidence if e.facet not in stated), known
 
 
 def reading_of(data: bytes, name: str, correction: Correction) -> Reading:
@@ -245,7 +247,8 @@ def said(reading: Reading) -> list[str]:
         if channel == "force" and dimension_of(use.unit) == "mass":
             lines.append(f"{label} is a mass: its weight is the force")
         if use.zero:
-            lines.append(f"{label} is read from {use.zero:g} m on: {_reason(reading, i, 'zero', None)}")
+            reason = _reason(reading, i, f"zero:{channel}", None)
+            lines.append(f"{use.zero:g} {CHANNEL_UNITS[channel]} is subtracted from the {channel}: {reason}")
     return lines
 
 

@@ -217,6 +217,7 @@ def _signed(
 ) -> list[Option]:  # fmt: skip
     """The uses with each sign and reference, by what is said of them."""
     scaling = (1.0, 0.0) if scale is None else (scale.factor, scale.offset)
+    zero = next((e.value for e in evidence if e.facet == f"zero:{channel}"), 0.0)
     if channel == "pressure":
         near, far = _references(own), _references([e for e in evidence if e.target == FILE])
         said = (
@@ -228,20 +229,19 @@ def _signed(
             Option(
                 score + (0.5 if absolute else -0.5) * (said - GAUGE),
                 i,
-                Use(channel, unit, 1, absolute, *scaling),
+                Use(channel, unit, 1, absolute, *scaling, zero),
             )
             for absolute in (False, True)
         ]
     facet = {"force": "sign_force", "displacement": "sign_stroke", "contraction": "sign_stroke"}.get(channel)
     if facet is None:
-        return [Option(score, i, Use(channel, unit, 1, False, *scaling))]
+        return [Option(score, i, Use(channel, unit, 1, False, *scaling, zero))]
     near = [e for e in own if e.facet == facet]
     far = [e for e in evidence if e.target == FILE and e.facet == facet]
     said = sum(
         e.weight * e.value for e in (near if near and max(e.weight for e in near) > 2.0 else [*near, *far])
     )
     said += _PULL if channel == "force" else _SHORTER
-    zero = next((e.value for e in evidence if e.facet == "zero"), 0.0) if channel == "displacement" else 0.0
     return [
         Option(score + 0.5 * sign * said, i, Use(channel, unit, sign, False, *scaling, zero))
         for sign in (1, -1)

@@ -34,6 +34,7 @@ from mckibben.measurement.reading.units import (
     quantity_si,
     unit_of,
 )
+from mckibben.measurement.reading.zeros import of_zeros
 from mckibben.resources import presets_folder
 
 #: What a unit alone says of a column [nats].
@@ -99,7 +100,7 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
         found += of_column(i, column)
     for span in table.texts:
         found += _of_text(span, FILE, table)
-    found += of_bridge(table)
+    found += [*of_bridge(table), *of_zeros(table.texts)]
     for k, spans in enumerate(table.titles):
         for span in spans if len(table.titles) > 1 else ():
             found += _of_title(span, BLOCK - k, table)
@@ -568,7 +569,7 @@ def _of_zero(span: Span) -> list[Evidence]:
     if match is None or unit is None:
         return []
     value = quantity_si(float(match["value"].replace(",", ".")), unit.name, "m")
-    return [Evidence(FILE, "zero", value, rule.weight, span, rule.id)]
+    return [Evidence(FILE, "zero:displacement", value, rule.weight, span, rule.id)]
 
 
 def _of_scales(span: Span, table: Table) -> list[Evidence]:

@@ -391,6 +391,8 @@ def _runs(sheet: Sheet) -> list[Run]:
     for i, row in enumerate(sheet.rows):
         places, texts, first, marks = _kinds(row)
         is_data = len(places) >= 2 and texts <= len(places) and not _is_statistic(first)
+        if is_data and first and gap and _is_statistic(_kinds(sheet.rows[gap[-1]])[2]):
+            is_data = False  # one statistic beside another
         if (
             is_data
             and texts
@@ -558,7 +560,8 @@ def _head(run: Run, wanted: int | None) -> None:
     else:
         _labelled_units(run)
     _descriptions(run)
-    if not run.described and sum(head_score(h) for h in run.heads.values()) < _POOR_HEADS * len(run.columns):
+    said = sum(_MOST_OF_A_HEAD if quantities(h) else head_score(h) for h in run.heads.values())
+    if not run.described and said < _POOR_HEADS * len(run.columns):
         _listed_names(run)
     for i in range((run.head_row if run.head_row is not None else run.rows[0]) + 1, run.rows[0]):
         for c, head in run.heads.items():  # a cell below an empty head
@@ -706,11 +709,12 @@ def _split_head(text: str, width: int) -> list[str]:
         r"^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?", "", bare, flags=re.I
     )
     ways = [re.split(r"\s?[,;\t|]\s?", bare), re.split(r"\s{2,}|\t", bare), _joined_units(bare.split())]
-    for cells in ways:
+    for k, cells in enumerate(ways):
         cells = [cell.strip().strip('"') for cell in cells if cell.strip()]
         if any(kind_of(cell) in (NUMBER, CLOCK) for cell in cells):
             continue
-        if len(cells) == width and sum(head_score(cell) > 0 for cell in cells) >= min(2, width):
+        least = max(2, 0.5 * width if k == len(ways) - 1 else 0)  # a sentence has blanks as well
+        if len(cells) == width and sum(head_score(cell) > 0 for cell in cells) >= min(least, width):
             return cells
     return []
 

@@ -34,7 +34,7 @@ from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table, Use
 from mckibben.measurement.reading.named import is_isometric
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
-from mckibben.measurement.reading.rows import Rows, tares_of
+from mckibben.measurement.reading.rows import Rows
 from mckibben.measurement.reading.scatter import is_sensed
 from mckibben.measurement.reading.units import (
     FITTING,
@@ -45,6 +45,7 @@ from mckibben.measurement.reading.units import (
     quantities,
     quantity_si,
 )
+from mckibben.measurement.reading.zeros import zeros_in
 from mckibben.physics.units import convert
 
 REVERSE, KEEP = "reverse the sign", "keep the sign"
@@ -817,65 +818,71 @@ def _counted(reading: Reading) -> Iterator[Question]:
         return
 
 
-def _tares(reading: Reading) -> Iterator[Question]:
-    """A tare, or the weight of a hanger, that a text states without saying whether the readings contain
-    it.
-    """
-    if (
-        "force" not in reading.rows.channels
-        or "force_zero" in reading.known.conditions
-        or "load_mass" in reading.correction.conditions
-        or len(tares_of(reading.evidence)) == 1
-    ):
-        return
-    for span in reading.table.texts:
-        words = words_of(span.text)
-        if not any(character.isdigit() for character in span.text):
-            continue
-        tare = word_set("tare_tare").among(words) or (
-            word_set("tare_reads").among(words) and _EMPTY.search(span.text) is not None
-        )
-        hanger = word_set("hanger").among(words) and any(
-            q.unit.dimension == "mass" for q in quantities(span.text)
-        )
-        if not (tare or hanger) or (
-            word_set("tare_done").among(words) and not word_set("without").among(words) and "not" not in words
-        ):
-            continue
+def _stated_zeros(reading: Reading) -> Iterator[Question]:
+    """A reading at true zero that a text states without saying whether the readings contain it, or twice."""
+    applied = {e.facet for e in reading.evidence if e.facet.startswith("zero:")}
+    zeros = {z: None for span in reading.table.texts for z in zeros_in(span) if z.contained is not False}
+    for zero in zeros:
+        channel, column = zero.channel, reading.column(zero.channel)
         if (
-            hanger
-            and not tare
-            and (
-                "mass" not in {dimension_of(reading.use("force").unit)}
-                if "force" in reading.decision.uses
-                else True
-            )
+            channel not in reading.rows.channels
+            or f"{channel}_zero" in reading.known.conditions
+            or f"zero:{channel}" in applied
+            or (channel == "force" and "load_mass" in reading.correction.conditions)
+            or (channel in STROKES and reading.by_user(channel))
         ):
             continue
-        column = reading.column("force")
+        what = "a tare of the force" if channel == "force" else f"a zero of the {channel}"
+        option = f'--experiment "{channel}_zero={zero.text.strip(": ")}"'
+        if channel in STROKES and column is not None:
+            option = _from_zero(reading, channel, column, zero.value)
         yield Question(
-            "zero of force",
-            f"the file states {'a tare of the force' if tare else 'the weight of a hanger'}, "
-            f"'{span.text[:60]}' ({span.where}), but it is not clear "
-            f"whether the readings{f' of {chr(39)}{column.head}{chr(39)}' if column else ''} contain it; "
-            f"what do they show without pull",
-            f'--experiment "force_zero={_amount(span.text)}"',
+            f"zero of {channel}",
+            f"the file states {what}, '{zero.span.text[:60]}' ({zero.span.where}), but it is not clear "
+            f"whether the readings{f' of {chr(39)}{column.head}{chr(39)}' if column else ''} contain it; what "
+            f"do they show {'without pull' if channel == 'force' else 'there'}",
+            option,
             None if column is None else column.head,
         )
-        return
 
 
-def _amount(text: str) -> str:
-    """The first force that a text states, as an answer."""
-    return next(
-        (f"{q.value:g} {q.unit.name}" for q in quantities(text) if q.unit.dimension == "force"), "0 N"
+def _from_zero(reading: Reading, channel: str, column: Column, zero: float) -> str:
+    """The option that reads a stroke less its zero [m]."""
+    unit, values = reading.use(channel).unit, reading.rows.channels[channel]
+    ends = convert([float(np.min(values)), float(np.max(values)), zero], "m", unit)
+    low, high, less = (float(v) for v in ends)
+    return option_of(
+        channel, column, f"{low:.6g} to {high:.6g} {unit} = {low - less:.6g} to {high - less:.6g} {unit}"
     )
 
 
-_EMPTY = re.compile(
-    r"(?i)nothing (?:attached|hung|on it)|(?:without|with no|no) load|ohne (?:last|kraft)|sans charge|"
-    r"senza carico|sin carga|sem carga"
-)
+def _hangers(reading: Reading) -> Iterator[Question]:
+    """The weight of a hanger, where the force is a mass that may or may not contain it."""
+    if (
+        "force" not in reading.rows.channels
+        or {"force_zero"} & set(reading.known.conditions)
+        or "load_mass" in reading.correction.conditions
+        or ("force" in reading.decision.uses and dimension_of(reading.use("force").unit) != "mass")
+    ):
+        return
+    column = reading.column("force")
+    for span in reading.table.texts:
+        words = words_of(span.text)
+        if (
+            not word_set("hanger").among(words)
+            or not any(q.unit.dimension == "mass" for q in quantities(span.text))
+            or (word_set("tare_done").among(words) and not word_set("negations").among(words))
+        ):
+            continue
+        yield Question(
+            "zero of force",
+            f"the file states the weight of a hanger, '{span.text[:60]}' ({span.where}), but it is not clear "
+            f"whether the readings{f' of {chr(39)}{column.head}{chr(39)}' if column else ''} contain it; "
+            f"what do they show without pull",
+            '--experiment "force_zero=0 N"',
+            None if column is None else column.head,
+        )
+        return
 
 
 def _air(reading: Reading) -> Iterator[Question]:
@@ -1174,7 +1181,8 @@ ALWAYS: tuple[Policy, ...] = (
     _several,
     _held_length,
     _of_columns,
-    _tares,
+    _stated_zeros,
+    _hangers,
     _air,
 )
 

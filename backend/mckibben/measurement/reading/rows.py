@@ -117,7 +117,6 @@ def rows_of(
         )
     rows.channels = {c: v[keep].astype(float) for c, v in values.items()}
     rows.lines, rows.blocks = table.lines[keep], table.blocks[keep]
-    _without_tare(rows, decision, evidence, known)
     _even_time(rows, table, decision, evidence)
     if "time" in rows.channels and "time" in decision.uses and decision.uses["time"][1].unit in ("clock",):
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
@@ -133,25 +132,6 @@ def rows_of(
     if len(table.titles) > 1 and "group" not in rows.channels:
         rows.channels["group"] = rows.blocks.astype(float)
     return rows
-
-
-def tares_of(evidence: Sequence[Evidence]) -> dict[float, Evidence]:
-    """The readings [N] of the sensor of force without a pull that the file says to be in its readings."""
-    return {
-        quantity_si(e.value.value, e.value.unit.name, "N"): e for e in evidence if e.facet == "tare:force"
-    }
-
-
-def _without_tare(rows: Rows, decision: Decision, evidence: Sequence[Evidence], known: Known) -> None:
-    """Subtract the tare of the force."""
-    tares = tares_of(evidence)
-    if len(tares) != 1 or "force" not in decision.uses or "force_zero" in known.conditions:
-        return
-    ((tare, said),) = tares.items()
-    rows.channels["force"] = rows.channels["force"] - decision.uses["force"][1].sign * tare
-    rows.messages.append(
-        f"{tare:g} N is subtracted from the force: '{said.span.text.strip('# ')[:80]}' ({said.span.where})"
-    )
 
 
 _COARSE = 0.6  # share of the steps of a clock that are 0, from which a stated interval is finer

@@ -529,8 +529,7 @@ def _subject(run: Run) -> str:
     if not run.title:
         return ""
     text = run.title[0].text
-    best = max(re.split(r"\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]", text), key=head_score)
-    return best.strip()
+    return _named_best([text])
 
 
 def _is_map(run: Run) -> bool:
@@ -554,8 +553,11 @@ def _melted(run: Run, title: list[Span]) -> Part:
     corner = [part.strip() for part in _TRAILING.split(str(top[0])) if part.strip()] or [""]
     where = sheet.place(run.rows[0])
     over = [t.text for t in title] + [str(c) for r in run.remarks for c in rows[r] if c != ""]
-    names = [name for text in over for name in re.split(r"\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]", text)]
-    subject = max(names, key=head_score, default="")
+    subject = _named_best(over)
+    for r in range(run.rows[0] - 1, max(-1, run.rows[0] - _FAR_ABOVE), -1):  # titles further above
+        if head_score(subject) < _NAMED:
+            subject = _named_best([str(c) for c in rows[r] if c != "" and kind_of(c) == TEXT])
+    subject = subject if head_score(subject) > 0.0 else ""
     down_name, across_name = (corner[0], corner[-1]) if len(corner) > 1 else ("", corner[0])
     if len(corner) == 1 and _counts(down):
         down_name = "cycle"
@@ -574,6 +576,16 @@ def _melted(run: Run, title: list[Span]) -> Part:
         Column(subject, third[~empty], where),
     )
     return Part(made, tuple(title), numbers[~empty])
+
+
+_FAR_ABOVE = 12  # rows above a map in which its values may be named
+_NAMED = 2.0  # nats from which a text names a channel
+
+
+def _named_best(texts: Sequence[str]) -> str:
+    """The part of some texts that names a channel best."""
+    cut = r"\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]|\s[–—-]\s|,\s"
+    return max((part.strip() for text in texts for part in re.split(cut, text)), key=head_score, default="")
 
 
 def _counts(values: NDArray[np.float64]) -> bool:
