@@ -98,6 +98,7 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     found: list[Evidence] = []
     for i, column in enumerate(table.columns):
         found += of_column(i, column)
+    found = _only_pressure(found, table)
     for span in table.texts:
         found += _of_text(span, FILE, table)
     found += [*of_bridge(table), *of_zeros(table.texts)]
@@ -106,6 +107,25 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
             found += _of_title(span, BLOCK - k, table)
     found += _of_name(name, table)
     return found
+
+
+_MOVES = 0.25  # of its largest reading, by which no supply of a test moves
+
+
+def _only_pressure(found: list[Evidence], table: Table) -> list[Evidence]:
+    """The only pressure, called like a supply but set to several levels, is what a valve gave the muscle."""
+    pressures = {e.target for e in found if e.facet == "channel" and e.value == "pressure"}
+    supplies = {e.target for e in found if e.facet == "role" and e.value == "supply"}
+    if len(pressures) != 1 or not pressures <= supplies:
+        return found
+    values = table.columns[pressures.pop()].values
+    values = np.abs(values[np.isfinite(values)])
+    if not len(values) or np.ptp(values) < _MOVES * np.max(values):
+        return found
+    return [
+        e._replace(value="at the valve", weight=0.5) if e.facet == "role" and e.value == "supply" else e
+        for e in found
+    ]
 
 
 def of_column(i: int, column: Column) -> list[Evidence]:

@@ -53,7 +53,7 @@ _SAME = 0.01  # of the range; columns that differ by less are the same reading
 _HARDLY = 2e3  # Pa; below it a pressure moves no muscle
 _LARGEST_AREA = 0.5  # m2, force over pressure; the largest catalogue muscle has 0.04
 _STRETCHED, _FEW = 0.15, 0.05  # of the rest length, at which a braid locks; share of rows that may be spikes
-_LONGEST, _SHORTEST = 1.25, 0.4  # of the rest length, that a muscle can have
+_SHORTEST = 0.4  # of the rest length, that a muscle can have
 _REST_BAND = (0.9e5, 1.1e5)  # Pa; the air outside
 _LONG_TEST, _SWING, _JUMP, _JUMPS = 900.0, 0.1, 0.6, 2
 _OPPOSED = -0.5  # correlation of the pressures of a pair, of which one is filled as the other is vented
@@ -770,8 +770,8 @@ def _by_valve(reading: Reading) -> Iterator[Question]:
         return
     yield Question(
         f"column '{bare(column)}'",
-        f"{reading.table.noun} '{column.head}' is the only pressure and named after the valve; no text says "
-        f"that it was measured; take it",
+        f"{reading.table.noun} '{column.head}' is the only pressure and named after the valve or the supply; "
+        f"no text says that it was measured at the muscle; take it",
         f"{option_of('pressure', column)} or {ignore_option(bare(column))}",
         column.head,
         "pressure",
@@ -987,7 +987,8 @@ def _beyond(channels: dict[str, Array], rest: float) -> str:
     length, stroke = channels.get("length"), channels.get("displacement")
     if length is not None and len(length):
         low, high = float(np.min(length)), float(np.max(length))
-        if low > _LONGEST * rest or high < _SHORTEST * rest:
+        most = float(np.quantile(length, 1.0 - _FEW))
+        if most > (1.0 + _STRETCHED) * rest or high < _SHORTEST * rest:
             return f"the lengths measured are {low * 1e3:.4g} to {high * 1e3:.4g} mm"
     elif stroke is not None and len(stroke):
         low, high = float(np.min(stroke)), float(np.max(stroke))

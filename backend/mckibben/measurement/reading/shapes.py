@@ -5,7 +5,7 @@ columns.
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
@@ -526,10 +526,7 @@ def _without_quantity(head: str) -> str:
 
 def _subject(run: Run) -> str:
     """What the title of a table says that its values are: the words before "of" or a colon."""
-    if not run.title:
-        return ""
-    text = run.title[0].text
-    return _named_best([text])
+    return _named_best([t.text for t in run.title[:1]])
 
 
 def _is_map(run: Run) -> bool:
@@ -553,14 +550,13 @@ def _melted(run: Run, title: list[Span]) -> Part:
     corner = [part.strip() for part in _TRAILING.split(str(top[0])) if part.strip()] or [""]
     where = sheet.place(run.rows[0])
     over = [t.text for t in title] + [str(c) for r in run.remarks for c in rows[r] if c != ""]
-    subject = _named_best(over)
-    for r in range(run.rows[0] - 1, max(-1, run.rows[0] - _FAR_ABOVE), -1):  # titles further above
-        if head_score(subject) < _NAMED:
-            subject = _named_best([str(c) for c in rows[r] if c != "" and kind_of(c) == TEXT])
-    subject = subject if head_score(subject) > 0.0 else ""
     down_name, across_name = (corner[0], corner[-1]) if len(corner) > 1 else ("", corner[0])
     if len(corner) == 1 and _counts(down):
         down_name = "cycle"
+    axes = {c.value for n in (down_name, across_name) for c in head_claims(n[:200]) if c.facet == "channel"}
+    subject = _named_best(over, axes)
+    for r in range(run.rows[0] - 1, max(-1, run.rows[0] - _FAR_ABOVE), -1):  # titles further above
+        subject = subject or _named_best([str(c) for c in rows[r] if c != "" and kind_of(c) == TEXT], axes)
     lines = np.array([sheet.line(r) for r in run.rows[1:]], np.int64)
     columns = (
         np.repeat(down, len(upper)),
@@ -579,13 +575,14 @@ def _melted(run: Run, title: list[Span]) -> Part:
 
 
 _FAR_ABOVE = 12  # rows above a map in which its values may be named
-_NAMED = 2.0  # nats from which a text names a channel
 
 
-def _named_best(texts: Sequence[str]) -> str:
-    """The part of some texts that names a channel best."""
+def _named_best(texts: Sequence[str], axes: Collection[str] = ()) -> str:
+    """The part of some texts that names a channel best, one that no axis is; "" = none does."""
     cut = r"\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]|\s[–—-]\s|,\s"
-    return max((part.strip() for text in texts for part in re.split(cut, text)), key=head_score, default="")
+    parts = [part.strip() for text in texts for part in re.split(cut, text)]
+    named = [p for p in parts if {c.value for c in head_claims(p[:200]) if c.facet == "channel"} - {*axes}]
+    return max(named, key=head_score, default="")
 
 
 def _counts(values: NDArray[np.float64]) -> bool:
