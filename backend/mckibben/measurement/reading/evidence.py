@@ -110,22 +110,24 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
 
 
 _MOVES = 0.25  # of its largest reading, by which no supply of a test moves
+_SCATTERED = 0.2  # different values by row, from which a series was measured and not set
 
 
 def _only_pressure(found: list[Evidence], table: Table) -> list[Evidence]:
-    """The only pressure, called like a supply but set to several levels, is what a valve gave the muscle."""
+    """The only pressure, called like a supply but of several levels, is what the valve gave the muscle; in
+    the line it was measured where it scatters.
+    """
     pressures = {e.target for e in found if e.facet == "channel" and e.value == "pressure"}
-    supplies = {e.target for e in found if e.facet == "role" and e.value == "supply"}
-    if len(pressures) != 1 or not pressures <= supplies:
+    supply = {e.target: e for e in found if e.facet == "role" and e.value == "supply"}
+    if len(pressures) != 1 or not pressures <= set(supply):
         return found
-    values = table.columns[pressures.pop()].values
-    values = np.abs(values[np.isfinite(values)])
+    (i,) = pressures
+    values = np.abs(table.columns[i].values[np.isfinite(table.columns[i].values)])
     if not len(values) or np.ptp(values) < _MOVES * np.max(values):
         return found
-    return [
-        e._replace(value="at the valve", weight=0.5) if e.facet == "role" and e.value == "supply" else e
-        for e in found
-    ]
+    measured = supply[i].rule == "role_line" and len(np.unique(values)) >= _SCATTERED * len(values)
+    given = [] if measured else [supply[i]._replace(value="at the valve", weight=0.5)]
+    return [*(e for e in found if e is not supply[i]), *given]
 
 
 def of_column(i: int, column: Column) -> list[Evidence]:

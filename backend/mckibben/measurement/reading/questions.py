@@ -143,13 +143,17 @@ def questions_of(reading: Reading) -> list[Question]:
             asked += islice(policy(reading), _MOST)
         for policy in ALWAYS:
             asked += islice(policy(reading), _MOST)
-    seen: set[tuple[str, str | None]] = set()
-    kept = []
-    for question in asked:
-        if (question.about, question.column) not in seen:
-            seen.add((question.about, question.column))
-            kept.append(question)
+    first = {(q.about, q.column): q for q in reversed(asked)}
+    kept = [q for q in asked if first[q.about, q.column] is q and not _follows(q, asked)]
     return sorted(kept, key=lambda question: not question.stops)
+
+
+def _follows(question: Question, asked: Sequence[Question]) -> bool:
+    """Whether a question is answered with the one where a stroke has its zero: its sign, its channel, L0."""
+    open_zeros = {q.column for q in asked if q.about.partition("zero of ")[2] in STROKES}
+    if not open_zeros or not question.stops or question.about.startswith(("zero of", "unit of")):
+        return False
+    return question.about == "rest length" or question.column in open_zeros
 
 
 def _sheets(reading: Reading) -> Iterator[Question]:
@@ -665,19 +669,7 @@ def _runs_against(reading: Reading) -> Iterator[Question]:
         rest = reading.known.conditions.get("nominal_length")
         stroke = reading.rows.channels[channel]
         if channel == "displacement" and isinstance(rest, float):
-            reach, whole = (float(convert([v], "m", use.unit)[0]) for v in (float(np.max(stroke)), rest))
-            yield Question(
-                "zero of displacement",
-                f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, up to {reach:.4g} "
-                f"{use.unit}: a muscle of {whole:.4g} {use.unit} "
-                "is not at its rest length where it shows 0; which length has it there and at the end",
-                option_of(
-                    "length",
-                    column,
-                    f"0 to {reach:.4g} {use.unit} = {whole - reach:.4g} to {whole:.4g} {use.unit}",
-                ),
-                column.head,
-            )
+            yield _lengthens(reading, column, rest)
         else:
             as_length = f" or {option_of('length', column)}" if float(np.min(stroke)) > 0.0 else ""
             yield Question(
@@ -689,6 +681,23 @@ def _runs_against(reading: Reading) -> Iterator[Question]:
                 REVERSE,
                 (REVERSE, KEEP),
             )
+
+
+def _lengthens(reading: Reading, column: Column, rest: float) -> Question:
+    """A position that grows as the muscle lengthens, and shows 0 where it is not at its rest length [m]."""
+    unit, stroke = reading.use("displacement").unit, np.abs(reading.rows.channels["displacement"])
+    low, high = float(np.min(stroke)), float(np.max(stroke))
+    low = low if low > 0.5 * high else 0.0  # a position of the machine, which never comes near its 0
+    first, reach, whole = (float(v) for v in convert([low, high, rest], "m", unit))
+    span = f"{first:.4g} to {reach:.4g} {unit} = {whole - reach + first:.4g} to {whole:.4g} {unit}"
+    return Question(
+        "zero of displacement",
+        f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, up to {reach:.4g} {unit}: a "
+        f"muscle of {whole:.4g} {unit} is not at its rest length where it shows 0; which length has it "
+        f"{'there' if not low else f'at {first:.4g} {unit}'} and at the end",
+        option_of("length", column, span),
+        column.head,
+    )
 
 
 _MOTION = ("the force falls as it contracts", "it contracts as the pressure rises")
@@ -714,19 +723,7 @@ def _zero(reading: Reading) -> Iterator[Question]:
     stroke = reading.rows.channels["displacement"]
     rest = reading.known.conditions.get("nominal_length")
     if use.sign == -1 and float(np.median(stroke)) < 0.0 and isinstance(rest, float):
-        most = -float(np.min(stroke))
-        unit = use.unit
-        reach, whole = (float(convert([v], "m", unit)[0]) for v in (most, rest))
-        yield Question(
-            "zero of displacement",
-            f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, up to {reach:.4g} {unit}: "
-            f"a muscle of {whole:.4g} {unit} is "
-            "not at its rest length where it shows 0; which length has it there and at the end",
-            option_of(
-                "length", column, f"0 to {reach:.4g} {unit} = {whole - reach:.4g} to {whole:.4g} {unit}"
-            ),
-            column.head,
-        )
+        yield _lengthens(reading, column, rest)
         return
     if float(np.min(np.abs(stroke))) <= 0.02 * float(np.max(np.abs(stroke))):
         return
