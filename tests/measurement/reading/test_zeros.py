@@ -31,6 +31,7 @@ ZEROS = {
     "tare de 3,5 N non déduite": ("force", 3.5, True),
     "tare 4 N, already subtracted": ("force", 4.0, False),
     "tare: 4 N": ("force", 4.0, None),
+    "zero of the load cell, tare 4.2": ("force", 4.2, None),
     "tare 3 N is included, do not subtract": ("force", 3.0, None),
     "rest length 300 mm, tare 4.25 N not subtracted": ("force", 4.25, True),
     "Nulpunt krachtopnemer: -4,7 N, niet gecorrigeerd, nog aftrekken": ("force", -4.7, True),

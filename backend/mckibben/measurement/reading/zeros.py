@@ -11,7 +11,14 @@ from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_TEXT
 from mckibben.measurement.reading.model import FILE, Evidence, Span
 from mckibben.measurement.reading.scales import scales_in
-from mckibben.measurement.reading.units import FITTING, WEIGHTS, Quantity, quantities, quantity_si
+from mckibben.measurement.reading.units import (
+    FITTING,
+    WEIGHTS,
+    Quantity,
+    number_of,
+    quantities,
+    quantity_si,
+)
 
 _STATED = 5.0  # nats
 _CLAUSES = re.compile(r"[;,](?!\d)\s?")
@@ -19,6 +26,7 @@ _NO_LOAD = re.compile(
     r"(?i)nothing (?:attached|hung|on it)|(?:without|with no|no) load|ohne (?:last|kraft)|sans charge|"
     r"senza carico|sin carga|sem carga"
 )
+_NUMBER = re.compile(r"(?<![\w.,])[-+]?\d{1,9}(?:[.,]\d{1,6})?(?![\w.,%:/-])")  # without a unit
 _TIMES = re.compile(r"(?:(?<![\d.,])(?P<count>[1-4])\s?(?:[x×*]\s?|[^\W\d_]{4,}[^\d;,]{0,20}))$")
 
 
@@ -48,7 +56,11 @@ def zeros_in(span: Span) -> Iterator[Zero]:
     contained = _contained(words_of(text))
     for clause in _CLAUSES.split(text):
         words = words_of(clause)
-        for quantity in quantities(clause) if words else ():
+        found = quantities(clause)
+        bare = _NUMBER.findall(clause) if word_set("tare_tare").among(words) and not found else ()
+        if len(bare) == 1 and number_of(bare[0]):
+            yield Zero("force", number_of(bare[0]), False if contained is False else None, f"{bare[0]} N", span)
+        for quantity in found:
             if not quantity.value:
                 continue
             fittings = _of_fittings(clause, words, quantity)
