@@ -80,7 +80,9 @@ def test_what_a_sentence_says_of_a_zero(sentence: str) -> None:
         ("stroke offset 1.5 mm, still to be subtracted", (TIME, BAR, FORCE, MM + 1.5)),
     ],
 )
-def test_a_zero_that_the_readings_contain_is_subtracted_and_said(said: str, columns: tuple[Array, ...]) -> None:
+def test_a_zero_that_the_readings_contain_is_subtracted_and_said(
+    said: str, columns: tuple[Array, ...]
+) -> None:
     found = read(f"{ABOVE}# {said}\n{HEADS}\n{table(*columns)}\n")
     np.testing.assert_allclose(found.columns["force"], FORCE, atol=1e-4)
     np.testing.assert_allclose(found.columns["pressure"], BAR * 1e5, atol=20.0)

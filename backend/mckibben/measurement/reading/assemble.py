@@ -28,7 +28,7 @@ from mckibben.measurement.reading.evidence import evidence_of
 from mckibben.measurement.reading.facts import Known, known_of
 from mckibben.measurement.reading.layout import table_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table
-from mckibben.measurement.reading.questions import Reading, questions_of
+from mckibben.measurement.reading.questions import Reading
 from mckibben.measurement.reading.rows import rows_of
 from mckibben.measurement.reading.units import dimension_of
 from mckibben.physics.errors import InputError
@@ -370,9 +370,3 @@ def _in_words(reading: Reading) -> frozenset[str]:
         ):
             words.add(REFERENCE)
     return frozenset(words)
-
-
-def questions_and_measurement(reading: Reading, id: str) -> tuple[list[Question], Measurement]:
-    """The questions of a reading, and its measurement as if they were answered as proposed."""
-    questions = questions_of(reading)
-    return questions, measurement_of(reading, questions, id)

@@ -25,7 +25,7 @@ from mckibben.measurement.reading import physics
 from mckibben.measurement.reading.model import FILE, Array, Evidence, Table, Use
 from mckibben.measurement.reading.physics import ATMOSPHERE, Terms
 from mckibben.measurement.reading.scales import Scale, answered_scale
-from mckibben.measurement.reading.units import CLOCK, FITTING, RAW, dimension_of, in_si, unit_of
+from mckibben.measurement.reading.units import CLOCK, FITTING, RAW, dimension_of, in_si
 
 MARGIN = 2.0  # nats, below which is asked: 7 to 1
 YOU = 60.0  # nats of what the user says
@@ -36,7 +36,7 @@ _NO_WORDS = -3.0  # nats of a column of which nothing says what it is
 _RANK = 0.15  # nats that each less usual unit costs
 _UNFIT = -9.0  # nats of a unit that is none of the channel
 _MASS = -1.0  # nats of a mass as a force
-_FINAL = (
+FINAL = (
     "supply",
     "air",
     "at rest",
@@ -48,7 +48,7 @@ _FINAL = (
     "slack",
     "condition",
 )
-_ASIDE = ("set value", "running number", "remark", "raw", "words", "counter", "slack", *_FINAL)
+_ASIDE = ("set value", "running number", "remark", "raw", "words", "counter", "slack", *FINAL)
 SLOTS = {
     "time": "time", "pressure": "pressure", "force": "force", "length": "stroke", "contraction": "stroke",
     "displacement": "stroke", "command": "command", "diameter": "diameter",
@@ -162,7 +162,7 @@ def _aside(channel: str, roles: Mapping[str, float], *, scaled: bool, worded: bo
             continue
         if role == "at rest" and channel in ("displacement", "contraction", "pressure", "force"):
             continue
-        aside = max(aside, (2.5 if role in _FINAL else 1.0) * weight)
+        aside = max(aside, (2.5 if role in FINAL else 1.0) * weight)
     return (
         aside
         - roles.get("measured", 0.0)
@@ -362,11 +362,7 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
     taken = {o.column for o in winner if o is not None}
     for slot in ("time", "command", "diameter", "temperature", "velocity"):
         best = next(
-            (
-                o
-                for o in slots[slot]
-                if o.column not in taken and o.score > 0.0 and _is_share(slot, o, table, facts)
-            ),
+            (o for o in slots[slot] if o.column not in taken and o.score > 0.0 and _is_share(slot, o, table)),
             None,
         )
         if best is not None:
@@ -395,12 +391,11 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
     )
 
 
-def _is_share(slot: str, option: Option, table: Table, facts: Facts) -> bool:
+def _is_share(slot: str, option: Option, table: Table) -> bool:
     """Whether a command lies between -1 and 1 in all rows; of other slots nothing is asked."""
     if slot != "command":
         return True
     values = value_of(table.columns[option.column].values, option.use, 0.0)
-    del facts
     return bool(np.nanmax(np.abs(values)) <= 1.001)
 
 
@@ -459,8 +454,3 @@ def _rivals(ranked: Sequence[tuple[float, tuple[Option | None, ...]]]) -> list[R
 def unit_is_stated(i: int, evidence: Sequence[Evidence]) -> bool:
     """Whether the file says the unit of a column."""
     return any(e.target == i and e.facet in ("unit", "unit_word", "scale") for e in evidence)
-
-
-def is_unit(text: str) -> bool:
-    """Whether a text is a unit."""
-    return unit_of(text) is not None

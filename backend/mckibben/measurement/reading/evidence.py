@@ -104,8 +104,8 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     found += [*of_bridge(table), *of_zeros(table.texts)]
     for k, spans in enumerate(table.titles):
         for span in spans if len(table.titles) > 1 else ():
-            found += _of_title(span, BLOCK - k, table)
-    found += _of_name(name, table)
+            found += _of_title(span, BLOCK - k)
+    found += _of_name(name)
     return found
 
 
@@ -391,9 +391,8 @@ def _fires(rule: Rule, before: tuple[str, ...], behind: tuple[str, ...]) -> bool
     return (ahead and after) if rule.both else (ahead or after)
 
 
-def _of_title(span: Span, target: int, table: Table) -> list[Evidence]:
+def _of_title(span: Span, target: int) -> list[Evidence]:
     """The quantities that hold in one block; without words their unit says what they are."""
-    del table
     found: list[Evidence] = []
     if _SCALED.search(span.text):
         return found
@@ -407,21 +406,15 @@ def _of_title(span: Span, target: int, table: Table) -> list[Evidence]:
             evidence = Evidence(target, f"{facet}:{channel}", quantity, 2.0, span, "bare")
         if evidence is not None:
             found.append(evidence)
-    for clause_evidence in _of_clauses(span, Table((), (), np.zeros(0, np.intp))):
-        found.append(
-            clause_evidence._replace(
-                target=target if clause_evidence.target == FILE else clause_evidence.target
-            )
-        )
-    return found
+    clauses = _of_clauses(span, Table((), (), np.zeros(0, np.intp)))
+    return [*found, *(e._replace(target=target) if e.target == FILE else e for e in clauses)]
 
 
 _HELD_STEM = re.compile(r"(?i)(?<![^\W\d_])(?:iso(?![^\W\d_])|isometr|clamped|eingespannt)")
 
 
-def _of_name(name: str, table: Table) -> list[Evidence]:
+def _of_name(name: str) -> list[Evidence]:
     """What the name of the file says: ``Zug_1,5bar``, ``step_L360mm``, ``load20kg``."""
-    del table
     stem = PurePath(name).stem
     span = Span(NAME, stem)
     found: list[Evidence] = []

@@ -84,7 +84,6 @@ _LONGEST = 200  # characters of a head that are looked at
 _NO_FORCE = ("出力", "入力", "能力", "电力", "電力", "功力")  # "output": no word of a force
 _QUANTITY_FIRST = re.compile(r"\d{1,12}(?:[.,]\d{1,9})?\s?[^\W\d_%]{1,6}")
 _MOST = 3.0  # nats that the words of a head add to its score
-_STROKES = ("displacement", "contraction", "length")
 
 
 class Head(NamedTuple):

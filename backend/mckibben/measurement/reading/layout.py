@@ -92,12 +92,10 @@ def table_of(
         if not chosen:
             hint = did_you_mean(wanted, [s.name for s in sheets if s.name])
             raise InputError(f"{name}: there is no sheet '{wanted}'", field="sheet", hint=hint)
-        others = tuple(Span(s.place(0), s.name) for s in sheets if s not in chosen)
         sheets = [
             *chosen,
             *(replace(s, rows=s.rows[:200], arrays=None) for s in sheets if s not in chosen and not _runs(s)),
         ]
-        del others
     named = [s for s in sheets if s.arrays is not None]
     if named:
         return _of_named(named, sheets, name)
@@ -953,8 +951,3 @@ def _claimed(columns: Sequence[Column]) -> int:
 def _is_raw(column: Column) -> bool:
     unit = taken_apart(column.head, column.unit).unit
     return unit is not None and unit.dimension in RAW
-
-
-def known_unit(text: str) -> bool:
-    """Whether a head holds a unit."""
-    return taken_apart(text).unit is not None

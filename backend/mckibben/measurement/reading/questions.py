@@ -19,6 +19,7 @@ from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.read.questions import column_option, ignore_option
 from mckibben.measurement.reading import physics
 from mckibben.measurement.reading.decide import (
+    FINAL,
     MARGIN,
     SLOTS,
     Decision,
@@ -57,18 +58,6 @@ _SHORTEST = 0.4  # of the rest length, that a muscle can have
 _REST_BAND = (0.9e5, 1.1e5)  # Pa; the air outside
 _LONG_TEST, _SWING, _JUMP, _JUMPS = 900.0, 0.1, 0.6, 2
 _OPPOSED = -0.5  # correlation of the pressures of a pair, of which one is filled as the other is vented
-_FINAL = (
-    "supply",
-    "air",
-    "at rest",
-    "preload",
-    "deviation",
-    "tube size",
-    "remark",
-    "running number",
-    "a value",
-    "lever",
-)
 _CARRIES = {"force": "force", "pressure": "pressure", "length": "displacement"}
 _RAW_SPANS = {
     "V": "0 to 10 V",
@@ -330,7 +319,7 @@ def _unread(reading: Reading) -> Iterator[Question]:
             continue
         own = reading.own(i)
         roles = roles_of(own)
-        if any(roles.get(role, 0.0) >= 2.0 for role in _FINAL):
+        if any(roles.get(role, 0.0) >= 2.0 for role in (*FINAL, "remark", "running number")):
             continue
         unit = next((e.value for e in own if e.facet == "unit"), None)
         dimension = dimension_of(unit) if unit else ""
@@ -1183,8 +1172,3 @@ ALWAYS: tuple[Policy, ...] = (
     _hangers,
     _air,
 )
-
-
-def without_prefix(text: str) -> str:
-    """A message without the name of the file before it."""
-    return re.sub(r"^[^:]{1,80}: ", "", text)

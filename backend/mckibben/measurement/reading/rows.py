@@ -12,7 +12,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
+from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.read.cells import Skip
 from mckibben.measurement.read.correction import SAMPLE, SLACK, Correction
 from mckibben.measurement.reading.decide import Decision, roles_of, value_of
@@ -514,8 +514,3 @@ def _order_of(time: Array, group: Array | None) -> NDArray[np.intp] | None:
     if np.mean(np.diff(labels[order]) != 0) < _RUN_CHANGES:
         return order
     return np.lexsort((time, labels))  # each run has a time of its own
-
-
-def si_of(channel: str) -> str:
-    """The SI unit of a channel."""
-    return CHANNEL_UNITS[channel]

@@ -328,7 +328,6 @@ def _two_ways(
     chosen = {c for pair in whole.values() for c in pair.values()}
     if any(way is not None and c not in chosen for c, way in ways.items()):
         return []
-    shared = [column for c, column in columns.items() if c not in chosen]
     made = []
     for way in names:
         block = {c: column for c, column in columns.items() if c not in chosen}
@@ -340,7 +339,6 @@ def _two_ways(
             words=(way,) * len(lines),
         )
         made.append(({c: block[c] for c in sorted(block)}, words))
-    del shared
     back = _way_back(names, columns, whole)
     sides = []
     for way, (block, words) in zip(names, made, strict=True):
@@ -766,8 +764,3 @@ def _is_row_of_readings(row: Sequence[Cell]) -> bool:
         and numbers + kinds.count(MARK) >= 0.7 * len(kinds)
         and head_score(str(row[0])[:200]) >= 2.0
     )
-
-
-def is_signal(text: str) -> bool:
-    """Whether a text names a channel."""
-    return taken_apart(text).name != "" and head_score(text) >= 2.0

@@ -139,11 +139,6 @@ def dimension_of(unit: str) -> str:
     return _OWN.get(unit) or _DIMENSIONS.get(meaning(unit) or "", "")
 
 
-def fits(unit: str, channel: str) -> bool:
-    """Whether a channel may be in a unit."""
-    return dimension_of(unit) in FITTING.get(channel, ())
-
-
 def in_si(values: Array, unit: str, channel: str) -> Array:
     """Readings in the SI unit of a channel; a mass becomes its weight, times of day are seconds."""
     if unit in (CLOCK, "", "1", "-"):

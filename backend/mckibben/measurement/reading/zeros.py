@@ -59,7 +59,9 @@ def zeros_in(span: Span) -> Iterator[Zero]:
         found = quantities(clause)
         bare = _NUMBER.findall(clause) if word_set("tare_tare").among(words) and not found else ()
         if len(bare) == 1 and number_of(bare[0]):
-            yield Zero("force", number_of(bare[0]), False if contained is False else None, f"{bare[0]} N", span)
+            yield Zero(
+                "force", number_of(bare[0]), False if contained is False else None, f"{bare[0]} N", span
+            )
         for quantity in found:
             if not quantity.value:
                 continue
