@@ -32,7 +32,7 @@ from mckibben.measurement.reading.evidence import NO_ZERO
 from mckibben.measurement.reading.facts import Known
 from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.lexicon import word_set, words_of
-from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table, Use
+from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Span, Table, Use
 from mckibben.measurement.reading.named import is_isometric
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
@@ -105,6 +105,10 @@ class Reading:
             choice is not None and (choice.unit is not None or choice.scale is not None)
         ) or unit_is_stated(i, self.evidence)
 
+    def label(self, column: Column) -> str:
+        """A column, as messages name it."""
+        return f"{self.table.noun} '{column.head}'"
+
     def own(self, i: int) -> list[Evidence]:
         """What is claimed of a column."""
         return [e for e in self.evidence if e.target == i]
@@ -118,6 +122,18 @@ def bare(column: Column) -> str:
 def option_of(channel: str, column: Column, unit: str | None = None, *, sign: int = 1) -> str:
     """The option that reads a column as a channel."""
     return column_option(channel, bare(column), unit, sign=sign)
+
+
+def taken_or_not(reading: Reading, channel: str, column: Column, text: str, about: str = "") -> Question:
+    """Whether a column is a channel; the text goes on behind its name."""
+    return Question(
+        about or f"column '{bare(column)}'",
+        f"{reading.label(column)} {text}",
+        f"{option_of(channel, column)} or {ignore_option(bare(column))}",
+        column.head,
+        channel,
+        (channel, "ignore"),
+    )
 
 
 _MOST = 10  # questions of one kind at a time: what is answered first, often answers the rest
@@ -168,7 +184,7 @@ def _units(reading: Reading) -> Iterator[Question]:
             continue
         raw = _back(values, use, channel)
         span = f"{np.min(raw):.4g} to {np.max(raw):.4g}"
-        named = f"{reading.table.noun} '{column.head}'"
+        named = f"{reading.label(column)}"
         if not unit_is_stated(i, reading.evidence):
             if dimension_of(use.unit) == "ratio" and use.unit == "1" and channel == "contraction":
                 continue
@@ -345,7 +361,7 @@ def _unread(reading: Reading) -> Iterator[Question]:
             )
         yield Question(
             f"column '{bare(column)}'",
-            f"{reading.table.noun} '{column.head}' is in {unit} and is not read{why}{doubt}",
+            f"{reading.label(column)} is in {unit} and is not read{why}{doubt}",
             f"{ignore_option(bare(column))} or {option_of(channel, column)}",
             column.head,
             choices=("ignore", *others),
@@ -380,7 +396,7 @@ def _raw_signal(
     scale = f"{span} = {_SCALED[wanted]}"
     yield Question(
         f"scale of {wanted}",
-        f"{reading.table.noun} '{column.head}' is a signal in {unit or 'counts'}, and no text states its "
+        f"{reading.label(column)} is a signal in {unit or 'counts'}, and no text states its "
         f"scale: which {wanted} is which reading",
         f"{option_of(wanted, column, scale)} or {ignore_option(bare(column))}",
         column.head,
@@ -480,11 +496,10 @@ def _signs(reading: Reading) -> Iterator[Question]:
         }[channel]
         other = option_of(channel, column, sign=-use.sign)
         text = (
-            f"{reading.table.noun} '{column.head}' is read with its sign reversed: {what}, and its readings "
+            f"{reading.label(column)} is read with its sign reversed: {what}, and its readings "
             f"run the other way"
             if use.sign == -1
-            else f"{reading.table.noun} '{column.head}': {what}, but its readings hardly show which way "
-            f"they count"
+            else f"{reading.label(column)}: {what}, but its readings hardly show which way they count"
         )
         yield Question(f"sign of {channel}",
         text, f"{option_of(channel, column, sign=use.sign)} or {other}", column.head,
@@ -512,7 +527,7 @@ def _reference(reading: Reading) -> Iterator[Question]:
     absolute, gauge = (option_of("pressure", column, f"{use.unit}({mark})") for mark in ("a", "g"))
     yield Question(
         "reference of pressure",
-        f"{reading.table.noun} '{column.head}' shows {lowest / 1e5:.2f} bar at its lowest; is it absolute "
+        f"{reading.label(column)} shows {lowest / 1e5:.2f} bar at its lowest; is it absolute "
         f"or gauge pressure",
         f"{absolute} or {gauge}",
         column.head,
@@ -563,7 +578,7 @@ def _tare(reading: Reading) -> Iterator[Question]:
         return
     yield Question(
         "zero of force",
-        f"{reading.table.noun} '{column.head}' shows {offset:.3g} N at rest, without pressure and stroke; "
+        f"{reading.label(column)} shows {offset:.3g} N at rest, without pressure and stroke; "
         f"it is not subtracted; is it "
         "an offset of the sensor",
         f'--experiment "force_zero={offset:.3g} N"',
@@ -589,7 +604,7 @@ def _bridge(reading: Reading) -> Iterator[Question]:
         return
     yield Question(
         "zero of force",
-        f"{reading.table.noun} '{column.head}' is read by the sensitivity of its load cell, and neither the "
+        f"{reading.label(column)} is read by the sensitivity of its load cell, and neither the "
         f"file nor a reading (all are at least {smallest:.4g} N) states what it shows at zero force",
         '--experiment "force_zero=0 N"',
         column.head,
@@ -604,16 +619,8 @@ def _contradicted(reading: Reading) -> Iterator[Question]:
             continue
         if channel in ("displacement", "length") and "rest length" in terms[0][0]:
             continue  # see `_rest_length`
-        use = reading.use(channel)
-        yield Question(
-            f"{channel} in {column.title}",
-            f"{reading.table.noun} '{column.head}' is read as {channel} in {use.unit}, but {terms[0][0]}; "
-            f"what is it",
-            f"{option_of(channel, column)} or {ignore_option(bare(column))}",
-            column.head,
-            channel,
-            (channel, "ignore"),
-        )
+        text = f"is read as {channel} in {reading.use(channel).unit}, but {terms[0][0]}; what is it"
+        yield taken_or_not(reading, channel, column, text, f"{channel} in {column.title}")
 
 
 def _close(reading: Reading) -> Iterator[Question]:
@@ -627,11 +634,11 @@ def _close(reading: Reading) -> Iterator[Question]:
             continue
         column, use = reading.table.columns[reading.decision.uses[channel][0]], reading.use(channel)
         other = rival.other
-        if other is None or (rival.part == "unit" and reading.said_unit(channel)):
+        if other is None:
             continue
         yield Question(
-            f"{rival.part} of {column.title}" if rival.part == "channel" else f"unit of {channel}",
-            f"{reading.table.noun} '{column.head}' is read as {channel} in {use.unit}, but could as well be "
+            f"channel of {column.title}",
+            f"{reading.label(column)} is read as {channel} in {use.unit}, but could as well be "
             f"{other.use.channel} in {other.use.unit}",
             f"{option_of(channel, column, use.unit)} or "
             f"{option_of(other.use.channel, column, other.use.unit)}",
@@ -649,7 +656,7 @@ def _runs_against(reading: Reading) -> Iterator[Question]:
         column = reading.column(channel)
         if column is None or reading.by_user(channel):
             continue
-        i, use = reading.decision.uses[channel]
+        i, _ = reading.decision.uses[channel]
         worst = min((v for t, v in reading.decision.terms if t in _MOTION), default=0.0)
         if worst > _AGAINST or any(
             e.facet == "sign_stroke" and e.target in (i, FILE) for e in reading.evidence
@@ -663,7 +670,7 @@ def _runs_against(reading: Reading) -> Iterator[Question]:
             as_length = f" or {option_of('length', column)}" if float(np.min(stroke)) > 0.0 else ""
             yield Question(
                 f"sign of {channel}",
-                f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, but shortening is "
+                f"{reading.label(column)} grows as the muscle lengthens, but shortening is "
                 f"positive here; reverse its sign",
                 f"{option_of(channel, column, sign=-1)}{as_length}",
                 column.head,
@@ -681,7 +688,7 @@ def _lengthens(reading: Reading, column: Column, rest: float) -> Question:
     span = f"{first:.4g} to {reach:.4g} {unit} = {whole - reach + first:.4g} to {whole:.4g} {unit}"
     return Question(
         "zero of displacement",
-        f"{reading.table.noun} '{column.head}' grows as the muscle lengthens, up to {reach:.4g} {unit}: a "
+        f"{reading.label(column)} grows as the muscle lengthens, up to {reach:.4g} {unit}: a "
         f"muscle of {whole:.4g} {unit} is not at its rest length where it shows 0; which length has it "
         f"{'there' if not low else f'at {first:.4g} {unit}'} and at the end",
         option_of("length", column, span),
@@ -718,8 +725,7 @@ def _zero(reading: Reading) -> Iterator[Question]:
         return
     yield Question(
         "zero of displacement",
-        f"{reading.table.noun} '{column.head}' is a position; at which reading is the muscle at its rest "
-        f"length",
+        f"{reading.label(column)} is a position; at which reading is the muscle at its rest length",
         f"{option_of('displacement', column)} or {option_of('length', column)}",
         column.head,
         None,
@@ -754,15 +760,11 @@ def _by_valve(reading: Reading) -> Iterator[Question]:
         )
     ):
         return
-    yield Question(
-        f"column '{bare(column)}'",
-        f"{reading.table.noun} '{column.head}' is the only pressure and named after the valve or the supply; "
-        f"no text says that it was measured at the muscle; take it",
-        f"{option_of('pressure', column)} or {ignore_option(bare(column))}",
-        column.head,
-        "pressure",
-        ("pressure", "ignore"),
+    text = (
+        "is the only pressure and named after the valve or the supply; no text says that it was measured at "
+        "the muscle; take it"
     )
+    yield taken_or_not(reading, "pressure", column, text)
 
 
 _FEW_LEVELS = 0.2  # different values by row, below which a series is that of a set value
@@ -794,7 +796,7 @@ def _counted(reading: Reading) -> Iterator[Question]:
         span = f"{low:.4g} to {high:.4g} {unit if angle else 'counts'} = 0 to 60 mm"
         yield Question(
             "stroke",
-            f"{reading.table.noun} '{column.head}' holds {what}, and the file has no other stroke; no text "
+            f"{reading.label(column)} holds {what}, and the file has no other stroke; no text "
             f"states how it counts",
             f"{option_of('displacement', column, span)} or {ignore_option(bare(column))}",
             column.head,
@@ -807,29 +809,52 @@ def _counted(reading: Reading) -> Iterator[Question]:
 def _stated_zeros(reading: Reading) -> Iterator[Question]:
     """A reading at true zero that a text states without saying whether the readings contain it, or twice."""
     applied = {e.facet for e in reading.evidence if e.facet.startswith("zero:")}
-    zeros = {z: None for span in reading.table.texts for z in zeros_in(span) if z.contained is not False}
-    for zero in zeros:
+    for zero in dict.fromkeys(z for span in reading.table.texts for z in zeros_in(span)):
         channel, column = zero.channel, reading.column(zero.channel)
         if (
-            channel not in reading.rows.channels
-            or f"{channel}_zero" in reading.known.conditions
+            zero.contained is False
             or f"zero:{channel}" in applied
-            or (channel == "force" and "load_mass" in reading.correction.conditions)
             or (channel in STROKES and reading.by_user(channel))
         ):
             continue
-        what = "a tare of the force" if channel == "force" else f"a zero of the {channel}"
         option = f'--experiment "{channel}_zero={zero.text.strip(": ")}"'
         if channel in STROKES and column is not None:
             option = _from_zero(reading, channel, column, zero.value)
-        yield Question(
-            f"zero of {channel}",
-            f"the file states {what}, '{zero.span.text[:60]}' ({zero.span.where}), but it is not clear "
-            f"whether the readings{f' of {chr(39)}{column.head}{chr(39)}' if column else ''} contain it; what "
-            f"do they show {'without pull' if channel == 'force' else 'there'}",
-            option,
-            None if column is None else column.head,
-        )
+        what = "a tare of the force" if channel == "force" else f"a zero of the {channel}"
+        yield from _contained(reading, channel, what, zero.span, option)
+
+
+def _hangers(reading: Reading) -> Iterator[Question]:
+    """The weight of a hanger, where the force is a mass that may or may not contain it."""
+    if "force" in reading.decision.uses and dimension_of(reading.use("force").unit) != "mass":
+        return
+    for span in reading.table.texts:
+        words = words_of(span.text)
+        done = word_set("tare_done").among(words) and not word_set("negations").among(words)
+        weighs = any(q.unit.dimension == "mass" for q in quantities(span.text))
+        if word_set("hanger").among(words) and weighs and not done:
+            option = '--experiment "force_zero=0 N"'
+            yield from _contained(reading, "force", "the weight of a hanger", span, option)
+
+
+def _contained(reading: Reading, channel: str, what: str, span: Span, option: str) -> Iterator[Question]:
+    """Whether the readings of a channel contain what a text states, unless the user says so."""
+    if (
+        channel not in reading.rows.channels
+        or f"{channel}_zero" in reading.known.conditions
+        or (channel == "force" and "load_mass" in reading.correction.conditions)
+    ):
+        return
+    column = reading.column(channel)
+    of_column = f" of '{column.head}'" if column else ""
+    pull = "without pull" if channel == "force" else "there"
+    yield Question(
+        f"zero of {channel}",
+        f"the file states {what}, '{span.text[:60]}' ({span.where}), but it is not clear whether the "
+        f"readings{of_column} contain it; what do they show {pull}",
+        option,
+        None if column is None else column.head,
+    )
 
 
 def _from_zero(reading: Reading, channel: str, column: Column, zero: float) -> str:
@@ -840,35 +865,6 @@ def _from_zero(reading: Reading, channel: str, column: Column, zero: float) -> s
     return option_of(
         channel, column, f"{low:.6g} to {high:.6g} {unit} = {low - less:.6g} to {high - less:.6g} {unit}"
     )
-
-
-def _hangers(reading: Reading) -> Iterator[Question]:
-    """The weight of a hanger, where the force is a mass that may or may not contain it."""
-    if (
-        "force" not in reading.rows.channels
-        or {"force_zero"} & set(reading.known.conditions)
-        or "load_mass" in reading.correction.conditions
-        or ("force" in reading.decision.uses and dimension_of(reading.use("force").unit) != "mass")
-    ):
-        return
-    column = reading.column("force")
-    for span in reading.table.texts:
-        words = words_of(span.text)
-        if (
-            not word_set("hanger").among(words)
-            or not any(q.unit.dimension == "mass" for q in quantities(span.text))
-            or (word_set("tare_done").among(words) and not word_set("negations").among(words))
-        ):
-            continue
-        yield Question(
-            "zero of force",
-            f"the file states the weight of a hanger, '{span.text[:60]}' ({span.where}), but it is not clear "
-            f"whether the readings{f' of {chr(39)}{column.head}{chr(39)}' if column else ''} contain it; "
-            f"what do they show without pull",
-            '--experiment "force_zero=0 N"',
-            None if column is None else column.head,
-        )
-        return
 
 
 def _air(reading: Reading) -> Iterator[Question]:
@@ -910,15 +906,8 @@ def _set_point(reading: Reading) -> Iterator[Question]:
         i = reading.decision.uses[channel][0]
         roles = roles_of(reading.own(i))
         if roles.get("set value", 0.0) >= 2.0 and not roles.get("measured"):
-            yield Question(
-                f"column '{bare(column)}'",
-                f"{reading.table.noun} '{column.head}' is a set value, and no measured {channel} is there; "
-                f"take it",
-                f"{option_of(channel, column)} or {ignore_option(bare(column))}",
-                column.head,
-                channel,
-                (channel, "ignore"),
-            )
+            text = f"is a set value, and no measured {channel} is there; take it"
+            yield taken_or_not(reading, channel, column, text)
 
 
 def _specimens(reading: Reading) -> Iterator[Question]:
@@ -929,7 +918,7 @@ def _specimens(reading: Reading) -> Iterator[Question]:
     column = reading.table.columns[reading.rows.labels["sample"]]
     yield Question(
         "specimens",
-        f"{reading.table.noun} '{column.head}' names {len(names)} specimens, "
+        f"{reading.label(column)} names {len(names)} specimens, "
         f"{', '.join(map(repr, names[:4]))}; their readings belong to "
         "different muscles; split the file, or read all as one muscle",
         ignore_option(bare(column)),
@@ -1029,7 +1018,7 @@ def _of_columns(reading: Reading) -> Iterator[Question]:
         shown = ", ".join(f"{v:.6g} {unit}" for v in values[:4])
         yield Question(
             what,
-            f"{reading.table.noun} '{column.head}' holds {len(values)} values, {shown}, but a measurement "
+            f"{reading.label(column)} holds {len(values)} values, {shown}, but a measurement "
             f"has one {what}; split the file by it, "
             "or state which one holds for all rows",
             f'{option} "{values[0]:.6g} {unit}"'
@@ -1067,7 +1056,7 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
         ):
             yield Question(
                 f"unit of {used}",
-                f"{reading.table.noun} '{column.head}': '{bracket[1]}' is not a known unit",
+                f"{reading.label(column)}: '{bracket[1]}' is not a known unit",
                 option_of(used, column, reading.use(used).unit),
                 column.head,
                 reading.use(used).unit,
@@ -1081,7 +1070,7 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
         ):
             yield Question(
                 f"unit of {channel}",
-                f"{reading.table.noun} '{column.head}': the unit '{stated}' is a {dimension_of(stated)}, a "
+                f"{reading.label(column)}: the unit '{stated}' is a {dimension_of(stated)}, a "
                 f"unit of {channel} is needed",
                 f"{option_of(channel, column, si)} or {ignore_option(bare(column))}",
                 column.head,
