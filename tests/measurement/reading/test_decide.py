@@ -125,6 +125,22 @@ def test_a_position_that_grows_as_the_muscle_lengthens_has_no_zero() -> None:
     np.testing.assert_allclose(found.columns["length"], REST - STROKE, atol=1e-6)
 
 
+def test_a_position_of_the_machine_is_asked_about_once() -> None:
+    data = text("time [s],pressure [bar],force [N],position [mm]", TIME, BAR, FORCE, 731.0 - MM)
+    assert [about for about, stops in asked(data).items() if stops] == ["zero of displacement"]
+    found = read(data, correction=said(["length=position [671 to 731 mm = 240 to 300 mm]"]))
+    np.testing.assert_allclose(found.columns["length"], REST - STROKE, atol=1e-6)
+
+
+@pytest.mark.parametrize(("head", "read_so"), [("line pressure", True), ("supply pressure", False)])
+def test_the_only_pressure_is_no_supply_where_it_has_several_levels(head: str, *, read_so: bool) -> None:
+    noise = 0.01 * np.sin(37.0 * np.arange(len(BAR)))
+    data = text(f"time [s],{head} [bar],force [N],stroke [mm]", TIME, BAR + noise, FORCE, MM)
+    assert any("column" in about for about in asked(data)) is not read_so
+    if read_so:
+        np.testing.assert_allclose(read(data).columns["pressure"], (BAR + noise) * 1e5, atol=1.0)
+
+
 @pytest.mark.parametrize(
     "scale",
     [

@@ -222,3 +222,29 @@ def test_every_form_of_the_time_is_read() -> None:
     stamps = [f"2024-05-02 10:{int(t) // 60:02}:{int(t) % 60:02}.{round(1000 * (t % 1)):03}" for t in TIME]
     lines = [f"{stamp},{p},{f},{s}" for stamp, p, f, s in zip(stamps, BAR, FORCE, MM, strict=True)]
     assert_is(read(f"{ABOVE}Timestamp,p [bar],F [N],s [mm]\n" + "\n".join(lines)), SI)
+
+
+@pytest.mark.parametrize("label", ["Desv. típ.", "Streubreite", "s (n-1)"])
+def test_one_statistic_beside_another_is_no_reading(label: str) -> None:
+    count = np.arange(1.0, len(TIME) + 1.0)
+    head = "N.;t [s];p [bar];F [N];s [mm]"
+    below = f"\nMedia;1;2;3;4\n{label};1;2;3;4\nMáximo;1;2;3;4\n"
+    assert_is(read(f"{ABOVE}{head}\n{table(count, TIME, BAR, FORCE, MM, separator=';')}\n{below}"))
+
+
+def test_a_sentence_over_a_wide_table_is_no_row_of_names() -> None:
+    title = "Force (N) read on the way up by the cell"  # as many words as columns
+    levels = [f"{0.5 * (k + 1):g} bar" for k in range(len(title.split()) - 2)]
+    rows = [[1.0 * k, *(100.0 * (j + 2) - 9.0 * k for j in range(len(levels)))] for k in range(9)]
+    found = read(book(("Data", [[title], ["Shortening (%)", *levels], *rows, ["Rest length: 300 mm"]])))
+    assert set(found.columns) >= {"contraction", "pressure", "force"}
+    assert found.rows == len(levels) * len(rows)
+    np.testing.assert_allclose(np.max(found.columns["contraction"]), 0.08)
+
+
+def test_the_values_of_a_map_are_named_further_above() -> None:
+    rows = "\n".join(f"{300 - 10 * k}\t{300 - 40 * k}\t{500 - 45 * k}\t{700 - 50 * k}" for k in range(5))
+    above = "Force map (N) - muscle 7, braid 30 mm\nlength at rest: 300 mm\nread on 3 October, J. Doe\n\n"
+    found = read(f"{above}L (mm)\\p (bar)\t1,0\t2,0\t3,0\n{rows}\n")
+    assert found.rows == 15
+    assert float(np.max(found.columns["force"])) == 700.0

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.reading.model import Span
 from mckibben.measurement.reading.zeros import zeros_in
 from tests.measurement.reading.bench import (
@@ -88,6 +89,18 @@ def test_a_zero_that_the_readings_contain_is_subtracted_and_said(
     np.testing.assert_allclose(found.columns["pressure"], BAR * 1e5, atol=20.0)
     np.testing.assert_allclose(found.columns["displacement"], STROKE, atol=1e-6)
     assert any("is subtracted from the" in message for message in found.messages)
+
+
+def test_a_head_states_a_zero_too() -> None:
+    head = "time [s],pressure [bar],force (offset 4.25 N not subtracted) [N],stroke [mm]"
+    found = read(f"{ABOVE}{head}\n{table(TIME, BAR, FORCE + 4.25, MM)}\n")
+    np.testing.assert_allclose(found.columns["force"], FORCE, atol=1e-4)
+
+
+def test_what_the_user_says_of_the_zero_counts_once() -> None:
+    data = f"{ABOVE}# tare 4.25 N not subtracted\n{HEADS}\n{table(TIME, BAR, FORCE + 4.25, MM)}\n"
+    found = read(data, correction=Correction(conditions={"force_zero": 4.25}))
+    np.testing.assert_allclose(found.columns["force"], FORCE + 4.25, atol=1e-4)  # less it in the experiment
 
 
 def test_a_length_over_all_is_read_less_its_fittings() -> None:

@@ -101,7 +101,7 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     found = _only_pressure(found, table)
     for span in table.texts:
         found += _of_text(span, FILE, table)
-    found += [*of_bridge(table), *of_zeros(table.texts)]
+    found += [*of_bridge(table), *of_zeros(table)]
     for k, spans in enumerate(table.titles):
         for span in spans if len(table.titles) > 1 else ():
             found += _of_title(span, BLOCK - k)

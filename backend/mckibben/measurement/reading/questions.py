@@ -46,7 +46,7 @@ from mckibben.measurement.reading.units import (
     quantities,
     quantity_si,
 )
-from mckibben.measurement.reading.zeros import zeros_in
+from mckibben.measurement.reading.zeros import stated_zeros
 from mckibben.physics.units import convert
 
 REVERSE, KEEP = "reverse the sign", "keep the sign"
@@ -809,7 +809,7 @@ def _counted(reading: Reading) -> Iterator[Question]:
 def _stated_zeros(reading: Reading) -> Iterator[Question]:
     """A reading at true zero that a text states without saying whether the readings contain it, or twice."""
     applied = {e.facet for e in reading.evidence if e.facet.startswith("zero:")}
-    for zero in dict.fromkeys(z for span in reading.table.texts for z in zeros_in(span)):
+    for zero in stated_zeros(reading.table):
         channel, column = zero.channel, reading.column(zero.channel)
         if (
             zero.contained is False

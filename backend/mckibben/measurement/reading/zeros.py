@@ -9,7 +9,7 @@ from typing import NamedTuple
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_TEXT
-from mckibben.measurement.reading.model import FILE, Evidence, Span
+from mckibben.measurement.reading.model import FILE, Evidence, Span, Table
 from mckibben.measurement.reading.scales import scales_in
 from mckibben.measurement.reading.units import (
     FITTING,
@@ -74,10 +74,16 @@ def zeros_in(span: Span) -> Iterator[Zero]:
                 yield Zero(channel, value, contained, quantity.text, span)
 
 
-def of_zeros(texts: Sequence[Span]) -> list[Evidence]:
+def stated_zeros(table: Table) -> list[Zero]:
+    """The zeros that the texts beside a table and its heads state, each once."""
+    heads = (Span(c.where, text) for c in table.columns for text in (c.head, *c.described))
+    return list(dict.fromkeys(zero for span in (*table.texts, *heads) for zero in zeros_in(span)))
+
+
+def of_zeros(table: Table) -> list[Evidence]:
     """The zeros that the readings contain, one of each channel: they are subtracted."""
     found: dict[str, dict[float, Zero]] = {}
-    for zero in (z for span in texts for z in zeros_in(span) if z.contained):
+    for zero in (z for z in stated_zeros(table) if z.contained):
         found.setdefault(zero.channel, {}).setdefault(zero.value, zero)
     return [
         Evidence(FILE, f"zero:{channel}", value, _STATED, zero.span, "zero")
