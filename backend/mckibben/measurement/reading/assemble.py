@@ -213,10 +213,7 @@ def _origin(reading: Reading, channel: str) -> tuple[str, str]:
 def said(reading: Reading) -> list[str]:
     """What was decided for each channel, by the evidence that won, with its words and place."""
     lines = []
-    for channel, (i, use) in reading.decision.uses.items():
-        if channel not in reading.rows.channels:
-            continue
-        column = reading.table.columns[i]
+    for channel, i, use, column in reading.uses():
         label = f"{reading.table.noun} '{column.title}'"
         if not reading.said_unit(channel) and not column.clock and channel != "command":
             lines.append(f"{label} has no unit: read as {use.unit}")

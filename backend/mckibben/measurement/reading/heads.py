@@ -19,42 +19,11 @@ _BEHIND = (
     re.compile(r"(.+)\sin\s(\S+)"),
     re.compile(r"([^:]+):\s?(\S{1,8})"),
 )
-_SURE = frozenset(
-    [
-        "mm",
-        "cm",
-        "bar",
-        "mbar",
-        "kPa",
-        "MPa",
-        "hPa",
-        "mmHg",
-        "inHg",
-        "psi",
-        "kN",
-        "daN",
-        "cN",
-        "mN",
-        "lbf",
-        "ozf",
-        "kgf",
-        "gf",
-        "ms",
-        "mV",
-        "kg",
-        "pct",
-        "percent",
-        "promille",
-        "permille",
-        "deg",
-        "degC",
-        "degF",
-        "psig",
-        "psia",
-        "barg",
-        "bara",
-    ]
-)  # no name ends like them
+_SURE = frozenset([
+    "mm", "cm", "bar", "mbar", "kPa", "MPa", "hPa", "mmHg", "inHg", "psi", "kN", "daN", "cN", "mN", "lbf",
+    "ozf", "kgf", "gf", "ms", "mV", "kg", "pct", "percent", "promille", "permille", "deg", "degC", "degF",
+    "psig", "psia", "barg", "bara",
+])  # fmt: skip  # no name ends like them
 _RUN = re.compile(
     r"(?P<name>.*?[^\W\d_].*?)[\s_,;:-]{1,3}(?P<word>[^\W\d_]+)[\s_]?(?:#|n[or]\.?)?[\s_]?(?P<number>\d{1,3})"
     r"(?:\s?(?P<unit>[\[(][^\[\]()]{1,20}[\])]))?",

@@ -18,23 +18,10 @@ _NUMBER = re.compile(r"(?<![0-9.,])[0-9]+(?:[.,][0-9]+)?(?![0-9])")
 _CODE = re.compile(r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?")
 _YEARS = range(1900, 2100)
 _BEHIND_A_WORD = re.compile(r"([^\W\d_]+)[\s_#.-]*$")
-_OTHER_LENGTHS = frozenset(
-    [
-        "stroke",
-        "hub",
-        "corsa",
-        "course",
-        "travel",
-        "hose",
-        "tube",
-        "schlauch",
-        "tuyau",
-        "cable",
-        "diameter",
-        "durchmesser",
-        "wire",
-    ]
-)
+_OTHER_LENGTHS = frozenset([
+    "stroke", "hub", "corsa", "course", "travel", "hose", "tube", "schlauch", "tuyau", "cable",
+    "diameter", "durchmesser", "wire",
+])  # fmt: skip
 
 
 class NamedLength(NamedTuple):

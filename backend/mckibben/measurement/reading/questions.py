@@ -109,6 +109,24 @@ class Reading:
         """A column, as messages name it."""
         return f"{self.table.noun} '{column.head}'"
 
+    def uses(self) -> Iterator[tuple[str, int, Use, Column]]:
+        """What is read: channel, place of its column, how, the column."""
+        for channel, (i, use) in self.decision.uses.items():
+            if channel in self.rows.channels:
+                yield channel, i, use, self.table.columns[i]
+
+    def of_slot(self, slot: str) -> str | None:
+        """The channel that is read for a slot."""
+        return next((c for c, *_ in self.uses() if SLOTS.get(c) == slot), None)
+
+    def unit(self, i: int) -> str | None:
+        """The unit that is stated for a column."""
+        return next((e.value for e in self.own(i) if e.facet == "unit"), None)
+
+    def roles(self, i: int) -> dict[str, float]:
+        """Role -> what is said for it."""
+        return roles_of(self.own(i))
+
     def own(self, i: int) -> list[Evidence]:
         """What is claimed of a column."""
         return [e for e in self.evidence if e.target == i]
@@ -171,14 +189,10 @@ def _sheets(reading: Reading) -> Iterator[Question]:
 
 def _units(reading: Reading) -> Iterator[Question]:
     """A unit that nobody says, and a stated one that no muscle can have."""
-    for channel, (i, use) in reading.decision.uses.items():
-        if (
-            channel not in reading.rows.channels
-            or channel in ("command", "temperature")
-            or use.unit == "clock"
-        ):
+    for channel, i, use, column in reading.uses():
+        if channel in ("command", "temperature") or use.unit == "clock":
             continue
-        column, values = reading.table.columns[i], reading.rows.channels[channel]
+        values = reading.rows.channels[channel]
         choice = reading.known.chosen.get(i)
         if choice is not None and (choice.unit is not None or choice.assumed or choice.scale):
             continue
@@ -274,15 +288,10 @@ def _moves(reading: Reading) -> bool:
 
 def _unnamed(reading: Reading) -> Iterator[Question]:
     """A column that no word calls what it is read as."""
-    for channel, (i, use) in reading.decision.uses.items():
-        if (
-            channel not in reading.rows.channels
-            or i in reading.known.chosen
-            or channel not in ("pressure", "force", *STROKES, "time")
-        ):
+    for channel, i, use, column in reading.uses():
+        if i in reading.known.chosen or channel not in ("pressure", "force", *STROKES, "time"):
             continue
         claims = [e for e in reading.own(i) if e.facet == "channel" and e.value == channel]
-        column = reading.table.columns[i]
         if not claims:
             yield Question(
                 f"column '{bare(column)}'",
@@ -325,19 +334,13 @@ def _unread(reading: Reading) -> Iterator[Question]:
         ):
             continue
         if (choice := reading.known.chosen.get(i)) is not None:
-            yield from _raw_signal(
-                reading,
-                column,
-                {choice.channel},
-                filled,
-                next((e.value for e in reading.own(i) if e.facet == "unit"), None),
-            )
+            yield from _raw_signal(reading, column, {choice.channel}, filled, reading.unit(i))
             continue
         own = reading.own(i)
-        roles = roles_of(own)
+        roles = reading.roles(i)
         if any(roles.get(role, 0.0) >= 2.0 for role in (*FINAL, "remark", "running number")):
             continue
-        unit = next((e.value for e in own if e.facet == "unit"), None)
+        unit = reading.unit(i)
         dimension = dimension_of(unit) if unit else ""
         claimed = {e.value for e in own if e.facet == "channel" and e.rule != "unit"}
         if dimension in RAW or roles.get("raw", 0.0) >= 3.0 or roles.get("counter", 0.0) >= 3.0:
@@ -409,9 +412,7 @@ def _raw_signal(
 def _seconds(reading: Reading) -> Iterator[Question]:
     """Two columns for one channel that are about as likely and show different values."""
     for slot in ("pressure", "force", "stroke"):
-        channel = next(
-            (c for c in reading.decision.uses if SLOTS.get(c) == slot and c in reading.rows.channels), None
-        )
+        channel = reading.of_slot(slot)
         if channel is None or reading.by_user(channel):
             continue
         i, use = reading.decision.uses[channel]
@@ -444,7 +445,7 @@ def _seconds(reading: Reading) -> Iterator[Question]:
 
 
 def _aside(reading: Reading, i: int) -> bool:
-    roles = roles_of(reading.own(i))
+    roles = reading.roles(i)
     return roles.get("set value", 0.0) >= 2.0
 
 
@@ -626,10 +627,7 @@ def _contradicted(reading: Reading) -> Iterator[Question]:
 def _close(reading: Reading) -> Iterator[Question]:
     """Another answer for what a column is that is nearly as likely."""
     for rival in reading.decision.rivals:
-        channel = next(
-            (c for c in reading.decision.uses if SLOTS.get(c) == rival.slot and c in reading.rows.channels),
-            None,
-        )
+        channel = reading.of_slot(rival.slot)
         if channel is None or rival.margin >= MARGIN or reading.by_user(channel) or rival.part != "channel":
             continue
         column, use = reading.table.columns[reading.decision.uses[channel][0]], reading.use(channel)
@@ -739,7 +737,7 @@ def _by_valve(reading: Reading) -> Iterator[Question]:
     if column is None or reading.by_user("pressure"):
         return
     i = reading.decision.uses["pressure"][0]
-    if roles_of(reading.own(i)).get("at the valve", 0.0) <= 0.0 or reading.use("pressure").scale != 1.0:
+    if reading.roles(i).get("at the valve", 0.0) <= 0.0 or reading.use("pressure").scale != 1.0:
         return
     said = any(
         word_set("measured").among(words_of(t.text)) and _of_pressure(t.text) for t in reading.table.texts
@@ -752,7 +750,7 @@ def _by_valve(reading: Reading) -> Iterator[Question]:
     steps = len(np.unique(column.values)) < _FEW_LEVELS * len(column.values)
     if (
         said
-        or roles_of(reading.own(i)).get("measured", 0.0) > 0.0
+        or reading.roles(i).get("measured", 0.0) > 0.0
         or (commands and not steps)
         or is_sensed(
             column.values,
@@ -781,10 +779,9 @@ def _counted(reading: Reading) -> Iterator[Question]:
         return
     used = {i for i, _ in reading.decision.uses.values()}
     for i, column in enumerate(reading.table.columns):
-        own = reading.own(i)
-        unit = next((e.value for e in own if e.facet == "unit"), None)
+        unit = reading.unit(i)
         angle = unit is not None and dimension_of(unit) == "angle"
-        counter = roles_of(own).get("counter", 0.0) >= 3.0
+        counter = reading.roles(i).get("counter", 0.0) >= 3.0
         if i in used or i in reading.known.chosen or column.words is not None or not (angle or counter):
             continue
         low, high = float(np.nanmin(column.values)), float(np.nanmax(column.values))
@@ -904,7 +901,7 @@ def _set_point(reading: Reading) -> Iterator[Question]:
         if column is None or reading.by_user(channel):
             continue
         i = reading.decision.uses[channel][0]
-        roles = roles_of(reading.own(i))
+        roles = reading.roles(i)
         if roles.get("set value", 0.0) >= 2.0 and not roles.get("measured"):
             text = f"is a set value, and no measured {channel} is there; take it"
             yield taken_or_not(reading, channel, column, text)
@@ -1039,7 +1036,7 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
             if e.facet == "channel" and e.rule not in ("unit", "letter") and e.weight >= 2.5
         ]
         claimed = [c for c in claimed if c in ("pressure", "force", "length", "time", "displacement")]
-        stated = next((e.value for e in own if e.facet == "unit"), None)
+        stated = reading.unit(i)
         used = next((c for c, (j, _) in reading.decision.uses.items() if j == i), None)
         bracket = re.search(r"[\[(]\s?([^\W\d_]{2,20})\s?[\])]\s?$", column.head)
         if not claimed:

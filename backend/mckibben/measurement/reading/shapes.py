@@ -664,22 +664,10 @@ def _are_signals(words: Sequence[str]) -> bool:
     return len({claim.value for claim in claims} - {"group", "direction"}) >= 2
 
 
-_TAGS = frozenset(
-    [
-        "tag",
-        "signal",
-        "channel",
-        "kanal",
-        "sensor",
-        "name",
-        "variable",
-        "quantity",
-        "grosse",
-        "item",
-        "point",
-        "parameter",
-    ]
-)
+_TAGS = frozenset([
+    "tag", "signal", "channel", "kanal", "sensor", "name", "variable", "quantity", "grosse", "item",
+    "point", "parameter",
+])  # fmt: skip
 
 
 def _are_tags(names: Column, numbers: Sequence[Column]) -> bool:

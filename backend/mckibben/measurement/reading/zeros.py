@@ -11,14 +11,7 @@ from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_TEXT
 from mckibben.measurement.reading.model import FILE, Evidence, Span, Table
 from mckibben.measurement.reading.scales import scales_in
-from mckibben.measurement.reading.units import (
-    FITTING,
-    WEIGHTS,
-    Quantity,
-    number_of,
-    quantities,
-    quantity_si,
-)
+from mckibben.measurement.reading.units import FITTING, WEIGHTS, Quantity, number_of, quantities, quantity_si
 
 _STATED = 5.0  # nats
 _CLAUSES = re.compile(r"[;,](?!\d)\s?")
