@@ -1,14 +1,12 @@
 """The old reader beside the new one, over the same files.
 
-    python -m tests.benchmarks.reading [--group corpus,failing,labs,tests] [--only TEXT] [--list
-    wrong,crashed]
+    python -m tests.benchmarks.reading [--group corpus,failing,labs,tests] [--only TEXT] [--list wrong,crashed]
 
-Groups: *corpus*, the files of laboratories' exporters beside this checkout, judged by their index; *failing*
-and
-*data*, beside this checkout, the first judged by `FAILING` below, the second by the old reader; *labs*, all
-files of `tests/laboratories` with what their users type; *tests*, what the tests of the old reader give it,
-gathered
-by running them once. For the last three the old reader's answer is the truth. A verdict of the new reader is
+Groups: *corpus*, the files of laboratories' exporters beside this checkout, and *strangers*, the sets of
+`tests/measurement/reading/strangers`, both judged by their index; *failing* and *data*, beside this checkout,
+the first judged by `FAILING` below, the second by the old reader; *labs*, all files of `tests/laboratories`
+with what their users type; *tests*, what the tests of the old reader give it, gathered by running them once.
+For the last three the old reader's answer is the truth. A verdict of the new reader is
 
 right     the same channels, values, rows, kind and conditions as the truth
 asked     a question names what differs, or both ask
@@ -286,10 +284,13 @@ def of_failing(case: Case, new: Answer) -> tuple[str, str]:
 
 def cases(groups: Sequence[str], only: str) -> Iterator[Case]:
     """The files of some groups."""
-    makers = {"corpus": _corpus, "failing": _failing, "data": _data, "labs": _labs, "tests": _tests}
+    makers = {
+        "corpus": _corpus, "strangers": _strangers, "failing": _failing, "data": _data, "labs": _labs,
+        "tests": _tests,
+    }  # fmt: skip
     for group in groups:
         for case in makers[group]():
-            if only in case.name or only in f"{group}/{case.name}":
+            if only in case.name or only in f"{case.group}/{case.name}":
                 yield case
 
 
@@ -302,6 +303,15 @@ def _corpus() -> Iterator[Case]:
         yield Case(
             "corpus", Path(entry["file"]).name, (index.parent / entry["file"]).read_bytes(), entry=entry
         )
+
+
+def _strangers() -> Iterator[Case]:
+    for place in sorted((ROOT / "tests" / "measurement" / "reading" / "strangers").glob("*.zip")):
+        with zipfile.ZipFile(place) as archive:
+            names = {Path(name).name: name for name in archive.namelist() if not name.endswith("/")}
+            for entry in json.loads(archive.read(names["index.json"]))["files"]:
+                name = Path(entry["file"]).name
+                yield Case(f"strangers {place.stem}", name, archive.read(names[name]), entry=entry)
 
 
 def _failing() -> Iterator[Case]:
@@ -441,7 +451,7 @@ def main() -> None:
         group = case.group.partition(" ")[0]
         old = known(case)
         new = answer(new_reader.read_here, new_reader.preview_here, case)
-        if group == "corpus":
+        if group in ("corpus", "strangers"):
             verdict, why = of_corpus(case, new)
             before, _ = of_corpus(case, old)
         elif case.name in FAILING:
