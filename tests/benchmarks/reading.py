@@ -1,6 +1,6 @@
 """The old reader beside the new one, over the same files.
 
-    python -m tests.benchmarks.reading [--group corpus,failing,labs,tests] [--only TEXT] [--list wrong,crashed]
+    python -m tests.benchmarks.reading [--group corpus,failing,labs,tests] [--only TEXT] [--list wrong]
 
 Groups: *corpus*, the files of laboratories' exporters beside this checkout, and *strangers*, the sets of
 `tests/measurement/reading/strangers`, both judged by their index; *failing* and *data*, beside this checkout,
