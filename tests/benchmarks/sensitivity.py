@@ -35,7 +35,6 @@ FACTORS = (0.8, 1.2)
 STEPS: Mapping[str, tuple[str, str, Callable[..., Any]]] = {
     "pairs of steps": ("diagnose.search", "_two_steps_on", lambda fitter, best, root: best),
     "fewer effects": ("diagnose.search", "_with_fewer_effects", lambda fitter, best, root: best),
-    "other constants": ("diagnose.search", "_with_other_constants", lambda fitter, best, root: best),
     "elimination and exchange": ("diagnose.search", "_polished", lambda fitter, best, root: best),
     "ends of the data": ("diagnose.search", "reaching_farthest", lambda best, *_, **__: best),
     "usual values": ("diagnose.twins", "as_usual", lambda fitter, best, *_, **__: best),

@@ -239,20 +239,8 @@ def _polished(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedMod
                 best = candidate
                 break
         if best is before:
-            best = _with_other_constants(fitter, best, root)
-        if best is before:
             return best
     return best
-
-
-def _with_other_constants(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
-    """The model with other further constants of an effect where these serve better than those it has."""
-    if _at_floor(fitter, best) or not fitter.effort.thorough:
-        return best
-    value = partial(score, rows=_rows(fitter, best), noise=fitter.noise)
-    anew = [m for m in _chosen_anew(fitter, best, root) if m.implausible <= best.implausible]
-    other = min(anew, key=value, default=best)
-    return lean(fitter, other, root) if value(other) < value(best) - SCORE.least_score else best
 
 
 def _with_fewer_effects(fitter: Fitter, best: FittedModel, root: FittedModel) -> FittedModel:
