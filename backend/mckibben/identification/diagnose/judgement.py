@@ -171,9 +171,9 @@ class Judgement:
 def judged(model: FittedModel, predictor: Predictor, noise: float | None) -> Judgement:
     """The judgement on a fitted model.
 
-    Rows that do not fit are named where they are no noise either that may be correlated, and where the model
-    fits the others. Where a structure stays without them, it
-    is the model that does not fit, and its worst rows are no accidents.
+    Rows that do not fit are named where noise that may be correlated does not explain them either, and where
+    the model fits the others. Where a structure stays without them, it is the model that does not fit: its
+    worst rows are no accidents.
 
     Args:
         model: the model.
@@ -212,11 +212,14 @@ def _beyond_noise(model: FittedModel, rows: tuple[int, ...]) -> tuple[int, ...]:
 
     while left:
         whole = likelihood(left)
-        gains = {row: whole - likelihood([other for other in left if other != row]) for row in left}
-        least = min(left, key=gains.__getitem__)
-        if gains[least] > ROWS.beyond_noise:
+        beyond = [
+            row
+            for row in left
+            if whole - likelihood([other for other in left if other != row]) > ROWS.beyond_noise
+        ]
+        if beyond == left:
             break
-        left.remove(least)
+        left = beyond
     return tuple(left)
 
 
