@@ -11,7 +11,7 @@ from __future__ import annotations
 import re
 from collections import Counter
 from collections.abc import Sequence
-from dataclasses import dataclass, field, replace
+from dataclasses import replace
 
 import numpy as np
 
@@ -20,6 +20,7 @@ from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_ROWS, MAX_TEXT, MAX_TEXTS, SPLIT
 from mckibben.measurement.reading.model import Cell, Column, Sheet, Span, Table
 from mckibben.measurement.reading.numbers import CLOCK, EMPTY, MARK, NUMBER, TEXT, kind_of, style_of
+from mckibben.measurement.reading.runs import Run, is_axis
 from mckibben.measurement.reading.shapes import NeedsCellsError, Part, column_of, parts_of, transposed
 from mckibben.measurement.reading.units import RAW, quantities, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
@@ -39,33 +40,6 @@ _LONGEST_WORDS = 32  # characters of a cell of a row that groups columns
 _QUANTITY = re.compile(r"\s*[-+]?[0-9.,]+\s*\S{0,12}\s*")
 _LABELS = 3  # rows of labels, from which a column of them is one
 _HINT = "e.g. a header 'pressure_bar,length_mm,force_N'"
-
-
-@dataclass
-class Run:
-    """Rows of numbers, and what stands above them."""
-
-    sheet: Sheet
-    rows: list[int] = field(default_factory=list)
-    columns: list[int] = field(default_factory=list)
-    above: list[int] = field(default_factory=list)
-    heads: dict[int, str] = field(default_factory=dict)
-    units: dict[int, str] = field(default_factory=dict)
-    more: dict[int, tuple[str, ...]] = field(default_factory=dict)
-    described: dict[int, tuple[str, ...]] = field(default_factory=dict)
-    title: list[Span] = field(default_factory=list)
-    remarks: list[int] = field(default_factory=list)
-    score: float = 0.0
-    head_row: int | None = None
-    unit_row: int | None = None
-
-    @property
-    def names(self) -> list[tuple[str, str]]:
-        """Heads with their units, in their order."""
-        return [
-            (self.heads.get(c, "").strip(), self.units.get(c, ""))
-            for c in sorted(set(self.heads) | set(self.columns))
-        ]
 
 
 def table_of(
@@ -488,21 +462,6 @@ def _goes_on(sheet: Sheet, i: int, places: list[int]) -> bool:
     if len(at & set(places)) < len(places):
         return is_axis(sheet, i)
     return headed or is_axis(sheet, i) or kind_of(below[0] if below else "") == TEXT
-
-
-def is_axis(sheet: Sheet, i: int) -> bool:
-    """Whether a row of numbers behind a text is the upper axis of a map: the text names it, full rows are
-    below.
-    """
-    row = sheet.rows[i]
-    numbers = [j for j, cell in enumerate(row) if kind_of(cell) == NUMBER]
-    if len(numbers) < 3 or 0 in numbers or not str(row[0]).strip():
-        return False
-    full = 0
-    for below in sheet.rows[i + 1 : i + 4]:
-        at = [j for j, cell in enumerate(below) if kind_of(cell) in (NUMBER, MARK)]
-        full += len(at) >= len(numbers) and 0 in at
-    return full >= 2
 
 
 def _head(run: Run, wanted: int | None) -> None:

@@ -9,7 +9,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import replace
 from itertools import pairwise
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,10 +29,8 @@ from mckibben.measurement.reading.numbers import (
     seconds_of,
     with_units,
 )
+from mckibben.measurement.reading.runs import Run, is_axis
 from mckibben.measurement.reading.units import quantities, unit_of
-
-if TYPE_CHECKING:
-    from mckibben.measurement.reading.layout import Run
 
 _NUMBER = re.compile(r"\d+(?:[.,]\d+)?")
 _MOST_GAPS = 1_000_000
@@ -529,8 +527,6 @@ def _subject(run: Run) -> str:
 
 def _is_map(run: Run) -> bool:
     """Whether the first row of a run is the upper axis of a map."""
-    from mckibben.measurement.reading.layout import is_axis
-
     return is_axis(run.sheet, run.rows[0])
 
 
