@@ -146,8 +146,8 @@ COMPARISON = Group(
 )  # fmt: skip
 
 _REVERSALS = Condition(
-    "the model has dry friction, and readings of force lie where the motion turns",
-    "no readings of force where the motion turns, or no dry friction in the model",
+    "readings of force lie where the motion turns",
+    "no readings of force where the motion turns",
 )
 
 #: Readings where the motion turns, which are in none of the errors.
@@ -156,7 +156,8 @@ REVERSALS = Group(
     "Readings at reversals",
     Figure(
         "rows", "", "1", "Readings at reversals",
-        "Rows at which the motion turns: dry friction may have any value of its range there.",
+        "Rows at which the motion turns: dry friction may have any value of its range there; a model without "
+        "friction has a range of no width.",
         _REVERSALS, quantity="number",
     ),
     Figure("low", "F₁", "N", "Least force at a reversal", "Force of the shortening muscle.", _REVERSALS),
@@ -167,7 +168,8 @@ REVERSALS = Group(
     ),
     Figure(
         "outside", "", "1", "Readings outside of the range",
-        "Readings with a distance of more than three standard deviations of the noise.",
+        "Readings with a distance of more than three standard deviations of the noise; of a model without "
+        "friction, also of more than three times the error of the other rows.",
         _REVERSALS, quantity="number",
     ),
 )  # fmt: skip

@@ -114,7 +114,7 @@ def test_first_rows_after_all_turns_are_named_with_what_they_share() -> None:
     assert set(found.rows) == set(TURNS.tolist())
     assert found.place is not None
     assert (found.place.kind, found.place.named, found.place.rows) == ("after a turn", LEVELS, LEVELS)
-    assert found.place.sentence == "6 of 6 of the first rows after a turn of the motion"
+    assert found.place.sentence == "6 of the 6 first rows after a turn of the motion"
 
 
 def test_many_rows_cost_a_bounded_number_of_candidates() -> None:
@@ -171,11 +171,12 @@ def test_a_place_is_told_only_where_chance_does_not_give_it() -> None:
     assert found is not None
     assert (found.kind, found.variable, found.named, found.rows) == ("level", "contraction", 4, 5)
     assert found.value == pytest.approx(0.12)
+    assert found.sentence == "4 of the 5 rows at contraction 12 %"
     assert common_place([3, 9, 15, 28], variables, lines) is None
     course = common_place([60, 61, 63, 64], {}, sweeps)
     assert course is not None
     assert (course.kind, course.named, course.rows) == ("in a row", 4, 5)
-    assert course.sentence == "4 of 5 of neighbouring rows"
+    assert course.sentence == "4 of the 5 neighbouring rows"
     assert common_place([60, 61, 63, 130], {}, sweeps) is None
 
 

@@ -23,10 +23,12 @@ from typing import Literal
 import numpy as np
 
 from mckibben.identification.predict.predictor import Predictor
+from mckibben.identification.residual.profiles import range_text
 from mckibben.identification.residual.surface import (
     Block,
     Fitted,
     Likeliest,
+    channels_of,
     levels_of,
     likely_at_least,
     most_likely,
@@ -78,17 +80,17 @@ class Place:
 
     @property
     def sentence(self) -> str:
-        """It in words; the value of a level in SI."""
+        """It in words, in shown units."""
         where = {
-            "after a turn": "the first rows after a turn of the motion",
-            "before a turn": "the last rows before a turn of the motion",
-            "first of a sweep": "the first rows of a sweep",
-            "last of a sweep": "the last rows of a sweep",
+            "after a turn": "first rows after a turn of the motion",
+            "before a turn": "last rows before a turn of the motion",
+            "first of a sweep": "first rows of a sweep",
+            "last of a sweep": "last rows of a sweep",
             "in a row": "neighbouring rows",
-            "sweep": f"the rows of sweep {self.value + 1.0:.0f}",
-            "level": f"the rows at {self.variable} {self.value:.4g}",
+            "sweep": f"rows of sweep {self.value + 1.0:.0f}",
+            "level": f"rows at {range_text(self.variable, self.value, self.value)}" if self.variable else "",
         }[self.kind]
-        return f"{self.named} of {self.rows} of {where}"
+        return f"{self.named} of the {self.rows} {where}"
 
 
 @dataclass(frozen=True)
@@ -155,7 +157,12 @@ def outlying_of(fitted: Fitted, predictor: Predictor) -> Outlying:
             found.steps,
             tuple(int(rows[row]) for row in found.candidates),
             surface=found.surface,
-            place=common_place(found.rows, variables, sweeps, way),
+            place=common_place(
+                found.rows,
+                dict(zip(channels_of(tuple(variables)), variables.values(), strict=True)),
+                sweeps,
+                way,
+            ),
         )
         if best is NOTHING_OUTLYING or told.gain > best.gain:
             best = told

@@ -84,7 +84,7 @@ def _profile(name: str, residual: np.ndarray, values: np.ndarray, folds: np.ndar
     return Profile(
         over=name,
         share_explained=max(share, 0.0),
-        worst=_range(name, float(low), float(high)),
+        worst=range_text(name, float(low), float(high)),
         rmse=float(rms[worst]),
         edges=edges,
         mean=sums / np.maximum(count, 1),
@@ -93,7 +93,8 @@ def _profile(name: str, residual: np.ndarray, values: np.ndarray, folds: np.ndar
     )
 
 
-def _range(name: str, low: float, high: float) -> str:
+def range_text(name: str, low: float, high: float) -> str:
+    """A range of a variable in words and shown units; a single value where both ends are the same."""
     figure = CHANNELS[name]
     if name == "direction":
         return {-1.0: "shortening", 0.0: "at rest", 1.0: "lengthening"}.get(low, "unknown")

@@ -473,14 +473,14 @@ def _single(
     late: bool = False,
 ) -> Block:
     order = min(order, max(2 * levels_of(values), 3))
-    return Block(_channels(over), unit_range(values)[:, None], (order,), factor, late)
+    return Block(channels_of(over), unit_range(values)[:, None], (order,), factor, late)
 
 
 def _pair(over: tuple[str, ...], first: np.ndarray, second: np.ndarray, orders: tuple[int, int]) -> Block:
-    return Block(_channels(over), np.column_stack([unit_range(first), unit_range(second)]), orders)
+    return Block(channels_of(over), np.column_stack([unit_range(first), unit_range(second)]), orders)
 
 
-def _channels(names: tuple[str, ...]) -> tuple[str, ...]:
+def channels_of(names: tuple[str, ...]) -> tuple[str, ...]:
     """Of a run's own variables the channels that they are predictions of."""
     of_runs = {"stroke": "displacement", "speed": "velocity"}
     return tuple(of_runs.get(name, name) for name in names)

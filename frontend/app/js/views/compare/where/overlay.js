@@ -98,7 +98,10 @@ function legend() {
         "li",
         { title: figure("reversals.rows").definition },
         h("i", { class: "reversal" }),
-        "reversal, range of friction",
+        // Without friction the model has no range there.
+        a.reversals.high.some((high, i) => (high ?? 0) > (a.reversals?.low[i] ?? 0))
+          ? "reversal, range of friction"
+          : "reversal",
       )
       : null,
     previous.value
