@@ -58,7 +58,7 @@ def test_the_palette_and_the_tabs_of_a_narrow_window(page: Page) -> None:
         views = page.get_by_role("button", name="Compare & diagnose", exact=True)
         expect(views).to_have_count(1)  # the tabs are a menu
         # The tabs are measured anew after the window has another width.
-        page.wait_for_function("document.documentElement.scrollWidth <= innerWidth")
+        page.wait_for_function("() => document.documentElement.scrollWidth <= innerWidth")
         over = run(page, "const b = argument; return b.scrollWidth - b.clientWidth;", views.element_handle())
         assert over <= 0, width
     views.click()
