@@ -24,13 +24,13 @@ hypothesis.settings.load_profile("mckibben")
 
 FOLDER = Path(__file__).parent
 # What needs no integrator, for the workers that would wait while one of them compiles those.
-WITHOUT_KERNELS = ("test_toolchain.py", "measurement/read")
+WITHOUT_KERNELS = ("test_toolchain.py", "measurement/reading")
 # First the one that compiles, beside the tools; then where most of the time goes, the longest first: whoever
 # takes one of these last lets the other workers wait.
 FIRST = (
     "test_toolchain.py",
     "frontend/test_transient.py",
-    "measurement/read",
+    "measurement/reading",
     "frontend/test_sizing.py",
     "frontend/test_case.py",
     "frontend/test_compare_flows.py",

@@ -92,7 +92,7 @@ def subject_and_start(case: Case, studio: Any) -> tuple[Any, Any]:
     from mckibben.identification.predict import predictor_of
     from mckibben.identification.predict.fit_model import FitModel
     from mckibben.measurement.points import Points, joined
-    from mckibben.measurement.read import read_measurement
+    from mckibben.measurement.reading import read_measurement
 
     files = [Points(read_measurement(text.encode(), name)) for name, text in case.files.items()]
     measurement = joined(files).measurement

@@ -84,7 +84,7 @@ def parts_of(case: Case, studio: Any) -> tuple[Any, Any, Any, Any, Any]:
     from mckibben.identification.diagnose.entries import read_otherwise
     from mckibben.identification.predict import predictor_of
     from mckibben.measurement.points import Points, joined
-    from mckibben.measurement.read import read_measurement
+    from mckibben.measurement.reading import read_measurement
 
     predictor, start = subject_and_start(case, studio)
     files = [Points(read_measurement(text.encode(), name)) for name, text in case.files.items()]

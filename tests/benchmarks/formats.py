@@ -18,9 +18,9 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from mckibben.measurement.measurement import STROKES, Measurement
-from mckibben.measurement.read import preview, read_measurement
+from mckibben.measurement.reading import preview, read_measurement
 from mckibben.physics.errors import InputError
-from tests.measurement.read.sealed_files import WRITERS, LabFile, differs
+from tests.measurement.reading.sealed_files import WRITERS, LabFile, differs
 
 CORPUS = Path(__file__).parents[3] / "shared" / "data" / "lab-formats"
 CLASSES = ("right", "asked", "refused", "part", "wrong", "crashed")

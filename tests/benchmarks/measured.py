@@ -34,7 +34,7 @@ from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
 from mckibben.identification.fit.fitted_model import counts
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel, free_geometry
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.resources import presets_folder
 

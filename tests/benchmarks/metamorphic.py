@@ -27,7 +27,7 @@ from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
 from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.points import Points, joined
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import Muscle
 from tests.benchmarks.metamorphic_cases import Sheet, Sheets, cases

@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from mckibben.identification.predict.fit_model import FitModel
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.muscle import Muscle
 from tests.benchmarks.diagnosis import subject_and_start
 from tests.benchmarks.workers import own_studio

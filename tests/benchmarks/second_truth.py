@@ -75,7 +75,7 @@ def parts_of(case: str) -> tuple[Any, Any, dict[str, Any], bytes]:
     from mckibben.documents.start_model import stated_muscle
     from mckibben.identification.predict import predictor_of
     from mckibben.identification.predict.fit_model import FitModel
-    from mckibben.measurement.read import read_measurement
+    from mckibben.measurement.reading import read_measurement
 
     with zipfile.ZipFile(SETS / f"{OF_LETTER[case[0]]}.zip") as archive:
         train, held, given, answer = (
@@ -92,7 +92,7 @@ def diagnosed(case: str) -> Line:
     """Diagnose one case, predict its second test, and open its answer."""
     from mckibben.identification.diagnose.diagnosis import diagnose
     from mckibben.identification.predict import predictor_of
-    from mckibben.measurement.read import read_measurement
+    from mckibben.measurement.reading import read_measurement
 
     studio = own_studio()
     predictor, start, truth, held = parts_of(case)

@@ -15,7 +15,7 @@ from scipy.io import savemat
 
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.motion import motion_of
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.measurement.reduction import reduced
 from mckibben.measurement.sweeps import sweeps_of
 

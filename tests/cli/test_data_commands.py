@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from tests.cli.conftest import Run, write
-from tests.measurement.read.open_files import WRITERS, OpenFile
-from tests.measurement.read.sealed_files import italian, stacked_workbook
+from tests.measurement.reading.open_files import WRITERS, OpenFile
+from tests.measurement.reading.sealed_files import italian, stacked_workbook
 
 MUSCLE = ("--muscle", "DMSP-20", "--ideal")
 

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.resources import presets_folder
 from tests.cli.conftest import Run, write
 from tests.documents.test_drive_reading import CONTROLLER, EXAMPLE

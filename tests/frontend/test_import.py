@@ -22,8 +22,8 @@ from tests.frontend.importing import (
     trace,
 )
 from tests.frontend.views import REFUSED, run
-from tests.measurement.read.muscle_test import isobaric
-from tests.measurement.read.open_files import WRITERS, OpenFile
+from tests.measurement.reading.muscle_test import isobaric
+from tests.measurement.reading.open_files import WRITERS, OpenFile
 
 needs_corpus = pytest.mark.skipif(
     not CORPUS.is_dir(), reason="the files of the laboratories are not beside this checkout"

@@ -24,7 +24,7 @@ _LITERAL = re.compile(r'"((?:[^"\\\n]|\\.)*)"|\'((?:[^\'\\\n]|\\.)*)\'|`((?:[^`\
 #: Literals that a reader never sees: names of files, attributes, classes, keys.
 _CODE = re.compile(r"[\w./:#\[\]=>*()-]*")
 #: Modules whose words are those of programming languages or of files.
-_LANGUAGES = {"export/language.py", "measurement/read/plain_head.py"}
+_LANGUAGES = {"export/language.py", "measurement/reading/plain_head.py"}
 
 
 def table() -> list[tuple[str, str]]:

@@ -12,7 +12,7 @@ from mckibben.identification.fit.fitted_model import FittedModel
 from mckibben.identification.predict.fit_model import FitModel, Free
 from mckibben.identification.predict.predictor import PredictedChannel, Predictor
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.catalogue import default_catalogue
 from mckibben.physics.effect import Effect
 from mckibben.physics.muscle import Muscle

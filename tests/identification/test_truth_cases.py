@@ -16,7 +16,7 @@ from mckibben.documents.drive_reading import drive_of
 from mckibben.documents.muscle import MuscleInput
 from mckibben.documents.start_model import stated_muscle
 from mckibben.measurement.measurement import lengths
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.catalogue import default_catalogue
 from tests.shipped import shipped_studio
 from tests.truth.cases import BOOK, Case

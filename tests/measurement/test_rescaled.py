@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.measurement.rescaled import rescaled
 
 PRESSURE = (1.0, 2.0, 3.0, 4.0, 5.0, 6.0)

@@ -7,7 +7,7 @@ import pytest
 from scipy.signal import lfilter
 
 from mckibben.measurement.measurement import Measurement, build
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.measurement.saturation import unusable_rows
 
 DATA = Path(__file__).parents[3] / "shared" / "data"

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.measurement.settled import record_time, rounded, settled
 
 

@@ -14,7 +14,7 @@ from pathlib import Path
 import pytest
 
 from mckibben.measurement import store as store_module
-from mckibben.measurement.read import read_correction
+from mckibben.measurement.reading import read_correction
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from tests.server.conftest import CSV

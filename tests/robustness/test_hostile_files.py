@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from fastapi.testclient import TestClient
 
-from mckibben.measurement.read import read_measurement
-from mckibben.measurement.read.limits import MAX_ROWS, MAX_UNPACKED
+from mckibben.measurement.reading import read_measurement
+from mckibben.measurement.reading.limits import MAX_ROWS, MAX_UNPACKED
 from mckibben.server.app import create_app
 from mckibben.server.settings import Settings
 from tests.robustness import hostile as made

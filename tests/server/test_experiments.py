@@ -17,7 +17,7 @@ from mckibben.application.measurement.form import ExperimentForms
 from mckibben.application.measurement.summary import PreviewResult
 from mckibben.measurement.experiment import FIELDS
 from tests.application.truths import document, plateaus, specimen
-from tests.measurement.read.open_files import WRITERS, OpenFile
+from tests.measurement.reading.open_files import WRITERS, OpenFile
 from tests.server.answers import valid
 from tests.server.conftest import assert_error
 

@@ -11,8 +11,8 @@ import pytest
 from fastapi.testclient import TestClient
 
 from mckibben.application.measurement.summary import MeasurementSummary, PreviewResult
-from tests.measurement.read.open_files import WRITERS, OpenFile
-from tests.measurement.read.sealed_files import three_heads
+from tests.measurement.reading.open_files import WRITERS, OpenFile
+from tests.measurement.reading.sealed_files import three_heads
 from tests.server.answers import valid
 from tests.server.conftest import assert_error
 

@@ -31,7 +31,7 @@ from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.measurement import Measurement as Data
 from mckibben.measurement.points import Points
 from mckibben.measurement.preparation import prepared_points
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.report.figures import variable
 from mckibben.report.summary import Summary, Table, experiment_table, figure

@@ -16,7 +16,7 @@ from mckibben.door.measurement import Measurement
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
 from mckibben.measurement.points import Points
-from mckibben.measurement.read import read_correction, read_measurement
+from mckibben.measurement.reading import read_correction, read_measurement
 from mckibben.physics.errors import InputError
 from mckibben.projects.project import Project as Opened
 from mckibben.report.summary import Summary, Table

@@ -26,8 +26,8 @@ from typing import Any
 from mckibben.folder import DELETED, KEPT_DELETED, deleted, locked, restore
 from mckibben.folder import delete as move_away
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read import Correction, read_correction, read_measurement
-from mckibben.measurement.read.limits import size_of
+from mckibben.measurement.reading import Correction, read_correction, read_measurement
+from mckibben.measurement.reading.limits import size_of
 from mckibben.physics.errors import InputError
 
 _ID = re.compile(r"[0-9a-f]{64}")

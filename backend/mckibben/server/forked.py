@@ -9,7 +9,7 @@ from __future__ import annotations
 import sys
 from types import TracebackType
 
-from mckibben.measurement.read import load_readers
+from mckibben.measurement.reading import load_readers
 from mckibben.server import worker  # noqa: F401 - loaded for the workers
 
 _LOCKS = "multiprocessing.synchronize"

@@ -6,7 +6,7 @@ import ipaddress
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from mckibben.measurement.read.limits import MOST_MEMORY
+from mckibben.measurement.reading.limits import MOST_MEMORY
 from mckibben.resources import frontend_folder, presets_folder, user_folder
 
 LOOPBACK_NAMES = frozenset({"localhost", "127.0.0.1", "::1"})

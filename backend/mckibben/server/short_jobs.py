@@ -22,8 +22,8 @@ from mckibben.application.run import simulate
 from mckibben.documents.studio import Studio
 from mckibben.export.use_case import export
 from mckibben.measurement.preparation import prepared
-from mckibben.measurement.read import Correction, preview
-from mckibben.measurement.read.limits import MOST_SECONDS
+from mckibben.measurement.reading import Correction, preview
+from mckibben.measurement.reading.limits import MOST_SECONDS
 from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.server.answer import answer_of

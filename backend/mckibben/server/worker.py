@@ -18,8 +18,8 @@ from typing import Any, Literal
 
 from mckibben.application.json_text import to_json
 from mckibben.documents.studio import Studio
-from mckibben.measurement.read import load_readers
-from mckibben.measurement.read.process import limit_memory
+from mckibben.measurement.reading import load_readers
+from mckibben.measurement.reading.process import limit_memory
 from mckibben.measurement.store import MeasurementStore
 from mckibben.physics.errors import InputError
 from mckibben.server.jobs import JOBS

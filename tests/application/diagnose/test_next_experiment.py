@@ -8,7 +8,7 @@ import pytest
 from mckibben.application.diagnose.next_experiment import next_experiment, schedule_csv
 from mckibben.identification.diagnose.design import DesignedExperiment, Separation
 from mckibben.identification.diagnose.protocol import Schedule
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 
 DESIGN = DesignedExperiment(
     group=("coulomb_friction", "viscous_damping"),

@@ -21,7 +21,7 @@ from mckibben.documents.start_model import StartModel, stated_muscle
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import ExperimentValue
 from mckibben.measurement.points import Points, find_preset
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.errors import InputError
 from mckibben.simulation.outcome import Watch
 from tests.application.truths import ANGLE, document, plateaus, specimen

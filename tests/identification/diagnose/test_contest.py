@@ -16,7 +16,7 @@ from mckibben.identification.fit.effort import diagnosis_effort
 from mckibben.identification.fit.fitter import Fitter
 from mckibben.identification.predict import Predictor, predictor_of
 from mckibben.identification.predict.fit_model import FitModel, Free
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.muscle import Muscle
 from tests.identification.synthetic import CATALOGUE, MUSCLE, csv, truth
 

@@ -17,7 +17,7 @@ from mckibben.identification.fit.fitter import CancelledError
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel, Free, free_geometry
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.custom import custom_effect
 from mckibben.simulation.outcome import Outcome, Watch
 from tests.identification.synthetic import CATALOGUE, MUSCLE, csv, cycles, force_map, length_under

@@ -9,7 +9,7 @@ from mckibben.identification.diagnose.entries import ATMOSPHERE, Statements, rea
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.errors import InputError
 from tests.identification.synthetic import MUSCLE, truth
 

@@ -12,7 +12,7 @@ from mckibben.identification.fit.fitted_model import refitted
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.specimens import SpecimenData, SpecimensPredictor
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from tests.identification.synthetic import CATALOGUE, MUSCLE, truth
 
 PRESSURES = (1e5, 2e5, 3e5, 4e5, 5e5)

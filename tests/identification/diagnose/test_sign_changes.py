@@ -7,7 +7,7 @@ import numpy as np
 from mckibben.identification.diagnose.diagnosis import Diagnosis, diagnose
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from tests.identification.synthetic import CATALOGUE, MUSCLE, truth
 
 PRESTRESS = CATALOGUE["prestress"]

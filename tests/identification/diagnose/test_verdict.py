@@ -13,7 +13,7 @@ from mckibben.identification.diagnose.judgement import left_repetition
 from mckibben.identification.diagnose.verdict import unexplained_share
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from tests.identification.synthetic import CATALOGUE, MUSCLE, truth
 
 SIGMA = 2.0

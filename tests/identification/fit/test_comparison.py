@@ -11,7 +11,7 @@ import pytest
 from mckibben.identification.predict import predictor_of
 from mckibben.identification.predict.fit_model import FitModel
 from mckibben.identification.residual.noise import channel_noise
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.errors import InputError
 from mckibben.physics.muscle import Muscle
 from tests.identification.comparing import compare

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from mckibben.identification.predict import driven_by_pressure
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.errors import InputError
 from tests.identification.synthetic import MUSCLE
 

@@ -15,7 +15,7 @@ from mckibben.identification.predict.comparable_rows import ComparableRows, comp
 from mckibben.identification.predict.fit_model import FitModel, free_numbers
 from mckibben.identification.predict.memory import HISTORIES, Memory, remembers
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics.errors import InputError
 from mckibben.simulation.drive.records import force_of_record
 from mckibben.simulation.statics.model import StaticModel

@@ -13,7 +13,7 @@ from mckibben.identification.predict.fit_model import LOAD, FitModel, Free, free
 from mckibben.identification.predict.memory import Memory, remembers
 from mckibben.identification.predict.quasistatic import QuasistaticPredictor, _corners, with_corners
 from mckibben.identification.predict.sensor_dynamics import as_read
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.physics import ideal
 from mckibben.physics.errors import InputError
 from tests.identification.synthetic import (

@@ -24,7 +24,7 @@ from mckibben.identification.residual.surface import (
     ratio_of,
     surface_of,
 )
-from mckibben.measurement.read import read_measurement
+from mckibben.measurement.reading import read_measurement
 from mckibben.simulation.statics.model import checked_values
 from tests.identification.synthetic import Plain, linear_node
 from tests.shipped import shipped_studio

@@ -8,8 +8,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read.correction import Correction, spoken_correction
 from mckibben.measurement.reading import preview_here, read_here
+from mckibben.measurement.reading.correction import Correction, spoken_correction
 from mckibben.physics.errors import InputError
 
 Array = NDArray[np.float64]

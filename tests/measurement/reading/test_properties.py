@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.reading import read_here
+from mckibben.measurement.reading.correction import Correction
 from mckibben.physics.errors import InputError
 from tests.measurement.reading.bench import (
     ABOVE,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from mckibben.measurement.read.correction import Correction
+from mckibben.measurement.reading.correction import Correction
 from mckibben.measurement.reading.model import Span
 from mckibben.measurement.reading.zeros import zeros_in
 from tests.measurement.reading.bench import (

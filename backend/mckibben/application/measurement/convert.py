@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS
+from mckibben.measurement.reading.conditions import CONDITION_UNITS, TEXT_CONDITIONS
 
 #: Channel -> header; the numbers are SI, so that they are exactly those that were read.
 CHANNEL_HEADERS = {

@@ -14,7 +14,7 @@ from mckibben.measurement.experiment import FIELDS, ExperimentValue
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.points import POINT_PRESETS, Points, find_preset, is_preset, points_of
 from mckibben.measurement.preparation import prepared_points, steps_of
-from mckibben.measurement.read import Correction, read_measurement, spoken_correction
+from mckibben.measurement.reading import Correction, read_measurement, spoken_correction
 from mckibben.physics.errors import InputError, did_you_mean
 
 #: How values are named that stand in no file: as options of the command line, or as arguments of Python.

@@ -25,7 +25,7 @@ from mckibben.measurement.experiment import (
     needed,
 )
 from mckibben.measurement.measurement import STROKES, Measurement
-from mckibben.measurement.read import Preview
+from mckibben.measurement.reading import Preview
 from mckibben.physics.errors import InputError
 
 _CATALOGUES = {"muscle": "muscles", "valve": "valves", "tube": "tubes"}

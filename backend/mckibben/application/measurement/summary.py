@@ -11,9 +11,9 @@ from mckibben.measurement.experiment import Origin
 from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement, StatedValue
 from mckibben.measurement.preparation import rows_of_file
 from mckibben.measurement.question import Question
-from mckibben.measurement.read.left_out import UNWANTED
-from mckibben.measurement.read.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
-from mckibben.measurement.read.questions import columns_said
+from mckibben.measurement.reading.answers import columns_said
+from mckibben.measurement.reading.assemble import DISMISSED
+from mckibben.measurement.reading.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
 
 #: Units offered by a form for each channel.
 _SHOWN_UNREAD = 8  # columns in one sentence
@@ -433,7 +433,7 @@ def unread_sentence(measurement: Measurement) -> str:
     said = [
         f"'{column}' ({why})"
         for column, why in measurement.unread
-        if why != UNWANTED.text  # the file itself says so
+        if why != DISMISSED  # the file itself says so
         and not any(
             f"'{column}' is not {done}" in m for m in measurement.messages for done in ("used", "read")
         )

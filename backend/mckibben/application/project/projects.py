@@ -22,7 +22,7 @@ from pydantic import ValidationError
 from mckibben.application.study.store import StudyStore, environment_of, study_name
 from mckibben.documents.studio import Studio
 from mckibben.documents.study import StudyDocument
-from mckibben.measurement.read import Correction, read_correction
+from mckibben.measurement.reading import Correction, read_correction
 from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.projects.project import Document, Project, ProjectSummary, Revision, StoredFile, StoredStudy

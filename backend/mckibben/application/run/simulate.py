@@ -38,7 +38,7 @@ from mckibben.facts.comparison import CHANNELS
 from mckibben.facts.figure import Figure, Group
 from mckibben.facts.result import Booleans, FiniteSeries, Number, Series, result_class
 from mckibben.facts.run import JOINT, RUN, curve_fit_of
-from mckibben.measurement.read.conditions import COMMAND_BEFORE, IGNORE
+from mckibben.measurement.reading.conditions import COMMAND_BEFORE, IGNORE
 from mckibben.physics.drive_terms import COUNTER
 from mckibben.physics.errors import InputError
 from mckibben.physics.gas import ANR_DENSITY

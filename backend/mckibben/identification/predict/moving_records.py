@@ -14,7 +14,7 @@ from mckibben.measurement.derivative import noise_of
 from mckibben.measurement.experiment import GRAVITY
 from mckibben.measurement.kind import weights_of_runs
 from mckibben.measurement.measurement import STROKES, Measurement, lengths
-from mckibben.measurement.read.conditions import COMMAND_BEFORE
+from mckibben.measurement.reading.conditions import COMMAND_BEFORE
 from mckibben.physics.errors import InputError
 from mckibben.simulation.command.signals import TableSignal
 from mckibben.simulation.drive.many_runs import Pieces

@@ -6,12 +6,11 @@ What a laboratory's habits mean stands in `rules.toml` and `words.toml`; the mod
 from __future__ import annotations
 
 from mckibben.measurement.measurement import Measurement
-from mckibben.measurement.read.correction import Correction, read_correction, spoken_correction
-from mckibben.measurement.read.preview import Preview
-from mckibben.measurement.read.process import bounded
-from mckibben.measurement.read.questions import refusal
+from mckibben.measurement.reading.answers import refusal
 from mckibben.measurement.reading.assemble import measurement_of, reading_of
-from mckibben.measurement.reading.preview import preview_here
+from mckibben.measurement.reading.correction import Correction, read_correction, spoken_correction
+from mckibben.measurement.reading.preview import Preview, preview_here
+from mckibben.measurement.reading.process import bounded
 from mckibben.measurement.reading.questions import questions_of
 
 __all__ = [

@@ -20,8 +20,8 @@ from mckibben.measurement.measurement import (
 )
 from mckibben.measurement.order import FROM_ROWS, order_of_rows
 from mckibben.measurement.question import Question
-from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.reading.containers import sheets_of
+from mckibben.measurement.reading.correction import Correction
 from mckibben.measurement.reading.decide import decide, roles_of
 from mckibben.measurement.reading.derived import with_derived, without_stated_marks
 from mckibben.measurement.reading.evidence import evidence_of
@@ -39,6 +39,7 @@ _SIGNALS = {
 }  # fmt: skip
 _LOADS = ("load_mass", "load_force")
 UNKNOWN = "its name is not known"
+DISMISSED = "the file says that it is no channel"
 
 
 def looked_at(data: bytes, name: str, correction: Correction) -> tuple[Table, tuple[Evidence, ...], Known]:
@@ -282,11 +283,9 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
     if i in reading.rows.dropped:
         return reading.rows.dropped[i]
     if i in reading.known.chosen:
-        return (
-            "you do not want it"
-            if i in {j for j, c in reading.known.chosen.items() if c is None}
-            else "it cannot be read as you say"
-        )
+        if reading.known.chosen[i] is not None:
+            return "it cannot be read as you say"
+        return DISMISSED if i in reading.known.dismissed else "you do not want it"
     own = reading.own(i)
     roles = {
         r: w

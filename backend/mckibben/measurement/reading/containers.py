@@ -332,7 +332,7 @@ def _carry_merged(rows: list[list[Cell]], sheet: Any) -> None:
 
 
 def _mat5(data: bytes, name: str) -> list[Sheet]:
-    from mckibben.measurement.read.mat5 import DamagedError, read_variables
+    from mckibben.measurement.reading.mat5 import DamagedError, read_variables
 
     try:
         values = read_variables(data, name)
@@ -344,18 +344,16 @@ def _mat5(data: bytes, name: str) -> list[Sheet]:
 def _hdf5(data: bytes, name: str) -> list[Sheet]:
     import h5py
 
-    from mckibben.measurement.read.mat73 import _Mat73Reader
-    from mckibben.measurement.read.mat73 import _of_matlab as is_matlab
+    from mckibben.measurement.reading.hdf5 import Hdf5Reader, by_matlab
 
     with h5py.File(io.BytesIO(data), "r") as file:
-        by_matlab = b"MATLAB" in data[:128] or is_matlab(file)
-        values = _Mat73Reader(file, name, data, by_matlab=by_matlab).group(file)
-    return _of_matlab(values, name, "mat" if by_matlab else "hdf5")
+        of_matlab = b"MATLAB" in data[:128] or by_matlab(file)
+        values = Hdf5Reader(file, name, data, by_matlab=of_matlab).group(file)
+    return _of_matlab(values, name, "mat" if of_matlab else "hdf5")
 
 
 def _of_matlab(values: dict[str, Any], name: str, format: str) -> list[Sheet]:
-    from mckibben.measurement.read.mat import without_foreign
-    from mckibben.measurement.read.mat5 import Foreign
+    from mckibben.measurement.reading.mat5 import Foreign, without_foreign
 
     sheets = sheets_of_tree(without_foreign(values), format, "variable")
     foreign = [key for key, value in values.items() if isinstance(value, Foreign)]
@@ -376,16 +374,16 @@ def _tdms(data: bytes, name: str) -> list[Sheet]:
     from nptdms import TdmsFile
     from nptdms.log import log_manager
 
-    from mckibben.measurement.read.tdms import _check_pieces, _check_segments, _check_size
+    from mckibben.measurement.reading.tdms import check_pieces, check_segments, check_size
 
-    _check_segments(data, name)
+    check_segments(data, name)
     log_manager.set_level(logging.ERROR)  # what matters is said in the refusal
-    _check_pieces(data, name)
+    check_pieces(data, name)
     with TdmsFile.open(io.BytesIO(data)) as file:
         channels = [channel for group in file.groups() for channel in group.channels()]
         if sum(len(channel) for channel in channels) > len(data):
             raise ValueError("it declares more values than it holds")
-        _check_size(file, name, len(data))
+        check_size(file, name, len(data))
         top = _properties(file.properties, "properties of the file")
         sheets = []
         for group in file.groups()[:MAX_SHEETS]:

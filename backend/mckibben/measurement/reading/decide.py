@@ -20,8 +20,8 @@ from typing import NamedTuple
 import numpy as np
 
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
-from mckibben.measurement.read.correction import Choice
 from mckibben.measurement.reading import physics
+from mckibben.measurement.reading.correction import Choice
 from mckibben.measurement.reading.model import FILE, Array, Evidence, Table, Use
 from mckibben.measurement.reading.physics import ATMOSPHERE, Terms
 from mckibben.measurement.reading.scales import Scale, answered_scale

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, key_of
+from mckibben.measurement.reading.conditions import CONDITION_UNITS, TEXT_CONDITIONS, key_of
 from mckibben.measurement.reading.heads import Claim, head_claims, taken_apart
 from mckibben.measurement.reading.lexicon import (
     REFERENCES,

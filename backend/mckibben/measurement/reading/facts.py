@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
-from mckibben.measurement.read.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
-from mckibben.measurement.read.correction import Choice, Correction
+from mckibben.measurement.reading.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
+from mckibben.measurement.reading.correction import Choice, Correction
 from mckibben.measurement.reading.decide import Facts
 from mckibben.measurement.reading.evidence import of_code
 from mckibben.measurement.reading.heads import taken_apart
@@ -79,7 +79,8 @@ class Known:
         columns: condition -> the column that holds it, and its different values in SI.
         several: channels for which texts name several values.
         kind: that texts name; empty = none, or several.
-        chosen: column -> what the user says it is.
+        chosen: column -> what the user says it is, and None for those that the file itself dismisses.
+        dismissed: columns that the file, and not the user, says are not to be read.
         messages: what was assumed.
     """
 
@@ -93,6 +94,7 @@ class Known:
     kind: str
     chosen: Mapping[int, Choice | None]
     messages: tuple[str, ...] = field(default=())
+    dismissed: frozenset[int] = frozenset()
 
     def facts(self, table: Table) -> Facts:
         """What the decision needs of it."""
@@ -164,9 +166,8 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
         if not ignored
         else {}
     )
-    chosen = _chosen(
-        table, {**{k: v for k, v in unwanted.items() if _places(k, table)}, **correction.columns}, name
-    )
+    by_user = _chosen(table, correction.columns, name)
+    dismissed = {i: None for k in unwanted for i in _places(k, table)[:1] if i not in by_user}
     return Known(
         conditions,
         stated,
@@ -176,8 +177,9 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
         columns,
         several,
         said.pop() if len(said) == 1 else "",
-        chosen,
+        {**dismissed, **by_user},
         tuple(messages),
+        frozenset(dismissed),
     )
 
 

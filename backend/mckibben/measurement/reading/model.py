@@ -68,6 +68,13 @@ class Sheet:
         return f"{sheet}{self.noun} {self.line(row)}"
 
 
+class Skip(NamedTuple):
+    """Rows left out for one reason, and where the first of them is."""
+
+    rows: int
+    first: str
+
+
 class Gap(NamedTuple):
     """A cell without a number: why (``empty``, ``no reading``, ..., ``broken``), and its text."""
 

@@ -3,23 +3,123 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement
+from mckibben.facts.result import result_class
+from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement, StatedValue
 from mckibben.measurement.question import Question
-from mckibben.measurement.read.correction import Correction
-from mckibben.measurement.read.preview import Preview, PreviewColumn, missing_conditions
-from mckibben.measurement.read.questions import refusal
-from mckibben.measurement.read.raw import RawRows
+from mckibben.measurement.reading.answers import refusal
 from mckibben.measurement.reading.assemble import decided, looked_at, measurement_of, stated_of, unread_of
-from mckibben.measurement.reading.model import Table
+from mckibben.measurement.reading.correction import Correction
+from mckibben.measurement.reading.model import Skip, Table
 from mckibben.measurement.reading.questions import Reading, questions_of
+from mckibben.measurement.reading.raw import RawRows
 from mckibben.physics.errors import InputError
 
 _POINTS = 400  # most values of a channel in the picture of a preview
 _SAMPLE = 8  # rows
+
+
+@result_class
+class PreviewColumn:
+    """One column of the file; ``channel`` None = not used, ``unit`` None = SI; ``why``: what is wrong.
+
+    ``unit_origin``: who says the unit, ``file``, ``you``, ``assumed`` or ``proposed`` from the numbers, None
+    without a channel; ``unit_where``: where the file says it, apart from the header; ``sign`` -1: the file
+    counts it the other way; ``unread``: why nothing is read from it; ``place``: its cell in the rows of the
+    file, None where it stands in none.
+    """
+
+    header: str
+    """Header of the file; the key of a mapping."""
+    channel: str | None
+    """The proposed or chosen channel; None = not used."""
+    unit: str | None
+    """The proposed, stated or chosen unit; None = not used."""
+    absolute: bool | None
+    """An absolute pressure; None = not stated, gauge is assumed."""
+    minimum: float | None
+    """Smallest value of the channel, SI."""
+    maximum: float | None
+    """Largest value of the channel, SI."""
+    why: str | None
+    """Why the column cannot be used as its header states."""
+    unit_origin: str | None = None
+    """Who says the unit: file, you, proposed from the range, or assumed; None = not used."""
+    unit_where: str | None = None
+    """Where the unit stands, apart from the header."""
+    sign: int = 1
+    """-1: the file counts it the other way."""
+    unread: str | None = None
+    """Why nothing is read from the column; None = it is used."""
+    place: int | None = None
+    """Its cell in the rows of 'raw', from 0; None = it stands in none."""
+
+
+@result_class
+class MissingCondition:
+    """A condition that the kind needs and the file does not say; one of ``alternatives`` does as well."""
+
+    key: str
+    """Name of the condition."""
+    unit: str
+    """Its SI unit."""
+    why: str
+    """What it is needed for."""
+    example: str
+    """An example value."""
+    alternatives: tuple[str, ...] = ()
+    """Conditions that replace it."""
+
+
+@dataclass(frozen=True)
+class Preview:
+    """What a file would be read as.
+
+    Attributes:
+        format: ``csv``, ``json``, ``xlsx``, ``mat``, ``hdf5`` or ``tdms``.
+        columns: all columns of the file, in its order.
+        sample: the first rows as texts, one per column.
+        rows, valid: rows of the file below the header, and those that can be read.
+        skipped: reason -> rows that cannot, and where the first is.
+        measurement: as it would be kept; None while ``problem`` stands in the way.
+        conditions: found in the file or given, SI.
+        missing: what to ask for.
+        problem: why the file cannot be used as it is.
+        refused: it cannot only because of bad rows, which the user may leave out.
+        messages: what was assumed.
+        questions: what the file leaves open; ``problem`` is their refusal where they stop the reading.
+        unread: all columns that nothing is read from, and why.
+        stated: the conditions with their origin.
+        tables: all tables of the file that a name picks, and whether each is read.
+        raw: the first rows as they stand in the file; None where the format has none.
+        head_row: row of the names; None where the format has none.
+        points: channel -> SI values at evenly chosen rows, for a picture, also while questions are open.
+    """
+
+    name: str
+    format: str
+    columns: tuple[PreviewColumn, ...]
+    sample: tuple[tuple[str, ...], ...]
+    rows: int
+    valid: int
+    skipped: Mapping[str, Skip]
+    measurement: Measurement | None
+    conditions: Mapping[str, float | str]
+    missing: tuple[MissingCondition, ...]
+    problem: InputError | None
+    refused: bool
+    messages: tuple[str, ...]
+    questions: tuple[Question, ...] = ()
+    unread: tuple[tuple[str, str], ...] = ()
+    stated: tuple[StatedValue, ...] = ()
+    tables: tuple[tuple[str, bool], ...] = ()
+    raw: RawRows | None = None
+    head_row: int | None = None
+    points: Mapping[str, NDArray[np.float64]] = field(default_factory=dict)
 
 
 def preview_here(data: bytes, name: str, correction: Correction | None = None) -> Preview:
@@ -82,6 +182,21 @@ def preview_here(data: bytes, name: str, correction: Correction | None = None) -
         head_row=table.head_row,
         points={} if measurement is None else _points(measurement),
     )
+
+
+def missing_conditions(
+    kind: str | None, columns: Mapping[str, np.ndarray], conditions: Mapping[str, float | str]
+) -> tuple[MissingCondition, ...]:
+    """The conditions a comparison of this kind needs and does not have."""
+    missing = []
+    loaded = "load_mass" in conditions or "load_force" in conditions
+    if kind in ("isotonic", "transient") and not loaded and not (kind == "isotonic" and "force" in columns):
+        why = "the load decides how far the muscle shortens"
+        missing.append(MissingCondition("load_mass", "kg", why, "6 kg", ("load_force",)))
+    if kind == "transient" and "command" in columns and "supply_pressure" not in conditions:
+        why = "the valve fills the muscle from the supply"
+        missing.append(MissingCondition("supply_pressure", "Pa", why, "6 bar"))
+    return tuple(missing)
 
 
 def _points(measurement: Measurement) -> Mapping[str, np.ndarray]:

@@ -15,10 +15,9 @@ import numpy as np
 from mckibben.measurement.kind import turning_points, weights_of_runs
 from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.question import Question
-from mckibben.measurement.read.correction import Correction
-from mckibben.measurement.read.questions import column_option, ignore_option
-from mckibben.measurement.read.scatter import is_sensed
 from mckibben.measurement.reading import physics
+from mckibben.measurement.reading.answers import column_option, ignore_option
+from mckibben.measurement.reading.correction import Correction
 from mckibben.measurement.reading.decide import (
     FINAL,
     MARGIN,
@@ -37,6 +36,7 @@ from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Sp
 from mckibben.measurement.reading.named import is_isometric
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
+from mckibben.measurement.reading.scatter import is_sensed
 from mckibben.measurement.reading.units import (
     FITTING,
     RAW,

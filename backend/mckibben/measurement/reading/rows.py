@@ -13,13 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import STROKES
-from mckibben.measurement.read.cells import Skip
-from mckibben.measurement.read.correction import SAMPLE, SLACK, Correction
+from mckibben.measurement.reading.correction import SAMPLE, SLACK, Correction
 from mckibben.measurement.reading.decide import Decision, roles_of, value_of
 from mckibben.measurement.reading.evidence import NAME
 from mckibben.measurement.reading.facts import Held, Known
 from mckibben.measurement.reading.lexicon import word_set, words_of
-from mckibben.measurement.reading.model import Array, Column, Evidence, Table
+from mckibben.measurement.reading.model import Array, Column, Evidence, Skip, Table
 from mckibben.measurement.reading.named import length_of_name
 from mckibben.measurement.reading.units import quantity_si
 from mckibben.physics.errors import InputError

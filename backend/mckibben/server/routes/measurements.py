@@ -12,8 +12,8 @@ from mckibben.application.diagnose.mysteries import MysterySummary, Reveal, myst
 from mckibben.application.measurement.summary import MeasurementDetails, MeasurementSummary, PreviewResult
 from mckibben.documents.strict import Name, Strict
 from mckibben.measurement.preparation import LONGEST, MOST
-from mckibben.measurement.read import Correction, read_correction
-from mckibben.measurement.read.correction import MAX_LENGTH
+from mckibben.measurement.reading import Correction, read_correction
+from mckibben.measurement.reading.correction import MAX_LENGTH
 from mckibben.measurement.store import MAX_NAME
 from mckibben.server import request_examples
 from mckibben.server.answer import JsonAnswer, StrictRoute

@@ -1,0 +1,68 @@
+"""Columns of counts whose meaning a text states: the time of a tick, of a sample, the states of a valve."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+from tests.measurement.reading.isobaric import FORCE, PRESSURE, ROWS, STROKE, TIME, read, table
+
+COUNT = np.arange(ROWS) + 7.0
+COMMAND = np.where(np.arange(ROWS) < ROWS // 2, 100.0, -100.0)
+
+TIMES = {
+    ("tick", "1 tick = 0.5 ms"): 0.5e-3,
+    ("ticks", "one tick is 20 us"): 20e-6,
+    ("tick", "0.25 ms per tick"): 0.25e-3,
+    ("timer", "timer: 1 ms"): 1e-3,
+    ("sample", "sample period 2 ms"): 2e-3,
+    ("Sample no", "sampling interval: 0.5 s"): 0.5,
+    ("n", "sample rate 500 Hz"): 2e-3,
+}
+NO_TIMES = [
+    ("tick", "1 tick = 0.01 mm"),
+    ("tick", "the ticks are not evenly spaced"),
+    ("sample", "sampling rate 10 kHz, averaged to one row"),
+    ("sample", "sample period 2 ms; log interval 5 ms"),
+    ("specimen", "sample period 2 ms"),
+    ("temperature of the wall", "1 tick = 0.5 ms"),
+]
+
+
+@pytest.mark.parametrize("head", ["# 1 count = 0.5 s\n", "tool 4\n1 count = 0.5 s\n\n"])
+def test_a_column_of_counts_is_a_time_from_the_first_row(head: str) -> None:
+    found = read(f"{head}count,pressure_bar,force_N,stroke_mm\n{table(COUNT, PRESSURE, FORCE, STROKE)}")
+    np.testing.assert_allclose(found.columns["time"], TIME, atol=1e-12)
+    assert any("'count' is read as time, '1 count = 0.5 s'" in message for message in found.messages)
+
+
+def test_a_time_of_its_own_is_left_alone() -> None:
+    rows = table(TIME * 3.0, COUNT, PRESSURE, FORCE, STROKE)
+    found = read(f"# 1 count = 0.5 s\nt_s,count,pressure_bar,force_N,stroke_mm\n{rows}")
+    np.testing.assert_allclose(found.columns["time"], TIME * 3.0)
+    assert [column for column, _ in found.unread] == ["count"]
+
+
+STATES = {
+    "cmd: 100 = fully open to fill, 0 = closed, -100 = fully open to exhaust": (0.01, 0.0),
+    "cmd [%]: 100 % = fill, 0 = closed, -100 % = exhaust": (0.01, 0.0),
+    "cmd = 0 = exhaust, 50 = closed, 100 = fill": (0.02, -1.0),
+}
+NO_STATES = [
+    "cmd: 100 = fully open to fill, -100 = fully open to exhaust",
+    "cmd: 100 = fill, 0 = closed, -50 = exhaust",
+    "cmd: 100 = 6 bar, 0 = 0 bar",
+    "other: 100 = fill, 0 = closed, -100 = exhaust",
+    "cmd: from the controller",
+]
+
+
+def test_a_column_with_stated_states_is_the_command() -> None:
+    head = "# cmd: 100 = fill, 0 = closed, -100 = exhaust\n# load_mass: 5 kg\n"
+    found = read(f"{head}t_s,cmd [%],pressure_bar,stroke_mm\n{table(TIME, COMMAND, PRESSURE, STROKE)}")
+    np.testing.assert_allclose(found.columns["command"], COMMAND / 100.0)
+    assert found.kind == "transient"
+    assert any("'cmd [%]' is read as the command of the valve" in message for message in found.messages)
+    rows = table(TIME, COMMAND, PRESSURE, STROKE)
+    silent = read(f"# load_mass: 5 kg\nt_s,cmd [%],pressure_bar,stroke_mm\n{rows}")
+    assert "command" not in silent.columns
