@@ -127,7 +127,6 @@ class Measurement(Result):
         Raises:
             Problem: an unknown channel or unit, lengths that differ, values that are no measurement.
         """
-        headers: dict[str, Any] = {}
         stated = dict(units or {})
         for channel in (*channels, *stated):
             if channel not in _ARRAY_UNITS:
@@ -136,16 +135,18 @@ class Measurement(Result):
         if len(set(rows.values())) > 1:
             counts = ", ".join(f"{channel} {count}" for channel, count in rows.items())
             raise InputError(f"the channels have different numbers of values: {counts}")
-        for channel, values in channels.items():
-            plain = channel in ("direction", "group")
-            headers[channel if plain else f"{channel} [{stated.get(channel, _ARRAY_UNITS[channel])}]"] = (
-                values
+        if len(channels) < 2:
+            raise InputError(
+                f"{', '.join(channels) or 'no channel'} alone is no measurement",
+                hint="a pressure, and the force or the stroke",
             )
+        quantities = [channel for channel in channels if channel not in ("direction", "group")]
         options = _options(
+            columns=[f"{c}={c} [{stated.get(c, _ARRAY_UNITS[c])}]" for c in quantities],
             rest_length=rest_length, load=load, supply=supply, accuracy=accuracy, experiment=experiment,
             strict=strict,
         )  # fmt: skip
-        return cls(_read_text(csv_of(frame_of(headers)), name, options, kind))
+        return cls(_read_text(csv_of(frame_of(dict(channels))), name, options, kind))
 
     @reported
     def stating(

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
@@ -37,6 +37,7 @@ _SIGNALS = {
     "voltage": "a voltage", "current": "a current", "count": "a count", "bridge": "the output of a bridge",
     "share of range": "a share of a range",
 }  # fmt: skip
+_NAMED = 4  # columns in a message
 _LOADS = ("load_mass", "load_force")
 UNKNOWN = "its name is not known"
 DISMISSED = "the file says that it is no channel"
@@ -155,7 +156,8 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
             for i, c in enumerate(table.columns)
         )
     ]
-    measurement = build(
+    measurement = _built(
+        unread,
         {c: channels[c] for c in CHANNEL_UNITS if c in channels},
         name=reading.name,
         id=id,
@@ -177,6 +179,17 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
         in_words=_in_words(reading),
         questions=tuple(questions),
     )
+
+
+def _built(unread: Sequence[tuple[str, str]], columns: Mapping[str, Any], **said: Any) -> Measurement:
+    """The measurement of columns; where they fit no kind, the columns that are not read are named."""
+    try:
+        return build(columns, **said)
+    except InputError as error:
+        if not unread:
+            raise
+        left = ", ".join(f"'{title}' ({why})" for title, why in unread[:_NAMED])
+        raise InputError(f"{error.message}; not read: {left}", field=error.field, hint=error.hint) from error
 
 
 def _rows(count: int) -> str:
@@ -276,7 +289,7 @@ def unread_of(reading: Reading) -> tuple[tuple[str, str], ...]:
         for i, column in enumerate(reading.table.columns)
         if i not in used
     ]
-    return (*found, *reading.table.others)
+    return (*found, *reading.table.dropped, *reading.table.others)
 
 
 def _why_unread(reading: Reading, i: int, column: Column) -> str:

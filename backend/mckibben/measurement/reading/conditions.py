@@ -73,7 +73,10 @@ def condition_value(
             plain = f"{plain} {unit}"
         if key == "temperature":
             plain = re.sub(r"(?<=[0-9.])\s*[°º]?\s*([CF])$", r" deg\1", plain)
-        number = si(plain, unit, field=where)
+        try:
+            number = si(plain, unit, field=where)
+        except InputError as error:
+            raise InputError(error.message, field=field, hint=error.hint) from error
     else:
         number = float(value)
         if messages is not None:

@@ -165,7 +165,10 @@ def _packed(data: bytes, name: str, *, packed: bool) -> list[Sheet]:
                 raise _no_table(name, "an archive of numpy's arrays (.npz)")
             wanted = [p for p in parts if PurePosixPath(p.filename).suffix.lower() in (*_TEXTS, *_TABLES)]
             if not wanted:
-                raise _refusal(name, "the archive holds no table", "send the table itself, as CSV or .xlsx")
+                held = ", ".join(part.filename[:60] for part in parts[:3]) or "nothing"
+                raise _refusal(
+                    name, f"the archive holds no table: {held}", "send the table itself, as CSV or .xlsx"
+                )
             _check_parts(parts, name)
             return _of_archive(archive, wanted, name, packed=packed)
     except (zipfile.BadZipFile, EOFError, NotImplementedError, OSError, zlib.error) as error:
@@ -305,7 +308,7 @@ def _workbook(data: bytes, name: str) -> list[Sheet]:
 
 def _cell(cell: Any) -> Cell:
     if isinstance(cell, bool):
-        return float(cell)
+        return str(cell)  # as in a text: among numbers it is none
     if isinstance(cell, (int, float)):
         return float(cell)
     if isinstance(cell, datetime):
@@ -397,12 +400,18 @@ def _tdms(data: bytes, name: str) -> list[Sheet]:
             size = max(set(sizes), key=lambda n: (sizes.count(n), n), default=0)
             own = _properties(group.properties, f"group '{group.name}'")
             kept = {k: v for k, v in arrays.items() if v is not None and len(v) == size}
+            dropped = tuple(
+                (k, f"it has {len(v)} values, and the others {size}")
+                for k, v in arrays.items()
+                if v is not None and len(v) != size
+            )
             sheets.append(
                 Sheet(
                     str(group.name),
                     noun="channel",
                     format="tdms",
                     arrays=kept,
+                    dropped=dropped,
                     units=units,
                     texts=(*top, *own),
                 )

@@ -308,7 +308,9 @@ class _Scorer:
         """Some readings of a column in SI."""
         key = (i, use)
         if key not in self._values:
-            self._values[key] = value_of(self.table.columns[i].values[self.pick], use, self.ambient)
+            self._values[key] = physics.core(
+                value_of(self.table.columns[i].values[self.pick], use, self.ambient)
+            )
         return self._values[key]
 
     def alone(self, option: Option) -> Terms:

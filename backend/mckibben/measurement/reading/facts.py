@@ -428,6 +428,8 @@ def _chosen(table: Table, columns: Mapping[str, Choice | None], name: str) -> di
     chosen: dict[int, Choice | None] = {}
     for said, choice in columns.items():
         places = _places(said, table)
+        if not places and choice is None and any(said == name for name, _ in table.dropped):
+            continue
         if not places:
             names = [c.title for c in table.columns]
             raise InputError(
@@ -440,6 +442,14 @@ def _chosen(table: Table, columns: Mapping[str, Choice | None], name: str) -> di
                 f"{name}: several {table.noun}s are called '{said[:80]}'",
                 field=f"{table.noun} {said[:80]}",
                 hint=f"say its place, 'column {places[0] + 1}'",
+            )
+        before = [i for i, c in chosen.items() if c is not None and choice and c.channel == choice.channel]
+        if before and places[0] not in before:
+            pair = f"'{table.columns[before[0]].title}' and '{table.columns[places[0]].title}'"
+            raise InputError(
+                f"{name}: {table.noun}s {pair} are both said to be the {choice.channel if choice else ''}",
+                field=f"{table.noun} {said[:80]}",
+                hint="say one of them, and leave the other out",
             )
         chosen[places[0]] = choice
     return chosen

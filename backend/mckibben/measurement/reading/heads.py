@@ -22,7 +22,7 @@ _BEHIND = (
 _SURE = frozenset([
     "mm", "cm", "bar", "mbar", "kPa", "MPa", "hPa", "mmHg", "inHg", "psi", "kN", "daN", "cN", "mN", "lbf",
     "ozf", "kgf", "gf", "ms", "mV", "kg", "pct", "percent", "promille", "permille", "deg", "degC", "degF",
-    "psig", "psia", "barg", "bara",
+    "psig", "psia", "barg", "bara", "Hz", "kHz", "rpm",
 ])  # fmt: skip  # no name ends like them
 _RUN = re.compile(
     r"(?P<name>.*?[^\W\d_].*?)[\s_,;:-]{1,3}(?P<word>[^\W\d_]+)[\s_]?(?:#|n[or]\.?)?[\s_]?(?P<number>\d{1,3})"

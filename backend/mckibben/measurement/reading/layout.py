@@ -482,6 +482,8 @@ def _head(run: Run, wanted: int | None) -> None:
         names = [i for i in names if run.sheet.line(i) == wanted] or names
     if names and not run.heads:
         names = [i for i in names if not _is_row_of_values(rows[i])] or names
+        names = [i for i in names if _can_name(run, rows[i])]
+    if names and not run.heads:
         scored = {
             i: sum(head_score(_text(c)) for c in rows[i] if c != "") - 0.2 * k for k, i in enumerate(names)
         }
@@ -530,6 +532,12 @@ def _head(run: Run, wanted: int | None) -> None:
     if not run.described:
         _descriptions(run)
     _titles(run, min([run.rows[0], *run.above]))
+
+
+def _can_name(run: Run, row: Sequence[Cell]) -> bool:
+    """Whether a row may hold the names of a run: it stands over half of its columns, or names a quantity."""
+    over = sum(c < len(row) and row[c] != "" for c in run.columns)
+    return 2 * over > len(run.columns) or any(head_score(_text(c)) > 0.0 for c in row if c != "")
 
 
 def _label_columns(run: Run) -> None:
@@ -777,6 +785,9 @@ def _titles(run: Run, top: int) -> None:
 
 def sentence(row: Sequence[Cell]) -> str:
     """The cells of a row as one text: ``Ruhelänge: 250 mm; Muskel: DMSP-20``."""
+    filled = [cell for cell in row if cell != ""]
+    if len(filled) == 2 and all(kind_of(cell) == TEXT for cell in filled):
+        return f"{str(filled[0]).strip().removesuffix(':')}: {str(filled[1]).strip()}"[:MAX_TEXT]
     text = ""
     before = EMPTY
     for cell in row:
@@ -853,10 +864,19 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
         ]
         if columns:
             tables.append((sheet, columns))
+    dropped = tuple((k, why) for sheet in named for k, why in sheet.dropped)
     most = max((len(t[0].values) for _, t in tables), default=0)
     if most > MAX_ROWS:
         raise InputError(f"{name}: it has {most} rows, at most {MAX_ROWS} are read", field="rows", hint=SPLIT)
     if not tables:
+        if dropped:
+            noun = named[0].noun
+            why = "; ".join(f"{noun} '{k}': {why}" for k, why in dropped[:3])
+            raise InputError(
+                f"{name}: no array of numbers: {why}",
+                field=f"{noun} {dropped[0][0]}",
+                hint=_HINT,
+            )
         raise InputError(f"{name}: no arrays of numbers of one length", field="file", hint=_HINT)
 
     def score(item: tuple[Sheet, list[Column]]) -> float:
@@ -884,6 +904,10 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
             s for s, t in tables if s is not best_sheet and s.name and _claimed(t) >= max(2, _claimed(best))
         ]
         rivals = tuple((s.name, "") for s in (best_sheet, *close)) if close else ()
+    heads_read = {c.head for c in best}
+    empty = [
+        (head, "it holds no finite number") for head in best_sheet.arrays or {} if head not in heads_read
+    ]
     where = f"{name}, {best_sheet.noun} '{best_sheet.name}'" if best_sheet.name and len(alike) == 1 else name
     return replace(
         stacked(parts, texts),
@@ -894,6 +918,7 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
         tables=titles,
         rivals=rivals,
         messages=tuple(m for s in sheets for m in s.messages),
+        dropped=(*best_sheet.dropped, *empty),
     )
 
 

@@ -42,6 +42,7 @@ class Sheet:
         messages: what was assumed.
         bulk: (row before which it stands, numbers) of the middle of a long table, which are no cells.
         whole: the sheet with all of its rows as cells, where there is a bulk.
+        dropped: (name, why) of what stands among its arrays and is no column.
     """
 
     name: str = ""
@@ -57,6 +58,7 @@ class Sheet:
     messages: tuple[str, ...] = ()
     bulk: tuple[int, Array] | None = None
     whole: Callable[[], Sheet] | None = None
+    dropped: tuple[tuple[str, str], ...] = ()
 
     def line(self, row: int) -> int:
         """Number in the file of a row."""
@@ -139,6 +141,7 @@ class Table:
         messages: what was assumed.
         headless: the file has no names; they were made.
         bad: row -> why it is none of the table, as "2 cells, the header has 3".
+        dropped: (name, why) of what is called like a column and is none.
     """
 
     columns: tuple[Column, ...]
@@ -158,6 +161,7 @@ class Table:
     messages: tuple[str, ...] = ()
     headless: bool = False
     bad: Mapping[int, str] = field(default_factory=dict)
+    dropped: tuple[tuple[str, str], ...] = ()
 
     @property
     def rows(self) -> int:

@@ -91,6 +91,8 @@ def style_of(cells: Iterable[Any]) -> NumberStyle:
             unsure_points |= mark == "."
         elif _PLAIN.fullmatch(text):
             commas, points = commas + ("," in text), points + ("." in text)
+    if commas and points:  # a few cells in another style are errors of these cells
+        commas, points = commas * (commas > points), points * (points >= commas)
     if commas and not points:
         return NumberStyle(",", "." if "." in marks or unsure_points else next(iter(marks - {","}), ""))
     if points and not commas:

@@ -17,8 +17,10 @@ from mckibben.physics.units import convert
 
 ATMOSPHERE = 101_325.0  # Pa
 LONGEST = 0.42  # contraction that hardly a muscle exceeds
+_IMPOSSIBLE = 0.5  # and none, also where it is pushed together
 ROWS = 300  # rows that are looked at
 ENOUGH = 5  # rows; fewer show no range
+_TAIL, _FAR, _FEW = 0.1, 3.0, 0.03  # quantile of the usual values, their widths beyond it, share of the rows
 _STRETCH = 0.06  # of the rest length, beyond which a muscle is hardly stretched
 _USUAL_AREA = 9e-4  # m2, force over pressure of a muscle of unknown diameter
 _SPREAD_KNOWN, _SPREAD_UNKNOWN = 0.9, 1.2  # of its logarithm, with and without a known diameter
@@ -100,6 +102,21 @@ def proposal(channel: str, raw: Array) -> Proposal:
     return Proposal(si if si_will_do else choices[0] if choices else si, choices, si_will_do)
 
 
+def core(values: Array) -> Array:
+    """The values without a few that lie far away from all others, as NaN: they are errors of single rows,
+    and say nothing of what the column is.
+    """
+    finite = values[np.isfinite(values)]
+    if len(finite) < ENOUGH:
+        return values
+    low, high = np.quantile(finite, (_TAIL, 1.0 - _TAIL))
+    width = max(high - low, _TAIL * max(abs(low), abs(high)))
+    with np.errstate(invalid="ignore"):
+        far = (values < low - _FAR * width) | (values > high + _FAR * width)
+    few = 0 < np.count_nonzero(far) <= max(1, int(_FEW * len(finite)))
+    return np.where(far, np.nan, values) if few else values
+
+
 def alone(channel: str, x: Array, rest: float | None, blocks: int) -> Terms:
     """What the readings of one column say by themselves; ``x`` finite."""
     if len(x) < 2:
@@ -149,7 +166,8 @@ def _stroke(channel: str, x: Array, rest: float | None) -> Terms:
     if channel == "length":
         terms = [] if 0.02 <= high <= 2.5 and low > 0 else [("the length is not that of a muscle", -6.0)]
         if low > 0 and (high - low) > LONGEST * high:
-            terms.append(("it contracts by more than 42 %", -5.0))
+            share = (high - low) / high
+            terms.append(("it contracts by more than 42 %", -2.0 if share < _IMPOSSIBLE else -5.0))
         if rest and not (0.55 * rest <= low and high <= 1.12 * rest):
             terms.append(("the length does not fit the rest length", -5.0))
         return terms
@@ -166,7 +184,7 @@ def _stroke(channel: str, x: Array, rest: float | None) -> Terms:
         return terms
     terms = []
     if high > LONGEST * scale:
-        terms.append(("it contracts by more than 42 %", -2.0 if high < 0.5 * scale else -6.0))
+        terms.append(("it contracts by more than 42 %", -2.0 if high < _IMPOSSIBLE * scale else -6.0))
     if low < -_STRETCH * scale:
         terms.append(("it would be stretched by more than 6 %", -5.0))
     if high < 0.002 * scale and low < -0.004 * scale:

@@ -30,7 +30,7 @@ from mckibben.measurement.reading.decide import (
 )
 from mckibben.measurement.reading.evidence import NO_ZERO
 from mckibben.measurement.reading.facts import Known
-from mckibben.measurement.reading.heads import taken_apart
+from mckibben.measurement.reading.heads import head_claims, taken_apart
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Span, Table, Use
 from mckibben.measurement.reading.named import is_isometric
@@ -57,6 +57,7 @@ _STRETCHED, _FEW = 0.15, 0.05  # of the rest length, at which a braid locks; sha
 _SHORTEST = 0.4  # of the rest length, that a muscle can have
 _REST_BAND = (0.9e5, 1.1e5)  # Pa; the air outside
 _LONG_TEST, _SWING, _JUMP, _JUMPS = 900.0, 0.1, 0.6, 2
+_BRACKET = re.compile(r"[\[(]\s?([^\W\d_]{2,20})\s?[\])]\s?$")
 _OPPOSED = -0.5  # correlation of the pressures of a pair, of which one is filled as the other is vented
 _CARRIES = {"force": "force", "pressure": "pressure", "length": "displacement"}
 _RAW_SPANS = {
@@ -208,7 +209,7 @@ def _units(reading: Reading) -> Iterator[Question]:
             choices = dict.fromkeys((use.unit, *found.choices[:4]))
             yield Question(
                 f"unit of {channel}",
-                f"{named} ({channel}) has no unit; its readings are {span}; they would be plausible in "
+                f"{named} ({channel}) {_no_unit(column)}; its readings are {span}; they would be plausible in "
                 f"{' or '.join(choices)}",
                 option_of(channel, column, use.unit),
                 column.head,
@@ -217,6 +218,12 @@ def _units(reading: Reading) -> Iterator[Question]:
             )
         elif not is_plausible(channel, values):
             yield from _implausible(reading, channel, column, use, raw, values, named, span)
+
+
+def _no_unit(column: Column) -> str:
+    """That a head has no unit, or one in brackets that nobody knows."""
+    bracket = _BRACKET.search(column.head)
+    return f"has no unit: '{bracket[1]}' is not a known unit" if bracket else "has no unit"
 
 
 def _implausible(
@@ -368,6 +375,32 @@ def _unread(reading: Reading) -> Iterator[Question]:
             f"{ignore_option(bare(column))} or {option_of(channel, column)}",
             column.head,
             choices=("ignore", *others),
+        )
+
+
+def _unreadable(reading: Reading) -> Iterator[Question]:
+    """What is called like a quantity that nothing is read for, with its unit, and holds no numbers for it."""
+    table = reading.table
+    filled = {SLOTS.get(c, c) for c in reading.rows.channels}
+    lost = [(name, name, "", why) for name, why in table.dropped]
+    for i, column in enumerate(table.columns):
+        if column.words is not None and reading.known.chosen.get(i, 0) is not None:
+            row, word = next((r, w) for r, w in enumerate((*column.words, "-")) if w.strip())
+            place = f"row {int(table.lines[row])} holds" if row < len(table.lines) else "it holds"
+            lost.append((bare(column), column.head, column.unit, f"{place} {word.strip()[:40]!r}, no number"))
+    for name, head, unit, why in lost:
+        stated = taken_apart(head, unit).unit
+        claimed = {c.value for c in head_claims(head, unit) if c.facet == "channel"}
+        wanted = claimed & {"pressure", "force", *STROKES} if stated is not None else set()
+        channel = next((c for c in wanted if stated and stated.dimension in FITTING[c]), None)
+        if channel is None or SLOTS[channel] in filled or name in reading.correction.columns:
+            continue
+        yield Question(
+            f"column '{name}'",
+            f"{table.noun} '{head}' is called like the {channel} and is not read: {why}; put it right, or "
+            "read the file without it",
+            f'--ignore "{name}"',
+            head,
         )
 
 
@@ -1038,7 +1071,7 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
         claimed = [c for c in claimed if c in ("pressure", "force", "length", "time", "displacement")]
         stated = reading.unit(i)
         used = next((c for c, (j, _) in reading.decision.uses.items() if j == i), None)
-        bracket = re.search(r"[\[(]\s?([^\W\d_]{2,20})\s?[\])]\s?$", column.head)
+        bracket = _BRACKET.search(column.head)
         if not claimed:
             continue
         if words_of(column.head)[-1:] == ("last",):
@@ -1063,7 +1096,11 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
             stated is not None
             and used not in claimed
             and dimension_of(stated) not in (*RAW, "ratio", "")
-            and not any(dimension_of(stated) in FITTING[c] for c in claimed)
+            and not any(
+                dimension_of(stated) in FITTING[e.value]
+                for e in own
+                if e.facet == "channel" and e.rule != "unit"
+            )
         ):
             yield Question(
                 f"unit of {channel}",
@@ -1148,6 +1185,7 @@ POLICIES: tuple[Policy, ...] = (
 #: Asked always.
 ALWAYS: tuple[Policy, ...] = (
     _unknown_unit,
+    _unreadable,
     _rest_length,
     _load,
     _twice,

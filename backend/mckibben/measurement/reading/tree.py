@@ -270,12 +270,22 @@ def _of_names(
     if not arrays:
         for key, value in node.items():
             arrays |= _unnamed(str(key), value)
+    dropped = [(head, _no_column(value)) for head, value in flat.items() if head not in arrays]
     if arrays:
         own |= _listed_units(arrays, own)
-    _emit(walk, path, arrays, own, tuple(texts))
+    _emit(walk, path, arrays, own, tuple(texts), [(head, why) for head, why in dropped if why])
     walk.texts += [t for t in texts if t not in above]
     for head, value in below:
         _visit(walk, value, f"{path}{head}.", tuple(texts), own, depth + 1)
+
+
+def _no_column(value: Any) -> str:
+    """Why a variable is no column; "" = it may be something else than one."""
+    if value is None:
+        return "it holds no real numbers that can be read"
+    if isinstance(value, np.ndarray) and value.ndim > 1 and min(value.shape) > 1:
+        return f"it is a matrix of {' x '.join(map(str, value.shape))}, and nothing names its columns"
+    return ""
 
 
 def _map_of(node: Mapping[str, Any], arrays: dict[str, Any]) -> dict[str, Any]:
@@ -423,16 +433,25 @@ def _name_lists(node: Mapping[str, Any], depth: int = 0) -> list[tuple[list[str]
 
 
 def _emit(
-    walk: _Walk, path: str, arrays: Mapping[str, Any], units: Mapping[str, str], texts: tuple[Span, ...]
+    walk: _Walk,
+    path: str,
+    arrays: Mapping[str, Any],
+    units: Mapping[str, str],
+    texts: tuple[Span, ...],
+    dropped: Sequence[tuple[str, str]] = (),
 ) -> None:
     """A sheet of the arrays of one length; the others are named beside it."""
     sizes = [len(v) for v in arrays.values()]
     if not sizes or max(sizes) < _FEWEST:
+        if dropped:
+            walk.sheets.append(
+                Sheet(path.rstrip("."), noun=walk.noun, format=walk.format, arrays={}, dropped=tuple(dropped))
+            )
         return
     size = max(set(sizes), key=lambda n: (sizes.count(n) > 1, sizes.count(n) * n))
     chosen = dict([(k, v) for k, v in arrays.items() if len(v) == size][:MAX_COLUMNS])
     rest = tuple(
-        Span(f"{path}{k}", f"array {k} of {len(v)} values") for k, v in arrays.items() if len(v) != size
+        (k, f"it has {len(v)} values, and the others {size}") for k, v in arrays.items() if len(v) != size
     )
     lists = tuple(
         Span(f"{path}{k}", f"{k}: {'; '.join(map(str, v))}"[:MAX_TEXT])
@@ -446,6 +465,7 @@ def _emit(
             format=walk.format,
             arrays=chosen,
             units={k: u for k in chosen if (u := units.get(k) or units.get(k.rpartition(".")[2], ""))},
-            texts=(*texts, *rest, *lists),
+            texts=(*texts, *lists),
+            dropped=(*dropped, *rest),
         )
     )

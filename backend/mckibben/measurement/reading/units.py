@@ -32,7 +32,7 @@ _DIMENSIONS = {
     "a pressure": "pressure", "a force": "force", "a length": "length", "a time": "time", "a mass": "mass",
     "a speed": "speed", "a temperature": "temperature", "a voltage": "voltage", "a current": "current",
     "a plain number or a share": "ratio", "a frequency": "frequency", "a rate": "frequency",
-    "a volume": "volume",
+    "a volume": "volume", "a damping coefficient": "mass flow",
     "a volume flow": "flow", "an angle": "angle", "a power": "power", "an energy or a torque": "torque",
     "a mass per length": "density", "a stiffness": "stiffness", "an acceleration": "acceleration",
     "an area": "area",
