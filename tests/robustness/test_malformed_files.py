@@ -19,7 +19,8 @@ from tests.robustness.variants import Variant, variants
 URL = "http://127.0.0.1:8000"
 #: A refusal says where: a row, a column by its name, a key, or the part of the file that is damaged.
 PLACE = re.compile(
-    r"(row|line) \d+|no table|no arrays? of numbers|(column|variable|channel|sheet|struct|group|field) '[^']+'|(variable|segment|byte|sheet) \d+"
+    r"(row|line) \d+|no table|no arrays? of numbers|columns '[^']+' and '[^']+'"
+    r"|(column|variable|channel|sheet|struct|group|field) '[^']+'|(variable|segment|byte|sheet) \d+"
     r"|kind '[^']*'|(part|holds) '?[\w/.]+|no (column|variable|channel) can be read: [^:]{12,}"
     r"|no variable is a vector of numbers"
 )

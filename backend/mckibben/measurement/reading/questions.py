@@ -108,7 +108,7 @@ class Reading:
 
     def label(self, column: Column) -> str:
         """A column, as messages name it."""
-        return f"{self.table.noun} '{column.head}'"
+        return f"{self.table.noun} '{column.title}'"
 
     def uses(self) -> Iterator[tuple[str, int, Use, Column]]:
         """What is read: channel, place of its column, how, the column."""
@@ -134,7 +134,9 @@ class Reading:
 
 
 def bare(column: Column) -> str:
-    """A head without its unit, as options name it."""
+    """A head without its unit, as options name it; that of another column too is numbered."""
+    if column.title.startswith(f"{column.head.strip()} #"):
+        return column.title
     return taken_apart(column.head, column.unit).name or column.title
 
 
@@ -209,8 +211,8 @@ def _units(reading: Reading) -> Iterator[Question]:
             choices = dict.fromkeys((use.unit, *found.choices[:4]))
             yield Question(
                 f"unit of {channel}",
-                f"{named} ({channel}) {_no_unit(column)}; its readings are {span}; they would be plausible in "
-                f"{' or '.join(choices)}",
+                f"{named} ({channel}) {_no_unit(column)}; its readings are {span}; they would be plausible "
+                f"in {' or '.join(choices)}",
                 option_of(channel, column, use.unit),
                 column.head,
                 use.unit,
