@@ -192,7 +192,8 @@ def test_a_preview_says_what_the_file_is_and_keeps_nothing(client: TestClient, s
 def test_a_preview_leads_to_the_mapping_that_is_sent(client: TestClient) -> None:
     content = CSV.replace(b"pressure_bar", b"kanal1") + b"4;oops;1\n"
     body = preview(client, content).json()
-    assert body["columns"][0]["channel"] is None
+    assert body["columns"][0]["channel"] == "pressure"  # by its numbers, which is asked
+    assert "kanal1" in body["problem"]["message"]
     assert body["skipped"] == [{"reason": "not a number", "rows": 1, "first": "row 12, column 'length_mm'"}]
     mapping = '{"columns": {"kanal1": {"channel": "pressure", "unit": "bar"}}, "bad_rows": "%s"}'
     body = preview(client, content, mapping=mapping % "refuse").json()

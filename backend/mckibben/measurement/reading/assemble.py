@@ -151,7 +151,8 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
     messages += [
         f"{table.noun} '{title}' is not used: {why}"
         for title, why in unread
-        if any(
+        if why != DISMISSED
+        and any(
             c.title == title and any(e.facet == "channel" and e.rule != "unit" for e in reading.own(i))
             for i, c in enumerate(table.columns)
         )

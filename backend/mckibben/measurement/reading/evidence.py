@@ -61,7 +61,7 @@ _AT_PRESSURE = re.compile(
 _MERCURY = re.compile(
     r"(?i)мм\s?рт\.?\s?ст\.?|mm\s?hg\b|mm\s(?:of\s|de\s|di\s)?(?:mercur\w{0,6}|quecksilber\w{0,6}|qs\b)"
 )
-_NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?)\s?[:=]\s?(?P<value>.{1,200})")
+_NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?)\s?[:=]\s?(?P<value>.{1,900})")
 _CODE = re.compile(
     r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?(?![0-9a-z])"
 )

@@ -66,10 +66,11 @@ def table_of(
         if not chosen:
             hint = did_you_mean(wanted, [s.name for s in sheets if s.name])
             raise InputError(f"{name}: there is no sheet '{wanted}'", field="sheet", hint=hint)
-        sheets = [
-            *chosen,
-            *(replace(s, rows=s.rows[:200], arrays=None) for s in sheets if s not in chosen and not _runs(s)),
-        ]
+        others = {s.name: bool(s.arrays or _runs(s)) for s in sheets if s not in chosen}
+        titles = [(s.name, s in chosen) for s in sheets if s in chosen or others[s.name]]
+        beside = [replace(s, rows=s.rows[:200], arrays=None) for s in sheets if not others.get(s.name, True)]
+        table = table_of([*chosen, *beside], name, head=head)
+        return replace(table, tables=tuple(titles) if len(titles) > 1 else ())
     named = [s for s in sheets if s.arrays is not None]
     if named:
         return _of_named(named, sheets, name)
@@ -94,7 +95,7 @@ def table_of(
             )
     if not runs and head is None and not _stripped:
         bare = [without_units(s) for s in sheets]
-        return table_of(bare, name, wanted=wanted, _stripped=True)
+        return table_of(bare, name, _stripped=True)
     if not runs:
         raise InputError(
             f"{name}: no table: no rows of numbers with at least two columns", field="file", hint=_HINT
@@ -113,7 +114,7 @@ def table_of(
         return _joined(alike, best, runs, grids, name)
     except NeedsCellsError:
         whole = [s.whole() if s.whole is not None else s for s in sheets]
-        return table_of(whole, name, wanted=wanted, head=head)
+        return table_of(whole, name, head=head)
 
 
 _CELL_WITH_UNIT = re.compile(r"([-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")
@@ -178,6 +179,7 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         format=best.sheet.format,
         head_row=head_row,
         unit_where="" if best.unit_row is None else best.sheet.place(best.unit_row),
+        unit_row=None if best.unit_row is None else best.sheet.line(best.unit_row),
         others=tuple(others),
         tables=tables if len(tables) > 1 else (),
         rivals=rivals,
@@ -256,6 +258,8 @@ def stacked(parts: Sequence[Part], texts: Sequence[Span]) -> Table:
             offset += len(piece.values)
         values = np.concatenate([piece.values for piece in pieces])
         columns.append(replace(column, values=values, words=words, gaps=gaps))
+    own = {column.place for column in first.columns}
+    also = {column.place for part in parts for column in part.columns} - own
     blocks = np.concatenate([np.full(len(part.columns[0].values), k) for k, part in enumerate(parts)])
     columns = [column for column in columns if len(column.values) == len(blocks)]
     return Table(
@@ -265,6 +269,7 @@ def stacked(parts: Sequence[Part], texts: Sequence[Span]) -> Table:
         titles=tuple(part.title for part in parts) if len(parts) > 1 else ((),),
         lines=np.concatenate([part.lines for part in parts]),
         bad=bad,
+        also=tuple(sorted(place for place in also if place >= 0)),
     )
 
 

@@ -134,6 +134,8 @@ class Table:
         lines: number in the file of each row.
         head_row: number of the row of names; None = there is none.
         unit_where: where the units stand, if apart from the names.
+        unit_row: number of the row of the units, if they have one.
+        also: cells of a row that hold the same columns again, beside the first ones.
         others: columns that are in another table, and why they are not read.
         tables: titles of the tables that a user may pick, and whether each is read.
         rivals: titles of tables that could be meant as well.
@@ -154,6 +156,8 @@ class Table:
     lines: NDArray[np.int64] = field(default_factory=lambda: np.zeros(0, np.int64))
     head_row: int | None = None
     unit_where: str = ""
+    unit_row: int | None = None
+    also: tuple[int, ...] = ()
     others: tuple[tuple[str, str], ...] = ()
     tables: tuple[tuple[str, bool], ...] = ()
     rivals: tuple[tuple[str, str], ...] = ()

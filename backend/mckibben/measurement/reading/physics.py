@@ -37,7 +37,7 @@ class Range(NamedTuple):
 
 #: Muscles of 5 to 80 mm diameter, up to 12 bar and 10 m; the largest blocks with about 20 kN.
 POSSIBLE = {
-    "pressure": Range(2e3, 1.3e6), "force": Range(0.05, 3e4), "length": Range(1e-3, 12.0),
+    "pressure": Range(2e3, 1.3e6), "force": Range(0.05, 5e4), "length": Range(1e-3, 12.0),
     "displacement": Range(2e-5, 2.0),
     "diameter": Range(1e-3, 0.3), "contraction": Range(1e-4, 0.75), "velocity": Range(1e-5, 10.0),
 }  # fmt: skip
@@ -153,7 +153,12 @@ def _force(f: Array, p: Array | None) -> Terms:
     size = np.percentile(np.abs(f), 99)
     terms = []
     if not 2.0 <= size <= 6000.0:
-        terms.append(("the force is not of the order of a muscle's", -2.0 if 0.5 <= size <= 2e4 else -6.0))
+        terms.append(
+            (
+                "the force is not of the order of a muscle's",
+                -2.0 if POSSIBLE["force"].lowest <= size <= POSSIBLE["force"].highest else -6.0,
+            )
+        )
     pressed = f if p is None else f[p > 0.3 * max(p.max(), 1.0)]
     if len(pressed) and abs(np.median(pressed)) > 0.02 * size:
         terms.append(("a muscle pulls", 3.0 if np.median(pressed) > 0 else -4.0))

@@ -211,9 +211,14 @@ def _points(measurement: Measurement) -> Mapping[str, np.ndarray]:
 def _sample(table: Table) -> tuple[tuple[str, ...], ...]:
     """The first rows as texts."""
     shown = []
+    written = dict(table.raw)
     for r in range(min(_SAMPLE, table.rows)):
+        row = written.get(int(table.lines[r]), ())
         cells = []
         for column in table.columns:
+            if 0 <= column.place < len(row):
+                cells.append(row[column.place])
+                continue
             gap = column.gaps.get(r)
             cells.append(
                 column.words[r]
@@ -231,7 +236,7 @@ def _raw(table: Table) -> RawRows | None:
     if not table.raw:
         return None
     places = tuple(c.place if c.place >= 0 else None for c in table.columns)
-    return RawRows(table.raw, places, head_moves=table.head_row is not None)
+    return RawRows(table.raw, places, table.unit_row, table.head_row is not None, table.also)
 
 
 def _columns(
