@@ -28,7 +28,7 @@ from mckibben.measurement.reading.evidence import evidence_of
 from mckibben.measurement.reading.facts import Known, known_of
 from mckibben.measurement.reading.layout import table_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table
-from mckibben.measurement.reading.questions import Reading
+from mckibben.measurement.reading.questions import Reading, questions_of
 from mckibben.measurement.reading.rows import rows_of
 from mckibben.measurement.reading.units import dimension_of
 from mckibben.physics.errors import InputError
@@ -68,10 +68,14 @@ def decided(
 ) -> Reading:
     """The decision about a table, and its rows."""
     decision = decide(table, evidence, known.facts(table))
-    if not set(decision.uses) - {"time", "temperature"}:
+    nothing = not set(decision.uses) - {"time", "temperature"}
+    if nothing and table.headless:
         raise _nothing(name, table, evidence)
     rows = rows_of(table, decision, known, evidence, correction)
-    return Reading(name, table, evidence, known, decision, rows, correction)
+    reading = Reading(name, table, evidence, known, decision, rows, correction)
+    if nothing and not any(question.stops for question in questions_of(reading)):
+        raise _nothing(name, table, evidence)
+    return reading
 
 
 def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputError:
@@ -304,6 +308,7 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
             "air": "it is the surrounding air",
             "supply": "it is the supply",
             "at rest": "it is a length at rest",
+            "ignored": "the file says so",
         }.get(role, f"it is {article}{role}")
     if column.words is not None:
         return "it holds words"

@@ -397,7 +397,15 @@ def _tdms(data: bytes, name: str) -> list[Sheet]:
             _add_time(arrays, units, group.channels())
             sizes = [len(values) for values in arrays.values() if values is not None]
             size = max(set(sizes), key=lambda n: (sizes.count(n), n), default=0)
-            own = _properties(group.properties, f"group '{group.name}'")
+            own = (
+                *_properties(group.properties, f"group '{group.name}'"),
+                *(
+                    Span(f"channel '{c.name}', '{key}'", f"{c.name}: {c.properties[key]}"[:1000])
+                    for c in group.channels()
+                    for key in ("description", "comment")
+                    if c.properties.get(key)
+                ),
+            )
             kept = {k: v for k, v in arrays.items() if v is not None and len(v) == size}
             sheets.append(
                 Sheet(

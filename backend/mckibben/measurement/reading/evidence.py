@@ -44,6 +44,8 @@ BY_UNIT = {
     "mass": (("force", 1.2),), "temperature": (("temperature", 4.0),), "speed": (("velocity", 2.0),),
 }  # fmt: skip
 _UNIT_STATED, _CLOCK_SHOWN, _TEXTS, _COUNTS, _SINCE_1970 = 5.0, 5.0, 6.0, 3.0, 4.0
+_EVEN = 4.0  # nats of even steps, from row to row of a long record
+_LONG_RECORD = 100  # rows
 _OVER = 0.35  # of the weight of a head, that texts over it have
 NAME = "the file's name"
 _CLAUSES = re.compile(r"[,;.|()\[\]](?!\d)|\s[/–-]\s|\s(?:and|und|et|e|y|og|och|en|i|a|ve|и|та)\s")
@@ -193,6 +195,11 @@ def _of_cells(i: int, column: Column, unit: Unit | None, span: Span) -> list[Evi
     if not len(values):
         return found
     low, high = float(np.min(values)), float(np.max(values))
+    steps = np.diff(values)
+    even = len(values) >= _LONG_RECORD and steps[0] > 0.0 and np.ptp(steps) <= 1e-3 * steps[0]
+    if even and unit is None and not head_claims(column.head[:200]):
+        since = Span(span.where, f"grows by {steps[0]:.6g} from row to row")
+        found.append(Evidence(i, "channel", "time", _EVEN, since, "even steps"))
     for name, size in (("s", 1e9), ("ms", 1e12), ("us", 1e15), ("ns", 1e18)):
         if 0.9 * size < low and high < 4.0 * size and (unit is None or unit.name == name):
             since = Span(span.where, f"counts {name} since 1970")
@@ -255,7 +262,8 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         "bad_rows",
     ):
         return [noted]
-    found += [] if noted is None else [noted]
+    scales = _of_scales(span, table)
+    found += [] if noted is None or (scales and noted.facet == "note") else [noted]
     if noted is not None and noted.facet == "condition:pressure":
         absolute = REFERENCES.get(folded(str(noted.value)), str(noted.value).lower().startswith("abs"))
         found.append(Evidence(FILE, "absolute", absolute, 6.0, span, "note"))
@@ -281,7 +289,7 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         *_of_legend(span, table),
         *_of_list(span, table),
         *_of_zero(span),
-        *_of_scales(span, table),
+        *scales,
         *of_code(span),
     ]
     return [e for e in found if e is not None]
@@ -608,6 +616,7 @@ def _of_scales(span: Span, table: Table) -> list[Evidence]:
                 found += [
                     Evidence(i, "channel", c, 3.0 if c != "length" else 1.0, span, "scale") for c in channels
                 ]
+            found += [_from_claim(i, c, span, 1.0) for c in head_claims(scale.name) if c.facet == "channel"]
             if scale.absolute is not None:
                 found.append(Evidence(i, "absolute", scale.absolute, scale.weight, span, scale.rule))
     return found

@@ -19,7 +19,17 @@ from mckibben.measurement.reading.heads import head_claims, head_score, taken_ap
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_ROWS, MAX_TEXT, MAX_TEXTS, SPLIT
 from mckibben.measurement.reading.model import Cell, Column, Sheet, Span, Table
-from mckibben.measurement.reading.numbers import CLOCK, EMPTY, MARK, NUMBER, TEXT, kind_of, style_of
+from mckibben.measurement.reading.numbers import (
+    CLOCK,
+    EMPTY,
+    MARK,
+    NUMBER,
+    TEXT,
+    NumberStyle,
+    kind_of,
+    numbers_of,
+    style_of,
+)
 from mckibben.measurement.reading.runs import Run, is_axis
 from mckibben.measurement.reading.shapes import NeedsCellsError, Part, column_of, parts_of, transposed
 from mckibben.measurement.reading.units import RAW, quantities, unit_of
@@ -269,13 +279,14 @@ def stacked(parts: Sequence[Part], texts: Sequence[Span]) -> Table:
 
 
 def _keyed(columns: Sequence[Column]) -> list[Column]:
-    """Columns with names that users can tell apart."""
+    """Columns with names that users can tell apart: the head, else the unit, else the place."""
     seen: Counter[str] = Counter()
     result = []
     for place, column in enumerate(columns):
-        head = column.head.strip() or f"column {place + 1}"
+        head = column.head.strip() or column.unit.strip("[]() ") or f"column {place + 1}"
         seen[head] += 1
-        result.append(replace(column, key=head if seen[head] == 1 else f"{head} #{seen[head]}"))
+        key = head if seen[head] == 1 else f"{head} #{seen[head]}"
+        result.append(replace(column, head=column.head if column.head.strip() else key, key=key))
     return result
 
 
@@ -386,6 +397,8 @@ def _runs(sheet: Sheet) -> list[Run]:
         if is_data and texts and first and current is None:
             is_data = _goes_on(sheet, i, places)
         if not is_data:
+            if current is not None and _is_head_again(current, i):
+                continue
             if current is not None:
                 gap.append(i)
                 filled = [c for c in row if c != ""]
@@ -410,6 +423,20 @@ def _runs(sheet: Sheet) -> list[Run]:
         found.append(current)
     long = [run for run in found if len(run.rows) >= 3]
     return long or [run for run in found if len(run.rows) >= 1 and len(run.columns) > 1]
+
+
+def _is_head_again(run: Run, i: int) -> bool:
+    """Whether a row repeats the head of a run, and the first column counts on below it: it is printed once a
+    page.
+    """
+    rows, first = run.sheet.rows, run.rows[0]
+    if first == 0 or i + 1 >= len(rows) or len(run.rows) < 2 or rows[i] != rows[first - 1]:
+        return False
+    style = NumberStyle(run.sheet.decimal, run.sheet.thousands)
+    before, last, below = numbers_of([rows[r][0] if rows[r] else "" for r in (*run.rows[-2:], i + 1)], style)[
+        0
+    ]
+    return bool(before < last < below)
 
 
 def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
@@ -532,6 +559,12 @@ def _head(run: Run, wanted: int | None) -> None:
     _titles(run, min([run.rows[0], *run.above]))
 
 
+def _is_note(rows: Sequence[Sequence[Cell]], i: int) -> bool:
+    """Whether a row begins with the same word as one beside it, as the notes before a table do."""
+    beside = [rows[j][:1] for j in (i - 1, i + 1) if 0 <= j < len(rows)]
+    return kind_of(rows[i][0]) == TEXT and list(rows[i][:1]) in [list(b) for b in beside]
+
+
 def _label_columns(run: Run) -> None:
     """Columns that have the labels of the rows above as their heads: "Name;p;Name;F" over "Unit;bar;Unit;N".
     They hold the time of the column beside.
@@ -573,6 +606,8 @@ def _completed(run: Run) -> None:
         for other in run.more.get(c, ()):
             if head_score(head) <= 0.0 and head_score(other) >= 2.0:
                 run.heads[c] = other
+                if unit_of(head) is not None:
+                    run.units.setdefault(c, head)
             elif re.fullmatch(r"(?i)(?:ch|ai|chan|channel|kanal)[ _]?\d{1,2}", other) and other not in head:
                 run.heads[c] = f"{other} {head}"
 
@@ -632,6 +667,8 @@ def _candidates(run: Run) -> list[int]:
     i = run.rows[0] - 1
     while i >= 0 and len(found) < _ABOVE and run.rows[0] - i <= _ABOVE + 1:
         filled = [c for c in rows[i] if c != ""]
+        if found and filled and _is_note(rows, i):
+            break
         if not filled:
             if found:
                 break

@@ -160,7 +160,7 @@ _MOST = 10  # questions of one kind at a time: what is answered first, often ans
 def questions_of(reading: Reading) -> list[Question]:
     """All questions, those that stop the reading first."""
     asked = list(_sheets(reading))
-    enough = len(next(iter(reading.rows.channels.values()), ())) >= ENOUGH
+    enough = len(reading.rows.lines) >= ENOUGH
     with np.errstate(all="ignore"):
         for policy in POLICIES if enough else ():
             asked += islice(policy(reading), _MOST)
@@ -194,6 +194,8 @@ def _units(reading: Reading) -> Iterator[Question]:
             continue
         values = reading.rows.channels[channel]
         choice = reading.known.chosen.get(i)
+        if choice is None and not any(e.facet == "channel" for e in reading.own(i)):
+            continue  # see `_unnamed`
         if choice is not None and (choice.unit is not None or choice.assumed or choice.scale):
             continue
         raw = _back(values, use, channel)
@@ -317,6 +319,29 @@ def _unnamed(reading: Reading) -> Iterator[Question]:
             )
 
 
+def _headless(reading: Reading) -> Iterator[Question]:
+    """A column of a file without heads that is read as nothing, where the others are guessed."""
+    used = {i for i, _ in reading.decision.uses.values()} | set(reading.rows.labels.values())
+    missing = next((c for c in ("pressure", "force", "displacement") if not reading.of_slot(SLOTS[c])), None)
+    for i, column in enumerate(reading.table.columns):
+        idle = i in used or i in reading.known.chosen or column.words is not None or reading.own(i)
+        if (
+            not reading.table.headless
+            or idle
+            or missing is None
+            or not np.ptp(column.values[np.isfinite(column.values)])
+        ):
+            continue
+        yield Question(
+            f"column '{column.title}'",
+            f"the file has no heads, and nothing says what {reading.label(column)} is; it holds "
+            f"{np.nanmin(column.values):.4g} to {np.nanmax(column.values):.4g}",
+            f"{option_of(missing, column, physics.LEFT_OUT[missing][0])} or {ignore_option(bare(column))}",
+            column.head,
+            choices=(missing, "ignore"),
+        )
+
+
 def _unread(reading: Reading) -> Iterator[Question]:
     """A column in N, bar or mm, or called like a channel that nothing is read for, of which nothing says what
     it is.
@@ -411,7 +436,7 @@ def _raw_signal(
 
 def _seconds(reading: Reading) -> Iterator[Question]:
     """Two columns for one channel that are about as likely and show different values."""
-    for slot in ("pressure", "force", "stroke"):
+    for slot in ("pressure", "force", "stroke") if not reading.table.headless else ():
         channel = reading.of_slot(slot)
         if channel is None or reading.by_user(channel):
             continue
@@ -1142,7 +1167,7 @@ def _several(reading: Reading) -> Iterator[Question]:
 Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
-    _units, _unnamed, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs,
+    _units, _unnamed, _headless, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs,
     _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
 )  # fmt: skip
 #: Asked always.
