@@ -17,9 +17,10 @@ from typing import Any
 import numpy as np
 
 from mckibben.measurement.reading.encodings import decoded
+from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_BYTES, MAX_CELLS, MAX_COLUMNS, MAX_SHEETS, SPLIT
 from mckibben.measurement.reading.model import Cell, Sheet, Span
-from mckibben.measurement.reading.numbers import style_of
+from mckibben.measurement.reading.numbers import narrow, style_of
 from mckibben.measurement.reading.text import sheet_of_text, text_sheets
 from mckibben.measurement.reading.tree import sheets_of_tree
 from mckibben.physics.errors import InputError
@@ -316,7 +317,7 @@ def _cell(cell: Any) -> Cell:
         return datetime.combine(date(1900, 1, 1), cell)
     if isinstance(cell, date):
         return datetime.combine(cell, time())
-    return str(cell).strip()
+    return narrow(str(cell).strip())
 
 
 def _carry_merged(rows: list[list[Cell]], sheet: Any) -> None:
@@ -473,11 +474,18 @@ def _parquet(data: bytes, name: str) -> list[Sheet]:
             if values.dtype.kind in "biuf"
             else ["" if v is None else str(v) for v in values]
         )
-    said = {
-        k.decode("utf-8", "replace"): v.decode("utf-8", "replace")
-        for k, v in (table.schema.metadata or {}).items()
-    }
-    texts = tuple(
-        Span("metadata", f"{k}: {v}"[:1000]) for k, v in said.items() if k not in ("pandas", "ARROW:schema")
-    )
-    return [Sheet("", noun="column", format="parquet", arrays=arrays, texts=texts)]
+    texts = [Span("metadata", f"{k}: {v}"[:1000]) for k, v in _of_arrow(table.schema.metadata)]
+    units: dict[str, str] = {}
+    for field in table.schema:
+        for key, text in _of_arrow(field.metadata):
+            if word_set("unit").among(words_of(key)):
+                units[field.name] = text
+            else:
+                texts.append(Span(f"metadata of '{field.name}'", f"{field.name}: {text}"[:1000]))
+    return [Sheet("", noun="column", format="parquet", arrays=arrays, units=units, texts=tuple(texts))]
+
+
+def _of_arrow(metadata: dict[bytes, bytes] | None) -> list[tuple[str, str]]:
+    """Keys and texts of the metadata of a table or of a field, but for what libraries keep there."""
+    said = [(k.decode("utf-8", "replace"), v.decode("utf-8", "replace")) for k, v in (metadata or {}).items()]
+    return [(k, v) for k, v in said if v and k != "pandas" and not k.startswith(("ARROW:", "PARQUET:"))]

@@ -120,10 +120,13 @@ def table_of(
             run.heads, run.units, run.more, run.described = best.heads, best.units, best.more, best.described
     alike = [run for run in runs if _is_same(run, best)]
     try:
-        return _joined(alike, best, runs, grids, name)
+        table = _joined(alike, best, runs, grids, name)
     except NeedsCellsError:
         whole = [s.whole() if s.whole is not None else s for s in sheets]
         return table_of(whole, name, wanted=wanted, head=head)
+    if not table.rows:
+        raise InputError(f"{name}: no row of the table holds a number", field="rows", hint=_HINT)
+    return table
 
 
 _CELL_WITH_UNIT = re.compile(r"([-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")

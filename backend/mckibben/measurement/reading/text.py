@@ -13,7 +13,7 @@ import numpy as np
 from mckibben.measurement.reading.encodings import decoded
 from mckibben.measurement.reading.limits import MAX_CELLS, MAX_COLUMNS, MAX_ROWS, SPLIT
 from mckibben.measurement.reading.model import Cell, Sheet
-from mckibben.measurement.reading.numbers import CLOCK, NUMBER, TEXT, kind_of, style_of
+from mckibben.measurement.reading.numbers import CLOCK, NUMBER, TEXT, kind_of, narrow, style_of
 from mckibben.physics.errors import InputError
 
 _FIRST, _MIDDLE = 150, 300  # lines from which the delimiter is told
@@ -56,7 +56,7 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = (), *, whole: 
     """The cells of a decoded text; the middle of a long one as numbers, unless all rows are wanted as
     cells.
     """
-    lines = text.split("\n")
+    lines = narrow(text).split("\n")
     if len(lines) > MAX_ROWS:
         raise InputError(
             f"{name}: it has {len(lines)} lines, at most {MAX_ROWS} are read", field="file", hint=SPLIT
