@@ -69,3 +69,25 @@ def test_every_signal_without_a_scale_is_asked() -> None:
     assert {"scale of pressure", "scale of displacement"} <= asked
     with pytest.raises(Exception, match="no text states its scale"):
         read_here(data.encode(), "counts.csv", Correction())
+
+
+@pytest.mark.parametrize(
+    ("text", "factor", "offset"),
+    [
+        ("Ch A: 0-10 bar = 0-10 V", 1.0, 0.0),
+        ("0 bar = 0.5 V, 10 bar = 4.5 V", 2.5, 0.5),
+        ("0.5 V = 0 bar(g) and 4.5 V = 10 bar(g)", 2.5, 0.5),
+        ("10 bar = 5 V", 2.0, 0.0),
+        ("pressure 0 to 10 bar corresponds to 4 to 20 mA", 0.625, 4.0),
+    ],
+)
+def test_a_calibration_is_read_both_ways_round(text: str, factor: float, offset: float) -> None:
+    ((scale, _),) = scales_in(text)
+    np.testing.assert_allclose((scale.factor, scale.offset), (factor, offset))
+
+
+def test_channels_have_letters_too() -> None:
+    text = "Ch A: 0-10 bar = 0-10 V\nCh B: LVDT 5 mm/V, shortening positive\nL0 = 300 mm, load 8 kg\n"
+    found = read(text + "Time,Channel A,Channel B\n(s),(V),(V)\n" + table(TIME, BAR, MM / 5))
+    assert_is(found, {"pressure": PRESSURE, "displacement": STROKE})
+    assert any("'Channel A' is scaled" in message for message in found.messages)

@@ -71,7 +71,10 @@ def decided(
     nothing = not set(decision.uses) - {"time", "temperature"}
     if nothing and table.headless:
         raise _nothing(name, table, evidence)
-    rows = rows_of(table, decision, known, evidence, correction)
+    try:
+        rows = rows_of(table, decision, known, evidence, correction)
+    except InputError as error:
+        raise (_nothing(name, table, evidence) if nothing else error) from None
     reading = Reading(name, table, evidence, known, decision, rows, correction)
     if nothing and not any(question.stops for question in questions_of(reading)):
         raise _nothing(name, table, evidence)
@@ -221,7 +224,7 @@ def said(reading: Reading) -> list[str]:
         label = f"{reading.table.noun} '{column.title}'"
         if not reading.said_unit(channel) and not column.clock and channel != "command":
             lines.append(f"{label} has no unit: read as {use.unit}")
-        if use.scale != 1.0 or use.offset:
+        if use.scale != 1.0 or use.offset or any(e.facet == "scale" for e in reading.own(i)):
             lines.append(f"{label} is scaled: {_reason(reading, i, 'scale', None)}")
         if use.sign == -1:
             facet = "sign_force" if channel == "force" else "sign_stroke"

@@ -10,6 +10,7 @@ import re
 import zipfile
 import zlib
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import date, datetime, time, timedelta
 from pathlib import PurePath, PurePosixPath
 from typing import Any
@@ -161,7 +162,11 @@ def _packed(data: bytes, name: str, *, packed: bool) -> list[Sheet]:
             if any(n.startswith("xl/") for n in names) or "content.xml" in names:
                 _check_parts(parts, name)
                 _check_extent(archive, parts, name)
-                return _workbook(data, name)
+                sheets = _workbook(data, name)
+                pictures = any(n.startswith("xl/media/") for n in names)
+                return [
+                    replace(s, messages=(_PICTURE,) if pictures and s is sheets[0] else ()) for s in sheets
+                ]
             if names and all(n.endswith(".npy") for n in names):
                 raise _no_table(name, "an archive of numpy's arrays (.npz)")
             wanted = [p for p in parts if PurePosixPath(p.filename).suffix.lower() in (*_TEXTS, *_TABLES)]
@@ -189,6 +194,7 @@ def _check_parts(parts: list[zipfile.ZipInfo], name: str) -> None:
             raise _refusal(name, why, "send the file itself")
 
 
+_PICTURE = "the workbook holds a picture; what it shows is not read"
 _CELL_AT = re.compile(rb"""\sr\s?=\s?["']([A-Za-z]{0,9})(\d{1,12})["']""")
 _MOST_OF_A_SHEET = (
     12_000_000  # cells of the rectangle that a sheet spans; the library takes memory for all of them
@@ -243,14 +249,10 @@ def _of_archive(
 
 
 def _named(sheet: Sheet, name: str) -> Sheet:
-    from dataclasses import replace
-
     return replace(sheet, name=name, format="zip")
 
 
 def _inner(data: bytes, name: str, shown: str, *, packed: bool) -> list[Sheet]:
-    from dataclasses import replace
-
     if packed:
         raise _refusal(name, "an archive in an archive", "unpack it first")
     sheets = sheets_of(data, name, packed=True)

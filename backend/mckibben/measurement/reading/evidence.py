@@ -63,6 +63,11 @@ _AT_PRESSURE = re.compile(
 _MERCURY = re.compile(
     r"(?i)мм\s?рт\.?\s?ст\.?|mm\s?hg\b|mm\s(?:of\s|de\s|di\s)?(?:mercur\w{0,6}|quecksilber\w{0,6}|qs\b)"
 )
+#: "CH1", "Kanal 2", "Ch A": a channel by its number or its letter.
+_CHANNEL = re.compile(
+    r"(?i)(?<![^\W_])(?:(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?0?(\d{1,2})"
+    r"|(?:ch|chan|channel|kanal|canal|voie)[ _-]?([a-h]))(?![^\W_])"
+)
 _NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?)\s?[:=]\s?(?P<value>.{1,200})")
 _CODE = re.compile(
     r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?(?![0-9a-z])"
@@ -359,15 +364,12 @@ def _of_clauses(span: Span, table: Table) -> list[Evidence]:
 
 def _column_named(text: str, table: Table) -> int | None:
     """The one column whose head a text begins with, or whose number it names; None = none, or several."""
-    number = re.search(
-        r"(?i)(?<![^\W_])(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?(\d{1,2})(?![^\W_])", text
-    )
+    number = _CHANNEL.search(text)
     found = set()
     for i, column in enumerate(table.columns):
         head = column.head.strip()
-        if number and re.search(
-            rf"(?i)(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?{number[1]}(?!\d)", head
-        ):
+        same = _CHANNEL.search(head) if number else None
+        if number and same and (number[1] or number[2]).lower() == (same[1] or same[2]).lower():
             found.add(i)
         name = taken_apart(head, column.unit).name
         if len(name) > 0 and re.match(rf"[\s#%/*-]{{0,6}}{re.escape(name)}(?![^\W_])", text, re.IGNORECASE):

@@ -106,9 +106,10 @@ def table_of(
         bare = [without_units(s) for s in sheets]
         return table_of(bare, name, wanted=wanted, _stripped=True)
     if not runs:
-        raise InputError(
-            f"{name}: no table: no rows of numbers with at least two columns", field="file", hint=_HINT
+        why = "; ".join(
+            ["no rows of numbers with at least two columns", *(m for s in sheets for m in s.messages)]
         )
+        raise InputError(f"{name}: no table: {why}", field="file", hint=_HINT)
     best = max(runs, key=lambda run: run.score)
     for run in runs:  # a block without heads of its own goes on with those above
         if (
@@ -563,9 +564,8 @@ def _head(run: Run, wanted: int | None) -> None:
 
 
 def _is_note(rows: Sequence[Sequence[Cell]], i: int) -> bool:
-    """Whether a row begins with the same word as one beside it, as the notes before a table do."""
-    beside = [rows[j][:1] for j in (i - 1, i + 1) if 0 <= j < len(rows)]
-    return kind_of(rows[i][0]) == TEXT and list(rows[i][:1]) in [list(b) for b in beside]
+    """Whether a row begins with the same word as the one above it, as the notes before a table do."""
+    return i > 0 and kind_of(rows[i][0]) == TEXT and list(rows[i][:1]) == list(rows[i - 1][:1])
 
 
 def _label_columns(run: Run) -> None:

@@ -106,13 +106,19 @@ _POINT = re.compile(
     r"(?<![\d.,-])(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)\s?(?:=|->|→|≙|:|at|bei)\s?"
     r"(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}(?:\s?\((?:g|a|abs|gauge)\))?|%)(?![\w/])"
 )
+#: The same the other way round: "0 bar = 0.5 V".
+_POINT_BACK = re.compile(
+    r"(?<![\d.,-])(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}(?:\s?\((?:g|a|abs|gauge)\))?|%)\s?"
+    r"(?:=|≙|->|→|at|bei|@)\s?(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)(?![\w/])"
+)
 _STRAIGHT = 0.005  # of the range, that points of one line may be off
 
 
 def _points(text: str) -> list[tuple[tuple[float, float, str, Unit], tuple[int, int]]] | None:
     """The points ``0.5 V = 0 bar, 4.5 V = 10 bar`` of a text that has two or more in one pair of units."""
     found = []
-    for match in _POINT.finditer(text):
+    ways = [list(point.finditer(text)) for point in (_POINT, _POINT_BACK)]
+    for match in max(ways, key=len):
         unit = unit_of(match["unit"])
         if unit is not None and unit.dimension:
             found.append(((number_of(match["x"]), number_of(match["y"]), match["raw"], unit), match.span()))
