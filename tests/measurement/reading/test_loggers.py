@@ -91,3 +91,17 @@ def test_channels_have_letters_too() -> None:
     found = read(text + "Time,Channel A,Channel B\n(s),(V),(V)\n" + table(TIME, BAR, MM / 5))
     assert_is(found, {"pressure": PRESSURE, "displacement": STROKE})
     assert any("'Channel A' is scaled" in message for message in found.messages)
+
+
+def test_the_last_part_of_a_path_is_a_name() -> None:
+    data = f'"time","pam.p","pam.F","pam.L"\n{table(TIME, PRESSURE, FORCE, 0.3 - STROKE)}\n'
+    found = read(data)
+    np.testing.assert_allclose(found.columns["length"], 0.3 - STROKE, atol=1e-6)
+    np.testing.assert_allclose(found.columns["pressure"], PRESSURE, atol=1.0)
+
+
+def test_a_voltage_is_called_by_its_subscript() -> None:
+    text = "L0 = 300 mm\nSensor 1: 1..5 V = 0..10 bar\nSensor 2: 0..10 V = 0..2000 N\n"
+    found = read(text + "t [s],U_p [V],U_F [V],s [mm]\n" + table(TIME, BAR * 0.4 + 1, FORCE / 200, MM))
+    np.testing.assert_allclose(found.columns["pressure"], PRESSURE, atol=1.0)
+    np.testing.assert_allclose(found.columns["force"], FORCE, atol=0.01)

@@ -31,7 +31,14 @@ from mckibben.measurement.reading.numbers import (
     style_of,
 )
 from mckibben.measurement.reading.runs import Run, is_axis
-from mckibben.measurement.reading.shapes import NeedsCellsError, Part, column_of, parts_of, transposed
+from mckibben.measurement.reading.shapes import (
+    TRAILING,
+    NeedsCellsError,
+    Part,
+    column_of,
+    parts_of,
+    transposed,
+)
 from mckibben.measurement.reading.units import RAW, quantities, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 
@@ -330,6 +337,7 @@ def cornered(sheet: Sheet) -> Sheet:
             or numbers != list(range(1, len(row)))
             or i == 0
             or (corner and head_score(corner) < 2.0)
+            or len([part for part in TRAILING.split(corner) if head_score(part.strip()) >= 2.0]) > 1
         ):
             continue
         below = sheet.rows[i + 1 : i + 3]

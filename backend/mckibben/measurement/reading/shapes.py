@@ -39,7 +39,7 @@ _CLOCKS = 0.7  # share of the cells that are times, from which a column is one o
 _FEWEST_ACROSS = 4  # numbers in a row of a transposed table
 _FEWEST_DOWN = 2  # such rows
 _MOST_NAMES = 12  # signals of a tall table
-_TRAILING = re.compile(r"\s{0,3}[\\/|]\s{0,3}")
+TRAILING = re.compile(r"\s{0,3}[\\/|]\s{0,3}")
 
 
 class Part(NamedTuple):
@@ -558,7 +558,7 @@ def _melted(run: Run, title: list[Span]) -> Part:
     values = np.array(
         [numbers_of([*row[1 : len(top)], *[""] * (len(top) - len(row))], style)[0] for row in body]
     )
-    corner = [part.strip() for part in _TRAILING.split(str(top[0])) if part.strip()] or [""]
+    corner = [part.strip() for part in TRAILING.split(str(top[0])) if part.strip()] or [""]
     where = sheet.place(run.rows[0])
     over = [str(c) for r in run.remarks for c in rows[r] if c != ""]
     down_name, across_name = (corner[0], corner[-1]) if len(corner) > 1 else ("", corner[0])
