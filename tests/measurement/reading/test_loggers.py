@@ -8,7 +8,7 @@ import pytest
 from mckibben.measurement.read.correction import Correction
 from mckibben.measurement.reading import preview_here, read_here
 from mckibben.measurement.reading.scales import scales_in
-from tests.measurement.reading.bench import FORCE, PRESSURE, STROKE, TIME, assert_is, read, table
+from tests.measurement.reading.bench import FORCE, PRESSURE, STROKE, TIME, asked, assert_is, read, table
 
 MM, BAR = STROKE * 1e3, PRESSURE / 1e5
 
@@ -57,16 +57,15 @@ def test_notes_before_the_names_are_no_names() -> None:
 
 def test_the_columns_of_a_file_without_heads_are_asked() -> None:
     rows = "\n".join(f"{4 * k} {k % 300} {0.1 * (k % 200):.1f}" for k in range(600))
-    asked = [q.column for q in preview_here(rows.encode(), "bare.txt", Correction()).questions if q.stops]
-    assert asked[:2] == ["column 2", "column 3"]
+    found = [q.column for q in preview_here(rows.encode(), "bare.txt", Correction()).questions if q.stops]
+    assert found[:2] == ["column 2", "column 3"]
 
 
 def test_every_signal_without_a_scale_is_asked() -> None:
     data = "t [s];pressure [ADC];stroke [ADC]\n" + table(
         TIME, np.round(BAR * 99), np.round(MM * 9), separator=";"
     )
-    asked = {q.about for q in preview_here(data.encode(), "counts.csv", Correction()).questions}
-    assert {"scale of pressure", "scale of displacement"} <= asked
+    assert {"scale of pressure", "scale of displacement"} <= set(asked(data, "counts.csv"))
     with pytest.raises(Exception, match="no text states its scale"):
         read_here(data.encode(), "counts.csv", Correction())
 
@@ -105,3 +104,10 @@ def test_a_voltage_is_called_by_its_subscript() -> None:
     found = read(text + "t [s],U_p [V],U_F [V],s [mm]\n" + table(TIME, BAR * 0.4 + 1, FORCE / 200, MM))
     np.testing.assert_allclose(found.columns["pressure"], PRESSURE, atol=1.0)
     np.testing.assert_allclose(found.columns["force"], FORCE, atol=0.01)
+
+
+def test_two_scales_of_one_signal_are_asked() -> None:
+    text = "# L0 = 300 mm\n# p_bar = (a0 - 205) / 163.8\n# p_bar = (a0 - 210) / 163.8\n"
+    counts = np.round(BAR * 163.8 + 205)
+    data = text + "t_s;a0;F_N;s_mm\n" + table(TIME, counts, FORCE, MM, separator=";")
+    assert asked(data).get("scale of pressure") is True

@@ -37,6 +37,7 @@ from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Sp
 from mckibben.measurement.reading.named import is_isometric
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
+from mckibben.measurement.reading.scales import Scale
 from mckibben.measurement.reading.units import (
     FITTING,
     RAW,
@@ -369,7 +370,8 @@ def _unread(reading: Reading) -> Iterator[Question]:
         dimension = dimension_of(unit) if unit else ""
         claimed = {e.value for e in own if e.facet == "channel" and e.rule != "unit"}
         if dimension in RAW or roles.get("raw", 0.0) >= 3.0 or roles.get("counter", 0.0) >= 3.0:
-            yield from _raw_signal(reading, column, claimed, filled, unit)
+            counted = "count" if roles.get("raw", 0.0) >= 3.0 and unit is None else unit
+            yield from _raw_signal(reading, column, claimed, filled, counted)
             continue
         channel = _CARRIES.get(dimension) or (
             "force" if dimension == "mass" and "force" not in filled else None
@@ -432,6 +434,33 @@ def _raw_signal(
         ("ignore", wanted),
         stops=wanted != "command",
     )
+
+
+def _scales(reading: Reading) -> Iterator[Question]:
+    """A scale that the file states with two values."""
+    for channel, i, use, column in reading.uses():
+        stated = [e for e in reading.own(i) if e.facet == "scale" and e.value.unit == use.unit]
+        best = max((e.weight for e in stated), default=0.0)
+        values = {(round(e.value.factor, 9), round(e.value.offset, 6)): e for e in stated if e.weight == best}
+        if len(values) < 2 or reading.by_user(channel):
+            continue
+        two = list(values.values())[:2]
+        first, second = (f"'{e.value.text[:60]}' ({e.span.where})" for e in two)
+        yield Question(
+            f"scale of {channel}",
+            f"the file states two scales for {reading.label(column)}, {first} and {second}; "
+            "which one is right",
+            " or ".join(option_of(channel, column, _spelled(e.value, column, reading.unit(i))) for e in two),
+            column.head,
+        )
+
+
+def _spelled(scale: Scale, column: Column, unit: str | None) -> str:
+    """A scale as a user writes it: "205 to 1024 counts = 0 to 5 bar"."""
+    ends = (float(np.nanmin(column.values)), float(np.nanmax(column.values)))
+    low, high = (scale.factor * (end - scale.offset) for end in ends)
+    raw = "counts" if unit in (None, "count") else unit
+    return f"{ends[0]:.6g} to {ends[1]:.6g} {raw} = {low:.6g} to {high:.6g} {scale.unit}"
 
 
 def _seconds(reading: Reading) -> Iterator[Question]:
@@ -1167,7 +1196,8 @@ def _several(reading: Reading) -> Iterator[Question]:
 Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
-    _units, _unnamed, _headless, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs,
+    _units, _unnamed, _headless, _unread, _scales, _seconds,
+    _set_point, _by_valve, _counted, _specimens, _signs,
     _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
 )  # fmt: skip
 #: Asked always.
