@@ -58,3 +58,14 @@ def test_a_payload_is_the_load(head: str) -> None:
     found = read(f"t_s,p_bar,length_mm,{head}\n" + table(TIME, BAR, 300.0 - MM, np.full(len(TIME), 5.0)))
     assert found.conditions["load_mass"] == 5.0
     assert "force" not in found.columns
+
+
+def test_a_value_right_above_the_names_is_no_name() -> None:
+    rows = [
+        f"{cycle},{p},{300 - 10 * p - cycle}"
+        for cycle in (1, 2, 3)
+        for p in (0, 1, 2, 3, 4, 5, 4, 3, 2, 1, 0)
+    ]
+    found = read("L0 (mm),300,\nCycle,P (bar),L (mm)\n" + "\n".join(rows))
+    assert found.conditions["nominal_length"] == 0.3
+    assert set(found.columns["group"].tolist()) == {1, 2, 3}

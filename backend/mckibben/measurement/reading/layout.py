@@ -736,9 +736,11 @@ def _joined_units(cells: Sequence[str]) -> list[str]:
 
 
 def _is_row_of_words(row: Sequence[Cell]) -> bool:
-    """Whether a row above the heads groups or describes columns, and is no row of sentences."""
+    """Whether a row above the heads groups or describes columns, and is no row of sentences or values."""
     texts = [str(c) for c in row if c != ""]
-    return all(len(t) <= _LONGEST_WORDS and not re.search(r"[:=]", t) for t in texts)
+    return not any(kind_of(c) == NUMBER for c in row) and all(
+        len(t) <= _LONGEST_WORDS and not re.search(r"[:=]", t) for t in texts
+    )
 
 
 def _spanning(row: Sequence[Cell], place: int, *, carried: bool) -> str:
