@@ -736,9 +736,10 @@ def _joined_units(cells: Sequence[str]) -> list[str]:
 
 
 def _is_row_of_words(row: Sequence[Cell]) -> bool:
-    """Whether a row above the heads groups or describes columns, and is no row of sentences or values."""
+    """Whether a row above the heads groups or describes columns: no sentences, no name and value."""
     texts = [str(c) for c in row if c != ""]
-    return not any(kind_of(c) == NUMBER for c in row) and all(
+    named = sum(kind_of(c) == TEXT for c in texts)
+    return (named > 1 or named == len(texts)) and all(
         len(t) <= _LONGEST_WORDS and not re.search(r"[:=]", t) for t in texts
     )
 
