@@ -209,7 +209,28 @@ def test_ragged_rows_are_named() -> None:
     lines[9] += ",7"
     assert "row 10" in refusal("\n".join(lines))
     lines[9] = "1,2"
-    assert "row 10" in refusal("\n".join(lines))
+    assert "row 10" in refusal("\n".join(lines[:40]))
+
+
+def test_a_line_that_breaks_off_among_many_is_left_out() -> None:
+    lines = plain().splitlines()
+    lines[9] = "1,2"
+    found = read("\n".join(lines))
+    assert found.rows == len(TIME) - 1
+    assert any("the line is cut off (first: row 10" in message for message in found.messages)
+
+
+def test_a_head_that_is_printed_again_on_each_page_ends_no_run() -> None:
+    lines = plain().splitlines()
+    lines = [*lines[:30], lines[1], *lines[30:-1], lines[1], lines[-1]]
+    assert_is(read("\n".join(lines)), HELD)
+
+
+def test_a_monitor_writes_its_time_before_each_line() -> None:
+    lines = ["10:22:30.810 -> " + line for line in plain().splitlines()]
+    found = read("\n".join(lines))
+    assert_is(found, HELD)
+    assert any("'received' is not used" in message for message in found.messages)
 
 
 def test_the_delimiter_with_most_numbers_wins() -> None:

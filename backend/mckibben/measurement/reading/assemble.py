@@ -28,7 +28,7 @@ from mckibben.measurement.reading.evidence import evidence_of
 from mckibben.measurement.reading.facts import Known, known_of
 from mckibben.measurement.reading.layout import table_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table
-from mckibben.measurement.reading.questions import Reading
+from mckibben.measurement.reading.questions import Reading, questions_of
 from mckibben.measurement.reading.rows import rows_of
 from mckibben.measurement.reading.units import dimension_of
 from mckibben.physics.errors import InputError
@@ -70,10 +70,17 @@ def decided(
 ) -> Reading:
     """The decision about a table, and its rows."""
     decision = decide(table, evidence, known.facts(table))
-    if not set(decision.uses) - {"time", "temperature"}:
+    nothing = not set(decision.uses) - {"time", "temperature"}
+    if nothing and table.headless:
         raise _nothing(name, table, evidence)
-    rows = rows_of(table, decision, known, evidence, correction)
-    return Reading(name, table, evidence, known, decision, rows, correction)
+    try:
+        rows = rows_of(table, decision, known, evidence, correction)
+    except InputError as error:
+        raise (_nothing(name, table, evidence) if nothing else error) from None
+    reading = Reading(name, table, evidence, known, decision, rows, correction)
+    if nothing and not any(question.stops for question in questions_of(reading)):
+        raise _nothing(name, table, evidence)
+    return reading
 
 
 def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputError:
@@ -232,7 +239,7 @@ def said(reading: Reading) -> list[str]:
         label = f"{reading.table.noun} '{column.title}'"
         if not reading.said_unit(channel) and not column.clock and channel != "command":
             lines.append(f"{label} has no unit: read as {use.unit}")
-        if use.scale != 1.0 or use.offset:
+        if use.scale != 1.0 or use.offset or any(e.facet == "scale" for e in reading.own(i)):
             lines.append(f"{label} is scaled: {_reason(reading, i, 'scale', None)}")
         if use.sign == -1:
             facet = "sign_force" if channel == "force" else "sign_stroke"
@@ -317,6 +324,7 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
             "air": "it is the surrounding air",
             "supply": "it is the supply",
             "at rest": "it is a length at rest",
+            "ignored": "the file says so",
         }.get(role, f"it is {article}{role}")
     if column.words is not None:
         return "it holds words"

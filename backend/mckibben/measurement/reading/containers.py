@@ -10,6 +10,7 @@ import re
 import zipfile
 import zlib
 from collections.abc import Callable
+from dataclasses import replace
 from datetime import date, datetime, time, timedelta
 from pathlib import PurePath, PurePosixPath
 from typing import Any
@@ -17,9 +18,10 @@ from typing import Any
 import numpy as np
 
 from mckibben.measurement.reading.encodings import decoded
+from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_BYTES, MAX_CELLS, MAX_COLUMNS, MAX_SHEETS, SPLIT
 from mckibben.measurement.reading.model import Cell, Sheet, Span
-from mckibben.measurement.reading.numbers import style_of
+from mckibben.measurement.reading.numbers import narrow, style_of
 from mckibben.measurement.reading.text import sheet_of_text, text_sheets
 from mckibben.measurement.reading.tree import sheets_of_tree
 from mckibben.physics.errors import InputError
@@ -160,7 +162,11 @@ def _packed(data: bytes, name: str, *, packed: bool) -> list[Sheet]:
             if any(n.startswith("xl/") for n in names) or "content.xml" in names:
                 _check_parts(parts, name)
                 _check_extent(archive, parts, name)
-                return _workbook(data, name)
+                sheets = _workbook(data, name)
+                pictures = any(n.startswith("xl/media/") for n in names)
+                return [
+                    replace(s, messages=(_PICTURE,) if pictures and s is sheets[0] else ()) for s in sheets
+                ]
             if names and all(n.endswith(".npy") for n in names):
                 raise _no_table(name, "an archive of numpy's arrays (.npz)")
             wanted = [p for p in parts if PurePosixPath(p.filename).suffix.lower() in (*_TEXTS, *_TABLES)]
@@ -191,6 +197,7 @@ def _check_parts(parts: list[zipfile.ZipInfo], name: str) -> None:
             raise _refusal(name, why, "send the file itself")
 
 
+_PICTURE = "the workbook holds a picture; what it shows is not read"
 _CELL_AT = re.compile(rb"""\sr\s?=\s?["']([A-Za-z]{0,9})(\d{1,12})["']""")
 _MOST_OF_A_SHEET = (
     12_000_000  # cells of the rectangle that a sheet spans; the library takes memory for all of them
@@ -245,14 +252,10 @@ def _of_archive(
 
 
 def _named(sheet: Sheet, name: str) -> Sheet:
-    from dataclasses import replace
-
     return replace(sheet, name=name, format="zip")
 
 
 def _inner(data: bytes, name: str, shown: str, *, packed: bool) -> list[Sheet]:
-    from dataclasses import replace
-
     if packed:
         raise _refusal(name, "an archive in an archive", "unpack it first")
     sheets = sheets_of(data, name, packed=True)
@@ -319,7 +322,7 @@ def _cell(cell: Any) -> Cell:
         return datetime.combine(date(1900, 1, 1), cell)
     if isinstance(cell, date):
         return datetime.combine(cell, time())
-    return str(cell).strip()
+    return narrow(str(cell).strip())
 
 
 def _carry_merged(rows: list[list[Cell]], sheet: Any) -> None:
@@ -398,7 +401,15 @@ def _tdms(data: bytes, name: str) -> list[Sheet]:
             _add_time(arrays, units, group.channels())
             sizes = [len(values) for values in arrays.values() if values is not None]
             size = max(set(sizes), key=lambda n: (sizes.count(n), n), default=0)
-            own = _properties(group.properties, f"group '{group.name}'")
+            own = (
+                *_properties(group.properties, f"group '{group.name}'"),
+                *(
+                    Span(f"channel '{c.name}', '{key}'", f"{c.name}: {c.properties[key]}"[:1000])
+                    for c in group.channels()
+                    for key in ("description", "comment")
+                    if c.properties.get(key)
+                ),
+            )
             kept = {k: v for k, v in arrays.items() if v is not None and len(v) == size}
             dropped = tuple(
                 (k, f"it has {len(v)} values, and the others {size}")
@@ -472,11 +483,18 @@ def _parquet(data: bytes, name: str) -> list[Sheet]:
             if values.dtype.kind in "biuf"
             else ["" if v is None else str(v) for v in values]
         )
-    said = {
-        k.decode("utf-8", "replace"): v.decode("utf-8", "replace")
-        for k, v in (table.schema.metadata or {}).items()
-    }
-    texts = tuple(
-        Span("metadata", f"{k}: {v}"[:1000]) for k, v in said.items() if k not in ("pandas", "ARROW:schema")
-    )
-    return [Sheet("", noun="column", format="parquet", arrays=arrays, texts=texts)]
+    texts = [Span("metadata", f"{k}: {v}"[:1000]) for k, v in _of_arrow(table.schema.metadata)]
+    units: dict[str, str] = {}
+    for field in table.schema:
+        for key, text in _of_arrow(field.metadata):
+            if word_set("unit").among(words_of(key)):
+                units[field.name] = text
+            else:
+                texts.append(Span(f"metadata of '{field.name}'", f"{field.name}: {text}"[:1000]))
+    return [Sheet("", noun="column", format="parquet", arrays=arrays, units=units, texts=tuple(texts))]
+
+
+def _of_arrow(metadata: dict[bytes, bytes] | None) -> list[tuple[str, str]]:
+    """Keys and texts of the metadata of a table or of a field, but for what libraries keep there."""
+    said = [(k.decode("utf-8", "replace"), v.decode("utf-8", "replace")) for k, v in (metadata or {}).items()]
+    return [(k, v) for k, v in said if v and k != "pandas" and not k.startswith(("ARROW:", "PARQUET:"))]

@@ -44,6 +44,8 @@ BY_UNIT = {
     "mass": (("force", 1.2),), "temperature": (("temperature", 4.0),), "speed": (("velocity", 2.0),),
 }  # fmt: skip
 _UNIT_STATED, _CLOCK_SHOWN, _TEXTS, _COUNTS, _SINCE_1970 = 5.0, 5.0, 6.0, 3.0, 4.0
+_EVEN = 4.0  # nats of even steps, from row to row of a long record
+_LONG_RECORD = 100  # rows
 _OVER = 0.35  # of the weight of a head, that texts over it have
 NAME = "the file's name"
 _CLAUSES = re.compile(r"[,;.|()\[\]](?!\d)|\s[/–-]\s|\s(?:and|und|et|e|y|og|och|en|i|a|ve|и|та)\s")
@@ -60,6 +62,11 @@ _AT_PRESSURE = re.compile(
 )
 _MERCURY = re.compile(
     r"(?i)мм\s?рт\.?\s?ст\.?|mm\s?hg\b|mm\s(?:of\s|de\s|di\s)?(?:mercur\w{0,6}|quecksilber\w{0,6}|qs\b)"
+)
+#: "CH1", "Kanal 2", "Ch A": a channel by its number or its letter.
+_CHANNEL = re.compile(
+    r"(?i)(?<![^\W_])(?:(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?0?(\d{1,2})"
+    r"|(?:ch|chan|channel|kanal|canal|voie)[ _-]?([a-h]))(?![^\W_])"
 )
 _NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?)\s?[:=]\s?(?P<value>.{1,900})")
 _CODE = re.compile(
@@ -193,6 +200,11 @@ def _of_cells(i: int, column: Column, unit: Unit | None, span: Span) -> list[Evi
     if not len(values):
         return found
     low, high = float(np.min(values)), float(np.max(values))
+    steps = np.diff(values)
+    even = len(values) >= _LONG_RECORD and steps[0] > 0.0 and np.ptp(steps) <= 1e-3 * steps[0]
+    if even and unit is None and not head_claims(column.head[:200]):
+        since = Span(span.where, f"grows by {steps[0]:.6g} from row to row")
+        found.append(Evidence(i, "channel", "time", _EVEN, since, "even steps"))
     for name, size in (("s", 1e9), ("ms", 1e12), ("us", 1e15), ("ns", 1e18)):
         if 0.9 * size < low and high < 4.0 * size and (unit is None or unit.name == name):
             since = Span(span.where, f"counts {name} since 1970")
@@ -255,7 +267,8 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         "bad_rows",
     ):
         return [noted]
-    found += [] if noted is None else [noted]
+    scales = _of_scales(span, table)
+    found += [] if noted is None or (scales and noted.facet == "note") else [noted]
     if noted is not None and noted.facet == "condition:pressure":
         absolute = REFERENCES.get(folded(str(noted.value)), str(noted.value).lower().startswith("abs"))
         found.append(Evidence(FILE, "absolute", absolute, 6.0, span, "note"))
@@ -281,7 +294,7 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         *_of_legend(span, table),
         *_of_list(span, table),
         *_of_zero(span),
-        *_of_scales(span, table),
+        *scales,
         *of_code(span),
     ]
     return [e for e in found if e is not None]
@@ -351,15 +364,12 @@ def _of_clauses(span: Span, table: Table) -> list[Evidence]:
 
 def _column_named(text: str, table: Table) -> int | None:
     """The one column whose head a text begins with, or whose number it names; None = none, or several."""
-    number = re.search(
-        r"(?i)(?<![^\W_])(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?(\d{1,2})(?![^\W_])", text
-    )
+    number = _CHANNEL.search(text)
     found = set()
     for i, column in enumerate(table.columns):
         head = column.head.strip()
-        if number and re.search(
-            rf"(?i)(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?{number[1]}(?!\d)", head
-        ):
+        same = _CHANNEL.search(head) if number else None
+        if number and same and (number[1] or number[2]).lower() == (same[1] or same[2]).lower():
             found.add(i)
         name = taken_apart(head, column.unit).name
         if len(name) > 0 and re.match(rf"[\s#%/*-]{{0,6}}{re.escape(name)}(?![^\W_])", text, re.IGNORECASE):
@@ -608,6 +618,7 @@ def _of_scales(span: Span, table: Table) -> list[Evidence]:
                 found += [
                     Evidence(i, "channel", c, 3.0 if c != "length" else 1.0, span, "scale") for c in channels
                 ]
+            found += [_from_claim(i, c, span, 1.0) for c in head_claims(scale.name) if c.facet == "channel"]
             if scale.absolute is not None:
                 found.append(Evidence(i, "absolute", scale.absolute, scale.weight, span, scale.rule))
     return found

@@ -198,6 +198,7 @@ def _columns_of_conditions(
     supply, a load.
     """
     found: dict[str, tuple[int, tuple[float, ...]]] = {}
+    loads: dict[int, float] = {}
     named = {
         i for said, choice in correction.columns.items() if choice is not None for i in _places(said, table)
     }
@@ -215,14 +216,23 @@ def _columns_of_conditions(
         ):
             key = None  # "shortening from rest length"
         values = np.unique(column.values[np.isfinite(column.values)])
-        mass = any(e.rule == "hanging_mass" for e in own) and dimension == "mass"
-        if mass and len(values) == 1:
-            key = "load_mass"
+        if dimension == "mass" and len(values) == 1 and any(_is_of_force(e) for e in own):
+            if any(e.rule == "hanging_mass" for e in own):
+                key = "load_mass"
+            else:
+                loads[i] = quantity_si(float(values[0]), unit, "kg")
         if key is None or not len(values):
             continue
         si = tuple(quantity_si(v, unit, CONDITION_UNITS[key]) for v in values[:50].tolist())
         found.setdefault(key, (i, si))
+    if found and len(loads) == 1:  # a table that repeats its conditions in each row
+        found.setdefault("load_mass", (next(iter(loads)), tuple(loads.values())))
     return found
+
+
+def _is_of_force(e: Evidence) -> bool:
+    """Whether a word claims a force, or a mass that hangs."""
+    return e.facet == "channel" and e.value == "force" and e.rule not in ("unit", "letter")
 
 
 def _of_columns(table: Table, columns: Mapping[str, tuple[int, tuple[float, ...]]]) -> list[Evidence]:

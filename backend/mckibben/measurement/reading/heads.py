@@ -46,6 +46,7 @@ _LETTERS = {
     "κ": "contraction",
     "ε": "contraction", "e": "contraction",
 }  # fmt: skip
+_SIGNAL = re.compile(r"([UuVvIi]|(?i:adc|raw|ain|counts?|volts?))_?([pPFfLlsx])\d{0,2}")
 _SHARES = frozenset(["h", "k", "e", "ε", "κ", "eps", "epsilon", "kappa"])
 _ALONE = frozenset("tpflxdvuκε")  # letters that name a channel without a unit
 _VOLTAGES = frozenset(["u", "v", "uout", "vout"])
@@ -282,6 +283,13 @@ def _of_letters(name: str, words: tuple[str, ...], dimension: str) -> list[Claim
     """A letter with its unit, "F1 [N]", "s / mm", or alone in a head."""
     if name == "T" and dimension != "time":
         return [Claim("channel", "temperature", 2.0, "letter")] if dimension in ("temperature", "") else []
+    signal = _SIGNAL.fullmatch(name)
+    if signal is not None and (dimension in RAW or (not dimension and len(signal[1]) > 1)):
+        return [Claim("channel", _LETTERS[signal[2].lower()], 2.0, "letter")]  # "U_p", "adc_F"
+    if dimension in RAW:
+        return []
+    if not dimension and "." in name.strip("."):  # "muscle.p": the last part of a path
+        words = words_of(name.strip(".").rpartition(".")[2])
     for word in words:
         match = _LETTER.fullmatch(word)
         letter = match[1] if match else word if word in _SHARES else ""

@@ -19,9 +19,26 @@ from mckibben.measurement.reading.heads import head_claims, head_score, taken_ap
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_ROWS, MAX_TEXT, MAX_TEXTS, SPLIT
 from mckibben.measurement.reading.model import Cell, Column, Sheet, Span, Table
-from mckibben.measurement.reading.numbers import CLOCK, EMPTY, MARK, NUMBER, TEXT, kind_of, style_of
+from mckibben.measurement.reading.numbers import (
+    CLOCK,
+    EMPTY,
+    MARK,
+    NUMBER,
+    TEXT,
+    NumberStyle,
+    kind_of,
+    numbers_of,
+    style_of,
+)
 from mckibben.measurement.reading.runs import Run, is_axis
-from mckibben.measurement.reading.shapes import NeedsCellsError, Part, column_of, parts_of, transposed
+from mckibben.measurement.reading.shapes import (
+    TRAILING,
+    NeedsCellsError,
+    Part,
+    column_of,
+    parts_of,
+    transposed,
+)
 from mckibben.measurement.reading.units import RAW, quantities, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 
@@ -97,9 +114,10 @@ def table_of(
         bare = [without_units(s) for s in sheets]
         return table_of(bare, name, _stripped=True)
     if not runs:
-        raise InputError(
-            f"{name}: no table: no rows of numbers with at least two columns", field="file", hint=_HINT
+        why = "; ".join(
+            ["no rows of numbers with at least two columns", *(m for s in sheets for m in s.messages)]
         )
+        raise InputError(f"{name}: no table: {why}", field="file", hint=_HINT)
     best = max(runs, key=lambda run: run.score)
     for run in runs:  # a block without heads of its own goes on with those above
         if (
@@ -111,10 +129,13 @@ def table_of(
             run.heads, run.units, run.more, run.described = best.heads, best.units, best.more, best.described
     alike = [run for run in runs if _is_same(run, best)]
     try:
-        return _joined(alike, best, runs, grids, name)
+        table = _joined(alike, best, runs, grids, name)
     except NeedsCellsError:
         whole = [s.whole() if s.whole is not None else s for s in sheets]
         return table_of(whole, name, head=head)
+    if not table.rows:
+        raise InputError(f"{name}: no row of the table holds a number", field="rows", hint=_HINT)
+    return table
 
 
 _CELL_WITH_UNIT = re.compile(r"([-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")
@@ -274,13 +295,14 @@ def stacked(parts: Sequence[Part], texts: Sequence[Span]) -> Table:
 
 
 def _keyed(columns: Sequence[Column]) -> list[Column]:
-    """Columns with names that users can tell apart."""
+    """Columns with names that users can tell apart: the head, else the unit, else the place."""
     seen: Counter[str] = Counter()
     result = []
     for place, column in enumerate(columns):
-        head = column.head.strip() or f"column {place + 1}"
+        head = column.head.strip() or column.unit.strip("[]() ") or f"column {place + 1}"
         seen[head] += 1
-        result.append(replace(column, key=head if seen[head] == 1 else f"{head} #{seen[head]}"))
+        key = head if seen[head] == 1 else f"{head} #{seen[head]}"
+        result.append(replace(column, head=column.head if column.head.strip() else key, key=key))
     return result
 
 
@@ -320,6 +342,7 @@ def cornered(sheet: Sheet) -> Sheet:
             or numbers != list(range(1, len(row)))
             or i == 0
             or (corner and head_score(corner) < 2.0)
+            or len([part for part in TRAILING.split(corner) if head_score(part.strip()) >= 2.0]) > 1
         ):
             continue
         below = sheet.rows[i + 1 : i + 3]
@@ -391,6 +414,8 @@ def _runs(sheet: Sheet) -> list[Run]:
         if is_data and texts and first and current is None:
             is_data = _goes_on(sheet, i, places)
         if not is_data:
+            if current is not None and _is_head_again(current, i):
+                continue
             if current is not None:
                 gap.append(i)
                 filled = [c for c in row if c != ""]
@@ -415,6 +440,20 @@ def _runs(sheet: Sheet) -> list[Run]:
         found.append(current)
     long = [run for run in found if len(run.rows) >= 3]
     return long or [run for run in found if len(run.rows) >= 1 and len(run.columns) > 1]
+
+
+def _is_head_again(run: Run, i: int) -> bool:
+    """Whether a row repeats the head of a run, and the first column counts on below it: it is printed once a
+    page.
+    """
+    rows, first = run.sheet.rows, run.rows[0]
+    if first == 0 or i + 1 >= len(rows) or len(run.rows) < 2 or rows[i] != rows[first - 1]:
+        return False
+    style = NumberStyle(run.sheet.decimal, run.sheet.thousands)
+    before, last, below = numbers_of([rows[r][0] if rows[r] else "" for r in (*run.rows[-2:], i + 1)], style)[
+        0
+    ]
+    return bool(before < last < below)
 
 
 def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
@@ -545,6 +584,11 @@ def _can_name(run: Run, row: Sequence[Cell]) -> bool:
     return 2 * over > len(run.columns) or any(head_score(_text(c)) > 0.0 for c in row if c != "")
 
 
+def _is_note(rows: Sequence[Sequence[Cell]], i: int) -> bool:
+    """Whether a row begins with the same word as the one above it, as the notes before a table do."""
+    return i > 0 and kind_of(rows[i][0]) == TEXT and list(rows[i][:1]) == list(rows[i - 1][:1])
+
+
 def _label_columns(run: Run) -> None:
     """Columns that have the labels of the rows above as their heads: "Name;p;Name;F" over "Unit;bar;Unit;N".
     They hold the time of the column beside.
@@ -586,6 +630,8 @@ def _completed(run: Run) -> None:
         for other in run.more.get(c, ()):
             if head_score(head) <= 0.0 and head_score(other) >= 2.0:
                 run.heads[c] = other
+                if unit_of(head) is not None:
+                    run.units.setdefault(c, head)
             elif re.fullmatch(r"(?i)(?:ch|ai|chan|channel|kanal)[ _]?\d{1,2}", other) and other not in head:
                 run.heads[c] = f"{other} {head}"
 
@@ -645,6 +691,8 @@ def _candidates(run: Run) -> list[int]:
     i = run.rows[0] - 1
     while i >= 0 and len(found) < _ABOVE and run.rows[0] - i <= _ABOVE + 1:
         filled = [c for c in rows[i] if c != ""]
+        if found and filled and _is_note(rows, i):
+            break
         if not filled:
             if found:
                 break
@@ -701,9 +749,12 @@ def _joined_units(cells: Sequence[str]) -> list[str]:
 
 
 def _is_row_of_words(row: Sequence[Cell]) -> bool:
-    """Whether a row above the heads groups or describes columns, and is no row of sentences."""
+    """Whether a row above the heads groups or describes columns: no sentences, no name and value."""
     texts = [str(c) for c in row if c != ""]
-    return all(len(t) <= _LONGEST_WORDS and not re.search(r"[:=]", t) for t in texts)
+    named = sum(kind_of(c) == TEXT for c in texts)
+    return (named > 1 or named == len(texts)) and all(
+        len(t) <= _LONGEST_WORDS and not re.search(r"[:=]", t) for t in texts
+    )
 
 
 def _spanning(row: Sequence[Cell], place: int, *, carried: bool) -> str:

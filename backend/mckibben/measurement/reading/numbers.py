@@ -33,6 +33,19 @@ _CLOCK = re.compile(
 )
 
 
+_WIDE = {ord("０") + k: str(k) for k in range(10)} | {ord("－"): "-", ord("＋"): "+"}
+_WIDE_POINT = re.compile(r"(?<=[0-9])．(?=[0-9])")
+
+
+def narrow(text: str) -> str:
+    """A text with the digits of wide letters as plain ones.
+
+    >>> narrow("０．３")
+    '0.3'
+    """
+    return text if text.isascii() else _WIDE_POINT.sub(".", text.translate(_WIDE))
+
+
 class NumberStyle(NamedTuple):
     """How numbers are written: the decimal sign, and the mark between thousands ("" = none)."""
 
@@ -77,6 +90,8 @@ def style_of(cells: Iterable[Any]) -> NumberStyle:
         if not isinstance(cell, str) or not cell or len(cell) > _LONGEST:
             continue
         text = cell.strip()
+        if (longer := _TOLERANCE.fullmatch(text) or _WITH_UNIT.fullmatch(text)) is not None:
+            text = longer[1]
         grouped = _GROUPED.fullmatch(text)
         if grouped is not None:
             mark, rest = grouped["mark"], grouped["rest"]

@@ -36,6 +36,7 @@ from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Sp
 from mckibben.measurement.reading.named import is_isometric
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
+from mckibben.measurement.reading.scales import Scale
 from mckibben.measurement.reading.scatter import is_sensed
 from mckibben.measurement.reading.units import (
     FITTING,
@@ -163,7 +164,7 @@ _MOST = 10  # questions of one kind at a time: what is answered first, often ans
 def questions_of(reading: Reading) -> list[Question]:
     """All questions, those that stop the reading first."""
     asked = list(_sheets(reading))
-    enough = len(next(iter(reading.rows.channels.values()), ())) >= ENOUGH
+    enough = len(reading.rows.lines) >= ENOUGH
     with np.errstate(all="ignore"):
         for policy in POLICIES if enough else ():
             asked += islice(policy(reading), _MOST)
@@ -197,6 +198,8 @@ def _units(reading: Reading) -> Iterator[Question]:
             continue
         values = reading.rows.channels[channel]
         choice = reading.known.chosen.get(i)
+        if choice is None and not any(e.facet == "channel" for e in reading.own(i)):
+            continue  # see `_unnamed`
         if choice is not None and (choice.unit is not None or choice.assumed or choice.scale):
             continue
         raw = _back(values, use, channel)
@@ -326,6 +329,29 @@ def _unnamed(reading: Reading) -> Iterator[Question]:
             )
 
 
+def _headless(reading: Reading) -> Iterator[Question]:
+    """A column of a file without heads that is read as nothing, where the others are guessed."""
+    used = {i for i, _ in reading.decision.uses.values()} | set(reading.rows.labels.values())
+    missing = next((c for c in ("pressure", "force", "displacement") if not reading.of_slot(SLOTS[c])), None)
+    for i, column in enumerate(reading.table.columns):
+        idle = i in used or i in reading.known.chosen or column.words is not None or reading.own(i)
+        if (
+            not reading.table.headless
+            or idle
+            or missing is None
+            or not np.ptp(column.values[np.isfinite(column.values)])
+        ):
+            continue
+        yield Question(
+            f"column '{column.title}'",
+            f"the file has no heads, and nothing says what {reading.label(column)} is; it holds "
+            f"{np.nanmin(column.values):.4g} to {np.nanmax(column.values):.4g}",
+            f"{option_of(missing, column, physics.LEFT_OUT[missing][0])} or {ignore_option(bare(column))}",
+            column.head,
+            choices=(missing, "ignore"),
+        )
+
+
 def _unread(reading: Reading) -> Iterator[Question]:
     """A column in N, bar or mm, or called like a channel that nothing is read for, of which nothing says what
     it is.
@@ -353,7 +379,8 @@ def _unread(reading: Reading) -> Iterator[Question]:
         dimension = dimension_of(unit) if unit else ""
         claimed = {e.value for e in own if e.facet == "channel" and e.rule != "unit"}
         if dimension in RAW or roles.get("raw", 0.0) >= 3.0 or roles.get("counter", 0.0) >= 3.0:
-            yield from _raw_signal(reading, column, claimed, filled, unit)
+            counted = "count" if roles.get("raw", 0.0) >= 3.0 and unit is None else unit
+            yield from _raw_signal(reading, column, claimed, filled, counted)
             continue
         channel = _CARRIES.get(dimension) or (
             "force" if dimension == "mass" and "force" not in filled else None
@@ -444,9 +471,36 @@ def _raw_signal(
     )
 
 
+def _scales(reading: Reading) -> Iterator[Question]:
+    """A scale that the file states with two values."""
+    for channel, i, use, column in reading.uses():
+        stated = [e for e in reading.own(i) if e.facet == "scale" and e.value.unit == use.unit]
+        best = max((e.weight for e in stated), default=0.0)
+        values = {(round(e.value.factor, 9), round(e.value.offset, 6)): e for e in stated if e.weight == best}
+        if len(values) < 2 or reading.by_user(channel):
+            continue
+        two = list(values.values())[:2]
+        first, second = (f"'{e.value.text[:60]}' ({e.span.where})" for e in two)
+        yield Question(
+            f"scale of {channel}",
+            f"the file states two scales for {reading.label(column)}, {first} and {second}; "
+            "which one is right",
+            " or ".join(option_of(channel, column, _spelled(e.value, column, reading.unit(i))) for e in two),
+            column.head,
+        )
+
+
+def _spelled(scale: Scale, column: Column, unit: str | None) -> str:
+    """A scale as a user writes it: "205 to 1024 counts = 0 to 5 bar"."""
+    ends = (float(np.nanmin(column.values)), float(np.nanmax(column.values)))
+    low, high = (scale.factor * (end - scale.offset) for end in ends)
+    raw = "counts" if unit in (None, "count") else unit
+    return f"{ends[0]:.6g} to {ends[1]:.6g} {raw} = {low:.6g} to {high:.6g} {scale.unit}"
+
+
 def _seconds(reading: Reading) -> Iterator[Question]:
     """Two columns for one channel that are about as likely and show different values."""
-    for slot in ("pressure", "force", "stroke"):
+    for slot in ("pressure", "force", "stroke") if not reading.table.headless else ():
         channel = reading.of_slot(slot)
         if channel is None or reading.by_user(channel):
             continue
@@ -1181,7 +1235,8 @@ def _several(reading: Reading) -> Iterator[Question]:
 Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
-    _units, _unnamed, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs,
+    _units, _unnamed, _headless, _unread, _scales, _seconds,
+    _set_point, _by_valve, _counted, _specimens, _signs,
     _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
 )  # fmt: skip
 #: Asked always.

@@ -27,6 +27,7 @@ LARGEST = 1e15  # in SI; more is of no physical size
 GRAVITY = 9.80665
 _ENOUGH_ROWS = 20
 _MOST_WITHOUT = 4  # rows without a reading for each other one; more are a slow signal or a wrong column
+_MOST_CUT = 40  # whole rows for each line that breaks off, from which the writing of the line was cut short
 _FEWEST_TO_TURN = 3  # rows
 _DISORDERED = 1.0 / 3.0  # share of steps back in time from which rows are in no order; a half by chance
 _RUN_CHANGES = (
@@ -187,6 +188,7 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
             if not empty[r] and r not in first:
                 first[r] = (i, gap.reason, gap.text)
     missing: list[tuple[int, str, str, int]] = []
+    cut = sum(reason == "short" for _, reason, _ in first.values()) * _MOST_CUT <= keep.sum()
     for r, what in table.bad.items():
         if not empty[r]:
             keep[r] = False
@@ -196,6 +198,9 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
     for r, (i, reason, text) in sorted(first.items()):
         title = table.columns[i].title
         where = f"row {int(table.lines[r])}, {table.noun} '{title}'"
+        if reason == "short" and cut:
+            _count(rows, "the line is cut off", 1, f"row {int(table.lines[r])}: {text}")
+            continue
         if reason == "short":
             _refuse(rows, table, int(table.lines[r]), "", text, "one cell for each name of the header")
             _count(rows, "another number of cells", 1, f"row {int(table.lines[r])}")

@@ -8,8 +8,9 @@ import re
 from collections.abc import Iterator
 from typing import NamedTuple
 
+from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.lexicon import pattern_of, rules, word_set, words_of
-from mckibben.measurement.reading.units import number_of, unit_of
+from mckibben.measurement.reading.units import Unit, number_of, unit_of
 
 _NUMBER = r"[-+]?\d{1,9}(?:[.,]\d{1,9})?"
 _ANSWER_RANGE = re.compile(
@@ -25,7 +26,10 @@ _ANSWER_PER = re.compile(
 
 
 class Scale(NamedTuple):
-    """value [unit] = factor * (reading - offset); ``raw``: unit of the reading, empty = not said."""
+    """value [unit] = factor * (reading - offset).
+
+    ``raw`` is the unit or the name of the reading, ``name`` what the value is called; empty = not said.
+    """
 
     factor: float
     offset: float
@@ -35,6 +39,7 @@ class Scale(NamedTuple):
     weight: float = 6.0
     text: str = ""
     absolute: bool | None = None
+    name: str = ""
 
 
 def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
@@ -99,33 +104,44 @@ _STATE = re.compile(
 )
 _POINT = re.compile(
     r"(?<![\d.,-])(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)\s?(?:=|->|→|≙|:|at|bei)\s?"
-    r"(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}|%)(?![\w/])"
+    r"(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}(?:\s?\((?:g|a|abs|gauge)\))?|%)(?![\w/])"
+)
+#: The same the other way round: "0 bar = 0.5 V".
+_POINT_BACK = re.compile(
+    r"(?<![\d.,-])(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}(?:\s?\((?:g|a|abs|gauge)\))?|%)\s?"
+    r"(?:=|≙|->|→|at|bei|@)\s?(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)(?![\w/])"
 )
 _STRAIGHT = 0.005  # of the range, that points of one line may be off
 
 
-def _points(text: str) -> list[tuple[tuple[float, float, str, str], tuple[int, int]]] | None:
+def _points(text: str) -> list[tuple[tuple[float, float, str, Unit], tuple[int, int]]] | None:
     """The points ``0.5 V = 0 bar, 4.5 V = 10 bar`` of a text that has two or more in one pair of units."""
     found = []
-    for match in _POINT.finditer(text):
+    ways = [list(point.finditer(text)) for point in (_POINT, _POINT_BACK)]
+    for match in max(ways, key=len):
         unit = unit_of(match["unit"])
         if unit is not None and unit.dimension:
-            found.append(
-                ((number_of(match["x"]), number_of(match["y"]), match["raw"], unit.name), match.span())
-            )
+            found.append(((number_of(match["x"]), number_of(match["y"]), match["raw"], unit), match.span()))
     return found if len({f[0][0] for f in found}) > 1 and len({f[0][2:] for f in found}) == 1 else None
 
 
-def _through(points: list[tuple[tuple[float, float, str, str], tuple[int, int]]]) -> Scale | None:
+def _through(points: list[tuple[tuple[float, float, str, Unit], tuple[int, int]]]) -> Scale | None:
     """The line through points; None = they lie on none."""
     distinct = sorted({(x, y) for (x, y, _, _), _ in points})
     (x0, y0), (x1, y1) = distinct[0], distinct[-1]
     slope = (y1 - y0) / (x1 - x0) if x1 != x0 else 0.0
     if not slope or any(abs(y0 + slope * (x - x0) - y) > _STRAIGHT * abs(y1 - y0) for x, y in distinct):
         return None
-    raw = unit_of(points[0][0][2])
+    raw, unit = unit_of(points[0][0][2]), points[0][0][3]
     return Scale(
-        slope, x0 - y0 / slope, points[0][0][3], "" if raw is None else raw.name, "points", 6.6, "points"
+        slope,
+        x0 - y0 / slope,
+        unit.name,
+        "" if raw is None else raw.name,
+        "points",
+        6.6,
+        "points",
+        unit.absolute,
     )
 
 
@@ -178,9 +194,105 @@ def answered_scale(text: str) -> Scale | None:
     return None
 
 
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>\d{1,9}(?:[.,]\d{1,9})?(?:[eE][-+]?\d{1,2})?)|(?P<name>[^\W\d]\w{0,30})"
+    r"|(?P<sign>[-+*/()−·×]))"
+)
+_SIGNS = {"−": "-", "·": "*", "×": "*"}
+
+
+class _Linear:
+    """A formula ``slope * reading + constant``, read from left to right by its grammar."""
+
+    def __init__(self, text: str) -> None:
+        self.text, self.end, self.symbol = re.sub(r"(?<=[\d)]) ?x ?(?=[\w(])", " * ", text), 0, ""
+
+    def _next(self) -> tuple[str, str]:
+        found = _TOKEN.match(self.text, self.end)
+        if found is None or found.lastgroup is None:
+            return "", ""
+        return found.lastgroup, _SIGNS.get(found[found.lastgroup], found[found.lastgroup])
+
+    def _take(self) -> tuple[str, str]:
+        token = self._next()
+        self.end = found.end() if (found := _TOKEN.match(self.text, self.end)) else self.end
+        return token
+
+    def sum(self, depth: int = 0) -> tuple[float, float]:
+        """(slope, constant) of terms.
+
+        Raises:
+            ValueError: it is no linear formula of one reading.
+        """
+        slope, constant = self._product(depth)
+        while self._next()[1] in ("+", "-"):
+            sign = 1.0 if self._take()[1] == "+" else -1.0
+            more = self._product(depth)
+            slope, constant = slope + sign * more[0], constant + sign * more[1]
+        return slope, constant
+
+    def _product(self, depth: int) -> tuple[float, float]:
+        slope, constant = self._factor(depth)
+        while self._next()[1] in ("*", "/"):
+            by = self._take()[1] == "/"
+            a, b = self._factor(depth)
+            if (a and (slope or by)) or (by and not b):
+                raise ValueError("not linear")
+            if a:
+                slope, constant = constant * a, constant * b
+            else:
+                slope, constant = (slope / b, constant / b) if by else (slope * b, constant * b)
+        return slope, constant
+
+    def _factor(self, depth: int) -> tuple[float, float]:
+        kind, text = self._take()
+        if kind == "number":
+            return 0.0, number_of(text)
+        if kind == "name" and self.symbol in ("", text):
+            self.symbol = text
+            return 1.0, 0.0
+        if text == "-":
+            slope, constant = self._factor(depth)
+            return -slope, -constant
+        if text != "(" or depth > 8:
+            raise ValueError("no formula")
+        inner = self.sum(depth + 1)
+        if self._take()[1] != ")":
+            raise ValueError("no formula")
+        return inner
+
+
+def _of_formula(match: re.Match[str], weight: float) -> Scale | None:
+    """The scale that a formula says: ``p = 1.25*U_p - 0.62 bar``, ``stroke_mm = (adc1 - 102) / 40.98``."""
+    formula = _Linear(match["formula"])
+    try:
+        slope, constant = formula.sum()
+    except ValueError:
+        return None
+    head = taken_apart(match["name"])
+    behind = re.match(r"\s?\[?([^\W\d_]{1,5}|%)\]?(?![^\W_])", formula.text[formula.end :])
+    unit = unit_of(match["unit"] or "") or head.unit or (unit_of(behind[1]) if behind else None)
+    if not slope or not formula.symbol or unit is None or not unit.dimension:
+        return None
+    text = match[0][: match.start("formula") - match.start() + formula.end]
+    return Scale(
+        slope,
+        -constant / slope,
+        unit.name,
+        formula.symbol,
+        "calibration_formula",
+        weight,
+        text,
+        unit.absolute,
+        match["name"],
+    )
+
+
 def _of_match(match: re.Match[str], rule: str, weight: float) -> Scale | None:
+    if rule == "calibration_formula":
+        return _of_formula(match, weight)
     groups = match.groupdict()
-    unit = unit_of(groups.get("unit") or groups.get("unitlast") or "")
+    unit = unit_of(groups.get("unit") or "")
     if unit is None or not unit.dimension:
         return None
     value = number_of(groups["value"])
@@ -195,9 +307,6 @@ def _of_match(match: re.Match[str], rule: str, weight: float) -> Scale | None:
         return Scale(factor, low - begin / factor, unit.name, raw_name, rule, weight, match[0], unit.absolute)
     if value == 0.0:
         return None
-    shift = groups.get("offset")
-    offset = 0.0 if not shift else -number_of(shift.replace(" ", ""))
-    offset = offset if groups.get("paren") else offset / value
     return Scale(
-        value, offset, unit.name, raw_name or (groups.get("raw") or ""), rule, weight, match[0], unit.absolute
+        value, 0.0, unit.name, raw_name or (groups.get("raw") or ""), rule, weight, match[0], unit.absolute
     )

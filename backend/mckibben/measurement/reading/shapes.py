@@ -39,7 +39,7 @@ _CLOCKS = 0.7  # share of the cells that are times, from which a column is one o
 _FEWEST_ACROSS = 4  # numbers in a row of a transposed table
 _FEWEST_DOWN = 2  # such rows
 _MOST_NAMES = 12  # signals of a tall table
-_TRAILING = re.compile(r"\s{0,3}[\\/|]\s{0,3}")
+TRAILING = re.compile(r"\s{0,3}[\\/|]\s{0,3}")
 
 
 class Part(NamedTuple):
@@ -488,12 +488,16 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
     first = taken_apart(shared[0].head).unit
     if first is not None and shared[0].unit and unit_of(shared[0].unit) != first and len(shared) == 1:
         corner, shared = shared[0].head, [replace(shared[0], head="")]
+    across = {
+        q.unit.dimension for places in many for q in quantities(columns[places[0]].head.replace("_", " "))
+    }
+    subject = _subject(run, {*_channels([c.head for c in shared]), *across})
     parts = []
     for k in range(len(many[0])):
         chosen = [columns[places[k]] for places in many]
         block = [
             *shared,
-            *(replace(c, head=_without_quantity(c.head) or corner or _subject(run)) for c in chosen),
+            *(replace(c, head=_without_quantity(c.head) or corner or subject) for c in chosen),
         ]
         keep = ~np.all([np.isnan(c.values) for c in chosen], axis=0)
         over = [Span(c.where, c.head) for c in chosen]
@@ -520,9 +524,22 @@ def _without_quantity(head: str) -> str:
     return "" if text in ("()", "[]") else text
 
 
-def _subject(run: Run) -> str:
-    """What the title of a table says that its values are: the words before "of" or a colon."""
-    return _named_best([t.text for t in run.title[:1]])
+def _subject(run: Run, axes: Collection[str], more: Sequence[str] = ()) -> str:
+    """What the texts over a table say that its values are, and no axis is; the title first."""
+    rows = run.sheet.rows
+    strokes = {"length", "displacement", "contraction"}
+    taken = {*axes, *(strokes if strokes & {*axes} else ())}
+    found = _named_best([t.text for t in run.title[:1]], taken) or _named_best(
+        [*(t.text for t in run.title), *more], taken
+    )
+    for r in range(run.rows[0] - 1, max(-1, run.rows[0] - _FAR_ABOVE), -1):
+        found = found or _named_best([str(c) for c in rows[r] if c != "" and kind_of(c) == TEXT], taken)
+    return found
+
+
+def _channels(heads: Sequence[str]) -> set[str]:
+    """The channels that some heads name."""
+    return {c.value for head in heads for c in head_claims(head[:200]) if c.facet == "channel"}
 
 
 def _is_map(run: Run) -> bool:
@@ -541,16 +558,13 @@ def _melted(run: Run, title: list[Span]) -> Part:
     values = np.array(
         [numbers_of([*row[1 : len(top)], *[""] * (len(top) - len(row))], style)[0] for row in body]
     )
-    corner = [part.strip() for part in _TRAILING.split(str(top[0])) if part.strip()] or [""]
+    corner = [part.strip() for part in TRAILING.split(str(top[0])) if part.strip()] or [""]
     where = sheet.place(run.rows[0])
-    over = [t.text for t in title] + [str(c) for r in run.remarks for c in rows[r] if c != ""]
+    over = [str(c) for r in run.remarks for c in rows[r] if c != ""]
     down_name, across_name = (corner[0], corner[-1]) if len(corner) > 1 else ("", corner[0])
     if len(corner) == 1 and _counts(down):
         down_name = "cycle"
-    axes = {c.value for n in (down_name, across_name) for c in head_claims(n[:200]) if c.facet == "channel"}
-    subject = _named_best(over, axes)
-    for r in range(run.rows[0] - 1, max(-1, run.rows[0] - _FAR_ABOVE), -1):  # titles further above
-        subject = subject or _named_best([str(c) for c in rows[r] if c != "" and kind_of(c) == TEXT], axes)
+    subject = _subject(run, _channels([down_name, across_name]), over)
     lines = np.array([sheet.line(r) for r in run.rows[1:]], np.int64)
     columns = (
         np.repeat(down, len(upper)),
@@ -573,7 +587,7 @@ _FAR_ABOVE = 12  # rows above a map in which its values may be named
 
 def _named_best(texts: Sequence[str], axes: Collection[str] = ()) -> str:
     """The part of some texts that names a channel best, one that no axis is; "" = none does."""
-    cut = r"\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]|\s[–—-]\s|,\s"
+    cut = r"\s\((?=[^()]{9})|\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]|\s[–—-]\s|,\s"
     parts = [part.strip() for text in texts for part in re.split(cut, text)]
     named = [p for p in parts if {c.value for c in head_claims(p[:200]) if c.facet == "channel"} - {*axes}]
     return max(named, key=head_score, default="")

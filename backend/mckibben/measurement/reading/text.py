@@ -6,13 +6,14 @@ import csv
 import re
 from collections import Counter
 from collections.abc import Sequence
+from itertools import pairwise
 
 import numpy as np
 
 from mckibben.measurement.reading.encodings import decoded
 from mckibben.measurement.reading.limits import MAX_CELLS, MAX_COLUMNS, MAX_ROWS, SPLIT
 from mckibben.measurement.reading.model import Cell, Sheet
-from mckibben.measurement.reading.numbers import CLOCK, NUMBER, TEXT, kind_of, style_of
+from mckibben.measurement.reading.numbers import CLOCK, NUMBER, TEXT, kind_of, narrow, style_of
 from mckibben.physics.errors import InputError
 
 _FIRST, _MIDDLE = 150, 300  # lines from which the delimiter is told
@@ -35,6 +36,9 @@ _GAP = re.compile(r"\s{2,}|\t")
 _SEPARATOR_HINT = re.compile(r"sep=([,;\t|])")
 _NUMBER_AND_UNIT = re.compile(r"[-+]?\d{1,9}(?:[.,]\d{1,9})?\s?[^\W\d_%]{1,5}%?")
 _STAMP = re.compile(r"\s{0,3}\[?(\d{1,2}:\d\d:\d\d(?:[.,]\d{1,6})?)\]?\s")
+_MONITORED = re.compile(r"\s{0,3}\[?(?P<stamp>\d{1,2}:\d\d:\d\d(?:[.,]\d{1,6})?)(?:\]|\s?->|\s?→)\s?")
+_ALL_MONITORED = 0.9  # of the lines that begin with a time, from which a monitor wrote it
+_RECEIVED = "received"  # head of the times of a monitor
 _RULE = re.compile(r"[|+\s]{0,4}[-=:_]{3,}[-=:|+\s]{0,2000}")  # a line drawn under a head
 
 
@@ -52,7 +56,7 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = (), *, whole: 
     """The cells of a decoded text; the middle of a long one as numbers, unless all rows are wanted as
     cells.
     """
-    lines = text.split("\n")
+    lines = narrow(text).split("\n")
     if len(lines) > MAX_ROWS:
         raise InputError(
             f"{name}: it has {len(lines)} lines, at most {MAX_ROWS} are read", field="file", hint=SPLIT
@@ -61,17 +65,27 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = (), *, whole: 
     if pairs is not None:
         rows, numbers = pairs
         return Sheet(rows=rows, noun="line", lines=tuple(numbers), messages=tuple(messages))
+    stamps, lines = _without_stamps(lines)
     sample = _sample(lines)
     hint = next((m[1] for line in lines[:3] if (m := _SEPARATOR_HINT.fullmatch(line.strip()))), None)
     delimiter = hint or best_delimiter(sample)
     if (
         len(lines) > _LONG
         and not whole
+        and not stamps
         and (sheet := _with_bulk(lines, delimiter, name, messages)) is not None
     ):
         return sheet
     rows, numbers = _split(lines, delimiter, name)
     usual = _usual_width(lines, delimiter)
+    if stamps:
+        rows = [
+            row
+            if len(row) != usual
+            else [stamps[n - 1] if kind_of(row[0]) in (NUMBER, CLOCK) else _RECEIVED, *row]
+            for n, row in zip(numbers, rows, strict=True)
+        ]
+        usual += 1
     chosen = [
         row for row in rows[:_FIRST] + rows[len(rows) // 2 : len(rows) // 2 + _MIDDLE] if len(row) == usual
     ]
@@ -84,6 +98,19 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = (), *, whole: 
         lines=tuple(numbers),
         messages=tuple(messages),
     )
+
+
+def _without_stamps(lines: list[str]) -> tuple[list[str], list[str]]:
+    """The times of day that a monitor writes before each line, ``10:22:31.170 -> 3.4;180``, and the lines
+    without them; no times where not all lines have one.
+    """
+    found = [_MONITORED.match(line) for line in lines]
+    filled = sum(bool(line.strip()) for line in lines)
+    if sum(map(bool, found)) < max(3, _ALL_MONITORED * filled):
+        return [], lines
+    return [m["stamp"] if m else "" for m in found], [
+        line[m.end() :] if m else line for m, line in zip(found, lines, strict=True)
+    ]
 
 
 def _with_bulk(lines: list[str], delimiter: str | None, name: str, messages: Sequence[str]) -> Sheet | None:
@@ -154,7 +181,8 @@ def _score(sample: Sequence[str], delimiter: str | None) -> float:
         with_unit = sum(
             k == TEXT and _NUMBER_AND_UNIT.fullmatch(c) is not None for k, c in zip(kinds, cells, strict=True)
         )
-        numbers = kinds.count(NUMBER) + kinds.count(CLOCK) + with_unit
+        stamps = sum(a == b == CLOCK for a, b in pairwise(kinds)) if delimiter is None else 0  # date and time
+        numbers = kinds.count(NUMBER) + kinds.count(CLOCK) - stamps + with_unit
         if numbers >= 2:
             good.append((len(cells), numbers - 0.7 * (kinds.count(TEXT) - with_unit) - 0.2 * with_unit))
     if not good:

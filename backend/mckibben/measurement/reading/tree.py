@@ -91,7 +91,7 @@ def _of_list(
 ) -> None:
     """Records, named channels, or runs one after another."""
     usual = [item for item in node if item.keys() == node[len(node) // 2].keys()]
-    if len(usual) > 2 and len(usual) > len(node) / 2 and _is_record(usual[0]):
+    if len(usual) > 2 and len(usual) > len(node) / 2 and _is_record(_flattened(usual[0])[0]):
         for item in [item for item in node if item.keys() != usual[0].keys()][:20]:
             above = (*above, *_texts_of(item, path))
             units = {
@@ -122,8 +122,9 @@ def _of_list(
         and len(usual) > 2
     ):
         flat_items = [_flattened(item) for item in usual]
-        if all(_is_record(item) for item in flat_items[:5]):
-            _of_list(walk, flat_items, path, above, units, depth + 1)
+        if all(_is_record(item) for item, _ in flat_items[:5]):
+            units = {**units, **flat_items[0][1]}
+            _of_list(walk, [item for item, _ in flat_items], path, above, units, depth + 1)
             return
     for i, item in enumerate(node[:300]):
         _visit(walk, item, f"{path}({i + 1})", above, units, depth + 1)
@@ -136,15 +137,31 @@ def _is_record(item: Mapping[str, Any]) -> bool:
     )
 
 
-def _flattened(item: Mapping[str, Any], before: str = "", depth: int = 0) -> dict[str, Any]:
-    """A record whose fields are records as one."""
+def _flattened(
+    item: Mapping[str, Any], before: str = "", depth: int = 0
+) -> tuple[dict[str, Any], dict[str, str]]:
+    """A record whose fields are records as one, and the units of its fields: ``p: {value: 2, unit: bar}``."""
     flat: dict[str, Any] = {}
+    units: dict[str, str] = {}
     for key, value in item.items():
-        if isinstance(value, dict) and depth < 3:
-            flat |= _flattened(value, f"{before}{key}.", depth + 1)
+        name = f"{before}{key}"
+        if (quantity := _quantity(value)) is not None:
+            flat[name], units[name] = quantity
+        elif isinstance(value, dict) and depth < 3:
+            inner, more = _flattened(value, f"{name}.", depth + 1)
+            flat, units = flat | inner, units | more
         else:
-            flat[f"{before}{key}"] = value
-    return flat
+            flat[name] = value
+    return flat, units
+
+
+def _quantity(value: Any) -> tuple[float, str] | None:
+    """The number and the unit of a mapping that holds one of each; None = it does not."""
+    if not isinstance(value, dict) or len(value) > 4:
+        return None
+    units = [v for k, v in value.items() if isinstance(v, str) and _says_unit(str(k))]
+    numbers = [v for v in value.values() if isinstance(v, (int, float)) and not isinstance(v, bool)]
+    return (float(numbers[0]), units[0]) if numbers and units and units[0] else None
 
 
 def _leaf(value: Any) -> Any:
@@ -158,12 +175,8 @@ def _texts_of(item: Mapping[str, Any], path: str) -> list[Span]:
     found: list[Span] = []
     for key, value in item.items():
         if isinstance(value, dict):
-            unit = next((str(u) for k, u in value.items() if isinstance(u, str) and _says_unit(str(k))), "")
-            number = next(
-                (v for v in value.values() if isinstance(v, (int, float)) and not isinstance(v, bool)), None
-            )
-            if unit and number is not None and len(value) <= 4:
-                found.append(Span(f"{path}{key}", f"{key}: {number:.12g} {unit}"))
+            if (quantity := _quantity(value)) is not None:
+                found.append(Span(f"{path}{key}", f"{key}: {quantity[0]:.12g} {quantity[1]}"))
             else:
                 found += _texts_of(value, f"{path}{key}.")
         elif (text := _single(value)) is not None:
