@@ -39,7 +39,7 @@ def test_a_file_and_a_muscle_of_different_lengths_are_a_conflict(
     code, out, err = run(command, "a.csv", "--muscle", muscle, "--ideal")
     assert (code, out) == (2, "")
     assert len(err.strip().splitlines()) == 1
-    for word in ("a.csv", "250 mm", "451 mm", muscle, "--rest-length", "row 1"):
+    for word in ("a.csv", "250 mm", "451 mm", muscle, "--rest-length", "line 1"):
         assert word in err
 
 

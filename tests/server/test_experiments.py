@@ -63,7 +63,7 @@ def test_a_preview_asks_what_the_file_leaves_open(client: TestClient, writer: Ca
 def test_a_preview_knows_what_the_file_says(client: TestClient) -> None:
     said = preview(client, specimen(0.25).encode(), muscle="DMSP-20")
     rest = said["rest_length"]
-    assert (rest["value"], rest["origin"], rest["where"]) == (0.25, "file", "a.csv, row 1")
+    assert (rest["value"], rest["origin"], rest["where"]) == (0.25, "file", "a.csv, line 1")
     assert not rest["unanswered"]
     assert said["muscle"]["value"] == "DMSP-20"
     assert not said["muscle"]["unanswered"]
@@ -325,7 +325,7 @@ def test_a_report_tells_who_says_what(client: TestClient) -> None:
     assert response.status_code == 200, response.text
     page = response.text
     for words in (
-        "Who says it", "the file (a.csv, row 1)", "the file (b.csv, row 1)", "stated (accuracy)",
+        "Who says it", "the file (a.csv, line 1)", "the file (b.csv, line 1)", "stated (accuracy)",
         "stated (measurements.0.experiment.force_zero)", "Errors of reading within the accuracy",
         "assumed (zero error of each specimen)",
     ):  # fmt: skip

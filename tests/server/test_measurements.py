@@ -159,15 +159,15 @@ def test_a_folder_that_cannot_be_written_is_said(tmp_path: Path) -> None:
 
 
 def test_every_row_is_accounted_for(client: TestClient) -> None:
-    text = "pressure_bar;length_mm;force_N\n" + "".join(
-        f"{p};{length};{max(0, 100 * p - length)}\n" for p in (1, 2, 3) for length in (180, 220, 300)
+    text = "# pressure: gauge\npressure_bar;length_mm;force_N\n" + "".join(
+        f"{p};{length};{max(0, 100 * p + length - 400)}\n" for p in (1, 2, 3) for length in (180, 220, 300)
     )
     body = upload(client, text.encode()).json()
-    assert body["excluded"] == {"slack": 6}
-    assert (body["rows"], body["usable_rows"], body["skipped"]) == (9, 3, {})
+    assert body["excluded"] == {"slack": 4}
+    assert (body["rows"], body["usable_rows"], body["skipped"]) == (9, 5, {})
     assert body["segments"]["signal"] == "length"
     columns = client.get(f"/api/measurements/{body['id']}").json()["columns"]
-    assert sum(columns["usable"]) == 3
+    assert sum(columns["usable"]) == 5
     assert {"slack", "sweep", "cycle", "motion"} <= set(columns)
 
 

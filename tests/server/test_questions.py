@@ -61,7 +61,12 @@ def test_a_preview_says_where_everything_stands(client: TestClient) -> None:
     assert columns["Muskeldruck"]["unit_where"] == "line 6"
     assert columns["Lfd. Nr."]["unread"] == "it is a running number"
     assert body["unread"] == [{"column": "Lfd. Nr.", "why": "it is a running number"}]
-    assert {"key": "nominal_length", "value": 0.25, "origin": "file", "where": "line 2"} in body["stated"]
+    assert {
+        "key": "nominal_length",
+        "value": 0.25,
+        "origin": "file",
+        "where": "hubversuch.csv, line 2",
+    } in body["stated"]
     mapping = '{"rest_length": "260 mm"}'
     query = {"name": file.name, "mapping": mapping}
     body = client.post("/api/measurements/preview", params=query, content=file.data).json()
@@ -94,7 +99,7 @@ def test_a_hint_is_in_the_words_of_requests(client: TestClient) -> None:
     data = b"time_s,pressure_bar,force_N,force_N\n0,1,2,3\n1,2,3,4\n2,3,4,5\n"
     query = {"name": "twice.csv"}
     refused = assert_error(client.put("/api/measurements", params=query, content=data), 422)
-    found = re.search(r"\"ignore\": \[.*?\]", refused["hint"])
-    assert found is not None, refused["hint"]
+    found = re.search(r"\"column\": \[.*?\]", refused["message"])
+    assert found is not None, refused["message"]
     query["mapping"] = f"{{{found[0]}}}"
     assert client.put("/api/measurements", params=query, content=data).status_code == 200

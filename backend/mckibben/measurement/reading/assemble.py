@@ -359,7 +359,9 @@ def stated_of(reading: Reading, conditions: Mapping[str, float | str]) -> tuple[
         found.append(
             StatedValue(key, value, "you", "")
             if by_you
-            else StatedValue(key, value, "file", where.where.where if where else "")
+            else StatedValue(
+                key, value, "file", f"{reading.name}, {where.where.where}" if where else reading.name
+            )
         )
     for channel, (i, use) in reading.decision.uses.items():
         choice = reading.known.chosen.get(i)

@@ -522,14 +522,16 @@ def _seconds(reading: Reading) -> Iterator[Question]:
             if _same_values(reading, channel, use, option):
                 continue
             first, second = reading.table.columns[i], reading.table.columns[option.column]
+            alike = first.head == second.head  # then only their titles tell them apart
+            names = (first.title, second.title) if alike else (bare(first), bare(second))
             yield Question(
                 f"second {channel}",
-                f"{reading.table.noun}s '{first.head}' and '{second.head}' are both {channel} and differ"
+                f"{reading.table.noun}s '{first.title}' and '{second.title}' are both {channel} and differ"
                 f"{_joint(reading, i, option.column)}; which one acts on the muscle",
-                f"{option_of(channel, first)} or {option_of(channel, second)}",
-                second.head,
-                first.head,
-                (first.head, second.head),
+                " or ".join(column_option(channel, name) for name in names),
+                second.title,
+                first.title,
+                (first.title, second.title),
             )
 
 
@@ -1241,6 +1243,7 @@ POLICIES: tuple[Policy, ...] = (
 )  # fmt: skip
 #: Asked always.
 ALWAYS: tuple[Policy, ...] = (
+    _seconds,
     _unknown_unit,
     _unreadable,
     _rest_length,
