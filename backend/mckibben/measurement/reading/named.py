@@ -75,6 +75,12 @@ def length_of_name(
     return _which_differs(stem, rest, others) or _alone(stem, rest)
 
 
+def may_be_lengths(name: str) -> list[str]:
+    """The numbers of a name that are its length once the rest length is known."""
+    stem = PurePath(name).stem
+    return [found[0] for found in _numbers(stem) if _can_stand_alone(stem, found)]
+
+
 def _can_be_held(millimetres: float, rest: float) -> bool:
     return _SHORTEST * rest <= 1e-3 * millimetres <= _LONGEST * rest
 

@@ -33,7 +33,7 @@ from mckibben.measurement.reading.facts import Known
 from mckibben.measurement.reading.heads import head_claims, taken_apart
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Span, Table, Use
-from mckibben.measurement.reading.named import is_isometric
+from mckibben.measurement.reading.named import is_isometric, may_be_lengths
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
 from mckibben.measurement.reading.scales import Scale
@@ -1079,11 +1079,18 @@ def _held_length(reading: Reading) -> Iterator[Question]:
         and {"pressure", "force"} <= set(channels)
         and not set(channels) & {*STROKES, "diameter", "command"}
     ):
+        open_rest = "nominal_length" not in reading.known.conditions
+        in_name = may_be_lengths(reading.name)[:1] if open_rest else []
         yield Question(
             "length",
             "the file says that the test is isometric, but neither a column nor a text states the length at "
-            "which the muscle was held",
-            "write the length as a column, 'length_mm', or into the file's name, 'iso_L138mm'",
+            "which the muscle was held"
+            + "".join(
+                f"; beside a rest length it may be the {number} of the file's name" for number in in_name
+            ),
+            f'--rest-length "{10 * round(float(in_name[0]) / 9)} mm"'
+            if in_name
+            else "write the length as a column, 'length_mm', or into the file's name, 'iso_L138mm'",
         )
 
 
