@@ -38,7 +38,7 @@ def laboratory(name: str, *, scale: float = 1.0, rest: str = "") -> FilePayload:
     """A file with a preamble, names and units apart, a column in mm that nobody knows."""
     rows = [[p / 1e5, 1e3 * s, f, 1e3 * s + 80.0] for p, s, f in readings(scale)]
     preamble = ["Protokoll;Nr. 7", *(["Probe;DMSP-20", f"L0;{rest}"] if rest else []), ""]
-    head = [*preamble, "Druck;Hub;Kraft;Traverse", "bar;mm;N;mm"]
+    head = [*preamble, "Druck;Hub;Kraft;Kanal 4", "bar;mm;N;mm"]
     return file(name, table(head, rows))
 
 

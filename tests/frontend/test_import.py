@@ -226,8 +226,8 @@ def test_a_column_in_mm_that_is_not_read_stops_until_it_is_answered_for(case: Pa
     dialog = panel(case)
     expect(accept_button(case)).to_be_disabled()
     expect(dialog.get_by_role("status").last).to_contain_text("1 question open")
-    row = dialog.locator("[data-unread='Traverse']")
-    tick = row.get_by_role("checkbox", name="Ignore Traverse")
+    row = dialog.locator("[data-unread='Kanal 4']")
+    tick = row.get_by_role("checkbox", name="Ignore Kanal 4")
     with read_anew(case):
         tick.check()
     expect(row).to_contain_text("you do not want it")
@@ -237,7 +237,7 @@ def test_a_column_in_mm_that_is_not_read_stops_until_it_is_answered_for(case: Pa
     expect(accept_button(case)).to_be_disabled()
     # Or it is said what it is.
     with read_anew(case):
-        dialog.get_by_label("Quantity of Traverse").select_option("diameter")
+        dialog.get_by_label("Quantity of Kanal 4").select_option("diameter")
     expect(dialog.locator(".unread-part")).to_contain_text("Every column of the file is read")
 
 
@@ -269,7 +269,7 @@ def test_a_proposed_unit_is_marked_and_confirmed_or_changed(case: Page) -> None:
 def test_the_head_row_is_dragged_and_moved_by_key(case: Page) -> None:
     choose(case, laboratory("c.csv"))
     dialog = panel(case)
-    expect(handle(case)).to_have_attribute("aria-valuetext", "row 3: Druck, Hub, Kraft, Traverse")
+    expect(handle(case)).to_have_attribute("aria-valuetext", "row 3: Druck, Hub, Kraft, Kanal 4")
     row = dialog.locator("tr[data-row='1']")
     row.scroll_into_view_if_needed()
     box, start = row.bounding_box(), handle(case).bounding_box()
@@ -315,7 +315,7 @@ def test_signs_and_the_reference_are_turned_over(case: Page) -> None:
 def test_a_mapping_is_remembered_for_the_next_file_of_its_kind(case: Page) -> None:
     choose(case, laboratory("first.csv", rest="250 mm"))
     with read_anew(case):
-        panel(case).get_by_role("checkbox", name="Ignore Traverse").check()
+        panel(case).get_by_role("checkbox", name="Ignore Kanal 4").check()
     answer_everything(case)
     use(case)
     expect(case.locator(".file")).to_have_count(1)
@@ -331,7 +331,7 @@ def test_a_mapping_is_remembered_for_the_next_file_of_its_kind(case: Page) -> No
     # Undo asks anew, without the mapping.
     second.get_by_role("button", name="Undo").click()
     expect(accept_button(case)).to_be_disabled()
-    expect(panel(case).get_by_role("checkbox", name="Ignore Traverse")).not_to_be_checked()
+    expect(panel(case).get_by_role("checkbox", name="Ignore Kanal 4")).not_to_be_checked()
     case.keyboard.press("Escape")
     # Another kind of file is asked about.
     choose(case, bare("third.csv"))
@@ -345,7 +345,7 @@ def test_ten_files_of_a_kind_are_one_question(case: Page) -> None:
     dialog = panel(case)
     expect(dialog.locator(".several tbody tr")).to_have_count(10)
     expect(dialog.locator(".several tbody tr").nth(3)).to_contain_text("run3.csv")
-    dialog.get_by_role("checkbox", name="Ignore Traverse").check()
+    dialog.get_by_role("checkbox", name="Ignore Kanal 4").check()
     answer_everything(case)
     dialog.get_by_role("button", name="Use these 10 files").click()
     expect(case.locator(".file")).to_have_count(10)
@@ -457,7 +457,7 @@ def test_a_phone_shows_the_columns_one_below_the_other(case: Page) -> None:
     )
     assert small == []
     expect(accept_button(case)).to_be_in_viewport()
-    tick = dialog.get_by_role("checkbox", name="Ignore Traverse")
+    tick = dialog.get_by_role("checkbox", name="Ignore Kanal 4")
     with read_anew(case):
         tick.check()
     expect(handle(case)).to_be_visible()

@@ -103,10 +103,10 @@ def table_of(
         )
         run.score = (_EMPTY_HEADS + known) * (len(run.rows) * len(run.columns)) ** 0.5
     if head is not None:
-        runs = [run for run in runs if run.head_row is not None and run.sheet.line(run.head_row) == head]
+        runs = _headed(runs, head)
         if not runs:
             raise InputError(
-                f"{name}, row {head}: no table has its names in row {head}",
+                f"{name}, row {head}: there are no rows of numbers below it",
                 field="head",
                 hint="a row with names above numbers",
             )
@@ -136,6 +136,24 @@ def table_of(
     if not table.rows:
         raise InputError(f"{name}: no row of the table holds a number", field="rows", hint=_HINT)
     return table
+
+
+def _headed(runs: list[Run], line: int) -> list[Run]:
+    """The runs whose names stand in a row that the user picks; if it is that of none, the first one below."""
+    exact = [run for run in runs if run.head_row is not None and run.sheet.line(run.head_row) == line]
+    below = [(run, [r for r in run.rows if run.sheet.line(r) > line]) for run in runs if not exact]
+    first = next(((run, rows) for run, rows in below if rows), None)
+    if first is None:
+        return exact
+    run, run.rows = first
+    row = next((i for i in range(run.rows[0]) if run.sheet.line(i) == line), None)
+    if row is None:
+        return []
+    cells = run.sheet.rows[row]
+    width = max(len(cells), max(run.columns) + 1)
+    run.heads = {c: _text(cells[c]) if c < len(cells) else "" for c in range(min(width, MAX_COLUMNS))}
+    run.head_row, run.unit_row, run.units, run.more, run.described = row, None, {}, {}, {}
+    return [run]
 
 
 _CELL_WITH_UNIT = re.compile(r"([-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")
