@@ -24,6 +24,7 @@ from mckibben.export.use_case import export
 from mckibben.measurement.preparation import prepared
 from mckibben.measurement.reading import Correction, preview
 from mckibben.measurement.reading.limits import MOST_SECONDS
+from mckibben.measurement.reading.process import PATIENCE
 from mckibben.measurement.store import MeasurementStore, clean_name
 from mckibben.physics.errors import InputError, fields_inside
 from mckibben.server.answer import answer_of
@@ -103,7 +104,8 @@ def _stated(body: ExportRequest, studio: Studio) -> Stated:
         return of_drive(body.drive, studio, "")
 
 
-_READ_WITHIN = float(MOST_SECONDS)  # s; a file that takes longer is refused by its reader
+#: s; the process that reads a file ends sooner, at the processor time that its size allows.
+_READ_WITHIN = float(PATIENCE * MOST_SECONDS)
 _COMPARE_WITHIN = 120.0  # s
 _COMPUTE_WITHIN = 20.0  # s
 _COMPILE_WITHIN = 1800.0  # s; the first FMU of a machine compiles the libraries of three systems

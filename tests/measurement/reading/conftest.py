@@ -12,7 +12,7 @@ import pytest
 from mckibben.measurement import reading
 
 
-def _in_place(work: Callable[[], object], name: str, load: Callable[[], object]) -> object:
+def _in_place(work: Callable[[], object], name: str, load: Callable[[], object], *, size: int) -> object:
     return work()
 
 

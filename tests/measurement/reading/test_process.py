@@ -46,7 +46,7 @@ def crash(*_: object) -> object:
 @pytest.fixture
 def planted(monkeypatch: pytest.MonkeyPatch) -> Callable[[Callable[..., object]], None]:
     """A reader that does something else than to read, with limits that are soon reached."""
-    monkeypatch.setattr(process, "MOST_SECONDS", 1)
+    monkeypatch.setattr(process, "seconds_for", lambda size: 1)
     monkeypatch.setattr(process, "MOST_MEMORY", 200_000_000)
 
     def plant(instead: Callable[..., object]) -> None:
@@ -118,7 +118,7 @@ def test_what_was_raised_is_raised_here() -> None:
         raise InputError("row 3: no number", field="row 3", hint="1.5", code="conflict")
 
     with pytest.raises(InputError) as refused:
-        bounded(refuse, "a.csv", lambda: None)
+        bounded(refuse, "a.csv", lambda: None, size=100)
     error = refused.value
     assert (error.message, error.field, error.hint, error.code) == (
         "row 3: no number",
@@ -133,13 +133,15 @@ def test_what_was_raised_is_raised_here() -> None:
         raise error
 
     with pytest.raises(RuntimeError, match="ValueError: of a library"):
-        bounded(fail, "a.csv", lambda: None)
+        bounded(fail, "a.csv", lambda: None, size=100)
 
 
 def test_views_and_large_arrays_come_back() -> None:
     numbers = np.arange(3_000_000.0)
     numbers.flags.writeable = False
-    found = bounded(lambda: MappingProxyType({"a": numbers, "b": numbers[::2]}), "a.csv", lambda: None)
+    found = bounded(
+        lambda: MappingProxyType({"a": numbers, "b": numbers[::2]}), "a.csv", lambda: None, size=100
+    )
     assert isinstance(found, MappingProxyType)
     np.testing.assert_array_equal(found["a"], numbers)
     np.testing.assert_array_equal(found["b"], numbers[::2])
@@ -148,22 +150,22 @@ def test_views_and_large_arrays_come_back() -> None:
 
 def test_a_reader_that_waits_for_ever_is_ended(monkeypatch: pytest.MonkeyPatch) -> None:
     before = children()
-    monkeypatch.setattr(process, "MOST_SECONDS", 1)
-    monkeypatch.setattr(process, "_PATIENCE", 1)
+    monkeypatch.setattr(process, "seconds_for", lambda size: 1)
+    monkeypatch.setattr(process, "PATIENCE", 1)
     with pytest.raises(InputError, match="processor time"):
-        bounded(lambda: time.sleep(3600), "a.csv", lambda: None)
+        bounded(lambda: time.sleep(3600), "a.csv", lambda: None, size=100)
     assert children() <= before
 
 
 def test_an_interruption_leaves_no_reader_behind(monkeypatch: pytest.MonkeyPatch) -> None:
     before = children()
 
-    def interrupted(_: object) -> None:
+    def interrupted(*_: object) -> None:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(process, "_heard", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        bounded(lambda: time.sleep(3600), "a.csv", lambda: None)
+        bounded(lambda: time.sleep(3600), "a.csv", lambda: None, size=100)
     assert children() <= before
 
 

@@ -11,8 +11,7 @@ from mckibben.measurement.experiment import Origin
 from mckibben.measurement.measurement import CHANNEL_UNITS, KINDS, Measurement, StatedValue
 from mckibben.measurement.preparation import rows_of_file
 from mckibben.measurement.question import Question
-from mckibben.measurement.reading.answers import columns_said
-from mckibben.measurement.reading.assemble import DISMISSED
+from mckibben.measurement.reading.answers import DISMISSED, columns_said
 from mckibben.measurement.reading.preview import MissingCondition, Preview, PreviewColumn, missing_conditions
 
 #: Units offered by a form for each channel.

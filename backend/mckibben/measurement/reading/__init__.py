@@ -33,7 +33,9 @@ def read_measurement(data: bytes, name: str, correction: Correction | None = Non
         InputError: whatever is wrong with the file, naming row, column or key, and the remedy; also that it
             takes too much time or memory.
     """
-    return bounded(lambda: read_here(data, name, correction or Correction()), name, load_readers)
+    return bounded(
+        lambda: read_here(data, name, correction or Correction()), name, load_readers, size=len(data)
+    )
 
 
 def preview(data: bytes, name: str, correction: Correction | None = None) -> Preview:
@@ -43,7 +45,7 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
         InputError: no table can be found in the file at all, the correction names what is not there, or the
             file takes too much time or memory.
     """
-    return bounded(lambda: preview_here(data, name, correction), name, load_readers)
+    return bounded(lambda: preview_here(data, name, correction), name, load_readers, size=len(data))
 
 
 def load_readers() -> None:

@@ -9,8 +9,10 @@ from typing import NamedTuple
 from mckibben.measurement.question import Question
 from mckibben.physics.errors import InputError
 
-__all__ = ["ColumnSaid", "Question", "column_option", "columns_said", "ignore_option", "refusal"]
+__all__ = ["DISMISSED", "ColumnSaid", "Question", "column_option", "columns_said", "ignore_option", "refusal"]
 
+#: Why nothing is read from a column that the file itself says is none.
+DISMISSED = "the file says that it is no channel"
 _SAID = re.compile(
     r'--ignore "(?P<ignored>.*)"'
     r'|--column "(?P<channel>\w+)=(?P<minus>-?)(?P<column>.*?)(?: \[(?P<unit>[^\]]*)\])?"'

@@ -20,6 +20,7 @@ from mckibben.measurement.measurement import (
 )
 from mckibben.measurement.order import FROM_ROWS, order_of_rows
 from mckibben.measurement.question import Question
+from mckibben.measurement.reading.answers import DISMISSED
 from mckibben.measurement.reading.containers import sheets_of
 from mckibben.measurement.reading.correction import Correction
 from mckibben.measurement.reading.decide import decide, roles_of
@@ -40,7 +41,6 @@ _SIGNALS = {
 _NAMED = 4  # columns in a message
 _LOADS = ("load_mass", "load_force")
 UNKNOWN = "its name is not known"
-DISMISSED = "the file says that it is no channel"
 
 
 def looked_at(data: bytes, name: str, correction: Correction) -> tuple[Table, tuple[Evidence, ...], Known]:

@@ -2,7 +2,8 @@
 
 A small file may unpack to any size. What one file becomes is counted before memory is taken for it, over
 all its parts, with 8 bytes for a number however short it is written; reading a file takes at most four times
-`MAX_UNPACKED`. What the readers do not foresee ends at `MOST_SECONDS` or `MOST_MEMORY`, see `process.py`.
+`MAX_UNPACKED`. What the readers do not foresee ends at `seconds_for` its size or `MOST_MEMORY`,
+see `process.py`.
 """
 
 from __future__ import annotations
@@ -12,7 +13,7 @@ from collections.abc import Iterator
 
 from mckibben.physics.errors import InputError
 
-MOST_SECONDS = 60  # of processor time; the largest file takes a third of it
+_LEAST_SECONDS, _SECONDS_PER_MB, MOST_SECONDS = 10, 4, 240  # of processor time; files take below 1 s a MB
 MOST_MEMORY = 2_000_000_000  # bytes beside what the program has taken before
 MAX_UNPACKED = 256_000_000  # bytes
 MAX_ROWS = 6_000_000
@@ -29,6 +30,11 @@ MAX_NODES = 100_000  # of a tree
 WORD = 64  # bytes that a short text takes
 _PIECE = 1_000_000  # bytes
 SPLIT = "split the file, or keep every second row"
+
+
+def seconds_for(size: int) -> int:
+    """Processor time that reading a file of so many bytes may take [s]."""
+    return min(MOST_SECONDS, _LEAST_SECONDS + int(_SECONDS_PER_MB * size / 1e6))
 
 
 def size_of(size: int) -> str:

@@ -27,11 +27,11 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import NamedTuple, NoReturn, TypeVar
 
-from mckibben.measurement.reading.limits import MOST_MEMORY, MOST_SECONDS, SPLIT, size_of
+from mckibben.measurement.reading.limits import MOST_MEMORY, SPLIT, seconds_for, size_of
 from mckibben.physics.errors import InputError
 
 Found = TypeVar("Found")
-_PATIENCE = 5  # times the limit of processor time that may pass while others have the processor
+PATIENCE = 5  # times the limit of processor time that may pass while others have the processor
 _PARENT_DIES = 1  # PR_SET_PDEATHSIG of prctl
 
 
@@ -49,17 +49,18 @@ class _Answer(NamedTuple):
 _wanted: set[str] = set()
 
 
-def bounded(work: Callable[[], Found], name: str, load: Callable[[], object]) -> Found:
+def bounded(work: Callable[[], Found], name: str, load: Callable[[], object], *, size: int) -> Found:
     """The result of reading a file; what it raises is raised here.
 
     Args:
         work: reads the file; nothing that it changes is changed here.
         name: of the file, for messages.
         load: what every file needs, called once before the first of them.
+        size: of the file [bytes]; the time that it may take grows with it.
 
     Raises:
-        InputError: it takes more than `MOST_SECONDS` of processor time or `MOST_MEMORY`, or its reader ends
-            unexpectedly.
+        InputError: it takes more processor time than `seconds_for` its size, or more than `MOST_MEMORY`, or its
+            reader ends unexpectedly.
     """
     if sys.platform != "linux":
         return work()
@@ -67,26 +68,27 @@ def bounded(work: Callable[[], Found], name: str, load: Callable[[], object]) ->
     for module in sorted(_wanted - sys.modules.keys()):
         with suppress(ImportError):
             importlib.import_module(module)
+    seconds = seconds_for(size)
     reading, writing = os.pipe()
     with warnings.catch_warnings():
         # Other threads do not go on in the copy; locks that they may hold are not taken there.
         warnings.simplefilter("ignore", DeprecationWarning)
         child = os.fork()
     if child == 0:
-        _work_alone(work, writing)
+        _work_alone(work, writing, seconds)
     os.close(writing)
     try:
         with open(reading, "rb") as source:
-            answer = _heard(source)
+            answer = _heard(source, seconds)
     except TimeoutError:
         _end(child)
-        raise _too_much(name, f"{MOST_SECONDS} s of processor time") from None
+        raise _too_much(name, f"{seconds} s of processor time") from None
     except BaseException:
         _end(child)
         raise
     status = _status(child)
     if answer is None:
-        raise _refusal(name, status)
+        raise _refusal(name, status, seconds)
     _wanted.update(answer.imported)
     if answer.short:
         raise _too_much(name, f"{size_of(MOST_MEMORY)} of memory")
@@ -116,11 +118,11 @@ def _lower(kind: int, most: int) -> None:
     resource.setrlimit(kind, (least, limits[1]))
 
 
-def _work_alone(work: Callable[[], object], writing: int) -> NoReturn:
+def _work_alone(work: Callable[[], object], writing: int, seconds: int) -> NoReturn:
     """Do the work and write what came of it; the process ends."""
     code = 1
     try:
-        _take_limits(writing)
+        _take_limits(writing, seconds)
         before = set(sys.modules)
         try:
             parts = _packed(_Answer(work(), imported=_imported_since(before)))
@@ -136,7 +138,7 @@ def _work_alone(work: Callable[[], object], writing: int) -> NoReturn:
         os._exit(code)
 
 
-def _take_limits(kept: int) -> None:
+def _take_limits(kept: int, seconds: int) -> None:
     """Limits of the process; it ends with the one that waits for it, and has none of its files open."""
     import resource
 
@@ -148,7 +150,7 @@ def _take_limits(kept: int) -> None:
             with suppress(OSError):
                 os.close(number)
     _lower(resource.RLIMIT_CORE, 0)
-    _lower(resource.RLIMIT_CPU, MOST_SECONDS)
+    _lower(resource.RLIMIT_CPU, seconds)
     limit_memory(_taken() + MOST_MEMORY)
     gc.freeze()
 
@@ -190,7 +192,7 @@ def _packed_error(error: BaseException, imported: frozenset[str]) -> list[bytes 
         return _packed(_Answer(error=RuntimeError(f"{type(error).__name__}: {error}"), imported=imported))
 
 
-def _heard(source: BufferedReader) -> _Answer | None:
+def _heard(source: BufferedReader, seconds: int) -> _Answer | None:
     """The answer of a process; None if it ended without one.
 
     Raises:
@@ -198,7 +200,7 @@ def _heard(source: BufferedReader) -> _Answer | None:
     """
     waiting = select.poll()  # not select: a server may have more than 1024 files open
     waiting.register(source, select.POLLIN)
-    if not waiting.poll(1000 * _PATIENCE * MOST_SECONDS):
+    if not waiting.poll(1000 * PATIENCE * seconds):
         raise TimeoutError
     try:
         head, sizes = pickle.load(source)
@@ -226,10 +228,10 @@ def _end(child: int) -> None:
     _status(child)
 
 
-def _refusal(name: str, status: int) -> InputError:
+def _refusal(name: str, status: int, seconds: int) -> InputError:
     """Why a process gave no answer."""
     if os.WIFSIGNALED(status) and os.WTERMSIG(status) == signal.SIGXCPU:
-        return _too_much(name, f"{MOST_SECONDS} s of processor time")
+        return _too_much(name, f"{seconds} s of processor time")
     how = f"signal {os.WTERMSIG(status)}" if os.WIFSIGNALED(status) else f"code {os.WEXITSTATUS(status)}"
     return InputError(
         f"{name}: no column can be read: its reader ended unexpectedly ({how})", field="file",
