@@ -26,12 +26,15 @@ from mckibben.measurement.reading.decide import decide, roles_of
 from mckibben.measurement.reading.derived import with_derived, without_stated_marks
 from mckibben.measurement.reading.evidence import evidence_of
 from mckibben.measurement.reading.facts import Known, known_of
+from mckibben.measurement.reading.heads import head_claims
 from mckibben.measurement.reading.layout import table_of
+from mckibben.measurement.reading.lexicon import words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table
+from mckibben.measurement.reading.numbers import TEXT, kind_of
 from mckibben.measurement.reading.questions import Reading
 from mckibben.measurement.reading.rows import rows_of
 from mckibben.measurement.reading.units import dimension_of
-from mckibben.physics.errors import InputError
+from mckibben.physics.errors import InputError, did_you_mean
 
 _SIGNALS = {
     "voltage": "a voltage", "current": "a current", "count": "a count", "bridge": "the output of a bridge",
@@ -39,6 +42,12 @@ _SIGNALS = {
 }  # fmt: skip
 _LOADS = ("load_mass", "load_force")
 UNKNOWN = "its name is not known"
+#: Role of a column -> what it is.
+_ROLES = {
+    "air": "the surrounding air", "supply": "the supply", "at rest": "a length at rest",
+    "raw": "a raw signal", "slack": "clipped, or a mark of slack", "words": "in words",
+    "a value": "the name of a value", "another axis": "an axis of something else than time",
+}  # fmt: skip
 DISMISSED = "the file says that it is no channel"
 
 
@@ -101,10 +110,23 @@ def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputEr
             field=f"{table.noun} {raw[0]}",
             hint=f'--column "pressure={raw[0]} [0 to 10 V = 0 to 10 bar]"',
         )
+    worded = [
+        (c, next((w for w in c.words if kind_of(w) == TEXT), ""))
+        for c in table.columns
+        if c.words is not None
+        and any(claim.facet == "channel" for claim in head_claims(c.head[:200], c.unit))
+    ]
+    if worded:
+        column, word = worded[0]
+        why = f"{name}, {table.noun} '{column.title}': it holds words, '{word[:40]}', and hardly a number"
+        return InputError(why, field=f"{table.noun} {column.title}", hint="a number in each row")
+    where = name if table.head_row is None else f"{name}, row {table.head_row}"
+    near = (did_you_mean(word, CHANNEL_UNITS) or "" for c in table.columns for word in words_of(c.head)[:3])
+    meant = next((hint for hint in near if hint.startswith("Did")), None)
     return InputError(
-        f"{name}: no {table.noun} is known: {heads}",
+        f"{where}: no known channel among the {table.noun}s {heads}",
         field=f"{table.noun}s",
-        hint="e.g. a header 'pressure_bar,length_mm,force_N'",
+        hint=meant or "e.g. a header 'pressure_bar,length_mm,force_N'",
     )
 
 
@@ -218,6 +240,14 @@ def said(reading: Reading) -> list[str]:
         label = f"{reading.table.noun} '{column.title}'"
         if not reading.said_unit(channel) and not column.clock and channel != "command":
             lines.append(f"{label} has no unit: read as {use.unit}")
+        units = [e for e in reading.own(i) if e.facet in ("unit", "unit_word") and e.value == use.unit]
+        if units and i not in reading.known.chosen:
+            best = max(units, key=lambda e: e.weight)
+            if best.span.where != column.where:
+                why = f", explained by {best.span.where}: '{best.span.text[:80]}'"
+                lines.append(f"{label} is the {channel} in {use.unit}{why}")
+            elif best.facet == "unit_word":
+                lines.append(f"{label} is the {channel} in {use.unit}")
         if use.scale != 1.0 or use.offset:
             lines.append(f"{label} is scaled: {_reason(reading, i, 'scale', None)}")
         if use.sign == -1:
@@ -298,12 +328,7 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
         return f"'{unit}' is {_SIGNALS[dimension_of(unit)]}, not a {named}"
     if roles:
         role = max(roles, key=lambda r: roles[r])
-        article = "" if role.startswith("a ") or role in ("air",) else "a "
-        return {
-            "air": "it is the surrounding air",
-            "supply": "it is the supply",
-            "at rest": "it is a length at rest",
-        }.get(role, f"it is {article}{role}")
+        return f"it is {_ROLES.get(role) or f'a {role}'}"
     if column.words is not None:
         return "it holds words"
     claimed = [e.value for e in own if e.facet == "channel"]
@@ -318,7 +343,7 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
 def _undecided(reading: Reading) -> tuple[str, ...]:
     """Columns that nothing is read from because neither their name nor their unit tells what they are."""
     unread = unread_of(reading)
-    titles = [title for title, why in unread if why in (UNKNOWN, "it is a raw")]
+    titles = [title for title, why in unread if why in (UNKNOWN, "it is a raw signal")]
     return tuple(
         title for title in titles if any(c.title == title and c.words is None for c in reading.table.columns)
     )

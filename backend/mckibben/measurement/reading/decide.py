@@ -47,6 +47,7 @@ FINAL = (
     "lever",
     "slack",
     "condition",
+    "another axis",
 )
 _ASIDE = ("set value", "running number", "remark", "raw", "words", "counter", "slack", *FINAL)
 SLOTS = {

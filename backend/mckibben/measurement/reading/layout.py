@@ -96,9 +96,7 @@ def table_of(
         bare = [without_units(s) for s in sheets]
         return table_of(bare, name, wanted=wanted, _stripped=True)
     if not runs:
-        raise InputError(
-            f"{name}: no table: no rows of numbers with at least two columns", field="file", hint=_HINT
-        )
+        raise _no_table(sheets, name)
     best = max(runs, key=lambda run: run.score)
     for run in runs:  # a block without heads of its own goes on with those above
         if (
@@ -114,6 +112,26 @@ def table_of(
     except NeedsCellsError:
         whole = [s.whole() if s.whole is not None else s for s in sheets]
         return table_of(whole, name, wanted=wanted, head=head)
+
+
+def _no_table(sheets: Sequence[Sheet], name: str) -> InputError:
+    """The refusal of a file without rows of numbers, naming the row that could be the names of columns."""
+    for sheet in sheets:
+        for i, row in enumerate(sheet.rows[:_SHOWN_ROWS]):
+            if sum(head_score(_text(c)) > 0.0 for c in row if c != "") < 2:
+                continue
+            below = next(
+                (r for r in range(i + 1, len(sheet.rows)) if any(c != "" for c in sheet.rows[r])), None
+            )
+            shown = "" if below is None else f"; {sheet.place(below)} is '{sentence(sheet.rows[below])[:60]}'"
+            heads = ", ".join(_text(c) for c in row if c != "")[:80]
+            return InputError(
+                f"{name}, row {sheet.line(i)}: there are no rows of numbers below the header '{heads}'{shown}",
+                field=f"row {sheet.line(i)}",
+                hint="it needs one row of numbers per reading",
+            )
+    why = f"{name}: no table: no rows of numbers with at least two columns"
+    return InputError(why, field="file", hint=_HINT)
 
 
 _CELL_WITH_UNIT = re.compile(r"([-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")
@@ -182,20 +200,25 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         tables=tables if len(tables) > 1 else (),
         rivals=rivals,
         raw=_shown(best.sheet, best.head_row),
-        messages=(*(m for s in sheets for m in s.messages), *_below(alike, best)),
+        messages=(*(m for s in sheets for m in s.messages), *_unread_rows(alike, best)),
         headless=not any(best.heads.values()),
     )
 
 
-def _below(alike: Sequence[Run], best: Run) -> list[str]:
-    """What is said of texts below the last row of a table."""
-    last = max(run.rows[-1] for run in alike if run.sheet is best.sheet)
-    rows = best.sheet.rows
-    found = [i for i in range(last + 1, min(len(rows), last + 200)) if any(c != "" for c in rows[i])]
-    if not found:
-        return []
-    shown = ", ".join(f"'{sentence(rows[i])[:40]}'" for i in found[:4])
-    return [f"the text below the table, from row {best.sheet.line(found[0])} on, is not read: {shown}"]
+def _unread_rows(alike: Sequence[Run], best: Run) -> list[str]:
+    """What is said of the texts between the rows of a table, and below its last one."""
+    sheet, rows = best.sheet, best.sheet.rows
+    last = max(run.rows[-1] for run in alike if run.sheet is sheet)
+    below = [i for i in range(last + 1, min(len(rows), last + 200)) if any(c != "" for c in rows[i])]
+    between = [i for run in alike if run.sheet is sheet for i in run.remarks]
+    messages = []
+    for found, where in ((between, "between the readings"), (below, "below the table")):
+        if found:
+            first, end = sheet.line(found[0]), sheet.line(found[-1])
+            shown = ", ".join(f"'{sentence(rows[i])[:40]}'" for i in found[:4])
+            place = f"row {first} {where} is" if first == end else f"rows {first} to {end} {where} are"
+            messages.append(f"{place} not read: {shown}")
+    return messages
 
 
 def _rivals(alike: list[Run], best: Run, runs: list[Run]) -> tuple[tuple[str, str], ...]:
@@ -378,11 +401,13 @@ def _runs(sheet: Sheet) -> list[Run]:
         if (
             not is_data
             and len(places) >= 1
-            and len(places) + marks >= 2
+            and (len(places) + marks >= 2 or (len(row) == 1 and not gap))
             and texts == 0
             and current is not None
         ):
             is_data = set(places) <= set(current.columns)
+        if not is_data and current is not None and not gap and places and _is_broken(sheet.rows, i):
+            is_data = set(places) < set(current.columns)
         if is_data and texts and first and current is None:
             is_data = _goes_on(sheet, i, places)
         if not is_data:
@@ -431,6 +456,20 @@ def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
             texts += 1
             first = first or ("" if places else str(cell))
     return places, texts, first, marks
+
+
+_DIGITS = re.compile(r"[-+0-9.,'_xXeE]{1,40}")
+
+
+def _is_broken(rows: Sequence[Sequence[Cell]], i: int) -> bool:
+    """Whether the texts of a row are broken readings: they are digits, or stand in the next or the last row
+    too, where a footer says a word once.
+    """
+    texts = [cell if kind_of(cell) == TEXT else "" for cell in rows[i]]
+    if all(_DIGITS.fullmatch(str(text)) for text in texts if text):
+        return True
+    beside = (rows[j] for j in (i - 1, i + 1) if 0 <= j < len(rows) and len(rows[j]) == len(texts))
+    return any(texts == [cell if kind_of(cell) == TEXT else "" for cell in row] for row in beside)
 
 
 def _was_labelled(run: Run) -> bool:

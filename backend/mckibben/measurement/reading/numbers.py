@@ -134,18 +134,29 @@ def numbers_of(cells: Sequence[Any], style: NumberStyle) -> tuple[Array, dict[in
             value = number_of(cell, style)
         if not np.isfinite(value):
             text = cell.strip() if isinstance(cell, str) else "" if cell is None else str(cell)
-            gaps[row] = Gap(_why(cell, text), text[:40])
+            gaps[row] = Gap(_why(cell, text, value, style), text[:40])
             value = np.nan
         values[row] = value
     return values, gaps
 
 
-def _why(cell: Any, text: str) -> str:
+#: Reasons of cells that should hold a number and do not -> what is said of them.
+BROKEN = {
+    "broken": "is not a number", "too large": "is too large",
+    "other sign": "has another decimal sign than the cells around it",
+}  # fmt: skip
+
+
+def _why(cell: Any, text: str, value: float, style: NumberStyle) -> str:
     if isinstance(cell, float):
         return "not a finite number"
     if not text:
         return "empty"
-    return marker_of(text) or "broken"
+    if (marker := marker_of(text)) is not None:
+        return marker
+    if not _PLAIN.fullmatch(text):
+        return "broken"
+    return "too large" if np.isinf(value) else "other sign" if style.decimal not in text else "broken"
 
 
 def with_units(cells: Sequence[Any]) -> tuple[list[Any], str]:

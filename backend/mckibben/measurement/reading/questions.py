@@ -133,8 +133,12 @@ class Reading:
 
 
 def bare(column: Column) -> str:
-    """A head without its unit, as options name it."""
-    return taken_apart(column.head, column.unit).name or column.title
+    """A head without its unit, as options name it; its place where several are called alike."""
+    head = column.head.strip()
+    if head and column.key not in ("", head) and column.place >= 0:
+        return f"column {column.place + 1}"
+    apart = taken_apart(head, column.unit)
+    return (apart.name if apart.unit is not None or apart.absolute is not None else head) or column.title
 
 
 def option_of(channel: str, column: Column, unit: str | None = None, *, sign: int = 1) -> str:
@@ -433,14 +437,16 @@ def _seconds(reading: Reading) -> Iterator[Question]:
             if _same_values(reading, channel, use, option):
                 continue
             first, second = reading.table.columns[i], reading.table.columns[option.column]
+            alike = first.head == second.head and first.place >= 0
+            mine_said = column_option(channel, f"column {first.place + 1}" if alike else bare(first))
             yield Question(
                 f"second {channel}",
-                f"{reading.table.noun}s '{first.head}' and '{second.head}' are both {channel} and differ"
-                f"{_joint(reading, i, option.column)}; which one acts on the muscle",
-                f"{option_of(channel, first)} or {option_of(channel, second)}",
-                second.head,
-                first.head,
-                (first.head, second.head),
+                f"{reading.table.noun}s '{first.title}' and '{second.title}' are both {channel} and differ"
+                f"{_joint(reading, i, option.column) if slot == 'pressure' else ''}; which one acts on the muscle",
+                f"{mine_said} or {option_of(channel, second)}",
+                second.title,
+                first.title,
+                (first.title, second.title),
             )
 
 
@@ -1142,12 +1148,14 @@ def _several(reading: Reading) -> Iterator[Question]:
 Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
-    _units, _unnamed, _unread, _seconds, _set_point, _by_valve, _counted, _specimens, _signs,
+    _units, _unread, _seconds, _set_point, _by_valve, _counted, _signs,
     _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
 )  # fmt: skip
 #: Asked always.
 ALWAYS: tuple[Policy, ...] = (
     _unknown_unit,
+    _unnamed,
+    _specimens,
     _rest_length,
     _load,
     _twice,
