@@ -40,6 +40,7 @@ _SIGNALS = {
     "voltage": "a voltage", "current": "a current", "count": "a count", "bridge": "the output of a bridge",
     "share of range": "a share of a range",
 }  # fmt: skip
+_MOST_OTHERS = 6  # columns of other tables that are named in messages
 _LOADS = ("load_mass", "load_force")
 UNKNOWN = "its name is not known"
 #: Role of a column -> what it is.
@@ -144,7 +145,8 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
     channels: dict[str, Any] = dict(rows.channels)
     conditions = dict(known.conditions)
     weights = weights_of_runs(channels)
-    if weights is not None and np.ptp(weights) > 0.0 and not set(_LOADS) & set(reading.correction.conditions):
+    by_runs = "force" in rows.held or (weights is not None and np.ptp(weights) > 0.0)
+    if by_runs and not set(_LOADS) & set(reading.correction.conditions):
         for key in _LOADS:  # of the first run, in its title
             conditions.pop(key, None)
     stated_kind = conditions.pop("kind", None)
@@ -173,10 +175,16 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
         f"{table.noun} '{title}' is not used: {why}"
         for title, why in unread
         if any(
-            c.title == title and any(e.facet == "channel" and e.rule != "unit" for e in reading.own(i))
+            c.title == title
+            and (
+                i in rows.dropped
+                or any(e.facet == "channel" and e.rule != "unit" for e in reading.own(i))
+                or "a value" in reading.roles(i)
+            )
             for i, c in enumerate(table.columns)
         )
     ]
+    messages += [f"'{title}' is not read: {why}" for title, why in table.others[:_MOST_OTHERS]]
     measurement = build(
         {c: channels[c] for c in CHANNEL_UNITS if c in channels},
         name=reading.name,
@@ -235,7 +243,7 @@ def _origin(reading: Reading, channel: str) -> tuple[str, str]:
 
 def said(reading: Reading) -> list[str]:
     """What was decided for each channel, by the evidence that won, with its words and place."""
-    lines = []
+    lines = [f"{e.value}, which is not read" for e in reading.evidence if e.facet == "unread"]
     for channel, i, use, column in reading.uses():
         label = f"{reading.table.noun} '{column.title}'"
         if not reading.said_unit(channel) and not column.clock and channel != "command":

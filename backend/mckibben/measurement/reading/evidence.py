@@ -153,7 +153,8 @@ def of_column(i: int, column: Column) -> list[Evidence]:
     for text in texts:
         absolute = taken_apart(text[:200]).absolute if absolute is None else absolute
     if absolute is not None:
-        found.append(Evidence(i, "absolute", absolute, _UNIT_STATED, span, "reference"))
+        said = Span(column.where, f"{column.head} {column.unit}".strip())
+        found.append(Evidence(i, "absolute", absolute, _UNIT_STATED, said, "reference"))
     if unit is not None:
         found.append(
             Evidence(
@@ -271,6 +272,10 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         for facet, value in rule.claims.items():
             if facet == "kind" and pattern_of(rule).search(folded(text)):
                 found.append(Evidence(FILE, "kind", value, rule.weight, span, rule.id))
+            elif facet == "unread" and (match := pattern_of(rule).search(text)):
+                found.append(
+                    Evidence(FILE, facet, f"'{match[0]}' ({span.where}) is {value}", 1.0, span, rule.id)
+                )
             elif facet == "role" and (match := pattern_of(rule).search(text)):
                 if not any(c.value == "time" for c in head_claims(match["what"])):
                     found += [

@@ -125,11 +125,9 @@ def _no_table(sheets: Sequence[Sheet], name: str) -> InputError:
             )
             shown = "" if below is None else f"; {sheet.place(below)} is '{sentence(sheet.rows[below])[:60]}'"
             heads = ", ".join(_text(c) for c in row if c != "")[:80]
-            return InputError(
-                f"{name}, row {sheet.line(i)}: there are no rows of numbers below the header '{heads}'{shown}",
-                field=f"row {sheet.line(i)}",
-                hint="it needs one row of numbers per reading",
-            )
+            row_there = f"row {sheet.line(i)}"
+            why = f"{name}, {row_there}: there are no rows of numbers below the header '{heads}'{shown}"
+            return InputError(why, field=row_there, hint="it needs one row of numbers per reading")
     why = f"{name}: no table: no rows of numbers with at least two columns"
     return InputError(why, field="file", hint=_HINT)
 
@@ -200,7 +198,12 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         tables=tables if len(tables) > 1 else (),
         rivals=rivals,
         raw=_shown(best.sheet, best.head_row),
-        messages=(*(m for s in sheets for m in s.messages), *_unread_rows(alike, best)),
+        messages=(
+            *(m for s in sheets for m in s.messages),
+            *_unread_rows(alike, best),
+            *_as_runs([run.sheet.place(run.head_row or run.rows[0]) for run in alike if not rivals]),
+            *([f"only the first {MAX_TEXTS} texts beside the table are searched"] * (len(texts) > MAX_TEXTS)),
+        ),
         headless=not any(best.heads.values()),
     )
 
@@ -600,7 +603,9 @@ def _listed_names(run: Run) -> None:
         filled = [str(c) for c in run.sheet.rows[i] if c != ""]
         if (i in run.above and len(filled) > 1) or len(filled) != 1:
             continue
-        names = _split_head(filled[0], len(run.columns))
+        below = [str(c) for c in run.sheet.rows[i + 1] if c != ""]
+        goes_on = filled[0].rstrip().endswith(",") and len(below) == 1 and i + 1 < run.rows[0]
+        names = _split_head(f"{filled[0]} {below[0]}" if goes_on else filled[0], len(run.columns))
         if names and sum(head_score(n) for n in names) > sum(head_score(h) for h in run.heads.values()):
             run.heads = dict(zip(run.columns, names, strict=True))
             return
@@ -701,18 +706,23 @@ def _split_head(text: str, width: int) -> list[str]:
     name.
     """
     bare = re.sub(r"^[\s#%/!;*]+", "", text)
-    bare = re.sub(
-        r"^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?", "", bare, flags=re.I
-    )
+    bare = _LISTED.sub("", bare)
     ways = [re.split(r"\s?[,;\t|]\s?", bare), re.split(r"\s{2,}|\t", bare), _joined_units(bare.split())]
     for k, cells in enumerate(ways):
-        cells = [cell.strip().strip('"') for cell in cells if cell.strip()]
+        cells = [_AND.sub("", cell.strip().strip('".')) for cell in cells if cell.strip()]
         if any(kind_of(cell) in (NUMBER, CLOCK) for cell in cells):
             continue
         least = max(2, 0.5 * width if k == len(ways) - 1 else 0)  # a sentence has blanks as well
         if len(cells) == width and sum(head_score(cell) > 0 for cell in cells) >= min(least, width):
             return cells
     return []
+
+
+_LISTED = re.compile(  # "The four columns are:"
+    r"(?i)^(?:[\w ]{0,30}(?<!\w))?(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)"
+    r"(?: \w{1,9})?\s?:\s?"
+)
+_AND = re.compile(r"(?i)^(?:and|und|et|e|y|en)\s+")
 
 
 def _joined_units(cells: Sequence[str]) -> list[str]:
@@ -844,7 +854,7 @@ def _texts(sheets: Sequence[Sheet], used: set[tuple[int, int]]) -> list[Span]:
     found: list[Span] = []
     for sheet in sheets:
         for i, row in enumerate(sheet.rows):
-            if len(found) >= MAX_TEXTS:
+            if len(found) > MAX_TEXTS:  # one more, to be told
                 return found
             if (id(sheet), i) not in used and (text := sentence(row)):
                 found.append(Span(sheet.place(i), text))
@@ -911,6 +921,7 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
         if (s, t) not in alike
         for c in t
     ]
+    unread += [left for s, _ in tables for left in s.left]
     parts = [
         Part(tuple(t), (*s.texts, Span(s.name, s.name)), np.arange(1, len(t[0].values) + 1)) for s, t in alike
     ]
@@ -932,8 +943,16 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
         others=tuple(unread),
         tables=titles,
         rivals=rivals,
-        messages=tuple(m for s in sheets for m in s.messages),
+        messages=(*(m for s in sheets for m in s.messages), *_as_runs([s.name for s, _ in alike])),
     )
+
+
+def _as_runs(places: Sequence[str]) -> list[str]:
+    """What is said of tables with the same columns that are read one after another."""
+    if len(places) < 2:
+        return []
+    shown = ", ".join(repr(place) for place in places[:4]) + (", ..." if len(places) > 4 else "")
+    return [f"{len(places)} tables with the same columns are read as runs: {shown}"]
 
 
 def _claimed(columns: Sequence[Column]) -> int:

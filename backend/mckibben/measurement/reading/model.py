@@ -38,6 +38,7 @@ class Sheet:
         arrays: name -> values, where the format keeps whole columns.
         units: name -> unit that stands apart from it.
         texts: what stands beside the columns.
+        left: names of arrays that are none of its columns, and why.
         lines: number in the file of each row; empty = they count from 1.
         messages: what was assumed.
         bulk: (row before which it stands, numbers) of the middle of a long table, which are no cells.
@@ -53,6 +54,7 @@ class Sheet:
     arrays: Mapping[str, Any] | None = None
     units: Mapping[str, str] = field(default_factory=dict)
     texts: tuple[Span, ...] = ()
+    left: tuple[tuple[str, str], ...] = ()
     lines: tuple[int, ...] = ()
     messages: tuple[str, ...] = ()
     bulk: tuple[int, Array] | None = None

@@ -108,7 +108,6 @@ def rows_of(
             r for o in others for r in table.columns[o].gaps
         }:
             rows.dropped[i] = f"it holds no number in {len(table.columns[i].gaps)} rows"
-            rows.messages.append(f"{table.noun} '{table.columns[i].title}' is not used: {rows.dropped[i]}")
             del used[channel], values[channel]
     keep = _readable(table, [i for i, _ in used.values()], rows, skip=bad)
     keep &= _possible(table, used, values, keep, facts.ambient, rows, skip=bad)

@@ -200,6 +200,7 @@ def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list
             bare = line.strip().lstrip('#%/!*" ').strip()
             again = _row(bare, delimiter)
             sentence = sum("=" in cell or ":" in cell for cell in again) * 2 >= len(again)
+            sentence |= delimiter == "," and _DECIMAL.search(bare) is not None and not _is_numbers(again)
             row = (
                 again
                 if len(again) == usual and len(again) > 1 and not sentence
@@ -211,6 +212,13 @@ def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list
         rows.append(list(row[:MAX_COLUMNS]))
         numbers.append(number)
     return rows, numbers
+
+
+_DECIMAL = re.compile(r"\d,\d")
+
+
+def _is_numbers(cells: Sequence[str]) -> bool:
+    return all(kind_of(cell) in (NUMBER, CLOCK) for cell in cells)
 
 
 _QUOTED = re.compile(r'"[^"]*"|[^\s"]+')
