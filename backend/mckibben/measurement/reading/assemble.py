@@ -22,7 +22,7 @@ from mckibben.measurement.order import FROM_ROWS, order_of_rows
 from mckibben.measurement.question import Question
 from mckibben.measurement.reading.containers import sheets_of
 from mckibben.measurement.reading.correction import Correction
-from mckibben.measurement.reading.decide import decide, roles_of
+from mckibben.measurement.reading.decide import SLOTS, decide, roles_of
 from mckibben.measurement.reading.derived import with_derived, without_stated_marks
 from mckibben.measurement.reading.evidence import evidence_of
 from mckibben.measurement.reading.facts import Known, known_of
@@ -46,7 +46,7 @@ UNKNOWN = "its name is not known"
 #: Role of a column -> what it is.
 _ROLES = {
     "air": "the surrounding air", "supply": "the supply", "at rest": "a length at rest",
-    "raw": "a raw signal", "slack": "clipped, or a mark of slack", "words": "in words",
+    "raw": "a raw signal", "slack": "clipped, or a mark of slack",
     "a value": "the name of a value", "another axis": "an axis of something else than time",
 }  # fmt: skip
 DISMISSED = "the file says that it is no channel"
@@ -78,6 +78,8 @@ def decided(
     name: str, table: Table, evidence: tuple[Evidence, ...], known: Known, correction: Correction
 ) -> Reading:
     """The decision about a table, and its rows."""
+    if not table.rows:
+        raise _nothing(name, table, evidence)
     decision = decide(table, evidence, known.facts(table))
     if not set(decision.uses) - {"time", "temperature"}:
         raise _nothing(name, table, evidence)
@@ -115,7 +117,7 @@ def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputEr
         (c, next((w for w in c.words if kind_of(w) == TEXT), ""))
         for c in table.columns
         if c.words is not None
-        and any(claim.facet == "channel" for claim in head_claims(c.head[:200], c.unit))
+        and any(e.facet == "channel" and e.value in SLOTS for e in head_claims(c.head[:200], c.unit))
     ]
     if worded:
         column, word = worded[0]

@@ -201,7 +201,7 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         messages=(
             *(m for s in sheets for m in s.messages),
             *_unread_rows(alike, best),
-            *_as_runs([run.sheet.place(run.head_row or run.rows[0]) for run in alike if not rivals]),
+            *_as_runs([run.sheet.place(run.rows[0]) for run in alike if not rivals]),
             *([f"only the first {MAX_TEXTS} texts beside the table are searched"] * (len(texts) > MAX_TEXTS)),
         ),
         headless=not any(best.heads.values()),
@@ -461,7 +461,7 @@ def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
     return places, texts, first, marks
 
 
-_DIGITS = re.compile(r"[-+0-9.,'_xXeE]{1,40}")
+_DIGITS = re.compile(r"[-+.,'_]{0,3}[0-9][-+0-9.,'_xXeE]{0,40}")
 
 
 def _is_broken(rows: Sequence[Sequence[Cell]], i: int) -> bool:
@@ -469,6 +469,8 @@ def _is_broken(rows: Sequence[Sequence[Cell]], i: int) -> bool:
     too, where a footer says a word once.
     """
     texts = [cell if kind_of(cell) == TEXT else "" for cell in rows[i]]
+    if not any(texts):
+        return False
     if all(_DIGITS.fullmatch(str(text)) for text in texts if text):
         return True
     beside = (rows[j] for j in (i - 1, i + 1) if 0 <= j < len(rows) and len(rows[j]) == len(texts))

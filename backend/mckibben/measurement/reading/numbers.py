@@ -76,7 +76,9 @@ def style_of(cells: Iterable[Any]) -> NumberStyle:
     for cell in cells:
         if not isinstance(cell, str) or not cell or len(cell) > _LONGEST:
             continue
-        text = cell.strip()
+        text = cell.strip().replace("−", "-")
+        if (tolerance := _TOLERANCE.fullmatch(text)) is not None:
+            text = tolerance[1]
         grouped = _GROUPED.fullmatch(text)
         if grouped is not None:
             mark, rest = grouped["mark"], grouped["rest"]

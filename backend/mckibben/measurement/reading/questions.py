@@ -181,7 +181,8 @@ def _follows(question: Question, asked: Sequence[Question]) -> bool:
     """
     open_zeros = {q.column for q in asked if q.about.partition("zero of ")[2] in STROKES}
     units = {q.column for q in asked if q.stops and q.about.startswith("unit of")}
-    if question.column in units and question.about.startswith(("reference of", "pressure in", "force in")):
+    about = question.about.partition(" in ")[0]  # "pressure in p1"
+    if question.column in units and (about in SLOTS or about.startswith("reference of")):
         return True
     if not open_zeros or not question.stops or question.about.startswith(("zero of", "unit of")):
         return False

@@ -5,6 +5,7 @@ held.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -195,6 +196,7 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
             first.pop(r, None)
             _refuse(rows, table, int(table.lines[r]), "", what, hint)
             _count(rows, "another number of cells", 1, f"row {int(table.lines[r])}")
+    counts = Counter(reason for _, reason, _ in first.values())
     for r, (i, reason, text) in sorted(first.items()):
         title = table.columns[i].title
         where = f"row {int(table.lines[r])}, {table.noun} '{title}'"
@@ -204,8 +206,7 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
             continue
         if reason in BROKEN:
             what, hint = f"{text!r} {BROKEN[reason]}", "a number, or an empty cell"
-            broken = [row for row, (_, why, _) in first.items() if why == reason]
-            what += f" (and {len(broken) - 1} more such rows)" if len(broken) > 1 else ""
+            what += f" (and {counts[reason] - 1} more such rows)" if counts[reason] > 1 else ""
             _refuse(rows, table, int(table.lines[r]), title, what, hint)
             _count(rows, "not a number", 1, where)
             continue
