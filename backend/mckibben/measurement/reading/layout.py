@@ -15,6 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mckibben.measurement.reading.conditions import TEXT_CONDITIONS, key_of
 from mckibben.measurement.reading.heads import head_claims, head_score, taken_apart, without_run
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_ROWS, MAX_TEXT, MAX_TEXTS, SPLIT
@@ -409,7 +410,7 @@ def _runs(sheet: Sheet) -> list[Run]:
             and current is not None
         ):
             is_data = set(places) <= set(current.columns)
-        if not is_data and current is not None and not gap and places and _is_broken(sheet.rows, i):
+        if not is_data and current is not None and not gap and texts and _is_broken(sheet.rows, i):
             is_data = set(places) < set(current.columns)
         if is_data and texts and first and current is None:
             is_data = _goes_on(sheet, i, places)
@@ -461,7 +462,7 @@ def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
     return places, texts, first, marks
 
 
-_DIGITS = re.compile(r"[-+.,'_]{0,3}[0-9][-+0-9.,'_xXeE]{0,40}")
+_DIGITS = re.compile(r"[-+.,'_]{0,3}[0-9][-+0-9.,;|'_xXeE\t ]{0,200}")
 
 
 def _is_broken(rows: Sequence[Sequence[Cell]], i: int) -> bool:
@@ -469,8 +470,6 @@ def _is_broken(rows: Sequence[Sequence[Cell]], i: int) -> bool:
     too, where a footer says a word once.
     """
     texts = [cell if kind_of(cell) == TEXT else "" for cell in rows[i]]
-    if not any(texts):
-        return False
     if all(_DIGITS.fullmatch(str(text)) for text in texts if text):
         return True
     beside = (rows[j] for j in (i - 1, i + 1) if 0 <= j < len(rows) and len(rows[j]) == len(texts))
@@ -830,6 +829,8 @@ def sentence(row: Sequence[Cell]) -> str:
     """The cells of a row as one text: ``Ruhelänge: 250 mm; Muskel: DMSP-20``."""
     text = ""
     before = EMPTY
+    filled = [cell for cell in row if cell != ""]
+    named = len(filled) == 2 and key_of(str(filled[0])[:40])[0] in ("kind", *TEXT_CONDITIONS)
     for cell in row:
         if cell == "":
             continue
@@ -840,7 +841,9 @@ def sentence(row: Sequence[Cell]) -> str:
         elif before == NUMBER and kind == TEXT and unit_of(shown) is not None:
             text += f" {shown}"
         elif text.endswith(":") or (
-            before == TEXT and (kind == NUMBER or shown[:1].isdigit()) and not text.endswith(("=", ":"))
+            before == TEXT
+            and (named or kind == NUMBER or shown[:1].isdigit())
+            and not text.endswith(("=", ":"))
         ):
             text += f": {shown}" if not text.endswith(":") else f" {shown}"
         else:

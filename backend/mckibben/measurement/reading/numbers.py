@@ -68,6 +68,9 @@ def kind_of(cell: Any) -> str:
     return EMPTY if cell is None else TEXT
 
 
+_MOSTLY = 3  # cells with one decimal sign for each with the other one, which then is a mistake
+
+
 def style_of(cells: Iterable[Any]) -> NumberStyle:
     """The way the numbers of a table are written; a mark that could be both is a decimal sign."""
     commas = points = 0  # cells in which the sign can only be a decimal sign
@@ -93,9 +96,9 @@ def style_of(cells: Iterable[Any]) -> NumberStyle:
             unsure_points |= mark == "."
         elif _PLAIN.fullmatch(text):
             commas, points = commas + ("," in text), points + ("." in text)
-    if commas and not points:
+    if commas > _MOSTLY * points:
         return NumberStyle(",", "." if "." in marks or unsure_points else next(iter(marks - {","}), ""))
-    if points and not commas:
+    if points > _MOSTLY * commas:
         return NumberStyle(".", "," if "," in marks or unsure_commas else next(iter(marks - {"."}), ""))
     if unsure_commas and not unsure_points and not points:
         return NumberStyle(",", next(iter(marks - {","}), ""))

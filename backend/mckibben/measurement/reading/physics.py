@@ -100,6 +100,9 @@ def proposal(channel: str, raw: Array) -> Proposal:
     return Proposal(si if si_will_do else choices[0] if choices else si, choices, si_will_do)
 
 
+_MANY = 20  # rows
+
+
 def alone(channel: str, x: Array, rest: float | None, blocks: int) -> Terms:
     """What the readings of one column say by themselves; ``x`` finite."""
     if len(x) < 2:
@@ -118,9 +121,18 @@ def alone(channel: str, x: Array, rest: float | None, blocks: int) -> Terms:
     return []
 
 
+def _bounds(x: Array, share: float) -> tuple[float, float]:
+    """The lowest and the highest readings but a share [%] of them; where there are many, but one at least: a
+    broken reading does not say what the others are.
+    """
+    share = max(share, 100.0 / (len(x) - 1)) if len(x) >= _MANY else share
+    low, high = np.percentile(x, [share, 100.0 - share])
+    return float(low), float(high)
+
+
 def _pressure(p: Array) -> Terms:
     """A gauge pressure between a weak vacuum and what a muscle bears."""
-    low, high = np.percentile(p, 1), np.percentile(p, 99)
+    low, high = _bounds(p, 1.0)
     terms = []
     if not 0.3e5 <= high <= 10e5:
         terms.append(
@@ -133,7 +145,7 @@ def _pressure(p: Array) -> Terms:
 
 def _force(f: Array, p: Array | None) -> Terms:
     """A muscle pulls, with newtons to kilonewtons."""
-    size = np.percentile(np.abs(f), 99)
+    size = _bounds(np.abs(f), 1.0)[1]
     terms = []
     if not 2.0 <= size <= 6000.0:
         terms.append(("the force is not of the order of a muscle's", -2.0 if 0.5 <= size <= 2e4 else -6.0))
@@ -145,7 +157,7 @@ def _force(f: Array, p: Array | None) -> Terms:
 
 def _stroke(channel: str, x: Array, rest: float | None) -> Terms:
     """Contractions between a slight stretch and 42 %, lengths of a muscle."""
-    low, high = np.percentile(x, 0.5), np.percentile(x, 99.5)
+    low, high = _bounds(x, 0.5)
     if channel == "length":
         terms = [] if 0.02 <= high <= 2.5 and low > 0 else [("the length is not that of a muscle", -6.0)]
         if low > 0 and (high - low) > LONGEST * high:
