@@ -830,7 +830,7 @@ def sentence(row: Sequence[Cell]) -> str:
     text = ""
     before = EMPTY
     filled = [cell for cell in row if cell != ""]
-    named = len(filled) == 2 and key_of(str(filled[0])[:40])[0] in ("kind", *TEXT_CONDITIONS)
+    named = len(filled) == 2 and key_of(str(filled[0])[:40].strip("#: "))[0] in ("kind", *TEXT_CONDITIONS)
     for cell in row:
         if cell == "":
             continue
