@@ -404,7 +404,7 @@ ERRORS = {
     "arabic digits": (BASE + "٣,3,5\n", "a.csv, row 4, column 'pressure_bar': '٣' is not a number"),
     "true": (
         "pressure_bar,length_mm\nTrue,1\nTrue,1\n",
-        "a.csv, row 1: there are no rows of numbers below the header 'pressure_bar, length_mm'; line 2 is 'True",
+        "a.csv, row 1: there are no rows of numbers below the header 'pressure_bar, length_mm'; line 2 is",
     ),
     "empty cell": (BASE + 3 * "3,,5\n", "a.csv, row 4, column 'length_mm': the cell is empty"),
     "nan": (
