@@ -172,7 +172,7 @@ def compression() -> OpenFile:
         digits=6,
     )
     return OpenFile(
-        "j.csv", data, ("sign of force",), True, ("--column", "force=-force [kN]"), ("force", r.force)
+        "j.csv", data, ("sign of force",), False, ("--column", "force=-force [kN]"), ("force", r.force)
     )
 
 
@@ -188,7 +188,7 @@ def descending() -> OpenFile:
     )
     answer = ("--column", "length=position [mm]")
     return OpenFile(
-        "k.csv", data, ("sign of displacement", "rest length"), True, answer, ("length", 0.06 - r.stroke)
+        "k.csv", data, ("zero of displacement", "rest length"), True, answer, ("length", 0.06 - r.stroke)
     )
 
 

@@ -58,7 +58,7 @@ def test_a_unit_may_say_absolute() -> None:
 
 
 def test_a_unit_that_is_not_said_is_the_headers() -> None:
-    found = correction(columns={"stroke_mm": {"channel": "length"}}, bad_rows="skip")
+    found = correction(columns={"stroke_mm": {"channel": "length"}, "p1": None}, bad_rows="skip")
     text = CSV.replace(b"0,1,0,100", b"0,1,1,100")
     assert read_measurement(text, "a.csv", found).columns["length"].max() == pytest.approx(0.1)
 
@@ -71,7 +71,8 @@ def test_a_column_without_a_name_of_its_own_is_named_by_its_place() -> None:
 
 
 def test_a_condition_can_be_taken_away() -> None:
-    found = read_measurement(CSV, "a.csv", correction(conditions={"load_mass": None}, bad_rows="skip"))
+    said = correction(columns={"p1": None}, conditions={"load_mass": None}, bad_rows="skip")
+    found = read_measurement(CSV, "a.csv", said)
     assert "load_mass" not in found.conditions
 
 
@@ -112,14 +113,14 @@ def test_a_bad_mapping_names_its_key(text: str) -> None:
 
 
 def test_a_column_that_is_not_there() -> None:
-    with pytest.raises(InputError, match="the file has no column 'p11'") as caught:
+    with pytest.raises(InputError, match="there is no column 'p11'") as caught:
         read_measurement(CSV, "a.csv", correction(columns={"p11": None}))
-    assert caught.value.field == "mapping.columns.p11"
+    assert caught.value.field == "column p11"
     assert caught.value.hint == "Did you mean 'p1'?"
 
 
 def test_preview_of_what_can_be_guessed() -> None:
-    found = preview(CSV.replace(b"21,7,,1,x", b"21,7,seven,1,x"), "a.csv")
+    found = preview(CSV.replace(b"21,7,,1,x", b"21,7,seven,1,x"), "a.csv", correction(columns={"p1": None}))
     by_header = {column.header: column for column in found.columns}
     assert list(by_header) == ["time_s", "p1", "stroke_mm", "F_N", "note"]
     assert [column.channel for column in found.columns] == ["time", None, "displacement", "force", None]

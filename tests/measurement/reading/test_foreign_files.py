@@ -58,7 +58,7 @@ def test_pages_of_fixed_width_are_one_table() -> None:
         text += [f"BENCH 7      PAGE {number // 25 + 1}", "", *page, *lines[number : number + 25], "\f"]
     result = read_measurement("\r\n".join(text).encode(), "a.prn")
     assert result.rows == len(lines)
-    assert any("repeated on the pages" in said for said in result.messages)
+    assert any("are read as runs" in said for said in result.messages)
     np.testing.assert_allclose(result.columns["pressure"], R.pressure, atol=51.0)
     np.testing.assert_allclose(result.columns["force"], R.force, atol=5.1e-3)
 

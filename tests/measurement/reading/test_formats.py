@@ -98,7 +98,7 @@ def test_scalars_and_texts_are_conditions(packed: bool) -> None:
     assert_same(result)
     assert result.kind == "isometric"
     assert result.conditions == {"load_mass": 6.0, "supply_pressure": 7e5, "note": "hello"}
-    assert "variable 'A' is not used: it is not a vector of numbers" in result.messages
+    assert "'A' is not read: it is no vector of numbers" in result.messages
 
 
 def test_words_integers_and_singles() -> None:
@@ -143,7 +143,7 @@ def test_matlab_tables_are_refused_with_a_way_out() -> None:
     )
     header = b"MATLAB 5.0 MAT-file".ljust(124) + b"\x00\x01IM"
     error = refused(header + element(14, opaque), "a.mat")
-    assert error.message == "a.mat: variable 'T' is a table or another object, which cannot be read"
+    assert error.message == "a.mat, variable 'T': it is a MATLAB table or another object, which is not read"
     assert "table2struct" in str(error.hint)
 
 
@@ -213,7 +213,7 @@ def test_groups_of_a_tdms_file_are_runs() -> None:
     assert result.rows == 2 * ROWS
     np.testing.assert_array_equal(result.columns["group"], np.repeat([0, 1], ROWS))
     np.testing.assert_allclose(result.columns["time"], np.tile(SI["time"], 2), atol=1e-12)
-    assert "2 groups with the same channels are read as runs" in result.messages
+    assert "2 tables with the same columns are read as runs: 'first', 'second'" in result.messages
 
 
 def test_the_group_with_our_channels_is_read() -> None:
@@ -222,7 +222,7 @@ def test_the_group_with_our_channels_is_read() -> None:
     result = read_measurement(data, "a.tdms")
     assert_same(result, but=("time",))
     assert result.conditions == {"load_mass": 6.0}
-    assert "group 'log' is not used" in result.messages
+    assert "'log/status' is not read: it is in another table" in result.messages
 
 
 def test_time_stamps_count_from_the_first() -> None:

@@ -71,7 +71,7 @@ def test_json_lines_with_other_lines_between() -> None:
     found = read("\n".join(map(json.dumps, lines)), "a.jsonl")
     assert_is_the_test(found)
     assert found.conditions["ambient_pressure"] == 1e5
-    assert any("2 lines without readings" in message for message in found.messages)
+    assert any("2 of 42 records hold no readings" in message for message in found.messages)
 
 
 def test_json_without_readings_is_refused() -> None:

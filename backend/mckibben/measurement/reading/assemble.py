@@ -23,24 +23,35 @@ from mckibben.measurement.question import Question
 from mckibben.measurement.reading.answers import DISMISSED
 from mckibben.measurement.reading.containers import sheets_of
 from mckibben.measurement.reading.correction import Correction
-from mckibben.measurement.reading.decide import decide, roles_of
+from mckibben.measurement.reading.decide import SLOTS, decide, roles_of
 from mckibben.measurement.reading.derived import with_derived, without_stated_marks
 from mckibben.measurement.reading.evidence import evidence_of
 from mckibben.measurement.reading.facts import Known, known_of
+from mckibben.measurement.reading.heads import head_claims
 from mckibben.measurement.reading.layout import table_of
+from mckibben.measurement.reading.lexicon import words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table
+from mckibben.measurement.reading.numbers import TEXT, kind_of
 from mckibben.measurement.reading.questions import Reading, questions_of
 from mckibben.measurement.reading.rows import rows_of
 from mckibben.measurement.reading.units import dimension_of
-from mckibben.physics.errors import InputError
+from mckibben.physics.errors import InputError, did_you_mean
 
 _SIGNALS = {
     "voltage": "a voltage", "current": "a current", "count": "a count", "bridge": "the output of a bridge",
     "share of range": "a share of a range",
 }  # fmt: skip
+_MOST_OTHERS = 6  # columns of other tables that are named in messages
 _NAMED = 4  # columns in a message
 _LOADS = ("load_mass", "load_force")
 UNKNOWN = "its name is not known"
+#: Role of a column -> what it is.
+_ROLES = {
+    "air": "the surrounding air", "supply": "the supply", "at rest": "a length at rest",
+    "raw": "a raw signal", "slack": "clipped, or a mark of slack",
+    "a value": "the name of a value", "another axis": "an axis of something else than time",
+    "ignored": "a column that the file leaves out",
+}  # fmt: skip
 
 
 def looked_at(data: bytes, name: str, correction: Correction) -> tuple[Table, tuple[Evidence, ...], Known]:
@@ -69,6 +80,8 @@ def decided(
     name: str, table: Table, evidence: tuple[Evidence, ...], known: Known, correction: Correction
 ) -> Reading:
     """The decision about a table, and its rows."""
+    if not table.rows:
+        raise _nothing(name, table, evidence)
     decision = decide(table, evidence, known.facts(table))
     nothing = not set(decision.uses) - {"time", "temperature"}
     if nothing and table.headless:
@@ -109,10 +122,23 @@ def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputEr
             field=f"{table.noun} {raw[0]}",
             hint=f'--column "pressure={raw[0]} [0 to 10 V = 0 to 10 bar]"',
         )
+    worded = [
+        (c, next((w for w in c.words if kind_of(w) == TEXT), ""))
+        for c in table.columns
+        if c.words is not None
+        and any(e.facet == "channel" and e.value in SLOTS for e in head_claims(c.head[:200], c.unit))
+    ]
+    if worded:
+        column, word = worded[0]
+        why = f"{name}, {table.noun} '{column.title}': it holds words, '{word[:40]}', and hardly a number"
+        return InputError(why, field=f"{table.noun} {column.title}", hint="a number in each row")
+    where = name if table.head_row is None else f"{name}, row {table.head_row}"
+    near = (did_you_mean(word, CHANNEL_UNITS) or "" for c in table.columns for word in words_of(c.head)[:3])
+    meant = next((hint for hint in near if hint.startswith("Did")), None)
     return InputError(
-        f"{name}: no {table.noun} is known: {heads}",
+        f"{where}: no known channel among the {table.noun}s {heads}",
         field=f"{table.noun}s",
-        hint="e.g. a header 'pressure_bar,length_mm,force_N'",
+        hint=meant or "e.g. a header 'pressure_bar,length_mm,force_N'",
     )
 
 
@@ -130,7 +156,8 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
     channels: dict[str, Any] = dict(rows.channels)
     conditions = dict(known.conditions)
     weights = weights_of_runs(channels)
-    if weights is not None and np.ptp(weights) > 0.0 and not set(_LOADS) & set(reading.correction.conditions):
+    by_runs = "force" in rows.held or (weights is not None and np.ptp(weights) > 0.0)
+    if by_runs and not set(_LOADS) & set(reading.correction.conditions):
         for key in _LOADS:  # of the first run, in its title
             conditions.pop(key, None)
     stated_kind = conditions.pop("kind", None)
@@ -160,10 +187,17 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
         for title, why in unread
         if why != DISMISSED
         and any(
-            c.title == title and any(e.facet == "channel" and e.rule != "unit" for e in reading.own(i))
+            c.title == title
+            and (
+                i in rows.dropped
+                or any(e.facet == "channel" and e.rule != "unit" for e in reading.own(i))
+                or "a value" in reading.roles(i)
+            )
             for i, c in enumerate(table.columns)
         )
     ]
+    aside = (*table.dropped, *table.others)
+    messages += [f"'{title}' is not read: {why}" for title, why in aside[:_MOST_OTHERS]]
     measurement = _built(
         unread,
         {c: channels[c] for c in CHANNEL_UNITS if c in channels},
@@ -234,11 +268,19 @@ def _origin(reading: Reading, channel: str) -> tuple[str, str]:
 
 def said(reading: Reading) -> list[str]:
     """What was decided for each channel, by the evidence that won, with its words and place."""
-    lines = []
+    lines = [f"{e.value}, which is not read" for e in reading.evidence if e.facet == "unread"]
     for channel, i, use, column in reading.uses():
         label = f"{reading.table.noun} '{column.title}'"
         if not reading.said_unit(channel) and not column.clock and channel != "command":
             lines.append(f"{label} has no unit: read as {use.unit}")
+        units = [e for e in reading.own(i) if e.facet in ("unit", "unit_word") and e.value == use.unit]
+        if units and i not in reading.known.chosen:
+            best = max(units, key=lambda e: e.weight)
+            if best.span.where != column.where:
+                why = f", explained by {best.span.where}: '{best.span.text[:80]}'"
+                lines.append(f"{label} is the {channel} in {use.unit}{why}")
+            elif best.facet == "unit_word":
+                lines.append(f"{label} is the {channel} in {use.unit}")
         if use.scale != 1.0 or use.offset or any(e.facet == "scale" for e in reading.own(i)):
             lines.append(f"{label} is scaled: {_reason(reading, i, 'scale', None)}")
         if use.sign == -1:
@@ -319,13 +361,7 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
         return f"'{unit}' is {_SIGNALS[dimension_of(unit)]}, not a {named}"
     if roles:
         role = max(roles, key=lambda r: roles[r])
-        article = "" if role.startswith("a ") or role in ("air",) else "a "
-        return {
-            "air": "it is the surrounding air",
-            "supply": "it is the supply",
-            "at rest": "it is a length at rest",
-            "ignored": "the file says so",
-        }.get(role, f"it is {article}{role}")
+        return f"it is {_ROLES.get(role) or f'a {role}'}"
     if column.words is not None:
         return "it holds words"
     claimed = [e.value for e in own if e.facet == "channel"]
@@ -340,7 +376,7 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
 def _undecided(reading: Reading) -> tuple[str, ...]:
     """Columns that nothing is read from because neither their name nor their unit tells what they are."""
     unread = unread_of(reading)
-    titles = [title for title, why in unread if why in (UNKNOWN, "it is a raw")]
+    titles = [title for title, why in unread if why in (UNKNOWN, "it is a raw signal")]
     return tuple(
         title for title in titles if any(c.title == title and c.words is None for c in reading.table.columns)
     )

@@ -115,6 +115,8 @@ def _of_text(data: bytes, name: str) -> list[Sheet]:
         )
         raise _refusal(name, why, "export it again, or save it as CSV")
     text, messages = decoded(data, name)
+    if expected is not None:
+        messages = (*messages, f"the file is text, not {expected}: read as CSV")
     if text.lstrip()[:1] in ("{", "["):
         tree = _json(text, name)
         if tree is not None:

@@ -48,6 +48,7 @@ FINAL = (
     "slack",
     "condition",
     "ignored",
+    "another axis",
 )
 _ASIDE = ("set value", "running number", "remark", "raw", "words", "counter", "slack", *FINAL)
 SLOTS = {

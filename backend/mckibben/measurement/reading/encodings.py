@@ -77,11 +77,14 @@ def _from_utf16(data: bytes, name: str) -> bytes:
     )
     try:
         return data.decode(codec).encode()
-    except UnicodeError as error:
+    except UnicodeDecodeError as error:
         if codec != "utf-16":
             return data
+        row = data[: error.start].decode(codec, "ignore").count("\n") + 1
         raise InputError(
-            f"{name}, row 1: the UTF-16 text is damaged", field="row 1", hint="save it as 'CSV UTF-8'"
+            f"{name}, row {row}: the UTF-16 text is damaged",
+            field=f"row {row}",
+            hint="save it as 'CSV UTF-8'",
         ) from error
 
 

@@ -112,7 +112,10 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     for k, spans in enumerate(table.titles):
         for span in spans if len(table.titles) > 1 else ():
             found += _of_title(span, BLOCK - k)
-    found += _of_name(name)
+    found += _of_name(Span(NAME, PurePath(name).stem))
+    for span in table.texts:
+        if span.where.startswith("name of sheet"):
+            found += [e._replace(rule="sheet") for e in _of_name(span)]
     return found
 
 
@@ -157,7 +160,8 @@ def of_column(i: int, column: Column) -> list[Evidence]:
     for text in texts:
         absolute = taken_apart(text[:200]).absolute if absolute is None else absolute
     if absolute is not None:
-        found.append(Evidence(i, "absolute", absolute, _UNIT_STATED, span, "reference"))
+        said = Span(column.where, f"{column.head} {column.unit}".strip())
+        found.append(Evidence(i, "absolute", absolute, _UNIT_STATED, said, "reference"))
     if unit is not None:
         found.append(
             Evidence(
@@ -281,6 +285,17 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         for facet, value in rule.claims.items():
             if facet == "kind" and pattern_of(rule).search(folded(text)):
                 found.append(Evidence(FILE, "kind", value, rule.weight, span, rule.id))
+            elif facet == "unread" and (match := pattern_of(rule).search(text)):
+                found.append(
+                    Evidence(FILE, facet, f"'{match[0]}' ({span.where}) is {value}", 1.0, span, rule.id)
+                )
+            elif facet == "role" and (match := pattern_of(rule).search(text)):
+                if not any(c.value == "time" for c in head_claims(match["what"])):
+                    found += [
+                        Evidence(i, "role", value, rule.weight, span, rule.id)
+                        for i, column in enumerate(table.columns)
+                        if any(c.rule == "axis_of_a_logger" for c in head_claims(column.head[:200]))
+                    ]
             elif (
                 facet == "condition"
                 and (match := pattern_of(rule).search(text))
@@ -423,10 +438,9 @@ def _of_title(span: Span, target: int) -> list[Evidence]:
 _HELD_STEM = re.compile(r"(?i)(?<![^\W\d_])(?:iso(?![^\W\d_])|isometr|clamped|eingespannt)")
 
 
-def _of_name(name: str) -> list[Evidence]:
-    """What the name of the file says: ``Zug_1,5bar``, ``step_L360mm``, ``load20kg``."""
-    stem = PurePath(name).stem
-    span = Span(NAME, stem)
+def _of_name(span: Span) -> list[Evidence]:
+    """What the name of the file, or of its sheet, says: ``Zug_1,5bar``, ``step_L360mm``, ``load20kg``."""
+    stem = span.text
     found: list[Evidence] = []
     text = re.sub(r"(?<=\d)_(?=[A-Za-zµ])", " ", re.sub(r"(?<=\d)p(?=\d)", ".", stem))
     for context in _contexts(text):

@@ -159,7 +159,7 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
             stated[key] = Stated(value, _YOU, "")
     contradictions = [c for c in contradictions if c.key not in correction.conditions]
     said = {e.value for e in evidence if e.facet == "kind"}
-    held, several = _held(table, evidence, conditions)
+    held, several = _held(table, evidence, conditions, messages)
     ignored = next((str(s.value) for k, s in stated.items() if k == "ignore"), "")
     unwanted = (
         {n.strip(): None for e in claims.get("ignore", ()) for n in str(e.value).split(",")}
@@ -318,7 +318,10 @@ def _same(a: float | str, b: float | str) -> bool:
 
 
 def _held(
-    table: Table, evidence: Sequence[Evidence], conditions: Mapping[str, float | str]
+    table: Table,
+    evidence: Sequence[Evidence],
+    conditions: Mapping[str, float | str],
+    messages: list[str],
 ) -> tuple[dict[str, Held], dict[str, tuple[Evidence, ...]]]:
     """Channel -> what was held in each block, or in the file; and channels of which texts name several
     values.
@@ -349,10 +352,12 @@ def _held(
         names = [e for e in whole if e.rule == "name"]
         chosen = texts or names
         distinct = {round(_held_value(channel, e, conditions, evidence, None), 12): e for e in chosen}
+        named = {round(_held_value(channel, e, conditions, evidence, None), 12): e for e in names}
+        agreed = set(named) & set(distinct)
+        if texts and names and not agreed:
+            other = names[0]
+            messages.append(f"{other.span.where} states another {channel}, '{other.value.text}'")
         if len(distinct) > 1 and texts and names:
-            agreed = {round(_held_value(channel, e, conditions, evidence, None), 12) for e in names} & set(
-                distinct
-            )
             distinct = {value: distinct[value] for value in agreed} if len(agreed) == 1 else distinct
         if len(distinct) == 1:
             value, e = next(iter(distinct.items()))

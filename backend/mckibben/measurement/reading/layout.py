@@ -15,6 +15,7 @@ from dataclasses import replace
 
 import numpy as np
 
+from mckibben.measurement.reading.conditions import TEXT_CONDITIONS, key_of
 from mckibben.measurement.reading.heads import head_claims, head_score, taken_apart, without_run
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_ROWS, MAX_TEXT, MAX_TEXTS, SPLIT
@@ -114,10 +115,7 @@ def table_of(
         bare = [without_units(s) for s in sheets]
         return table_of(bare, name, _stripped=True)
     if not runs:
-        why = "; ".join(
-            ["no rows of numbers with at least two columns", *(m for s in sheets for m in s.messages)]
-        )
-        raise InputError(f"{name}: no table: {why}", field="file", hint=_HINT)
+        raise _no_table(sheets, name)
     best = max(runs, key=lambda run: run.score)
     for run in runs:  # a block without heads of its own goes on with those above
         if (
@@ -154,6 +152,24 @@ def _headed(runs: list[Run], line: int) -> list[Run]:
     run.heads = {c: _text(cells[c]) if c < len(cells) else "" for c in range(min(width, MAX_COLUMNS))}
     run.head_row, run.unit_row, run.units, run.more, run.described = row, None, {}, {}, {}
     return [run]
+
+
+def _no_table(sheets: Sequence[Sheet], name: str) -> InputError:
+    """The refusal of a file without rows of numbers, naming the row that could be the names of columns."""
+    for sheet in sheets:
+        for i, row in enumerate(sheet.rows[:_SHOWN_ROWS]):
+            if sum(head_score(_text(c)) > 0.0 for c in row if c != "") < 2:
+                continue
+            below = next(
+                (r for r in range(i + 1, len(sheet.rows)) if any(c != "" for c in sheet.rows[r])), None
+            )
+            shown = "" if below is None else f"; {sheet.place(below)} is '{sentence(sheet.rows[below])[:60]}'"
+            heads = ", ".join(_text(c) for c in row if c != "")[:80]
+            row_there = f"row {sheet.line(i)}"
+            why = f"{name}, {row_there}: there are no rows of numbers below the header '{heads}'{shown}"
+            return InputError(why, field=row_there, hint="it needs one row of numbers per reading")
+    why = f"{name}: no table: no rows of numbers with at least two columns"
+    return InputError(why, field="file", hint=_HINT)
 
 
 _CELL_WITH_UNIT = re.compile(r"([-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")
@@ -223,20 +239,30 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         tables=tables if len(tables) > 1 else (),
         rivals=rivals,
         raw=_shown(best.sheet, best.head_row),
-        messages=(*(m for s in sheets for m in s.messages), *_below(alike, best)),
+        messages=(
+            *(m for s in sheets for m in s.messages),
+            *_unread_rows(alike, best),
+            *_as_runs([run.sheet.place(run.rows[0]) for run in alike if not rivals]),
+            *([f"only the first {MAX_TEXTS} texts beside the table are searched"] * (len(texts) > MAX_TEXTS)),
+        ),
         headless=not any(best.heads.values()),
     )
 
 
-def _below(alike: Sequence[Run], best: Run) -> list[str]:
-    """What is said of texts below the last row of a table."""
-    last = max(run.rows[-1] for run in alike if run.sheet is best.sheet)
-    rows = best.sheet.rows
-    found = [i for i in range(last + 1, min(len(rows), last + 200)) if any(c != "" for c in rows[i])]
-    if not found:
-        return []
-    shown = ", ".join(f"'{sentence(rows[i])[:40]}'" for i in found[:4])
-    return [f"the text below the table, from row {best.sheet.line(found[0])} on, is not read: {shown}"]
+def _unread_rows(alike: Sequence[Run], best: Run) -> list[str]:
+    """What is said of the texts between the rows of a table, and below its last one."""
+    sheet, rows = best.sheet, best.sheet.rows
+    last = max(run.rows[-1] for run in alike if run.sheet is sheet)
+    below = [i for i in range(last + 1, min(len(rows), last + 200)) if any(c != "" for c in rows[i])]
+    between = [i for run in alike if run.sheet is sheet for i in run.remarks]
+    messages = []
+    for found, where in ((between, "between the readings"), (below, "below the table")):
+        if found:
+            first, end = sheet.line(found[0]), sheet.line(found[-1])
+            shown = ", ".join(f"'{sentence(rows[i])[:40]}'" for i in found[:4])
+            place = f"row {first} {where} is" if first == end else f"rows {first} to {end} {where} are"
+            messages.append(f"{place} not read: {shown}")
+    return messages
 
 
 def _rivals(alike: list[Run], best: Run, runs: list[Run]) -> tuple[tuple[str, str], ...]:
@@ -424,11 +450,13 @@ def _runs(sheet: Sheet) -> list[Run]:
         if (
             not is_data
             and len(places) >= 1
-            and len(places) + marks >= 2
+            and (len(places) + marks >= 2 or (len(row) == 1 and not gap))
             and texts == 0
             and current is not None
         ):
             is_data = set(places) <= set(current.columns)
+        if not is_data and current is not None and not gap and texts and _is_broken(sheet.rows, i):
+            is_data = set(places) < set(current.columns)
         if is_data and texts and first and current is None:
             is_data = _goes_on(sheet, i, places)
         if not is_data:
@@ -493,6 +521,20 @@ def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
             texts += 1
             first = first or ("" if places else str(cell))
     return places, texts, first, marks
+
+
+_DIGITS = re.compile(r"[-+.,'_]{0,3}[0-9][-+0-9.,;|'_xXeE\t ]{0,200}")
+
+
+def _is_broken(rows: Sequence[Sequence[Cell]], i: int) -> bool:
+    """Whether the texts of a row are broken readings: they are digits, or stand in the next or the last row
+    too, where a footer says a word once.
+    """
+    texts = [cell if kind_of(cell) == TEXT else "" for cell in rows[i]]
+    if all(_DIGITS.fullmatch(str(text)) for text in texts if text):
+        return True
+    beside = (rows[j] for j in (i - 1, i + 1) if 0 <= j < len(rows) and len(rows[j]) == len(texts))
+    return any(texts == [cell if kind_of(cell) == TEXT else "" for cell in row] for row in beside)
 
 
 def _was_labelled(run: Run) -> bool:
@@ -636,7 +678,9 @@ def _listed_names(run: Run) -> None:
         filled = [str(c) for c in run.sheet.rows[i] if c != ""]
         if (i in run.above and len(filled) > 1) or len(filled) != 1:
             continue
-        names = _split_head(filled[0], len(run.columns))
+        below = [str(c) for c in run.sheet.rows[i + 1] if c != ""]
+        goes_on = filled[0].rstrip().endswith(",") and len(below) == 1 and i + 1 < run.rows[0]
+        names = _split_head(f"{filled[0]} {below[0]}" if goes_on else filled[0], len(run.columns))
         if names and sum(head_score(n) for n in names) > sum(head_score(h) for h in run.heads.values()):
             run.heads = dict(zip(run.columns, names, strict=True))
             return
@@ -741,18 +785,23 @@ def _split_head(text: str, width: int) -> list[str]:
     name.
     """
     bare = re.sub(r"^[\s#%/!;*]+", "", text)
-    bare = re.sub(
-        r"^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?", "", bare, flags=re.I
-    )
+    bare = _LISTED.sub("", bare)
     ways = [re.split(r"\s?[,;\t|]\s?", bare), re.split(r"\s{2,}|\t", bare), _joined_units(bare.split())]
     for k, cells in enumerate(ways):
-        cells = [cell.strip().strip('"') for cell in cells if cell.strip()]
+        cells = [_AND.sub("", cell.strip().strip('".')) for cell in cells if cell.strip()]
         if any(kind_of(cell) in (NUMBER, CLOCK) for cell in cells):
             continue
         least = max(2, 0.5 * width if k == len(ways) - 1 else 0)  # a sentence has blanks as well
         if len(cells) == width and sum(head_score(cell) > 0 for cell in cells) >= min(least, width):
             return cells
     return []
+
+
+_LISTED = re.compile(  # "The four columns are:"
+    r"(?i)^(?:[\w ]{0,30}(?<!\w))?(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)"
+    r"(?: \w{1,9})?\s?:\s?"
+)
+_AND = re.compile(r"(?i)^(?:and|und|et|e|y|en)\s+")
 
 
 def _joined_units(cells: Sequence[str]) -> list[str]:
@@ -859,11 +908,10 @@ def _titles(run: Run, top: int) -> None:
 
 def sentence(row: Sequence[Cell]) -> str:
     """The cells of a row as one text: ``Ruhelänge: 250 mm; Muskel: DMSP-20``."""
-    filled = [cell for cell in row if cell != ""]
-    if len(filled) == 2 and all(kind_of(cell) == TEXT for cell in filled):
-        return f"{str(filled[0]).strip().removesuffix(':')}: {str(filled[1]).strip()}"[:MAX_TEXT]
     text = ""
     before = EMPTY
+    filled = [cell for cell in row if cell != ""]
+    named = len(filled) == 2 and key_of(str(filled[0])[:40].strip("#: "))[0] in ("kind", *TEXT_CONDITIONS)
     for cell in row:
         if cell == "":
             continue
@@ -874,7 +922,9 @@ def sentence(row: Sequence[Cell]) -> str:
         elif before == NUMBER and kind == TEXT and unit_of(shown) is not None:
             text += f" {shown}"
         elif text.endswith(":") or (
-            before == TEXT and (kind == NUMBER or shown[:1].isdigit()) and not text.endswith(("=", ":"))
+            before == TEXT
+            and (named or kind == NUMBER or shown[:1].isdigit())
+            and not text.endswith(("=", ":"))
         ):
             text += f": {shown}" if not text.endswith(":") else f" {shown}"
         else:
@@ -890,7 +940,7 @@ def _texts(sheets: Sequence[Sheet], used: set[tuple[int, int]]) -> list[Span]:
     found: list[Span] = []
     for sheet in sheets:
         for i, row in enumerate(sheet.rows):
-            if len(found) >= MAX_TEXTS:
+            if len(found) > MAX_TEXTS:  # one more, to be told
                 return found
             if (id(sheet), i) not in used and (text := sentence(row)):
                 found.append(Span(sheet.place(i), text))
@@ -966,6 +1016,7 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
         if (s, t) not in alike
         for c in t
     ]
+    unread += [lost for s, _ in tables if s is not best_sheet for lost in s.dropped]
     parts = [
         Part(tuple(t), (*s.texts, Span(s.name, s.name)), np.arange(1, len(t[0].values) + 1)) for s, t in alike
     ]
@@ -991,9 +1042,17 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
         others=tuple(unread),
         tables=titles,
         rivals=rivals,
-        messages=tuple(m for s in sheets for m in s.messages),
+        messages=(*(m for s in sheets for m in s.messages), *_as_runs([s.name for s, _ in alike])),
         dropped=(*best_sheet.dropped, *empty),
     )
+
+
+def _as_runs(places: Sequence[str]) -> list[str]:
+    """What is said of tables with the same columns that are read one after another."""
+    if len(places) < 2:
+        return []
+    shown = ", ".join(repr(place) for place in places[:4]) + (", ..." if len(places) > 4 else "")
+    return [f"{len(places)} tables with the same columns are read as runs: {shown}"]
 
 
 def _claimed(columns: Sequence[Column]) -> int:

@@ -37,6 +37,18 @@ def is_isometric(name: str) -> bool:
     return any(word == "iso" or word.startswith("isometr") for word in words_of(PurePath(name).stem))
 
 
+def number_of_name(name: str) -> str:
+    """The one number of a name that can be a length; "" = none, or several.
+
+    >>> number_of_name("iso_138.txt"), number_of_name("sine_L380mm.dat"), number_of_name("run_007.csv")
+    ('138', 'L380mm', '')
+    """
+    stem = PurePath(name).stem
+    said = [q.text for q in quantities(_without_codes(stem)) if q.unit.dimension == "length"]
+    said = said or [found[0] for found in _numbers(stem) if _can_stand_alone(stem, found)]
+    return said[0] if len(said) == 1 else ""
+
+
 def length_of_name(
     name: str, rest: float, *, isometric: bool, others: Sequence[str] = ()
 ) -> NamedLength | None:
@@ -73,12 +85,6 @@ def length_of_name(
     if not isometric:
         return None
     return _which_differs(stem, rest, others) or _alone(stem, rest)
-
-
-def may_be_lengths(name: str) -> list[str]:
-    """The numbers of a name that are its length once the rest length is known."""
-    stem = PurePath(name).stem
-    return [found[0] for found in _numbers(stem) if _can_stand_alone(stem, found)]
 
 
 def _can_be_held(millimetres: float, rest: float) -> bool:

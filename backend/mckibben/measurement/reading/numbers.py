@@ -81,6 +81,9 @@ def kind_of(cell: Any) -> str:
     return EMPTY if cell is None else TEXT
 
 
+_MOSTLY = 3  # cells with one decimal sign for each with the other one, which then is a mistake
+
+
 def style_of(cells: Iterable[Any]) -> NumberStyle:
     """The way the numbers of a table are written; a mark that could be both is a decimal sign."""
     commas = points = 0  # cells in which the sign can only be a decimal sign
@@ -89,7 +92,7 @@ def style_of(cells: Iterable[Any]) -> NumberStyle:
     for cell in cells:
         if not isinstance(cell, str) or not cell or len(cell) > _LONGEST:
             continue
-        text = cell.strip()
+        text = cell.strip().replace("−", "-")
         if (longer := _TOLERANCE.fullmatch(text) or _WITH_UNIT.fullmatch(text)) is not None:
             text = longer[1]
         grouped = _GROUPED.fullmatch(text)
@@ -106,11 +109,9 @@ def style_of(cells: Iterable[Any]) -> NumberStyle:
             unsure_points |= mark == "."
         elif _PLAIN.fullmatch(text):
             commas, points = commas + ("," in text), points + ("." in text)
-    if commas and points:  # a few cells in another style are errors of these cells
-        commas, points = commas * (commas > points), points * (points >= commas)
-    if commas and not points:
+    if commas > _MOSTLY * points:
         return NumberStyle(",", "." if "." in marks or unsure_points else next(iter(marks - {","}), ""))
-    if points and not commas:
+    if points > _MOSTLY * commas:
         return NumberStyle(".", "," if "," in marks or unsure_commas else next(iter(marks - {"."}), ""))
     if unsure_commas and not unsure_points and not points:
         return NumberStyle(",", next(iter(marks - {","}), ""))
@@ -151,18 +152,29 @@ def numbers_of(cells: Sequence[Any], style: NumberStyle) -> tuple[Array, dict[in
             value = number_of(cell, style)
         if not np.isfinite(value):
             text = cell.strip() if isinstance(cell, str) else "" if cell is None else str(cell)
-            gaps[row] = Gap(_why(cell, text), text[:40])
+            gaps[row] = Gap(_why(cell, text, value, style), text[:40])
             value = np.nan
         values[row] = value
     return values, gaps
 
 
-def _why(cell: Any, text: str) -> str:
+#: Reasons of cells that should hold a number and do not -> what is said of them.
+BROKEN = {
+    "broken": "is not a number", "too large": "is too large",
+    "other sign": "has another decimal sign than the cells around it",
+}  # fmt: skip
+
+
+def _why(cell: Any, text: str, value: float, style: NumberStyle) -> str:
     if isinstance(cell, float):
         return "not a finite number"
     if not text:
         return "empty"
-    return marker_of(text) or "broken"
+    if (marker := marker_of(text)) is not None:
+        return marker
+    if not _PLAIN.fullmatch(text):
+        return "broken"
+    return "too large" if np.isinf(value) else "other sign" if style.decimal not in text else "broken"
 
 
 def with_units(cells: Sequence[Any]) -> tuple[list[Any], str]:

@@ -137,7 +137,7 @@ def alone(channel: str, x: Array, rest: float | None, blocks: int) -> Terms:
 
 def _pressure(p: Array) -> Terms:
     """A gauge pressure between a weak vacuum and what a muscle bears."""
-    low, high = np.percentile(p, 1), np.percentile(p, 99)
+    low, high = np.percentile(p, (1, 99))
     terms = []
     if not 0.3e5 <= high <= 10e5:
         terms.append(
@@ -167,7 +167,7 @@ def _force(f: Array, p: Array | None) -> Terms:
 
 def _stroke(channel: str, x: Array, rest: float | None) -> Terms:
     """Contractions between a slight stretch and 42 %, lengths of a muscle."""
-    low, high = np.percentile(x, 0.5), np.percentile(x, 99.5)
+    low, high = np.percentile(x, (0.5, 99.5))
     if channel == "length":
         terms = [] if 0.02 <= high <= 2.5 and low > 0 else [("the length is not that of a muscle", -6.0)]
         if low > 0 and (high - low) > LONGEST * high:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
@@ -161,7 +161,7 @@ def preview_here(data: bytes, name: str, correction: Correction | None = None) -
     return Preview(
         name=name,
         format=table.format,
-        columns=_columns(table, reading, measurement),
+        columns=_columns(table, reading, measurement, asked),
         sample=_sample(table),
         rows=valid + sum(s.rows for s in skipped.values()),
         valid=valid,
@@ -240,8 +240,9 @@ def _raw(table: Table) -> RawRows | None:
 
 
 def _columns(
-    table: Table, reading: Reading | None, measurement: Measurement | None
+    table: Table, reading: Reading | None, measurement: Measurement | None, asked: Sequence[Question]
 ) -> tuple[PreviewColumn, ...]:
+    wrong = {q.column: q.text for q in reversed(asked) if q.stops and q.column}
     used = (
         {}
         if reading is None
@@ -275,7 +276,7 @@ def _columns(
                 absolute=use.absolute if use is not None and channel == "pressure" else None,
                 minimum=span.minimum if span else None,
                 maximum=span.maximum if span else None,
-                why=None,
+                why=wrong.get(column.head) or wrong.get(column.title),
                 unit_origin=origin,
                 unit_where=table.unit_where if column.unit and table.unit_where and channel else None,
                 sign=use.sign if use is not None else 1,

@@ -59,8 +59,8 @@ def bounded(work: Callable[[], Found], name: str, load: Callable[[], object], *,
         size: of the file [bytes]; the time that it may take grows with it.
 
     Raises:
-        InputError: it takes more processor time than `seconds_for` its size, or more than `MOST_MEMORY`, or its
-            reader ends unexpectedly.
+        InputError: it takes more processor time than `seconds_for` its size, or more than `MOST_MEMORY`, or
+            its reader ends unexpectedly.
     """
     if sys.platform != "linux":
         return work()

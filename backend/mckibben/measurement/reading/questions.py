@@ -28,12 +28,12 @@ from mckibben.measurement.reading.decide import (
     unit_is_stated,
     value_of,
 )
-from mckibben.measurement.reading.evidence import NO_ZERO
+from mckibben.measurement.reading.evidence import NAME, NO_ZERO
 from mckibben.measurement.reading.facts import Known
 from mckibben.measurement.reading.heads import head_claims, taken_apart
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Span, Table, Use
-from mckibben.measurement.reading.named import is_isometric, may_be_lengths
+from mckibben.measurement.reading.named import is_isometric, number_of_name
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
 from mckibben.measurement.reading.scales import Scale
@@ -135,10 +135,12 @@ class Reading:
 
 
 def bare(column: Column) -> str:
-    """A head without its unit, as options name it; that of another column too is numbered."""
-    if column.title.startswith(f"{column.head.strip()} #"):
-        return column.title
-    return taken_apart(column.head, column.unit).name or column.title
+    """A head without its unit, as options name it; its place where several are called alike."""
+    head = column.head.strip()
+    if head and column.key not in ("", head) and column.place >= 0:
+        return f"column {column.place + 1}"
+    apart = taken_apart(head, column.unit)
+    return (apart.name if apart.unit is not None or apart.absolute is not None else head) or column.title
 
 
 def option_of(channel: str, column: Column, unit: str | None = None, *, sign: int = 1) -> str:
@@ -176,8 +178,14 @@ def questions_of(reading: Reading) -> list[Question]:
 
 
 def _follows(question: Question, asked: Sequence[Question]) -> bool:
-    """Whether a question is answered with the one where a stroke has its zero: its sign, its channel, L0."""
+    """Whether a question is answered with another one: with the unit of a column what it counts from, with
+    the one where a stroke has its zero its sign, its channel, L0.
+    """
     open_zeros = {q.column for q in asked if q.about.partition("zero of ")[2] in STROKES}
+    units = {q.column for q in asked if q.stops and q.about.startswith("unit of")}
+    about = question.about.partition(" in ")[0]  # "pressure in p1"
+    if question.column in units and (about in SLOTS or about.startswith("reference of")):
+        return True
     if not open_zeros or not question.stops or question.about.startswith(("zero of", "unit of")):
         return False
     return question.about == "rest length" or question.column in open_zeros
@@ -325,7 +333,7 @@ def _unnamed(reading: Reading) -> Iterator[Question]:
                 column.head,
                 channel,
                 (channel, other, "ignore"),
-                stops=False,
+                stops=len(set(STROKES) & set(reading.rows.channels)) > 1,
             )
 
 
@@ -522,13 +530,14 @@ def _seconds(reading: Reading) -> Iterator[Question]:
             if _same_values(reading, channel, use, option):
                 continue
             first, second = reading.table.columns[i], reading.table.columns[option.column]
-            alike = first.head == second.head  # then only their titles tell them apart
-            names = (first.title, second.title) if alike else (bare(first), bare(second))
+            joint = _joint(reading, i, option.column) if slot == "pressure" else ""
+            alike = first.head == second.head and first.place >= 0
+            mine_said = column_option(channel, f"column {first.place + 1}" if alike else bare(first))
             yield Question(
                 f"second {channel}",
                 f"{reading.table.noun}s '{first.title}' and '{second.title}' are both {channel} and differ"
-                f"{_joint(reading, i, option.column)}; which one acts on the muscle",
-                " or ".join(column_option(channel, name) for name in names),
+                f"{joint}; which one acts on the muscle",
+                f"{mine_said} or {option_of(channel, second)}",
                 second.title,
                 first.title,
                 (first.title, second.title),
@@ -1079,19 +1088,41 @@ def _held_length(reading: Reading) -> Iterator[Question]:
         and {"pressure", "force"} <= set(channels)
         and not set(channels) & {*STROKES, "diameter", "command"}
     ):
-        open_rest = "nominal_length" not in reading.known.conditions
-        in_name = may_be_lengths(reading.name)[:1] if open_rest else []
+        number = number_of_name(reading.name)
+        rest = reading.known.stated.get("nominal_length")
+        said = (
+            f"; '{number}' in the file's name is it where --rest-length is stated"
+            if number and (rest is None or rest.where.where == NAME)
+            else ""
+        )
         yield Question(
             "length",
             "the file says that the test is isometric, but neither a column nor a text states the length at "
-            "which the muscle was held"
-            + "".join(
-                f"; beside a rest length it may be the {number} of the file's name" for number in in_name
-            ),
-            f'--rest-length "{10 * round(float(in_name[0]) / 9)} mm"'
-            if in_name
-            else "write the length as a column, 'length_mm', or into the file's name, 'iso_L138mm'",
+            f"which the muscle was held{said}",
+            "write the length as a column, 'length_mm', or into the file's name, 'iso_L138mm'",
         )
+
+
+def _counts_rows(reading: Reading) -> Iterator[Question]:
+    """A counter beside many rows without time: a logger takes them evenly."""
+    if "time" in reading.rows.channels or len(reading.rows.lines) < _BY_LOGGER:
+        return
+    used = {i for i, _ in reading.decision.uses.values()} | set(reading.known.chosen)
+    for i, column in enumerate(reading.table.columns):
+        if i in used or column.words is not None or not np.all(np.diff(column.values) == 1.0):
+            continue
+        yield Question(
+            "time",
+            f"{reading.label(column)} counts the rows, and no time is read: creep, speed and lags cannot be "
+            f"found; if the rows were taken at an even rate, e.g. every 2 s, it is the time",
+            option_of("time", column, "0 to 1 counts = 0 to 2 s"),
+            column.title,
+            stops=False,
+        )
+        return
+
+
+_BY_LOGGER = 200  # rows that nobody writes down by hand
 
 
 def _of_columns(reading: Reading) -> Iterator[Question]:
@@ -1109,15 +1140,16 @@ def _of_columns(reading: Reading) -> Iterator[Question]:
         what, option = {"nominal_length": ("rest length", "--rest-length"), "load_mass": ("load", "--load")}[
             key
         ]
-        unit = "kg" if key == "load_mass" else "m"
-        shown = ", ".join(f"{v:.6g} {unit}" for v in values[:4])
+        si = "kg" if key == "load_mass" else "m"
+        unit = reading.unit(i) or si
+        own = [f"{v:.6g} {unit}" for v in np.atleast_1d(convert(list(values[:4]), si, unit))]
+        shown = ", ".join(own)
         yield Question(
             what,
             f"{reading.label(column)} holds {len(values)} values, {shown}, but a measurement "
             f"has one {what}; split the file by it, "
             "or state which one holds for all rows",
-            f'{option} "{values[0]:.6g} {unit}"'
-            + (f" or {option_of('force', column)}" if key == "load_mass" else ""),
+            f'{option} "{own[0]}"' + (f" or {option_of('force', column)}" if key == "load_mass" else ""),
             column.head,
         )
 
@@ -1244,8 +1276,7 @@ def _several(reading: Reading) -> Iterator[Question]:
 Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
-    _units, _unnamed, _headless, _unread, _scales, _seconds,
-    _set_point, _by_valve, _counted, _specimens, _signs,
+    _units, _unread, _headless, _scales, _set_point, _by_valve, _counted, _signs,
     _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
 )  # fmt: skip
 #: Asked always.
@@ -1253,11 +1284,14 @@ ALWAYS: tuple[Policy, ...] = (
     _seconds,
     _unknown_unit,
     _unreadable,
+    _unnamed,
+    _specimens,
     _rest_length,
     _load,
     _twice,
     _several,
     _held_length,
+    _counts_rows,
     _of_columns,
     _stated_zeros,
     _hangers,

@@ -5,6 +5,7 @@ held.
 from __future__ import annotations
 
 import re
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
@@ -13,13 +14,15 @@ import numpy as np
 from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import STROKES
+from mckibben.measurement.reading.answers import ignore_option
 from mckibben.measurement.reading.correction import SAMPLE, SLACK, Correction
 from mckibben.measurement.reading.decide import Decision, roles_of, value_of
 from mckibben.measurement.reading.evidence import NAME
 from mckibben.measurement.reading.facts import Held, Known
 from mckibben.measurement.reading.lexicon import word_set, words_of
-from mckibben.measurement.reading.model import Array, Column, Evidence, Skip, Table
+from mckibben.measurement.reading.model import Array, Column, Evidence, Skip, Table, Use
 from mckibben.measurement.reading.named import length_of_name
+from mckibben.measurement.reading.numbers import BROKEN
 from mckibben.measurement.reading.units import quantity_si
 from mckibben.physics.errors import InputError
 
@@ -107,7 +110,6 @@ def rows_of(
             r for o in others for r in table.columns[o].gaps
         }:
             rows.dropped[i] = f"it holds no number in {len(table.columns[i].gaps)} rows"
-            rows.messages.append(f"{table.noun} '{table.columns[i].title}' is not used: {rows.dropped[i]}")
             del used[channel], values[channel]
     keep = _readable(table, [i for i, _ in used.values()], rows, skip=bad)
     keep &= _possible(table, used, values, keep, facts.ambient, rows, skip=bad)
@@ -187,14 +189,16 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
         for r, gap in table.columns[i].gaps.items():
             if not empty[r] and r not in first:
                 first[r] = (i, gap.reason, gap.text)
-    missing: list[tuple[int, str, str, int]] = []
+    missing: list[tuple[int, str, str]] = []
     cut = sum(reason == "short" for _, reason, _ in first.values()) * _MOST_CUT <= keep.sum()
+    hint = "one cell for each name of the header; with decimal commas ';' or tabs between the cells"
     for r, what in table.bad.items():
         if not empty[r]:
             keep[r] = False
             first.pop(r, None)
-            _refuse(rows, table, int(table.lines[r]), "", what, "one cell for each name of the header")
+            _refuse(rows, table, int(table.lines[r]), "", what, hint)
             _count(rows, "another number of cells", 1, f"row {int(table.lines[r])}")
+    counts = Counter(reason for _, reason, _ in first.values())
     for r, (i, reason, text) in sorted(first.items()):
         title = table.columns[i].title
         where = f"row {int(table.lines[r])}, {table.noun} '{title}'"
@@ -205,13 +209,15 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
             _refuse(rows, table, int(table.lines[r]), "", text, "one cell for each name of the header")
             _count(rows, "another number of cells", 1, f"row {int(table.lines[r])}")
             continue
-        if reason == "broken":
-            what, hint = f"{text!r} is not a number", "a number, or an empty cell"
+        if reason in BROKEN:
+            what, hint = f"{text!r} {BROKEN[reason]}", "a number, or an empty cell"
+            what += f" (and {counts[reason] - 1} more such rows)" if counts[reason] > 1 else ""
             _refuse(rows, table, int(table.lines[r]), title, what, hint)
             _count(rows, "not a number", 1, where)
             continue
+        what = "the cell is empty" if reason == "empty" else f"{text!r} is {reason}"
         reason = "an empty cell" if reason == "empty" else reason
-        missing.append((int(table.lines[r]), title, reason, i))
+        missing.append((int(table.lines[r]), title, what))
         _count(rows, reason, 1, where)
     if rows.first_bad is not None and not skip:
         raise rows.first_bad
@@ -221,14 +227,14 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
         and len(missing) > keep.sum()
         and not (keep.sum() >= _ENOUGH_ROWS and len(missing) <= _MOST_WITHOUT * keep.sum())
     ):
-        line, title, reason, _ = missing[0]
+        line, title, what = missing[0]
         _refuse(
             rows,
             table,
             line,
             title,
-            f"{reason}, and in {len(missing)} rows in all",
-            "a number in each row, or leave the column out",
+            f"{what}, and {len(missing)} rows have no number there",
+            f"a number in each row, or leave the column out: {ignore_option(title)}",
         )
     if missing and rows.first_bad is not None and not skip:
         raise rows.first_bad
@@ -251,7 +257,7 @@ def _count(rows: Rows, reason: str, count: int, first: str) -> None:
 
 
 def _possible(
-    table: Table, used: Mapping[str, tuple[int, object]], values: Mapping[str, Array], keep:
+    table: Table, used: Mapping[str, tuple[int, Use]], values: Mapping[str, Array], keep:
         NDArray[np.bool_],
     ambient: float | Array, rows: Rows, *, skip: bool,
 ) -> NDArray[np.bool_]:  # fmt: skip
@@ -271,7 +277,8 @@ def _possible(
         r = int(np.argmax(bad))
         title = table.columns[i].title
         more = f" (and {int(bad.sum()) - 1} more such rows)" if bad.sum() > 1 else ""
-        _refuse(rows, table, int(table.lines[r]), title, f"{table.columns[i].values[r]:g} {what}{more}", hint)
+        shown = f"{table.columns[i].values[r]:g} {used[channel][1].unit}"
+        _refuse(rows, table, int(table.lines[r]), title, f"{shown} {what}{more}", hint)
         _count(
             rows,
             what.removeprefix("is "),
@@ -355,12 +362,11 @@ def _labels(
                 rows.dropped[i] = "its words are not known, e.g. 'filling' and 'venting'"
         elif use == "group":
             made = _group(words)
-        elif (
-            use == SLACK
-            and "force" in rows.channels
-            and {w.lower() for w in words} <= {"0", "1", "true", "false"}
-        ):
-            rows.slack = np.array([w.lower() in ("1", "true") for w in words])
+        elif use == SLACK:
+            if "force" in rows.channels and {w.lower() for w in words} <= {"0", "1", "true", "false"}:
+                rows.slack = np.array([w.lower() in ("1", "true") for w in words])
+            else:
+                rows.dropped[i] = "a mark of slack is 0 or 1, beside a force"
         elif use == SAMPLE:
             rows.samples = tuple(dict.fromkeys(w for w in words if w))
             if len(rows.samples) == 1:

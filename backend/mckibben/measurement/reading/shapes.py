@@ -324,6 +324,8 @@ def _two_ways(
     if not whole or len(names) != 2 or any(set(pair) != set(names) for pair in whole.values()):
         return []
     chosen = {c for pair in whole.values() for c in pair.values()}
+    if any(_is_time(column) for c, column in columns.items() if c not in chosen):
+        return []  # one time for both: they are two sensors
     if any(way is not None and c not in chosen for c, way in ways.items()):
         return []
     made = []
@@ -354,6 +356,11 @@ def _two_ways(
             ]
         )
     return [part for pair in zip(*sides, strict=True) for part in pair]
+
+
+def _is_time(column: Column) -> bool:
+    claims = head_claims(column.head[:200], column.unit)
+    return column.clock or any(c.facet == "channel" and c.value == "time" for c in claims)
 
 
 def _way_back(

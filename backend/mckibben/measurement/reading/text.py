@@ -35,6 +35,7 @@ _PAIRED_SHARE = 0.3  # of the lines, above which they are read as pairs of key a
 _GAP = re.compile(r"\s{2,}|\t")
 _SEPARATOR_HINT = re.compile(r"sep=([,;\t|])")
 _NUMBER_AND_UNIT = re.compile(r"[-+]?\d{1,9}(?:[.,]\d{1,9})?\s?[^\W\d_%]{1,5}%?")
+_TORN = re.compile(r"\d[;\t|]\d")  # numbers side by side in one cell: it is another sign that parts them
 _STAMP = re.compile(r"\s{0,3}\[?(\d{1,2}:\d\d:\d\d(?:[.,]\d{1,6})?)\]?\s")
 _MONITORED = re.compile(r"\s{0,3}\[?(?P<stamp>\d{1,2}:\d\d:\d\d(?:[.,]\d{1,6})?)(?:\]|\s?->|\s?→)\s?")
 _ALL_MONITORED = 0.9  # of the lines that begin with a time, from which a monitor wrote it
@@ -184,7 +185,9 @@ def _score(sample: Sequence[str], delimiter: str | None) -> float:
         stamps = sum(a == b == CLOCK for a, b in pairwise(kinds)) if delimiter is None else 0  # date and time
         numbers = kinds.count(NUMBER) + kinds.count(CLOCK) - stamps + with_unit
         if numbers >= 2:
-            good.append((len(cells), numbers - 0.7 * (kinds.count(TEXT) - with_unit) - 0.2 * with_unit))
+            torn = sum(k == TEXT and _TORN.search(c) is not None for k, c in zip(kinds, cells, strict=True))
+            texts = 0.7 * (kinds.count(TEXT) - with_unit) + 0.3 * torn
+            good.append((len(cells), numbers - texts - 0.2 * with_unit))
     if not good:
         return 0.0
     width = Counter(width for width, _ in good).most_common(1)[0][0]
@@ -225,6 +228,7 @@ def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list
             bare = line.strip().lstrip('#%/!*" ').strip()
             again = _row(bare, delimiter)
             sentence = sum("=" in cell or ":" in cell for cell in again) * 2 >= len(again)
+            sentence |= delimiter == "," and _DECIMAL.search(bare) is not None and not _is_numbers(again)
             row = (
                 again
                 if len(again) == usual and len(again) > 1 and not sentence
@@ -236,6 +240,13 @@ def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list
         rows.append(list(row[:MAX_COLUMNS]))
         numbers.append(number)
     return rows, numbers
+
+
+_DECIMAL = re.compile(r"\d,\d")
+
+
+def _is_numbers(cells: Sequence[str]) -> bool:
+    return all(kind_of(cell) in (NUMBER, CLOCK) for cell in cells)
 
 
 _QUOTED = re.compile(r'"[^"]*"|[^\s"]+')
@@ -283,7 +294,7 @@ def _quoted(lines: Sequence[str], delimiter: str, name: str) -> list[tuple[int, 
         for cells in reader:
             if any(cell.count("\n") > _MOST_LINES_OF_A_CELL for cell in cells):
                 raise InputError(
-                    f"{name}, row {begin}: a quote is never closed",
+                    f'{name}, row {begin}: a quote (") is never closed',
                     field=f"row {begin}",
                     hint='close it with "',
                 )
@@ -291,7 +302,7 @@ def _quoted(lines: Sequence[str], delimiter: str, name: str) -> list[tuple[int, 
             begin = reader.line_num + 1
     except csv.Error as error:
         closed = "unexpected end" not in str(error)
-        what = f"the quotes are wrong: {error}" if closed else "a quote is opened and never closed"
+        what = f"the quotes are wrong: {error}" if closed else 'a quote (") is opened and never closed'
         raise InputError(
             f"{name}, row {begin}: {what}", field=f"row {begin}", hint='close it with "'
         ) from error

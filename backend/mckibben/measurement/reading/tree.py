@@ -13,12 +13,14 @@ import numpy as np
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_DEPTH, MAX_NODES, MAX_TEXT
 from mckibben.measurement.reading.model import Sheet, Span
+from mckibben.measurement.reading.unit_lists import unit_said
 from mckibben.measurement.reading.units import unit_of
 
 _FEWEST = 2  # values of an array
 _NAMES = ("name", "label", "title", "channel", "signal", "quantity", "id", "key")
 _MOST_LISTS = 50  # lists of names further up that are tried for a matrix
 _WIDEST = 12  # columns of a matrix without names
+_FACTORS = ("scale", "factor", "gain", "scale_factor")  # of a channel whose values are kept smaller
 _MOST_FIELDS = 12  # of a mapping that is one channel
 
 
@@ -30,6 +32,7 @@ class _Walk:
     noun: str
     sheets: list[Sheet] = field(default_factory=list)
     texts: list[Span] = field(default_factory=list)
+    messages: list[str] = field(default_factory=list)
     nodes: int = 0
     names: list[tuple[list[str], list[str]]] = field(default_factory=list)
 
@@ -92,7 +95,12 @@ def _of_list(
     """Records, named channels, or runs one after another."""
     usual = [item for item in node if item.keys() == node[len(node) // 2].keys()]
     if len(usual) > 2 and len(usual) > len(node) / 2 and _is_record(_flattened(usual[0])[0]):
-        for item in [item for item in node if item.keys() != usual[0].keys()][:20]:
+        others = [item for item in node if item.keys() != usual[0].keys()]
+        if others:
+            walk.messages.append(
+                f"{len(others)} of {len(node)} records hold no readings: they are read as texts"
+            )
+        for item in others[:20]:
             above = (*above, *_texts_of(item, path))
             units = {
                 **units,
@@ -225,6 +233,17 @@ def _channel(item: Any) -> tuple[str, Any, str, list[str]] | None:
     return title, values, unit, [v for v in texts.values() if v not in (unit, title)]
 
 
+def _scaled(walk: _Walk, name: str, item: Mapping[str, Any], values: Any) -> Any:
+    """The values of a channel that is kept with a factor and an offset."""
+    said = {str(key).lower(): v for key, v in item.items() if isinstance(v, (int, float))}
+    factor = next((said[key] for key in _FACTORS if key in said), None)
+    if factor is None or any(isinstance(v, str) for v in values[:50]):
+        return values
+    offset = float(said.get("offset", 0.0))
+    walk.messages.append(f"'{name}' is kept with a scale: its values are times {factor:g}, plus {offset:g}")
+    return np.array([np.nan if v is None else v for v in values], float) * factor + offset
+
+
 def _size(value: Any) -> int:
     return int(value.size) if isinstance(value, np.ndarray) else len(value)
 
@@ -246,6 +265,7 @@ def _of_names(
             if value and all(isinstance(v, str) and len(v) < 40 for v in value.values()):
                 own |= {str(k): v for k, v in value.items()}
     flat: dict[str, Any] = {}
+    lost: dict[str, str] = {}
     for key, value in node.items():  # a list of named arrays are columns of this level
         if isinstance(value, (list, tuple)) and len(value) > 1 and all(_channel(v) for v in value):
             flat |= {f"{key}({i + 1})": v for i, v in enumerate(value)}
@@ -255,7 +275,7 @@ def _of_names(
         channel = _channel(value)
         if channel is not None:
             name = channel[0] or head
-            arrays[name] = channel[1]
+            arrays[name] = _scaled(walk, name, value, channel[1])
             if channel[2]:
                 own[name] = channel[2]
             texts += [Span(f"{path}{head}", f"{name}: {t}"[:MAX_TEXT]) for t in channel[3]]
@@ -272,21 +292,28 @@ def _of_names(
         ):
             arrays[head] = list(value)
         elif (text := _single(value)) is not None:
-            texts.append(Span(f"{path}{head}", f"{head}: {text}"[:MAX_TEXT]))
+            unit = unit_said(head, node) if not isinstance(value, str) else None
+            texts.append(Span(f"{path}{head}", f"{head}: {text} {unit or ''}".rstrip()[:MAX_TEXT]))
             if isinstance(value, str) and unit_of(value) is not None:
                 own |= _unit_beside(head, value, flat)
         elif isinstance(value, dict) and not _has_arrays(value):
             continue
         elif isinstance(value, (dict, list, tuple)):
             below.append((head, value))
+        elif why := _no_column(value):
+            lost[head] = why
     arrays |= _map_of(node, arrays)
     if not arrays:
         for key, value in node.items():
             arrays |= _unnamed(str(key), value)
-    dropped = [(head, _no_column(value)) for head, value in flat.items() if head not in arrays]
+    dropped = [
+        (f"{path}{k}", why)
+        for k, why in lost.items()
+        if not any(a == k or a.startswith(f"{k}(") for a in arrays)
+    ]
     if arrays:
         own |= _listed_units(arrays, own)
-    _emit(walk, path, arrays, own, tuple(texts), [(head, why) for head, why in dropped if why])
+    _emit(walk, path, arrays, own, tuple(texts), dropped)
     walk.texts += [t for t in texts if t not in above]
     for head, value in below:
         _visit(walk, value, f"{path}{head}.", tuple(texts), own, depth + 1)
@@ -297,7 +324,7 @@ def _no_column(value: Any) -> str:
     if value is None:
         return "it holds no real numbers that can be read"
     if isinstance(value, np.ndarray) and value.ndim > 1 and min(value.shape) > 1:
-        return f"it is a matrix of {' x '.join(map(str, value.shape))}, and nothing names its columns"
+        return f"it is no vector of numbers but a matrix of {' x '.join(map(str, value.shape))}, and nothing names its columns"
     return ""
 
 
@@ -464,7 +491,9 @@ def _emit(
     size = max(set(sizes), key=lambda n: (sizes.count(n) > 1, sizes.count(n) * n))
     chosen = dict([(k, v) for k, v in arrays.items() if len(v) == size][:MAX_COLUMNS])
     rest = tuple(
-        (k, f"it has {len(v)} values, and the others {size}") for k, v in arrays.items() if len(v) != size
+        (f"{path}{k}", f"it has {len(v)} values, and the others {size}")
+        for k, v in arrays.items()
+        if len(v) != size
     )
     lists = tuple(
         Span(f"{path}{k}", f"{k}: {'; '.join(map(str, v))}"[:MAX_TEXT])
@@ -480,5 +509,7 @@ def _emit(
             units={k: u for k in chosen if (u := units.get(k) or units.get(k.rpartition(".")[2], ""))},
             texts=(*texts, *lists),
             dropped=(*dropped, *rest),
+            messages=tuple(walk.messages),
         )
     )
+    walk.messages = []

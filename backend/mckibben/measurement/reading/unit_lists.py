@@ -21,7 +21,7 @@ def names_units(key: str) -> bool:
 
 def unit_said(name: str, said: Mapping[str, object]) -> str | None:
     """The unit that an entry of its own says of a name: ``F_unit``, ``unidade_F``; None without one."""
-    own = words_of(name)
+    own = list(words_of(name))
     for key, value in said.items():
         if isinstance(value, str) and unit_of(value) is not None:
             words = words_of(key)
