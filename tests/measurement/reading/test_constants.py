@@ -43,7 +43,7 @@ def test_a_column_of_one_value_is_a_condition(head: str, value: str, key: str, s
     assert head not in result.ignored
     assert head not in dict(result.unread)
     (stated,) = [one for one in result.stated if one.key == key]
-    assert stated.where == f"column '{head}'"
+    assert stated.where == f"a.csv, column '{head}'"
 
 
 def test_the_column_counts_more_than_the_name_of_the_file_and_a_text_is_weighed() -> None:

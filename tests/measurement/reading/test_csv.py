@@ -433,8 +433,8 @@ ERRORS = {
         "a.csv, row 3002, column 'pressure_bar': 'x' is not a number (and 2999 more such rows)",
     ),
     "words": (
-        "pressure_bar,length_mm\n1,300\n" + "x,1\n" * 3000,
-        "a.csv, column 'pressure_bar': it holds words, 'x', and hardly a number",
+        "pressure_bar,force_N,length_mm\n1,20,300\n" + "x,1,290\n" * 3000,
+        "a.csv: column 'pressure_bar' is called like the pressure and is not read: row 3 holds 'x', no number",
     ),
     "duplicate": (
         "pressure_bar,length_mm,force_N,Force_N\n"

@@ -58,7 +58,7 @@ def test_notes_before_the_names_are_no_names() -> None:
 def test_the_columns_of_a_file_without_heads_are_asked() -> None:
     rows = "\n".join(f"{4 * k} {k % 300} {0.1 * (k % 200):.1f}" for k in range(600))
     found = [q.column for q in preview_here(rows.encode(), "bare.txt", Correction()).questions if q.stops]
-    assert found[:2] == ["column 2", "column 3"]
+    assert {"column 2", "column 3"} <= set(found)
 
 
 def test_every_signal_without_a_scale_is_asked() -> None:

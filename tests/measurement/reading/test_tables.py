@@ -371,7 +371,7 @@ def test_the_head_and_unknown_names() -> None:
     result = read(text, columns=named, head=1)
     assert_read(result, but=("force",))
     np.testing.assert_allclose(result.columns["force"], -R.force, atol=6e-4)
-    with pytest.raises(InputError, match="row 99: no table has its names"):
+    with pytest.raises(InputError, match="row 99: there are no rows of numbers below it"):
         read(text, head=99)
     with pytest.raises(InputError) as caught:
         read(text, columns=["force=Kanal 9 [N]"])

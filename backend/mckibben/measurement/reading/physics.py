@@ -20,6 +20,7 @@ LONGEST = 0.42  # contraction that hardly a muscle exceeds
 _IMPOSSIBLE = 0.5  # and none, also where it is pushed together
 ROWS = 300  # rows that are looked at
 ENOUGH = 5  # rows; fewer show no range
+_MANY = 20  # rows, from which single ones can be odd
 _TAIL, _FAR, _FEW = 0.1, 3.0, 0.03  # quantile of the usual values, their widths beyond it, share of the rows
 _STRETCH = 0.06  # of the rest length, beyond which a muscle is hardly stretched
 _USUAL_AREA = 9e-4  # m2, force over pressure of a muscle of unknown diameter
@@ -107,7 +108,7 @@ def core(values: Array) -> Array:
     and say nothing of what the column is.
     """
     finite = values[np.isfinite(values)]
-    if len(finite) < ENOUGH:
+    if len(finite) < _MANY:
         return values
     low, high = np.quantile(finite, (_TAIL, 1.0 - _TAIL))
     width = max(high - low, _TAIL * max(abs(low), abs(high)))

@@ -34,6 +34,7 @@ from mckibben.measurement.reading.heads import head_claims, taken_apart
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Span, Table, Use
 from mckibben.measurement.reading.named import is_isometric, number_of_name
+from mckibben.measurement.reading.numbers import MARK, TEXT, kind_of
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
 from mckibben.measurement.reading.rows import Rows
 from mckibben.measurement.reading.scales import Scale
@@ -422,7 +423,7 @@ def _unreadable(reading: Reading) -> Iterator[Question]:
     lost = [(name, name, "", why) for name, why in table.dropped]
     for i, column in enumerate(table.columns):
         if column.words is not None and reading.known.chosen.get(i, 0) is not None:
-            row, word = next((r, w) for r, w in enumerate((*column.words, "-")) if w.strip())
+            row, word = next((r, w) for r, w in enumerate((*column.words, "-")) if kind_of(w) in (TEXT, MARK))
             place = f"row {int(table.lines[row])} holds" if row < len(table.lines) else "it holds"
             lost.append((bare(column), column.head, column.unit, f"{place} {word.strip()[:40]!r}, no number"))
     for name, head, unit, why in lost:
@@ -532,6 +533,8 @@ def _seconds(reading: Reading) -> Iterator[Question]:
             first, second = reading.table.columns[i], reading.table.columns[option.column]
             joint = _joint(reading, i, option.column) if slot == "pressure" else ""
             alike = first.head == second.head and first.place >= 0
+            if not alike and len(reading.rows.lines) < ENOUGH:
+                continue  # so few rows show no difference between them
             mine_said = column_option(channel, f"column {first.place + 1}" if alike else bare(first))
             yield Question(
                 f"second {channel}",

@@ -324,7 +324,8 @@ def _no_column(value: Any) -> str:
     if value is None:
         return "it holds no real numbers that can be read"
     if isinstance(value, np.ndarray) and value.ndim > 1 and min(value.shape) > 1:
-        return f"it is no vector of numbers but a matrix of {' x '.join(map(str, value.shape))}, and nothing names its columns"
+        shape = " x ".join(map(str, value.shape))
+        return f"it is no vector of numbers, but a matrix of {shape}, and nothing names its columns"
     return ""
 
 
