@@ -35,7 +35,7 @@ def test_volts_are_read_by_the_scales_of_the_file_and_asked_about_without() -> N
     rows = table(PRESSURE, FORCE / 200.0, STROKE / 20.0)
     found = read(f"{said}CH1 [V],CH2 [V],CH3 [V]\n{rows}")
     assert_is_the_test(found)
-    assert sum("is read by its scale" in message for message in found.messages) == 3
+    assert sum("is scaled: " in message for message in found.messages) == 3
     with pytest.raises(InputError):
         read(f"CH1 [V],CH2 [V],CH3 [V]\n{rows}")
 

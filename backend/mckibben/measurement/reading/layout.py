@@ -35,9 +35,11 @@ _POOR_HEADS = 0.8  # nats a column, below which other names are looked for
 _EMPTY_HEADS = 2.0  # score of a run without heads
 _MOST_OF_A_HEAD = 3.0  # what one head adds to the score of its run
 _SHOWN_ROWS, _SHOWN_BELOW, _SHOWN_ABOVE, _SHOWN_CELLS, _SHOWN_LENGTH = 60, 8, 20, 60, 80
+_SHOWN_REMARKS = 6  # texts between readings that a message shows
 _LONGEST_HEAD = 300  # characters of a head
 _LONGEST_WORDS = 32  # characters of a cell of a row that groups columns
 _QUANTITY = re.compile(r"\s*[-+]?[0-9.,]+\s*\S{0,12}\s*")
+_LIST = re.compile(r"(?i)^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?")
 _LABELS = 3  # rows of labels, from which a column of them is one
 _HINT = "e.g. a header 'pressure_bar,length_mm,force_N'"
 
@@ -172,8 +174,9 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
     if rivals:
         parts = [part for run in alike if run.sheet is best.sheet for part in parts_of(run, list(run.title))]
     head_row = None if best.head_row is None else best.sheet.line(best.head_row)
+    whole = stacked(parts, texts)
     return replace(
-        stacked(parts, texts),
+        whole,
         where=f"{name}, sheet '{best.sheet.name}'" if best.sheet.name else name,
         format=best.sheet.format,
         head_row=head_row,
@@ -182,7 +185,12 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         tables=tables if len(tables) > 1 else (),
         rivals=rivals,
         raw=_shown(best.sheet, best.head_row),
-        messages=(*(m for s in sheets for m in s.messages), *_below(alike, best)),
+        messages=(
+            *(m for s in sheets for m in s.messages),
+            *whole.messages,
+            *_between(alike),
+            *_below(alike, best),
+        ),
         headless=not any(best.heads.values()),
     )
 
@@ -196,6 +204,22 @@ def _below(alike: Sequence[Run], best: Run) -> list[str]:
         return []
     shown = ", ".join(f"'{sentence(rows[i])[:40]}'" for i in found[:4])
     return [f"the text below the table, from row {best.sheet.line(found[0])} on, is not read: {shown}"]
+
+
+def _between(alike: Sequence[Run]) -> list[str]:
+    """What is said of texts between the readings."""
+    shown = [
+        f"'{sentence(run.sheet.rows[i])[:60]}' ({run.sheet.place(i)})"
+        for run in alike
+        for i in run.remarks
+        if i > run.rows[0] and [*map(_text, run.sheet.rows[i])] != [*run.heads.values()]
+    ]
+    more = f" and {len(shown) - _SHOWN_REMARKS} more" if len(shown) > _SHOWN_REMARKS else ""
+    return (
+        [f"texts between the readings are left out: {', '.join(shown[:_SHOWN_REMARKS])}{more}"]
+        if shown
+        else []
+    )
 
 
 def _rivals(alike: list[Run], best: Run, runs: list[Run]) -> tuple[tuple[str, str], ...]:
@@ -265,6 +289,7 @@ def stacked(parts: Sequence[Part], texts: Sequence[Span]) -> Table:
         titles=tuple(part.title for part in parts) if len(parts) > 1 else ((),),
         lines=np.concatenate([part.lines for part in parts]),
         bad=bad,
+        messages=tuple(dict.fromkeys(m for part in parts for m in part.messages)),
     )
 
 
@@ -559,9 +584,10 @@ def _listed_names(run: Run) -> None:
     """Names of all columns in one line further above, where the heads themselves say nothing."""
     for i in range(run.rows[0] - 1, max(-1, run.rows[0] - _LOOK), -1):
         filled = [str(c) for c in run.sheet.rows[i] if c != ""]
-        if (i in run.above and len(filled) > 1) or len(filled) != 1:
+        listed = len(filled) == len(run.columns) and _LIST.match(filled[0]) is not None
+        if len(filled) > 1 and (i in run.above or not listed):
             continue
-        names = _split_head(filled[0], len(run.columns))
+        names = _split_head(";".join(filled), len(run.columns))
         if names and sum(head_score(n) for n in names) > sum(head_score(h) for h in run.heads.values()):
             run.heads = dict(zip(run.columns, names, strict=True))
             return
@@ -662,9 +688,7 @@ def _split_head(text: str, width: int) -> list[str]:
     name.
     """
     bare = re.sub(r"^[\s#%/!;*]+", "", text)
-    bare = re.sub(
-        r"^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?", "", bare, flags=re.I
-    )
+    bare = _LIST.sub("", bare)
     ways = [re.split(r"\s?[,;\t|]\s?", bare), re.split(r"\s{2,}|\t", bare), _joined_units(bare.split())]
     for k, cells in enumerate(ways):
         cells = [cell.strip().strip('"') for cell in cells if cell.strip()]

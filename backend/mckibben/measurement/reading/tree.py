@@ -14,6 +14,7 @@ from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_DEPTH, MAX_NODES, MAX_TEXT
 from mckibben.measurement.reading.model import Sheet, Span
 from mckibben.measurement.reading.units import unit_of
+from mckibben.physics.errors import InputError
 
 _FEWEST = 2  # values of an array
 _NAMES = ("name", "label", "title", "channel", "signal", "quantity", "id", "key")
@@ -266,44 +267,62 @@ def _of_names(
             continue
         elif isinstance(value, (dict, list, tuple)):
             below.append((head, value))
-    arrays |= _map_of(node, arrays)
+    melted, messages = _map_of(node, arrays, walk.noun)
+    arrays |= melted
     if not arrays:
         for key, value in node.items():
             arrays |= _unnamed(str(key), value)
     if arrays:
         own |= _listed_units(arrays, own)
-    _emit(walk, path, arrays, own, tuple(texts))
+    _emit(walk, path, arrays, own, tuple(texts), messages)
     walk.texts += [t for t in texts if t not in above]
     for head, value in below:
         _visit(walk, value, f"{path}{head}.", tuple(texts), own, depth + 1)
 
 
-def _map_of(node: Mapping[str, Any], arrays: dict[str, Any]) -> dict[str, Any]:
-    """A matrix over the two vectors whose lengths are its sides, as three columns; these vectors are then
-    taken away.
+def _map_of(
+    node: Mapping[str, Any], arrays: dict[str, Any], noun: str
+) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """A matrix over the two vectors whose lengths are its sides, as three columns, and what is said of it;
+    these vectors are then taken away.
+
+    Raises:
+        InputError: either vector could be its rows.
     """
     matrices = [
         (k, v)
         for k, v in node.items()
         if isinstance(v, np.ndarray) and v.ndim == 2 and min(v.shape) > 1 and v.dtype.kind in "biuf"
     ]
+    messages = tuple(
+        f"{noun} '{k}' is not used: a matrix of {v.shape[0]} x {v.shape[1]} cells that fits no vectors"
+        for k, v in matrices
+        if k not in arrays
+    )
     if len(matrices) != 1:
-        return {}
+        return {}, messages
     name, matrix = matrices[0]
+    size = f"a map of {matrix.shape[0]} x {matrix.shape[1]} cells"
     down = [k for k, v in arrays.items() if len(v) == matrix.shape[0] and not isinstance(v[0], str)]
     across = [
         k
         for k, v in arrays.items()
         if len(v) == matrix.shape[1] and k not in down[:1] and not isinstance(v[0], str)
     ]
-    if len(down) < 1 or len(across) < 1 or (matrix.shape[0] == matrix.shape[1] and len(down) != 2):
-        return {}
+    if len(down) < 1 or len(across) < 1:
+        return {}, messages
+    if matrix.shape[0] == matrix.shape[1]:
+        raise InputError(
+            f"'{name}': {size} over {' and '.join(map(repr, down))}, either of which could be its rows",
+            field=f"{noun} {name}",
+            hint="write its cells as rows of three columns, or one row more than columns",
+        )
     first, second = np.asarray(arrays.pop(down[0]), float), np.asarray(arrays.pop(across[0]), float)
     return {
         down[0]: np.repeat(first, len(second)),
         across[0]: np.tile(second, len(first)),
         str(name): np.asarray(matrix, float).ravel(),
-    }
+    }, (f"{noun} '{name}' is {size} over '{down[0]}' and '{across[0]}': each cell is read as a row",)
 
 
 def _has_arrays(value: Any, depth: int = 0) -> bool:
@@ -423,8 +442,9 @@ def _name_lists(node: Mapping[str, Any], depth: int = 0) -> list[tuple[list[str]
 
 
 def _emit(
-    walk: _Walk, path: str, arrays: Mapping[str, Any], units: Mapping[str, str], texts: tuple[Span, ...]
-) -> None:
+    walk: _Walk, path: str, arrays: Mapping[str, Any], units: Mapping[str, str], texts: tuple[Span, ...],
+    messages: tuple[str, ...] = (),
+) -> None:  # fmt: skip
     """A sheet of the arrays of one length; the others are named beside it."""
     sizes = [len(v) for v in arrays.values()]
     if not sizes or max(sizes) < _FEWEST:
@@ -447,5 +467,6 @@ def _emit(
             arrays=chosen,
             units={k: u for k in chosen if (u := units.get(k) or units.get(k.rpartition(".")[2], ""))},
             texts=(*texts, *rest, *lists),
+            messages=messages,
         )
     )
