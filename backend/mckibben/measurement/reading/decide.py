@@ -217,7 +217,7 @@ def _signed(
 ) -> list[Option]:  # fmt: skip
     """The uses with each sign and reference, by what is said of them."""
     scaling = (1.0, 0.0) if scale is None else (scale.factor, scale.offset)
-    zero = next((e.value for e in evidence if e.facet == f"zero:{channel}"), 0.0)
+    zero = next((e.value for e in evidence if e.facet == f"zero:{channel}" and e.target in (i, FILE)), 0.0)
     if channel == "pressure":
         near, far = _references(own), _references([e for e in evidence if e.target == FILE])
         said = (

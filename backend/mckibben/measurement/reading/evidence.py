@@ -599,6 +599,9 @@ def _of_scales(span: Span, table: Table) -> list[Evidence]:
                 if scale.rule != "valve states"
                 else ["command"]
             )
+            if scale.raw == "count" and not scale.offset and "displacement" in channels:
+                channels = ["displacement"]  # where its counts begin, is not known
+                found.append(Evidence(i, "zero_open", True, 2.0, span, "counts"))
             claims = {
                 c.value
                 for c in head_claims(table.columns[i].head[:200], table.columns[i].unit)
@@ -625,7 +628,11 @@ def _scaled_column(scale: Scale, around: str, table: Table) -> int | None:
     named = _column_named(around, table)
     for i, column in enumerate(table.columns):
         unit = _unit_of(column)
-        raw = unit is None or unit.dimension in RAW or (unit.name == "%" and scale.raw == "%")
+        raw = (
+            unit is None
+            or unit.dimension in RAW
+            or (unit.name == "%" and (scale.raw == "%" or scale.rule == "valve states"))
+        )
         if column.words is not None or column.clock or not raw:
             continue
         claims = {c.value for c in head_claims(column.head[:200], column.unit) if c.facet == "channel"}

@@ -21,8 +21,10 @@ from mckibben.measurement.reading.lexicon import REFERENCES, folded
 from mckibben.measurement.reading.model import BLOCK, FILE, Array, Evidence, Span, Table
 from mckibben.measurement.reading.physics import ATMOSPHERE
 from mckibben.measurement.reading.units import Quantity, Unit, dimension_of, quantity_si
+from mckibben.measurement.reading.zeros import stated_hangers
 from mckibben.physics.errors import InputError, did_you_mean
 
+GRAVITY = 9.80665  # m/s2, standard
 _SAME = 2e-3  # relative; values that differ by less are the same one, rounded
 _STATED = 4.0  # nats from which a value counts as stated; two of them that differ are asked about
 _POSSIBLE_AIR = (5e4, 1.1e5)  # Pa; of the air where people work
@@ -151,6 +153,13 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
         if e.facet == "note" and e.value[0] not in conditions:
             conditions[e.value[0]] = str(e.value[1]).strip()[:200]
             stated.setdefault(e.value[0], Stated(conditions[e.value[0]], e.span, str(e.value[1])))
+    hangers, load = stated_hangers(table), conditions.get("load_mass")
+    if len(hangers) == 1 and hangers[0].contained is False and isinstance(load, float):
+        more = hangers[0].weight / GRAVITY
+        if more < 0.9 * load:
+            conditions["load_mass"] = load + more
+            place = f"'{hangers[0].span.text[:80]}' ({hangers[0].span.where})"
+            messages.append(f"{more:.4g} kg is added to the load for the hanger: {place}")
     for key, value in correction.conditions.items():
         if value is None:
             conditions.pop(key, None)

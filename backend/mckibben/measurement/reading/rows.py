@@ -16,7 +16,7 @@ from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.reading.correction import SAMPLE, SLACK, Correction
 from mckibben.measurement.reading.decide import Decision, roles_of, value_of
 from mckibben.measurement.reading.evidence import NAME
-from mckibben.measurement.reading.facts import Held, Known
+from mckibben.measurement.reading.facts import GRAVITY, Held, Known
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import Array, Column, Evidence, Skip, Table
 from mckibben.measurement.reading.named import length_of_name
@@ -24,7 +24,6 @@ from mckibben.measurement.reading.units import quantity_si
 from mckibben.physics.errors import InputError
 
 LARGEST = 1e15  # in SI; more is of no physical size
-GRAVITY = 9.80665
 _ENOUGH_ROWS = 20
 _MOST_WITHOUT = 4  # rows without a reading for each other one; more are a slow signal or a wrong column
 _FEWEST_TO_TURN = 3  # rows
@@ -119,6 +118,9 @@ def rows_of(
     _even_time(rows, table, decision, evidence)
     if "time" in rows.channels and "time" in decision.uses and decision.uses["time"][1].unit in ("clock",):
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
+    counted = decision.uses.get("time")
+    if counted is not None and counted[1].scale != 1.0 and counted[0] not in known.chosen:
+        rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]  # counts begin anywhere
     if "time" in rows.channels and "time" in decision.uses and rows.channels["time"][0] > 1e8:
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
         rows.messages.append(

@@ -43,7 +43,7 @@ def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
         return
     states = valve_scale(text)
     if states is not None:
-        yield states, f"valve {text}"
+        yield states, text
     points = _points(text)
     taken: list[tuple[int, int]] = []
     if points is not None:
@@ -95,7 +95,7 @@ _AT_REST = re.compile(
 )
 _STATE = re.compile(
     r"(?P<before>[^\W\d_]+)?\s?(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s?(?<![\d.,])(?P<number>-?\d{1,4}(?:[.,]\d{1,4})?)\s?(?P<raw>mV|V|mA|A|%|)(?!\w|[.,]\d)\)?"
-    r"(?=(?:\s?(?:=|≙|:|->|→|is)?\s?(?P<behind>[^\W\d_]+(?:\s[^\W\d_]+)?))?)"
+    r"(?=(?:\s?(?:=|≙|:|->|→|is)?\s?(?P<behind>[^\W\d_]+(?:\s[^\W\d_]+){0,3}))?)"
 )
 _POINT = re.compile(
     r"(?<![\d.,-])(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)\s?(?:=|->|→|≙|:|at|bei)\s?"
@@ -140,7 +140,7 @@ def valve_scale(text: str) -> Scale | None:
         state = next(filter(None, (state_of(side or "") for side in sides)), None)
         if state is not None:
             states.setdefault(state, set()).add((number_of(found["number"]), found["raw"]))
-    signals = {raw for values in states.values() for _, raw in values}
+    signals = {raw for values in states.values() for number, raw in values if raw or number} or {""}
     if len(signals) != 1 or not {"closed", "open"} <= set(states) or any(len(v) > 1 for v in states.values()):
         return None
     level = {state: next(iter(values))[0] for state, values in states.items()}
@@ -163,6 +163,8 @@ def state_of(text: str) -> str | None:
         "exhaust": "valve_exhaust|way_lengthening",
     }
     found = [state for state, names in known.items() if word_set(names).among(words)]
+    if found == ["open", "exhaust"]:
+        return "exhaust"  # "fully open to exhaust"
     return found[0] if len(found) == 1 else None
 
 
