@@ -16,7 +16,7 @@ def table(
     *, unit: float = 1.0, zero: float = 0.0, stroke: float = 1.0, kind: str = "isobaric"
 ) -> Measurement:
     """Six loops at constant pressure; pressure and stroke written in another way."""
-    rows = [f"# kind: {kind}", "time_s,pressure_bar,displacement_mm,force_N"]
+    rows = [f"# kind: {kind}", "# pressure: gauge", "time_s,pressure_bar,displacement_mm,force_N"]
     time = 0.0
     for bar in PRESSURE:
         for way in (*range(20), *range(20, 0, -1)):

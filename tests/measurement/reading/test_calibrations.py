@@ -10,6 +10,7 @@ import pytest
 
 from mckibben.measurement.reading import read_measurement
 from mckibben.measurement.reading.correction import spoken_correction
+from mckibben.measurement.reading.positions import lengths_at_zero, pulleys_in
 from mckibben.physics.errors import InputError
 from tests.measurement.reading.isobaric import FORCE, PRESSURE, STROKE, TIME, assert_is_the_test, read, table
 
@@ -100,6 +101,48 @@ def test_a_crosshead_that_counts_from_the_shortest_length() -> None:
     reversed_sign = spoken_correction(columns=["displacement=-Traversenweg"])
     with pytest.raises(InputError, match="stretch the muscle by up to 60 mm"):
         read_measurement((head.format("") + rows).encode(), "a.csv", reversed_sign)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Länge bei Traversenweg 0\t228,0 mm",
+        "muscle length at crosshead zero: 22.8 cm",
+        "length at position = 0: 228 mm",
+        "Grip separation at zero traverse: 228 mm",
+        "zero of the crosshead at a length of 228 mm",
+    ],
+)
+def test_a_length_where_a_position_is_zero(text: str) -> None:
+    assert list(lengths_at_zero(text, {"traversenweg"})) == pytest.approx([0.228])
+
+
+@pytest.mark.parametrize(
+    "text", ["Ruhelänge 300 mm", "stroke zero at the rest length of 300 mm", "at 0 bar the length is 300 mm"]
+)
+def test_what_is_no_length_where_a_position_is_zero(text: str) -> None:
+    assert list(lengths_at_zero(text, {"traversenweg"})) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "radii"),
+    [
+        ("wire over a pulley of 25 mm radius, angle 0 at the rest length", [0.025]),
+        ("Seilrolle, Durchmesser 50 mm", []),  # the number stands in a clause of its own
+        ("Seilrolle mit Durchmesser 50 mm", [0.025]),
+        ("tube of 25 mm radius at the inlet", []),
+    ],
+)
+def test_the_radius_of_a_pulley(text: str, radii: list[float]) -> None:
+    assert list(pulleys_in(text)) == pytest.approx(radii)
+
+
+def test_a_position_with_its_reading_at_the_rest_length() -> None:
+    falls = "The laser reads 152.4 mm at the rest length; its reading falls as the muscle shortens."
+    rows = table(TIME, PRESSURE, FORCE, 152.4 - STROKE)
+    found = read(f"# rest length 300 mm\n# {falls}\nt [s],p [bar],F [N],laser [mm]\n{rows}")
+    assert_is_the_test(found)
+    assert any("its sign reversed: '# The laser reads" in message for message in found.messages)
 
 
 def test_two_scales_in_one_sentence() -> None:

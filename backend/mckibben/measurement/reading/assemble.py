@@ -33,6 +33,7 @@ from mckibben.measurement.reading.questions import (
     MOTION,
     SCALABLE,
     Reading,
+    antagonists,
     scale_question,
     though_at_the_valve,
 )
@@ -258,6 +259,10 @@ def said(reading: Reading) -> list[str]:
             reason = _reason(reading, i, f"zero:{channel}", None)
             done = "subtracted from" if use.zero > 0.0 else "added to"
             lines.append(f"{abs(use.zero):g} {CHANNEL_UNITS[channel]} is {done} the {channel}: {reason}")
+    lines += [
+        f"'{other}' runs against the pressure you took: in a joint of two muscles the force is that of both"
+        for other in antagonists(reading)
+    ]
     lines += [
         f"what the sensor of the {z.channel} shows at zero is already subtracted from the {z.channel}: "
         f"'{z.span.text[:80]}' ({z.span.where})"

@@ -180,8 +180,8 @@ def _units(
         return [(CLOCK, 0.0, None)] if channel == "time" else []
     if scale is not None and scale.rule == "valve states":
         return [("1", 0.0, scale)] if channel == "command" else []
-    if scale is not None and dimension_of(scale.unit) in FITTING[channel]:
-        return [(scale.unit, 0.0, scale)]
+    if scale is not None:
+        return [(scale.unit, 0.0, scale)] if dimension_of(scale.unit) in FITTING[channel] else []
     stated = next((e.value for e in own if e.facet == "unit"), None)
     stated = stated or next((e.value for e in own if e.facet == "unit_word" and channel == "time"), None)
     if stated is not None:

@@ -23,6 +23,7 @@ from mckibben.measurement.reading.lexicon import (
 )
 from mckibben.measurement.reading.limits import MAX_TEXT
 from mckibben.measurement.reading.model import BLOCK, FILE, Column, Evidence, Span, Table
+from mckibben.measurement.reading.positions import of_positions
 from mckibben.measurement.reading.scales import Scale, scales_in
 from mckibben.measurement.reading.units import (
     BRIDGE,
@@ -101,7 +102,7 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     found = _only_pressure(found, table)
     for span in table.texts:
         found += _of_text(span, FILE, table)
-    found += [*of_bridge(table), *of_zeros(table)]
+    found += [*of_bridge(table), *of_zeros(table), *of_positions(table)]
     for k, spans in enumerate(table.titles):
         for span in spans if len(table.titles) > 1 else ():
             found += _of_title(span, BLOCK - k)

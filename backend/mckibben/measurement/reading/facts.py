@@ -28,7 +28,7 @@ GRAVITY = 9.80665  # m/s2, standard
 _SAME = 2e-3  # relative; values that differ by less are the same one, rounded
 _STATED = 4.0  # nats from which a value counts as stated; two of them that differ are asked about
 _POSSIBLE_AIR = (5e4, 1.1e5)  # Pa; of the air where people work
-_OTHER_UNITS = {"diameter": "m", "pulley_radius": "m"}  # of conditions that only the physics uses
+_OTHER_UNITS = {"diameter": "m"}  # of conditions that only the physics uses
 _SIZE = re.compile(r"(?:DMSP|MAS)-(\d{1,3})")
 _YOU = Span("you", "")
 #: Conditions of which two values are asked about -> (their name, the option that sets them).
@@ -182,7 +182,7 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
         stated,
         tuple(contradictions),
         held,
-        _air_of_rows(table, columns),
+        _air_of_rows(table, columns, evidence),
         columns,
         several,
         said.pop() if len(said) == 1 else "",
@@ -251,10 +251,21 @@ def _of_columns(table: Table, columns: Mapping[str, tuple[int, tuple[float, ...]
     return found
 
 
-def _air_of_rows(table: Table, columns: Mapping[str, tuple[int, tuple[float, ...]]]) -> Array | None:
-    """The pressure of the surrounding air [Pa] in each row, where its column holds several values."""
+def _air_of_rows(
+    table: Table, columns: Mapping[str, tuple[int, tuple[float, ...]]], evidence: Sequence[Evidence]
+) -> Array | None:
+    """The pressure of the surrounding air [Pa] in each row, where a column holds several values, or blocks
+    have their own.
+    """
     i, values = columns.get("ambient_pressure", (-1, ()))
     if len(values) < 2:
+        of_block = {
+            BLOCK - e.target: quantity_si(e.value.value, e.value.unit.name, "Pa")
+            for e in evidence
+            if e.facet == "condition:ambient_pressure" and e.target <= BLOCK
+        }
+        if len(of_block) == len(table.titles) > 1:
+            return np.array([of_block[k] for k in range(len(of_block))])[table.blocks]
         return None
     unit = _stated_unit(table, i)
     return np.array([quantity_si(v, unit, "Pa") for v in table.columns[i].values.tolist()])

@@ -127,6 +127,10 @@ class Reading:
         """What says that a column is a channel."""
         return [e for e in self.own(i) if e.facet == "channel" and e.value == channel]
 
+    def facet(self, i: int, facet: str) -> bool:
+        """Whether something is claimed of a column."""
+        return any(e.facet == facet for e in self.own(i))
+
     def roles(self, i: int) -> dict[str, float]:
         """Role -> what is said for it."""
         return roles_of(self.own(i))
@@ -317,7 +321,7 @@ def _unnamed(reading: Reading) -> Iterator[Question]:
                 column.head,
                 channel,
                 (channel, other, "ignore"),
-                stops=False,
+                stops=bool(np.ptp(reading.rows.channels[channel]) == 0.0),  # a constant shows nothing
             )
 
 
@@ -514,8 +518,24 @@ def _joint(reading: Reading, i: int, j: int) -> str:
         and np.ptp(b[both]) > 0
         and np.corrcoef(a[both], b[both])[0, 1] < _OPPOSED
     ):
-        return ", one filled as the other is vented, as the two muscles of a joint are"
+        return (
+            ", one filled as the other is vented, as those of a joint of two muscles: its force is that of "
+            "both; measure with one of them vented, or model the pair as 'antagonist'"
+        )
     return ""
+
+
+def antagonists(reading: Reading) -> list[str]:
+    """The pressures that run against the one that the user took."""
+    if "pressure" not in reading.rows.channels or not reading.by_user("pressure"):
+        return []
+    i = reading.decision.uses["pressure"][0]
+    others = [
+        j
+        for j, c in enumerate(reading.table.columns)
+        if j != i and c.words is None and reading.claims(j, "pressure")
+    ]
+    return [reading.table.columns[j].title for j in others if _joint(reading, i, j)]
 
 
 def _signs(reading: Reading) -> Iterator[Question]:
@@ -752,6 +772,7 @@ _AGAINST = -1.5  # nats of what a motion shows, below which it runs against phys
 
 def _zero(reading: Reading) -> Iterator[Question]:
     """A position of which nothing says where the muscle is at its rest length."""
+    yield from _zero_of_length(reading)
     column = reading.column("displacement")
     if column is None or reading.by_user("displacement"):
         return
@@ -781,6 +802,31 @@ def _zero(reading: Reading) -> Iterator[Question]:
         None,
         ("displacement", "length"),
     )
+
+
+def _zero_of_length(reading: Reading) -> Iterator[Question]:
+    """A position that could be the length, or a stroke from a zero that nothing says."""
+    column = reading.column("length")
+    if column is None or reading.by_user("length"):
+        return
+    i, use = reading.decision.uses["length"]
+    rivals = [r for r in reading.decision.rivals if r.slot == "stroke" and r.part == "channel"]
+    other = rivals[0].other if rivals else None
+    if other is None or not _is_by_unit(reading, "length", i) or not reading.facet(i, "zero_open"):
+        return
+    if rivals[0].margin < MARGIN or "length" in reading.decision.against:
+        low, high = float(np.nanmin(column.values)), float(np.nanmax(column.values))
+        ends = f"{high - low:.6g} to 0" if other.use.sign < 0 else f"0 to {high - low:.6g}"
+        span = f"{low:.6g} to {high:.6g} {use.unit} = {ends} {use.unit}"
+        yield Question(
+            "zero of length",
+            f"{reading.label(column)} is a position, and no text states its zero; at which reading is the "
+            f"muscle at its rest length",
+            f"{option_of('displacement', column, span)} or {option_of('length', column)}",
+            column.head,
+            None,
+            ("displacement", "length"),
+        )
 
 
 def _by_valve(reading: Reading) -> Iterator[Question]:
@@ -857,6 +903,26 @@ def _counted(reading: Reading) -> Iterator[Question]:
             ("displacement", "ignore"),
         )
         return
+
+
+def _torque(reading: Reading) -> Iterator[Question]:
+    """A torque, where the file has no force."""
+    for i, column in enumerate(reading.table.columns):
+        unit = reading.unit(i)
+        if unit is None or dimension_of(unit) != "torque" or {"force"} & set(reading.rows.channels):
+            continue
+        if column.words is None and i not in reading.known.chosen:
+            torque = 3.0 / quantity_si(1.0, unit, "N*m")  # on a radius of 30 mm
+            span = f"0 to {torque:.4g} {unit.replace('*', '')} = 0 to 100 N"
+            yield Question(
+                "force",
+                f"{reading.label(column)} holds a torque, and the file has no force, which is the torque "
+                f"over the radius at which the muscle pulls; which radius is it (here 30 mm)",
+                f"{option_of('force', column, span)} or {ignore_option(bare(column))}",
+                column.head,
+                None,
+                ("force", "ignore"),
+            )
 
 
 def _stated_zeros(reading: Reading) -> Iterator[Question]:
@@ -1097,7 +1163,7 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
         bracket = re.search(r"[\[(]\s?([^\W\d_]{2,20})\s?[\])]\s?$", column.head)
         if not claimed:
             continue
-        if words_of(column.head)[-1:] == ("last",):
+        if words_of(bare(column))[-1:] == ("last",):
             continue  # a statistic
         channel = claimed[0]
         si = CHANNEL_UNITS[channel]
@@ -1198,7 +1264,7 @@ def _several(reading: Reading) -> Iterator[Question]:
 Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
-    _units, _unnamed, _unread, _seconds, _times, _set_point, _by_valve, _counted, _specimens, _signs,
+    _units, _unnamed, _unread, _seconds, _times, _set_point, _by_valve, _counted, _torque, _specimens, _signs,
     _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
 )  # fmt: skip
 #: Asked always.
