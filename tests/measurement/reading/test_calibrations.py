@@ -11,18 +11,18 @@ import pytest
 from mckibben.measurement.reading import read_measurement
 from mckibben.measurement.reading.correction import spoken_correction
 from mckibben.measurement.reading.positions import lengths_at_zero, pulleys_in
+from mckibben.measurement.reading.scales import scales_in
 from mckibben.physics.errors import InputError
 from tests.measurement.reading.isobaric import FORCE, PRESSURE, STROKE, TIME, assert_is_the_test, read, table
 
 REST = "# rest length 300 mm, gauge pressure, tension positive\n"
 
-#: Sentence -> (name, unit, symbol, factor, offset) by hand.
+#: Sentence -> (unit, signal or its unit, factor, value at 0 of the signal) by hand.
 FORMULAS = {
-    "F [N] = 200*(U_F - 0.5)": ("F", "N", "U_F", 200.0, -100.0),
-    "p = 2.5 bar/V * U_p - 1.25 bar": ("p", "bar", "U_p", 2.5, -1.25),
-    "Kraft: F = 203,4 * U (N)": ("F", "N", "U", 203.4, 0.0),
-    "force in N = (adc - 512) / 4": ("force", "N", "adc", 0.25, -128.0),
-    "muscle length = crosshead + 214.6 mm": ("muscle length", "mm", "crosshead", 1.0, 214.6),
+    "F [N] = 200*(U_F - 0.5)": ("N", "U_F", 200.0, -100.0),
+    "p = 2.5 bar/V * U_p - 1.25 bar": ("bar", "V", 2.5, -1.25),
+    "Kraft: F = 203,4 * U (N)": ("N", "U", 203.4, 0.0),
+    "force in N = (adc - 512) / 4": ("N", "adc", 0.25, -128.0),
 }
 
 
@@ -36,6 +36,40 @@ SCALES = {
     "0...10 bar -> 4...20 mA": (-2.5, -1.875),
     "4-20 mA = 0-100 mm, 12 mA at the rest length": (-75.0, -68.75),
 }
+
+
+@pytest.mark.parametrize("text", FORMULAS)
+def test_a_straight_line_in_a_sentence(text: str) -> None:
+    ((scale, _),) = scales_in(text)
+    assert (scale.unit, scale.raw) == FORMULAS[text][:2]
+    assert (scale.factor, -scale.factor * scale.offset) == pytest.approx(FORMULAS[text][2:])
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["F [N] = U * U", "eps = (L0 - L)/L0", "T = 20 degC", "p = 2*U_p - 1", "F [N] = 2*a + 3*b", "x = 3 mm"],
+)
+def test_what_is_no_straight_line_of_one_signal_is_none(text: str) -> None:
+    assert list(scales_in(text)) == []
+
+
+@pytest.mark.parametrize("text", SCALES)
+def test_a_scale_in_a_sentence(text: str) -> None:
+    ((scale, _),) = scales_in(text)
+    at = (-scale.factor * scale.offset, scale.factor * (1.0 - scale.offset))
+    assert at == pytest.approx(SCALES[text])
+
+
+def test_an_offset_in_the_unit_of_the_result_is_asked_about() -> None:
+    rows = table(TIME, PRESSURE, FORCE / 200.0, STROKE)
+    with pytest.raises(InputError, match=r"gain 200 N/V, offset 12 N.*contain it.*force_zero=12 N"):
+        read(f"{REST}# gain 200 N/V, offset 12 N\nt [s],p [bar],F [V],s [mm]\n{rows}")
+
+
+def test_two_calibrations_of_one_column_are_none() -> None:
+    rows = table(TIME, PRESSURE, FORCE / 200.0, STROKE)
+    with pytest.raises(InputError, match=r"several scales, 'F \[N\] = 200\*U_F' \(line 2\) and"):
+        read(f"{REST}# F [N] = 200*U_F\n# F [N] = 210*U_F\nt [s],p [bar],U_F [V],s [mm]\n{rows}")
 
 
 def test_volts_by_formulas() -> None:
@@ -111,6 +145,7 @@ def test_a_crosshead_that_counts_from_the_shortest_length() -> None:
         "length at position = 0: 228 mm",
         "Grip separation at zero traverse: 228 mm",
         "zero of the crosshead at a length of 228 mm",
+        "muscle length = crosshead + 228 mm",
     ],
 )
 def test_a_length_where_a_position_is_zero(text: str) -> None:

@@ -13,21 +13,32 @@ COMMAND = np.where(np.arange(ROWS) < ROWS // 2, 100.0, -100.0)
 
 TIMES = {
     ("tick", "1 tick = 0.5 ms"): 0.5e-3,
-    ("ticks", "one tick is 20 us"): 20e-6,
     ("tick", "0.25 ms per tick"): 0.25e-3,
-    ("timer", "timer: 1 ms"): 1e-3,
     ("sample", "sample period 2 ms"): 2e-3,
     ("Sample no", "sampling interval: 0.5 s"): 0.5,
     ("n", "sample rate 500 Hz"): 2e-3,
 }
 NO_TIMES = [
-    ("tick", "1 tick = 0.01 mm"),
     ("tick", "the ticks are not evenly spaced"),
     ("sample", "sampling rate 10 kHz, averaged to one row"),
     ("sample", "sample period 2 ms; log interval 5 ms"),
-    ("specimen", "sample period 2 ms"),
     ("temperature of the wall", "1 tick = 0.5 ms"),
 ]
+
+
+@pytest.mark.parametrize(("header", "text"), TIMES)
+def test_the_time_of_a_count(header: str, text: str) -> None:
+    rows = table(COUNT, PRESSURE, FORCE, STROKE)
+    found = read(f"# {text}\n{header},pressure_bar,force_N,stroke_mm\n{rows}")
+    np.testing.assert_allclose(np.diff(found.columns["time"]), TIMES[header, text])
+
+
+@pytest.mark.parametrize(("header", "text"), NO_TIMES)
+def test_no_time_of_a_count(header: str, text: str) -> None:
+    rows = table(COUNT, PRESSURE, FORCE, STROKE)
+    found = read(f"# {text}\n{header},pressure_bar,force_N,stroke_mm\n{rows}")
+    assert "time" not in found.columns
+    assert any("no time: " in message for message in found.messages) == (header == "sample")
 
 
 @pytest.mark.parametrize("head", ["# 1 count = 0.5 s\n", "tool 4\n1 count = 0.5 s\n\n"])

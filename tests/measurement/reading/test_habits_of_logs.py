@@ -9,7 +9,8 @@ import pytest
 
 from mckibben.measurement.reading import read_measurement
 from mckibben.measurement.reading.correction import Correction
-from mckibben.measurement.reading.model import Span
+from mckibben.measurement.reading.evidence import stated_marks
+from mckibben.measurement.reading.model import Span, Table
 from mckibben.measurement.reading.zeros import hangers_in
 from mckibben.physics.errors import InputError
 from tests.measurement.reading.isobaric import FORCE, PRESSURE, STROKE, TIME, assert_is_the_test, read, table
@@ -112,6 +113,19 @@ def test_numbers_that_a_text_says_to_be_no_reading() -> None:
     assert found.rows == len(rows) - 1
     assert min(found.columns["force"]) > 0.0
     assert any("means no reading" in message for message in found.messages)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("9999 = sensor error", [9999.0]), ("lost samples are entered as -1.0", [-1.0]),
+        ("max. force error 0.5 N", []), ("3 samples lost", []), ("error = 0.5 %", []), ("error = 0.5", []),
+        ("-1.0 is the lowest force", []), ("NoValue: -9999", [-9999.0]),
+    ],
+)  # fmt: skip
+def test_which_numbers_stand_for_no_reading(text: str, expected: list[float]) -> None:
+    beside = Table((), (Span("line 1", text),), np.zeros(0, np.intp))
+    assert [mark for mark, _ in stated_marks(beside)] == expected
 
 
 def test_keys_and_values_with_units_and_time_stamps() -> None:

@@ -47,7 +47,9 @@ BY_UNIT = {
 _UNIT_STATED, _CLOCK_SHOWN, _TEXTS, _COUNTS, _SINCE_1970 = 5.0, 5.0, 6.0, 3.0, 4.0
 _OVER = 0.35  # of the weight of a head, that texts over it have
 NAME = "the file's name"
-_CLAUSES = re.compile(r"[,;.|()\[\]](?!\d)|\s[/–-]\s|\s(?:and|und|et|e|y|og|och|en|i|a|ve|и|та)\s")
+_CLAUSES = re.compile(
+    r"(?:,(?!\s?(?:wenn|when|if|falls|quand|si|quando|cuando|se|als|om)\b)|[;.|()\[\]])(?!\d)|\s[/–-]\s|\s(?:and|und|et|e|y|og|och|en|i|a|ve|и|та)\s"
+)
 _SIGN_BEFORE = re.compile(r"(?<![\w.,+-])\(?(?P<sign>[+−-])\)?(?=\s?(?:[A-Za-z]\w{0,2}\s?)?(?:=|≙|->|→))")
 _SIGN_BEHIND = re.compile(
     r"(?<=[^\W\d_])\s?[:=]?\s?\(?(?P<sign>\+)\)?(?=\s?(?:[,;.)/]|$))|(?<=[^\W\d_])\s?[:=]?\s\(?(?P<minus>[−-])\)?(?=\s?(?:[,;.)/]|$))"
@@ -78,6 +80,11 @@ _SHORT_LENGTH = 0.08  # m; a title that says less without a word names a stroke,
 _COLUMN_SAMPLE = 5000
 
 
+#: What says that a number stands for something.
+_MEANS = re.compile(
+    r"(?i)=|:|->|\b(?:marks?|means?|denotes?|indicates?|stands?|is|are|bedeutet|heißt|kennzeichnet|steht|signifie|"
+    r"indique|significa|indica|oznacza|znamená|betekent|betyder|was|were|entered|written|recorded|as)\b"
+)
 _LOST = re.compile(r"(?<![\w.])([-+]?\d{1,7}(?:[.,]\d{1,6})?)(?![\w.]*\d)")
 
 
@@ -87,10 +94,14 @@ def stated_marks(table: Table) -> tuple[tuple[float, Span], ...]:
     """
     found = []
     for span in table.texts:
-        words = words_of(span.text[:MAX_TEXT])
-        if word_set("no_reading").among(words) or "novalue" in words or ("no" in words and "value" in words):
-            numbers = _LOST.findall(span.text[:MAX_TEXT])
-            found += [(number_of(n), span) for n in numbers[:1] if len(numbers) == 1]
+        for clause in re.split(r"[;|]|,\s|[.](?=\s|$)", span.text[:MAX_TEXT]):
+            words = words_of(clause)
+            named = word_set("no_reading").among(words) or "novalue" in words or {"no", "value"} <= {*words}
+            numbers = list(_LOST.finditer(clause)) if named and _MEANS.search(clause) else ()
+            if len(numbers) != 1 or clause[numbers[0].end() :].lstrip().startswith("%"):
+                continue  # "error = 0.5 %" is a size
+            if not word_set("deviation_words").among(words_of(clause[: numbers[0].start()])[-2:]):
+                found.append((number_of(numbers[0][1]), span))
     return tuple(found)
 
 
@@ -107,6 +118,23 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
         for span in spans if len(table.titles) > 1 else ():
             found += _of_title(span, BLOCK - k)
     found += _of_name(name)
+    return _one_scale(found)
+
+
+def _one_scale(found: list[Evidence]) -> list[Evidence]:
+    """The claims without the scales of columns that have several as sure ones: these are asked about."""
+    scales: dict[int, list[Evidence]] = {}
+    for e in found:
+        if e.facet == "scale":
+            scales.setdefault(e.target, []).append(e)
+    for i, own in scales.items():
+        best = max(e.weight for e in own)
+        sure = [e for e in own if e.weight == best]
+        lines = {(f"{e.value.factor:.4g}", f"{e.value.offset:.4g}", e.value.unit): e for e in sure}
+        if len(lines) > 1:
+            said = " and ".join(f"'{e.value.text}' ({e.span.where})" for e in lines.values())
+            found = [e for e in found if e.target != i or e.facet != "scale"]
+            found.append(Evidence(i, "several scales", said, best, own[0].span, "scale"))
     return found
 
 

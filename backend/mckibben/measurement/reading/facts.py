@@ -341,10 +341,7 @@ def _held(
               "condition:load_force": "load_force"}  # fmt: skip
     for facet, channel in facets.items():
         claims = [e for e in evidence if e.facet == facet and isinstance(e.value, Quantity)]
-        own = {
-            k: max((e for e in claims if e.target == BLOCK - k), key=lambda e: e.weight, default=None)
-            for k in range(blocks)
-        }
+        own = {k: _only([e for e in claims if e.target == BLOCK - k]) for k in range(blocks)}
         if blocks > 1 and all(e is not None for e in own.values()):
             values = np.array(
                 [_held_value(channel, e, conditions, evidence, k) for k, e in own.items() if e is not None]
@@ -372,6 +369,14 @@ def _held(
         elif distinct:
             several[channel] = tuple(distinct.values())
     return held, several
+
+
+def _only(claims: Sequence[Evidence]) -> Evidence | None:
+    """The strongest claim; None = there is none, or two as strong ones differ: "from 1 bar to 3 bar"."""
+    best = max(claims, key=lambda e: e.weight, default=None)
+    if best is None or any(e.weight == best.weight and e.value[2:4] != best.value[2:4] for e in claims):
+        return None
+    return best
 
 
 def _held_value(

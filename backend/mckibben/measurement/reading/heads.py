@@ -350,7 +350,7 @@ def _compound_roles(word: str) -> list[Rule]:
         if "role" not in rule.claims or rule.words is None:
             continue
         for end in range(4, len(word)):
-            if word[:end] in rule.words.words and _names_channel(word[end:].removeprefix("s")):
+            if word[:end] in rule.words.joining and _names_channel(word[end:].removeprefix("s")):
                 found.append(rule)
                 break
     return found

@@ -21,6 +21,7 @@ _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue"})
 _STEM = 6  # letters from which a word counts as the beginning of its other forms
 _PART = 5  # letters from which a word counts as a part of a compound
 _LONGEST = 12  # letters of the longest unparted word that is looked for
+_JOINING = ("any", "de", "nl", "sv", "da", "fi", "hu")  # languages that join words to longer ones
 _END = 100  # strength of the end of a compound, above that of its beginning
 EXACT = 1000  # strength from which a word is known as it stands
 _ENDINGS = "aeiyаеияый"  # of words whose other forms end otherwise
@@ -69,6 +70,7 @@ class WordSet:
     """
 
     def __init__(self, entries: Iterable[str], *, compounds: bool = False) -> None:
+        entries = list(entries)
         self.compounds = compounds
         plain = [word for entry in entries for word in entry.partition(":")[2].split()]
         plain += [word.translate(_UMLAUTS) for word in plain if set(word) & set("äöü")]
@@ -77,6 +79,9 @@ class WordSet:
         parted = {word for word in self.words if word and word[0] < _UNPARTED}
         self.unparted = frozenset(word for word in self.words - parted if len(word) > 1)
         self.single = frozenset(word for word in self.words - parted if len(word) == 1)
+        self.joining = frozenset(
+            folded(w) for e in entries for w in e.partition(":")[2].split() if e.partition(":")[0] in _JOINING
+        )
         self.parts = frozenset(word for word in parted if len(word) >= _PART or word in marked)
         self.stems = frozenset(word for word in parted if len(word) >= _STEM)
         self.forms = frozenset(word[:-1] for word in parted if len(word) >= _FORMS and word[-1] in _ENDINGS)

@@ -16,6 +16,7 @@ _SAID = 6.0  # nats
 _SENTENCES = re.compile(r"[;|]|[.](?=\s|$)")
 _CLAUSES = re.compile(r"[;|]|[,.](?=\s|$)")
 _ZERO = re.compile(r"(?<![\w.,])0(?:[.,]0{1,4})?\s?(?:mm\b|cm\b|m\b|in\b)?(?!\s*[^\W\d_]|[.,]\d)")
+_PLUS = re.compile(r"=\s?([^\W\d]\w{0,20})\s?\+\s?$")  # "length = crosshead + 214.6 mm"
 _NEAR = 3  # words between the name of a position and its zero
 
 
@@ -58,6 +59,11 @@ def lengths_at_zero(text: str, own: Collection[str]) -> Iterator[float]:
     for sentence in _SENTENCES.split(text[:MAX_TEXT]):
         found = [q for q in quantities(sentence) if q.unit.dimension == "length" and q.value > 0.0]
         if len(found) != 1:
+            continue
+        plus = _PLUS.search(sentence, 0, found[0].begin)
+        if plus is not None and word_set("@length").among(words_of(sentence[: plus.start()])):
+            if {*words_of(plus[1])} & {*own} or word_set("position_position").among(words_of(plus[1])):
+                yield quantity_si(found[0].value, found[0].unit.name, "m")
             continue
         rest = f"{sentence[: found[0].begin]} {sentence[found[0].end :]}"
         said = words_of(_ZERO.sub(" zero ", rest))

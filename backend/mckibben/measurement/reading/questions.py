@@ -348,7 +348,7 @@ def _unread(reading: Reading) -> Iterator[Question]:
         ):
             continue
         if (choice := reading.known.chosen.get(i)) is not None:
-            yield from _raw_signal(reading, column, {choice.channel}, filled, reading.unit(i))
+            yield from _raw_signal(reading, i, {choice.channel}, filled)
             continue
         own = reading.own(i)
         roles = reading.roles(i)
@@ -360,7 +360,7 @@ def _unread(reading: Reading) -> Iterator[Question]:
         if roles.get("counter", 0.0) >= 3.0 and "stroke" not in filled:
             continue  # see `_counted`
         if dimension in RAW or roles.get("raw", 0.0) >= 3.0 or roles.get("counter", 0.0) >= 3.0:
-            yield from _raw_signal(reading, column, claimed, filled, unit)
+            yield from _raw_signal(reading, i, claimed, filled)
             continue
         channel = _CARRIES.get(dimension) or (
             "force" if dimension == "mass" and "force" not in filled else None
@@ -389,14 +389,10 @@ def _unread(reading: Reading) -> Iterator[Question]:
         )
 
 
-def _raw_signal(
-    reading: Reading, column: Column, claimed: set[str], filled: set[str], unit: str | None
-) -> Iterator[Question]:
+def _raw_signal(reading: Reading, i: int, claimed: set[str], filled: set[str]) -> Iterator[Question]:
     """A signal without a scale where the channel that it is called like is missing."""
-    wanted = next(
-        (c for c in SCALABLE if c in claimed and SLOTS[c] not in filled),
-        None,
-    )
+    column, unit = reading.table.columns[i], reading.unit(i)
+    wanted = next((c for c in SCALABLE if c in claimed and SLOTS[c] not in filled), None)
     if (
         reading.correction.columns
         and wanted is None
@@ -413,16 +409,18 @@ def _raw_signal(
         ):
             return
         wanted = missing[0]
-    yield scale_question(reading.label(column), column, wanted, unit)
+    several = next((e.value for e in reading.own(i) if e.facet == "several scales"), "")
+    yield scale_question(reading.label(column), column, wanted, unit, several)
 
 
-def scale_question(label: str, column: Column, wanted: str, unit: str | None) -> Question:
+def scale_question(label: str, column: Column, wanted: str, unit: str | None, several: str = "") -> Question:
     """What scale a signal has."""
     scale = f"{_RAW_SPANS.get(unit or 'count', '0 to 10 V')} = {_SCALED[wanted]}"
     return Question(
         f"scale of {wanted}",
-        f"{label} is a signal in {unit or 'counts'}, and no text states its "
-        f"scale: which {wanted} is which reading",
+        f"{label} is a signal in {unit or 'counts'}, and "
+        f"{f'texts state several scales, {several}' if several else 'no text states its scale'}: "
+        f"which {wanted} is which reading",
         f"{option_of(wanted, column, scale)} or {ignore_option(bare(column))}",
         column.head,
         None,
@@ -820,8 +818,8 @@ def _zero_of_length(reading: Reading) -> Iterator[Question]:
         span = f"{low:.6g} to {high:.6g} {use.unit} = {ends} {use.unit}"
         yield Question(
             "zero of length",
-            f"{reading.label(column)} is a position, and no text states its zero; at which reading is the "
-            f"muscle at its rest length",
+            f"{reading.label(column)} is a position, and no text states one zero of it; at which "
+            f"reading is the muscle at its rest length",
             f"{option_of('displacement', column, span)} or {option_of('length', column)}",
             column.head,
             None,

@@ -20,7 +20,7 @@ from mckibben.measurement.reading.facts import GRAVITY, Held, Known
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import Array, Column, Evidence, Skip, Table
 from mckibben.measurement.reading.named import length_of_name
-from mckibben.measurement.reading.units import quantity_si
+from mckibben.measurement.reading.units import Quantity, quantity_si
 from mckibben.physics.errors import InputError
 
 LARGEST = 1e15  # in SI; more is of no physical size
@@ -142,18 +142,18 @@ def _even_time(rows: Rows, table: Table, decision: Decision, evidence: Sequence[
     """The time by a stated interval of sampling, where the file has none, or a clock that stands still for
     several rows.
     """
-    step = max(
-        (e for e in evidence if e.facet == "condition:sampling_step"), key=lambda e: e.weight, default=None
-    )
-    if step is None or len(table.titles) > 1:
+    steps = {_seconds(e.value): e for e in evidence if e.facet == "condition:sampling_step"}
+    if not steps or len(table.titles) > 1:
         return
     time = rows.channels.get("time")
-    unit = step.value.unit
-    seconds = (
-        1.0 / quantity_si(step.value.value, unit.name, "Hz")
-        if unit.dimension == "frequency"
-        else quantity_si(step.value.value, unit.name, "s")
-    )
+    seconds, step = next(iter(steps.items()))
+    thinned = any(word_set("thinned").among(words_of(e.span.text)) for e in steps.values())
+    if (len(steps) > 1 or thinned) and time is None:
+        rows.messages.append(
+            f"no time: '{step.span.text[:60]}' ({step.span.where}) does not say how far apart the rows are"
+        )
+    if len(steps) > 1 or thinned:
+        return
     if time is not None:
         column = table.columns[decision.uses["time"][0]]
         if (
@@ -169,6 +169,13 @@ def _even_time(rows: Rows, table: Table, decision: Decision, evidence: Sequence[
     rows.messages.append(
         f"time is counted by the interval of sampling, '{step.span.text[:60]}' ({step.span.where})"
     )
+
+
+def _seconds(step: Quantity) -> float:
+    """The interval [s] of an interval or a rate."""
+    rate = step.unit.dimension == "frequency"
+    value = quantity_si(step.value, step.unit.name, "Hz" if rate else "s")
+    return round(1.0 / value if rate and value else value, 12)
 
 
 def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) -> NDArray[np.bool_]:

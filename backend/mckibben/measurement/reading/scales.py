@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import NamedTuple
 
 from mckibben.measurement.reading.lexicon import pattern_of, rules, word_set, words_of
-from mckibben.measurement.reading.units import number_of, unit_of
+from mckibben.measurement.reading.units import RAW, number_of, unit_of
 
 _NUMBER = r"[-+]?\d{1,9}(?:[.,]\d{1,9})?"
 _ANSWER_RANGE = re.compile(
@@ -56,7 +56,7 @@ def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
             if any(match.start() < end and begin < match.end() for begin, end in taken):
                 continue
             scale = _of_match(match, rule.id, rule.weight)
-            if scale is not None:
+            if scale is not None and not (rule.id in _FORMULAS and _MORE.match(text, match.end())):
                 taken.append(match.span())
                 before = re.split(r"[;,](?!\d)", text[: match.start()])[-1]
                 shift = _SHIFTED.search(text, match.end())
@@ -78,8 +78,13 @@ def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
                     and scale.rule in ("calibration_per_volt", "calibration_point")
                 ):
                     scale = scale._replace(offset=number_of(zero["x"]))
+                if (added := _ADDED.match(text, match.end())) is not None and not scale.offset:
+                    shift_of = -number_of(f"{added['sign'].replace('−', '-')}{added['number']}")
+                    scale = scale._replace(offset=shift_of / scale.factor)
+                if (named := _OFFSET.search(text)) is not None and not scale.offset:
+                    scale = scale._replace(offset=number_of(named["number"]))
                 at_rest = _AT_REST.search(text)
-                if at_rest is not None and not scale.offset and scale.unit in ("mm", "cm", "m", "in"):
+                if at_rest is not None and scale.unit in ("mm", "cm", "m", "in"):
                     scale = scale._replace(offset=number_of(at_rest[1]))
                 yield scale, f"{before} {match[0]}"
 
@@ -87,6 +92,17 @@ def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
 #: The reading that is taken off: "(U - 1 V)".
 _SHIFTED = re.compile(
     r"\(\s?[^\W\d]\w{0,20}\s?(?P<sign>[-−–+])\s?(?P<number>\d{1,7}(?:[.,]\d{1,6})?)\s?(?:V|mV|mA|counts?)?\s?\)"
+)
+_FORMULAS = ("calibration_formula", "calibration_quotient")  # rules in which a signal has its name
+_MORE = re.compile(r"\s?[-+−]?\s?\d{0,7}(?:[.,]\d{1,6})?\s?[*·×]")  # another term: "2*a + 3*b"
+#: What is added behind the slope: "2.5 bar/V * U_p - 1.25 bar".
+_ADDED = re.compile(
+    r"\s?[*·x×]\s?[^\W\d]\w{0,20}\s?(?P<sign>[-−+])\s?(?P<number>\d{1,7}(?:[.,]\d{1,6})?)(?!\s?(?:m?V|mA|counts?)(?!\w))"
+)
+#: The reading at zero, in its own unit: "offset 0.12 V".
+_OFFSET = re.compile(
+    r"(?i)(?<![^\W\d_])(?:zero|offset|null(?:punkt|wert)?|bias|d[ée]calage|nulpunt)\s?(?:=|:|of|bei|at|de)?\s?"
+    r"(?P<number>[-+]?\d{1,7}(?:[.,]\d{1,6})?)\s?(?:m?V|mA|counts?|digits?)(?![\w/])"
 )
 #: The reading at the rest length: "4 mA at the rest length", "0 V bei Ruhelänge".
 _AT_REST = re.compile(
@@ -101,18 +117,23 @@ _POINT = re.compile(
     r"(?<![\d.,-])(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)\s?(?:=|->|→|≙|:|at|bei)\s?"
     r"(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}|%)(?![\w/])"
 )
+_POINT_REVERSED = re.compile(
+    r"(?<![\d.,-])(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}|%)\s?(?:=|->|→|≙|:|at|bei)\s?"
+    r"(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)(?![\w/])"
+)
 _STRAIGHT = 0.005  # of the range, that points of one line may be off
 
 
 def _points(text: str) -> list[tuple[tuple[float, float, str, str], tuple[int, int]]] | None:
     """The points ``0.5 V = 0 bar, 4.5 V = 10 bar`` of a text that has two or more in one pair of units."""
     found = []
-    for match in _POINT.finditer(text):
-        unit = unit_of(match["unit"])
-        if unit is not None and unit.dimension:
-            found.append(
-                ((number_of(match["x"]), number_of(match["y"]), match["raw"], unit.name), match.span())
-            )
+    for pattern in (_POINT, _POINT_REVERSED):
+        for match in () if found else pattern.finditer(text):
+            unit = unit_of(match["unit"])
+            if unit is not None and unit.dimension not in ("", *RAW):
+                found.append(
+                    ((number_of(match["x"]), number_of(match["y"]), match["raw"], unit.name), match.span())
+                )
     return found if len({f[0][0] for f in found}) > 1 and len({f[0][2:] for f in found}) == 1 else None
 
 
@@ -180,14 +201,23 @@ def answered_scale(text: str) -> Scale | None:
     return None
 
 
+_MEASURED = ("pressure", "force", "length", "mass")  # what a signal per unit is of
+
+
 def _of_match(match: re.Match[str], rule: str, weight: float) -> Scale | None:
     groups = match.groupdict()
-    unit = unit_of(groups.get("unit") or groups.get("unitlast") or "")
-    if unit is None or not unit.dimension:
+    unit = unit_of(groups.get("unit") or groups.get("unitin") or groups.get("unitlast") or "")
+    if unit is None or unit.dimension in ("", *RAW):
         return None
-    value = number_of(groups["value"])
+    if groups.get("divisor"):
+        divisor = number_of(groups["divisor"])
+        if divisor == 0.0 or (rule == "calibration_inverse" and unit.dimension not in _MEASURED):
+            return None
+        value = 1.0 / divisor
+    else:
+        value = number_of(groups["value"])
     raw = unit_of(groups.get("raw") or "")
-    raw_name = "" if raw is None else raw.name
+    raw_name = "" if raw is None or rule in _FORMULAS else raw.name
     if groups.get("high"):
         low, high = number_of(groups.get("low") or "0"), number_of(groups["high"])
         begin = number_of(groups.get("from") or "0")

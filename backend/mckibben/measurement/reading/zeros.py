@@ -84,11 +84,14 @@ def _hanging(sentence: str, quantity: Quantity) -> float | None:
 def zeros_in(span: Span) -> Iterator[Zero]:
     """The zeros that a text states."""
     text = span.text[:MAX_TEXT]
-    if not any(c.isdigit() for c in text) or "mV/V" in text or next(scales_in(text), None) is not None:
+    if not any(c.isdigit() for c in text) or "mV/V" in text:
         return
+    scaled = next(scales_in(text), None) is not None
     contained = _contained(words_of(text))
     for clause in _CLAUSES.split(text):
         words = words_of(clause)
+        if scaled and (not word_set("tare_tare|sensor_zero").among(words) or _is_scale(clause)):
+            continue
         found = quantities(clause)
         bare = _NUMBER.findall(clause) if word_set("tare_tare").among(words) and not found else ()
         if len(bare) == 1 and number_of(bare[0]):
@@ -99,7 +102,7 @@ def zeros_in(span: Span) -> Iterator[Zero]:
             fittings = _of_fittings(clause, words, quantity)
             if fittings is not None:
                 yield Zero("length", fittings[0], fittings[1], span)
-            elif (channel := _channel(clause, words, quantity.unit.dimension)) is not None:
+            elif (channel := _channel(clause, words, quantity.unit.dimension, scaled=scaled)) is not None:
                 unit = WEIGHTS.get(quantity.unit.name, quantity.unit.name)
                 value = quantity_si(quantity.value, unit, CHANNEL_UNITS[channel])
                 yield Zero(channel, value, contained, span)
@@ -163,7 +166,11 @@ def _contained(words: Sequence[str]) -> bool | None:
     return None
 
 
-def _channel(clause: str, words: Sequence[str], dimension: str) -> str | None:
+def _is_scale(clause: str) -> bool:
+    return next(scales_in(clause), None) is not None
+
+
+def _channel(clause: str, words: Sequence[str], dimension: str, *, scaled: bool) -> str | None:
     """The channel whose zero a quantity is by the words around it; None = it is none."""
     words = [word for word in words if word != "0"]
     offset, force = word_set("sensor_zero").among(words), word_set("@force|force_sensor").among(words)
@@ -174,7 +181,11 @@ def _channel(clause: str, words: Sequence[str], dimension: str) -> str | None:
             and word_set("force_sensor").among(words)
             and not word_set("@displacement|@pressure|@length|@contraction").among(words)
         )
-        return "force" if word_set("tare_tare").among(words) or empty or zero or (offset and force) else None
+        return (
+            "force"
+            if word_set("tare_tare").among(words) or empty or zero or (offset and (force or scaled))
+            else None
+        )
     if not offset or force or word_set("at_rest|rest_length").among(words):
         return None
     if dimension == "pressure" and not word_set("ambient|supply").among(words):
