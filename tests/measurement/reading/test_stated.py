@@ -40,6 +40,25 @@ TEXTS = {
     "Weg positiv, wenn der Muskel kürzer wird": {"sign_stroke": 1},
     "extension: positive when shortening": {"sign_stroke": 1},
     "force is positive when the muscle is stretched": {},
+    "Vorzeichen: Zug negativ, Verlängerung positiv": {"sign_force": -1, "sign_stroke": -1},
+    "tension positive, shortening positive": {"sign_force": 1, "sign_stroke": 1},
+    "compression counts positive": {"sign_force": -1},
+    "tension (pull) is negative": {"sign_force": -1},
+    "effort de traction négatif": {"sign_force": -1},
+    "縮みは正, 引張は負": {"sign_force": -1},
+    "its reading falls as the muscle shortens": {"sign_stroke": -1},
+    "the pressure falls as the muscle shortens": {},
+    "positive displacement sensor for extension tests": {},
+    "Muscle: DMSP-20, resting length 11 in (vented)": {"muscle": "DMSP-20", "nominal_length": 0.2794},
+    "the muscle is 250 mm long when unpressurised": {"nominal_length": 0.25},
+    "Länge bei 0 bar: 30 cm": {"nominal_length": 0.3},
+    "longueur sans pression 0,3 m": {"nominal_length": 0.3},
+    "L_0 = 0.25 m, Masse angehängt 5 kg": {"nominal_length": 0.25, "load_mass": 5.0},
+    "L0_mm: 250": {"nominal_length": 0.25},
+    "stroke 30 mm rest length 250 mm": {"nominal_length": 0.25},
+    "12 kg hung from the lower end": {"load_mass": 12.0},
+    "shop air at 90 psi": {"supply_pressure": 620_528.156},
+    "strain gauge amplifier, pressure sensor new": {},
     "Range: -10 to +10 V": {},
     "Vorkraft 5 N": {},
     "Maximum Load 500 N": {},
@@ -48,6 +67,22 @@ TEXTS = {
     "P15RVA1 10bar, 2,0 mV/V": {},
     "Length 250 mm": {},  # of what? It counts only where nothing else says the length
 }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("text", "held"),
+    [
+        ("pressure 2 bar", ["2 bar"]),
+        ("pressure swept from 0 bar to 6 bar", []),
+        ("pressure 1 to 3 bar", []),
+        ("Druck 0-6 bar", []),
+        ("run 3 - 2 bar", []),  # of what?
+    ],
+)
+def test_a_pressure_that_was_held_is_no_end_of_a_range(text: str, held: list[str]) -> None:
+    beside = Table((), (Span("line 4", text),), np.zeros(0, np.intp))
+    found = [e for e in evidence_of(beside, "a.csv") if e.facet == "held:pressure"]
+    assert [e.value.text for e in found] == held
 
 
 @pytest.mark.parametrize("text", TEXTS)

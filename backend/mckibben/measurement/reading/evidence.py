@@ -57,19 +57,28 @@ _SIGN_BEHIND = re.compile(
 _L_ZERO = re.compile(r"(?<![^\W_])[Ll](?:_\{?0\}?|_?o(?=\s?[=:≈])|[ ]0(?=\s?[=:≈])|₀)")
 _NO_PRESSURE = re.compile(
     r"(?<![\w.,])(?:p\s?=\s?)?0(?:[.,]0{1,4})?\s?(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s?\(g\))?(?!\w)"
+    r"|(?i:(?<!\w)(?:without|no|ohne|sans|senza|sin|sem)\s(?:pressure|druck|pression|pressione|presión|pressão)(?!\w))"
 )
 _AT_PRESSURE = re.compile(
     r"(?i)[\s(,]{0,3}(?:at|bei|@|à|a|con|mit|with|under)?\s?[0-9.,]{0,6}[1-9][0-9.,]{0,6}\s?(?:mbar|bar|[hkM]?Pa|psi)(?!\w)"
 )
+_TO = r"(?:to|bis|à|a|al|hasta|até|tot|до|-|–|→|\.{2,3}|…)"
+_BOUND = r"(?<![^\W_])(?<!\.)(?!0\d)\d{1,4}(?:[.,]\d{1,4})?"
+_RANGE_BEFORE = re.compile(
+    rf"(?i)(?:unpressurized|{_BOUND}\s?[^\W\d_]{{1,4}})\s{{0,3}}{_TO}\s?$"
+    rf"|{_BOUND}(?:[-–…]|\.{{2,3}}|\s(?:to|bis|à)\s)$"
+)
+_RANGE_BEHIND = re.compile(rf"(?i)\s?{_TO}\s?\d")
 _MERCURY = re.compile(
     r"(?i)мм\s?рт\.?\s?ст\.?|mm\s?hg\b|mm\s(?:of\s|de\s|di\s)?(?:mercur\w{0,6}|quecksilber\w{0,6}|qs\b)"
 )
-_NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?)\s?[:=]\s?(?P<value>.{1,200})")
+_NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?0?)\s?[:=]\s?(?P<value>.{1,200})")
 _CODE = re.compile(
     r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?(?![0-9a-z])"
 )
 _OTHER_GAUGES = re.compile(
-    r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]?gau?ges?|gau?ge length"
+    r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]?gau?ges?|gau?ge length|"
+    r"positive[ -]displacement"
 )
 _BEHIND_UPTO = re.compile(r"[,;.:(](?!\d)|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s")
 _SCALED = re.compile(
@@ -246,6 +255,7 @@ class _Context(NamedTuple):
     before: tuple[str, ...]
     behind: tuple[str, ...]
     pressed: bool
+    ranged: bool
 
 
 def _contexts(text: str) -> list[_Context]:
@@ -257,7 +267,11 @@ def _contexts(text: str) -> list[_Context]:
     contexts = []
     for k, quantity in enumerate(found):
         pieces = re.split(r"[;,](?!\d)(?![^()]{0,60}\))", text[begin : quantity.begin])
-        before = next((p for p in reversed(pieces) if any(w != quantity.unit.name for w in words_of(p))), "")
+        worded = [n for n, p in enumerate(pieces) if any(w != quantity.unit.name for w in words_of(p))]
+        mine = bool(worded) and (
+            worded[-1] > 0 or k == 0 or len(pieces) == 1
+        )  # not what stands behind another one
+        before = pieces[worded[-1]] if mine else ""
         upto = found[k + 1].begin if k + 1 < len(found) else len(text)
         begin = quantity.end
         behind = _BEHIND_UPTO.split(text[begin : min(upto, begin + 60)].lstrip(" ("))[0]
@@ -267,6 +281,8 @@ def _contexts(text: str) -> list[_Context]:
                 words_of(before),
                 words_of(behind),
                 _AT_PRESSURE.match(text, quantity.end) is not None,
+                _RANGE_BEHIND.match(text, quantity.end) is not None
+                or _RANGE_BEFORE.search(text[max(0, quantity.begin - 30) : quantity.begin]) is not None,
             )
         )
     return contexts
@@ -284,7 +300,7 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         "bad_rows",
     ):
         return [noted]
-    found += [] if noted is None else [noted]
+    found += [] if noted is None else [noted, *_bare_rest_length(noted)]
     if noted is not None and noted.facet == "condition:pressure":
         absolute = REFERENCES.get(folded(str(noted.value)), str(noted.value).lower().startswith("abs"))
         found.append(Evidence(FILE, "absolute", absolute, 6.0, span, "note"))
@@ -354,6 +370,27 @@ def _of_note(span: Span, *, named: bool = False) -> Evidence | None:
     return None
 
 
+def _bare_rest_length(noted: Evidence) -> list[Evidence]:
+    """A rest length without a unit, ``L0: 250``: in the one of mm and m in which a muscle can have it."""
+    key, value = noted.value if noted.facet == "note" else ("", "")
+    if re.fullmatch(r"\d{1,4}(?:[.,]\d{1,4})?", value.strip()) is None:
+        return []
+    words = words_of(_L_ZERO.sub("L0", f"{key.replace('_', ' ')} ="))
+    number = number_of(value)
+    unit = next((u for u, (low, high) in _MUSCLES.items() if low <= number < high), None)
+    if unit is None or (
+        not word_set("l0|rest_length").among(words)
+        and not (word_set("at_rest").among(words) and word_set("@length").among(words))
+    ):
+        return []
+    quantity = Quantity(0, 0, number, Unit(unit, "length"), f"{value.strip()} {unit}")
+    return [Evidence(FILE, "condition:nominal_length", quantity, 4.0, noted.span, NO_UNIT)]
+
+
+NO_UNIT = "no unit"
+_MUSCLES = {"m": (0.02, 5.0), "mm": (20.0, 5000.0)}  # lengths of muscles
+
+
 def _of_clauses(span: Span, table: Table) -> list[Evidence]:
     """Signs and references that the clauses of a text say."""
     found: list[Evidence] = []
@@ -361,7 +398,8 @@ def _of_clauses(span: Span, table: Table) -> list[Evidence]:
     text = _SIGN_BEHIND.sub(lambda m: " plus" if m["sign"] else " minus", text)
     text = _SIGN_BEFORE.sub(lambda m: " plus " if m["sign"] == "+" else " minus ", text)
     owner = _column_named(text, table)
-    for clause in _CLAUSES.split(text):
+    plain = re.sub(r"\([^()]{0,60}\)", " ", text)  # "tension (pull) is negative"
+    for clause in dict.fromkeys(" ".join(c.split()) for c in (*_CLAUSES.split(text), *_CLAUSES.split(plain))):
         words = words_of(clause)
         if not words or len(words) > 40:
             continue
@@ -404,7 +442,7 @@ def _of_quantity(context: _Context, target: int, span: Span) -> Evidence | None:
         if quantity.unit.dimension not in rule.dimension or not _fires(rule, before, behind):
             continue
         ((facet, key),) = rule.claims.items()
-        if context.pressed and key == "nominal_length":
+        if (context.pressed and key == "nominal_length") or (context.ranged and facet == "held"):
             continue
         if best is None or rule.weight > best.weight:
             best = Evidence(target, f"{facet}:{key}", quantity, rule.weight, span, rule.id)
@@ -417,6 +455,7 @@ def _fires(rule: Rule, before: tuple[str, ...], behind: tuple[str, ...]) -> bool
         return False
     ahead = bool(rule.needs) and all(word_set(name).among(before) for name in rule.needs)
     after = bool(rule.behind) and all(word_set(name).among(behind) for name in rule.behind)
+    after = after and not any(word_set(name).among(behind[:3]) for name in rule.without)
     return (ahead and after) if rule.both else (ahead or after)
 
 
@@ -428,7 +467,8 @@ def _of_title(span: Span, target: int) -> list[Evidence]:
     for context in _contexts(span.text):
         evidence = _of_quantity(context, target, span)
         quantity = context.quantity
-        if evidence is None and (channel := _HELD_BY.get(quantity.unit.dimension)) is not None:
+        channel = None if context.ranged else _HELD_BY.get(quantity.unit.dimension)
+        if evidence is None and channel is not None:
             if channel == "length" and quantity_si(quantity.value, quantity.unit.name, "m") < _SHORT_LENGTH:
                 channel = "displacement"
             facet = "condition" if channel == "load_mass" else "held"
@@ -457,7 +497,7 @@ def _of_name(name: str) -> list[Evidence]:
             and not _HELD_STEM.search(stem)
         ):
             found.append(Evidence(FILE, "condition:nominal_length", quantity, 1.5, span, "name"))
-        if evidence is None:
+        if evidence is None and not context.ranged:
             channel = _HELD_BY.get(quantity.unit.dimension)
             if channel in ("pressure", "length"):
                 evidence = Evidence(FILE, f"held:{channel}", quantity, 1.5, span, "name")
@@ -667,8 +707,9 @@ def _scaled_column(scale: Scale, around: str, table: Table) -> int | None:
         claims = {c.value for c in head_claims(column.head[:200], column.unit) if c.facet == "channel"}
         if scale.rule == "valve states" and "command" not in claims and named != i:
             continue
-        if claims and not claims & channels and "command" not in claims:
-            continue
+        served = _is_served(_dimension(scale.unit), table)
+        if claims and not claims & channels and ("command" not in claims or served):
+            continue  # a command says what was wanted of what another column shows
         head = words_of(taken_apart(column.head, column.unit).name)
         score = 2.0 * bool(claims & channels) + 1.5 * len(words & set(head)) + (3.0 if named == i else 0.0)
         score += 4.0 if scale.raw and scale.raw == taken_apart(column.head, column.unit).name else 0.0

@@ -15,7 +15,7 @@ from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.reading.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
 from mckibben.measurement.reading.correction import Choice, Correction
 from mckibben.measurement.reading.decide import Facts
-from mckibben.measurement.reading.evidence import of_code
+from mckibben.measurement.reading.evidence import NO_UNIT, of_code
 from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.lexicon import REFERENCES, folded
 from mckibben.measurement.reading.model import BLOCK, FILE, Array, Evidence, Span, Table
@@ -139,6 +139,8 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
             continue
         ranked = _ranked(key, found, name, messages)
         stated[key] = ranked[0][1]
+        if any(e.rule == NO_UNIT and e.span == stated[key].where for e in found):
+            messages.append(f"{key}: no unit given, read as {stated[key].text}")
         if (
             key in _ASKED
             and len(ranked) > 1
