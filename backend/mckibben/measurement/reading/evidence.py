@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
 from pathlib import PurePath
 from typing import NamedTuple
@@ -783,9 +783,3 @@ def _dimension(unit: str) -> str:
 
 def _text_rule(id: str) -> Rule:
     return next(rule for rule in rules("text") if rule.id == id)
-
-
-def strongest(evidence: Sequence[Evidence], facet: str, target: int | None = None) -> Evidence | None:
-    """The heaviest claim of a facet."""
-    found = [e for e in evidence if e.facet == facet and (target is None or e.target == target)]
-    return max(found, key=lambda e: e.weight, default=None)

@@ -72,6 +72,7 @@ class WordSet:
     def __init__(self, entries: Iterable[str], *, compounds: bool = False) -> None:
         entries = list(entries)
         self.compounds = compounds
+        self._among = lru_cache(maxsize=64)(self._found)  # a clause is asked again for each of its quantities
         plain = [word for entry in entries for word in entry.partition(":")[2].split()]
         plain += [word.translate(_UMLAUTS) for word in plain if set(word) & set("äöü")]
         self.words = frozenset(folded(word.strip("*") or word) for word in plain)
@@ -88,9 +89,10 @@ class WordSet:
 
     def among(self, words: Iterable[str]) -> bool:
         """Whether one of the words of a text is known, also as another form of a long one."""
-        if self.compounds:
-            return any(self.strength(word) for word in words)
-        return any(self.knows(word) for word in words)
+        return self._among(tuple(words))
+
+    def _found(self, words: tuple[str, ...]) -> bool:
+        return any((self.strength if self.compounds else self.knows)(word) for word in words)
 
     def knows(self, word: str) -> bool:
         """Whether a word is known, or begins like a long known one, or holds an unparted one."""

@@ -5,7 +5,8 @@ bar``.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 from mckibben.measurement.reading.lexicon import pattern_of, rules, word_set, words_of
@@ -37,58 +38,70 @@ class Scale(NamedTuple):
     absolute: bool | None = None
 
 
-def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
+@lru_cache(maxsize=4096)
+def scales_in(text: str) -> tuple[tuple[Scale, str], ...]:
     """(scale, words around it) of every calibration in a text."""
     if not any(character.isdigit() for character in text):
-        return
+        return ()
+    found: list[tuple[Scale, str]] = []
     states = valve_scale(text)
     if states is not None:
-        yield states, text
+        found.append((states, text))
     points = _points(text)
-    taken: list[tuple[int, int]] = []
+    taken = bytearray(len(text))
     if points is not None:
-        taken = [span for _, span in points]
+        for _, (begin, end) in points:
+            taken[begin:end] = b"x" * (end - begin)
         if (scale := _through(points)) is not None:
-            before = re.split(r"[;,](?!\d)", text[: taken[0][0]])[-1]
-            yield scale, f"{before} {text}"
+            found.append((scale, f"{_before(text, points[0][1][0])} {text}"))
+    slopes: list[tuple[Scale, re.Match[str]]] = []
     for rule in sorted((r for r in rules("text") if "scale" in r.claims), key=lambda r: -r.weight):
         for match in pattern_of(rule).finditer(text):
-            if any(match.start() < end and begin < match.end() for begin, end in taken):
-                continue
-            scale = _of_match(match, rule.id, rule.weight)
-            if scale is not None and not (rule.id in _FORMULAS and _MORE.match(text, match.end())):
-                taken.append(match.span())
-                before = re.split(r"[;,](?!\d)", text[: match.start()])[-1]
-                shift = _SHIFTED.search(text, match.end())
-                if shift is not None and shift.start() - match.end() < 4 and not scale.offset:
-                    scale = scale._replace(
-                        offset=number_of(shift["number"]) * (1.0 if shift["sign"] != "+" else -1.0)
-                    )
-                zero = next(
-                    (
-                        m
-                        for m in _POINT.finditer(text)
-                        if number_of(m["y"]) == 0.0 and number_of(m["x"]) != 0.0
-                    ),
-                    None,
-                )
-                if (
-                    zero is not None
-                    and not scale.offset
-                    and scale.rule in ("calibration_per_volt", "calibration_point")
-                ):
-                    scale = scale._replace(offset=number_of(zero["x"]))
-                if (added := _ADDED.match(text, match.end())) is not None and not scale.offset:
-                    shift_of = -number_of(f"{added['sign'].replace('−', '-')}{added['number']}")
-                    scale = scale._replace(offset=shift_of / scale.factor)
-                if (named := _OFFSET.search(text)) is not None and not scale.offset:
-                    scale = scale._replace(offset=number_of(named["number"]))
-                at_rest = _AT_REST.search(text)
-                if at_rest is not None and scale.unit in ("mm", "cm", "m", "in"):
-                    scale = scale._replace(offset=number_of(at_rest[1]))
-                yield scale, f"{before} {match[0]}"
+            begin, end = match.span()
+            scale = None if any(taken[begin:end]) else _of_match(match, rule.id, rule.weight)
+            if scale is not None and not (rule.id in _FORMULAS and _MORE.match(text, end)):
+                taken[begin:end] = b"x" * (end - begin)
+                slopes.append((scale, match))
+    if slopes:
+        zeros = [m for m in _POINT.finditer(text) if number_of(m["y"]) == 0.0 and number_of(m["x"]) != 0.0]
+        offsets = list(_OFFSET.finditer(text))
+        at_rest = _AT_REST.search(text)
+        for scale, match in slopes:
+            near = [o for o in offsets if len(slopes) == 1 or 0 <= o.start() - match.end() < _NEAR]
+            scale = _shifted(scale, match, zeros, near)
+            if at_rest is not None and scale.unit in ("mm", "cm", "m", "in"):
+                scale = scale._replace(offset=number_of(at_rest[1]))
+            found.append((scale, f"{_before(text, match.start())} {match[0]}"))
+    return tuple(found)
 
 
+def _before(text: str, begin: int) -> str:
+    """The words before a calibration, since the last comma."""
+    return re.split(r"[;,](?!\d)", text[:begin])[-1]
+
+
+def _shifted(
+    scale: Scale, match: re.Match[str], zeros: Sequence[re.Match[str]], offsets: Sequence[re.Match[str]]
+) -> Scale:
+    """A slope with the reading that belongs to 0: taken off, stated, or by what is added behind it."""
+    text, end = match.string, match.end()
+    if scale.offset:
+        return scale
+    shift = _SHIFTED.search(text, end)
+    if shift is not None and shift.start() - end < _NEAR:
+        return scale._replace(offset=number_of(shift["number"]) * (1.0 if shift["sign"] != "+" else -1.0))
+    if scale.rule in ("calibration_per_volt", "calibration_point"):
+        for zero in zeros:
+            unit, own = unit_of(zero["unit"]), unit_of(scale.unit)
+            if unit is not None and own is not None and unit.dimension == own.dimension:
+                return scale._replace(offset=number_of(zero["x"]))
+    if (added := _ADDED.match(text, end)) is not None:
+        more = number_of(f"{added['sign'].replace('−', '-')}{added['number']}")
+        return scale._replace(offset=-more / scale.factor)
+    return scale._replace(offset=number_of(offsets[0]["number"])) if offsets else scale
+
+
+_NEAR = 4  # characters behind a slope, in which its shift begins
 #: The reading that is taken off: "(U - 1 V)".
 _SHIFTED = re.compile(
     r"\(\s?[^\W\d]\w{0,20}\s?(?P<sign>[-−–+])\s?(?P<number>\d{1,7}(?:[.,]\d{1,6})?)\s?(?:V|mV|mA|counts?)?\s?\)"

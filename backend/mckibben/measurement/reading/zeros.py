@@ -86,11 +86,11 @@ def zeros_in(span: Span) -> Iterator[Zero]:
     text = span.text[:MAX_TEXT]
     if not any(c.isdigit() for c in text) or "mV/V" in text:
         return
-    scaled = next(scales_in(text), None) is not None
+    scaled = bool(scales_in(text))
     contained = _contained(words_of(text))
     for clause in _CLAUSES.split(text):
         words = words_of(clause)
-        if scaled and (not word_set("tare_tare|sensor_zero").among(words) or _is_scale(clause)):
+        if scaled and (not word_set("tare_tare|sensor_zero").among(words) or scales_in(clause)):
             continue
         found = quantities(clause)
         bare = _NUMBER.findall(clause) if word_set("tare_tare").among(words) and not found else ()
@@ -164,10 +164,6 @@ def _contained(words: Sequence[str]) -> bool | None:
     if word_set("tare_to_do|tare_included").among(words):
         return None if negated else True
     return None
-
-
-def _is_scale(clause: str) -> bool:
-    return next(scales_in(clause), None) is not None
 
 
 def _channel(clause: str, words: Sequence[str], dimension: str, *, scaled: bool) -> str | None:
