@@ -10,18 +10,19 @@ import pytest
 
 from mckibben.measurement.reading import read_measurement
 from mckibben.measurement.reading.correction import spoken_correction
+from mckibben.measurement.reading.positions import lengths_at_zero, pulleys_in
+from mckibben.measurement.reading.scales import scales_in
 from mckibben.physics.errors import InputError
 from tests.measurement.reading.isobaric import FORCE, PRESSURE, STROKE, TIME, assert_is_the_test, read, table
 
 REST = "# rest length 300 mm, gauge pressure, tension positive\n"
 
-#: Sentence -> (name, unit, symbol, factor, offset) by hand.
+#: Sentence -> (unit, signal or its unit, factor, value at 0 of the signal) by hand.
 FORMULAS = {
-    "F [N] = 200*(U_F - 0.5)": ("F", "N", "U_F", 200.0, -100.0),
-    "p = 2.5 bar/V * U_p - 1.25 bar": ("p", "bar", "U_p", 2.5, -1.25),
-    "Kraft: F = 203,4 * U (N)": ("F", "N", "U", 203.4, 0.0),
-    "force in N = (adc - 512) / 4": ("force", "N", "adc", 0.25, -128.0),
-    "muscle length = crosshead + 214.6 mm": ("muscle length", "mm", "crosshead", 1.0, 214.6),
+    "F [N] = 200*(U_F - 0.5)": ("N", "U_F", 200.0, -100.0),
+    "p = 2.5 bar/V * U_p - 1.25 bar": ("bar", "V", 2.5, -1.25),
+    "Kraft: F = 203,4 * U (N)": ("N", "U", 203.4, 0.0),
+    "force in N = (adc - 512) / 4": ("N", "adc", 0.25, -128.0),
 }
 
 
@@ -35,6 +36,40 @@ SCALES = {
     "0...10 bar -> 4...20 mA": (-2.5, -1.875),
     "4-20 mA = 0-100 mm, 12 mA at the rest length": (-75.0, -68.75),
 }
+
+
+@pytest.mark.parametrize("text", FORMULAS)
+def test_a_straight_line_in_a_sentence(text: str) -> None:
+    ((scale, _),) = scales_in(text)
+    assert (scale.unit, scale.raw) == FORMULAS[text][:2]
+    assert (scale.factor, -scale.factor * scale.offset) == pytest.approx(FORMULAS[text][2:])
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["F [N] = U * U", "eps = (L0 - L)/L0", "T = 20 degC", "p = 2*U_p - 1", "F [N] = 2*a + 3*b", "x = 3 mm"],
+)
+def test_what_is_no_straight_line_of_one_signal_is_none(text: str) -> None:
+    assert list(scales_in(text)) == []
+
+
+@pytest.mark.parametrize("text", SCALES)
+def test_a_scale_in_a_sentence(text: str) -> None:
+    ((scale, _),) = scales_in(text)
+    at = (-scale.factor * scale.offset, scale.factor * (1.0 - scale.offset))
+    assert at == pytest.approx(SCALES[text])
+
+
+def test_an_offset_in_the_unit_of_the_result_is_asked_about() -> None:
+    rows = table(TIME, PRESSURE, FORCE / 200.0, STROKE)
+    with pytest.raises(InputError, match=r"gain 200 N/V, offset 12 N.*contain it.*force_zero=12 N"):
+        read(f"{REST}# gain 200 N/V, offset 12 N\nt [s],p [bar],F [V],s [mm]\n{rows}")
+
+
+def test_two_calibrations_of_one_column_are_none() -> None:
+    rows = table(TIME, PRESSURE, FORCE / 200.0, STROKE)
+    with pytest.raises(InputError, match=r"several scales, 'F \[N\] = 200\*U_F' \(line 2\) and"):
+        read(f"{REST}# F [N] = 200*U_F\n# F [N] = 210*U_F\nt [s],p [bar],U_F [V],s [mm]\n{rows}")
 
 
 def test_volts_by_formulas() -> None:
@@ -100,6 +135,49 @@ def test_a_crosshead_that_counts_from_the_shortest_length() -> None:
     reversed_sign = spoken_correction(columns=["displacement=-Traversenweg"])
     with pytest.raises(InputError, match="stretch the muscle by up to 60 mm"):
         read_measurement((head.format("") + rows).encode(), "a.csv", reversed_sign)
+
+
+@pytest.mark.parametrize(
+    "text",
+    [
+        "Länge bei Traversenweg 0\t228,0 mm",
+        "muscle length at crosshead zero: 22.8 cm",
+        "length at position = 0: 228 mm",
+        "Grip separation at zero traverse: 228 mm",
+        "zero of the crosshead at a length of 228 mm",
+        "muscle length = crosshead + 228 mm",
+    ],
+)
+def test_a_length_where_a_position_is_zero(text: str) -> None:
+    assert list(lengths_at_zero(text, {"traversenweg"})) == pytest.approx([0.228])
+
+
+@pytest.mark.parametrize(
+    "text", ["Ruhelänge 300 mm", "stroke zero at the rest length of 300 mm", "at 0 bar the length is 300 mm"]
+)
+def test_what_is_no_length_where_a_position_is_zero(text: str) -> None:
+    assert list(lengths_at_zero(text, {"traversenweg"})) == []
+
+
+@pytest.mark.parametrize(
+    ("text", "radii"),
+    [
+        ("wire over a pulley of 25 mm radius, angle 0 at the rest length", [0.025]),
+        ("Seilrolle, Durchmesser 50 mm", []),  # the number stands in a clause of its own
+        ("Seilrolle mit Durchmesser 50 mm", [0.025]),
+        ("tube of 25 mm radius at the inlet", []),
+    ],
+)
+def test_the_radius_of_a_pulley(text: str, radii: list[float]) -> None:
+    assert list(pulleys_in(text)) == pytest.approx(radii)
+
+
+def test_a_position_with_its_reading_at_the_rest_length() -> None:
+    falls = "The laser reads 152.4 mm at the rest length; its reading falls as the muscle shortens."
+    rows = table(TIME, PRESSURE, FORCE, 152.4 - STROKE)
+    found = read(f"# rest length 300 mm\n# {falls}\nt [s],p [bar],F [N],laser [mm]\n{rows}")
+    assert_is_the_test(found)
+    assert any("its sign reversed: '# The laser reads" in message for message in found.messages)
 
 
 def test_two_scales_in_one_sentence() -> None:

@@ -434,7 +434,7 @@ ERRORS = {
     ),
     "words": (
         "pressure_bar,force_N,length_mm\n1,20,300\n" + "x,1,290\n" * 3000,
-        "a.csv: column 'pressure_bar' is called like the pressure and is not read: row 3 holds 'x', no number",
+        "a.csv: column 'pressure_bar' is called like the pressure and is not read: row 3 holds 'x'",
     ),
     "duplicate": (
         "pressure_bar,length_mm,force_N,Force_N\n"

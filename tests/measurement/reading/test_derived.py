@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from mckibben.measurement.reading.scales import scales_in
 from mckibben.physics.errors import InputError
 from tests.measurement.reading.isobaric import FORCE, PRESSURE, STROKE, TIME, assert_is_the_test, read, table
 
@@ -20,12 +21,23 @@ def test_seconds_and_nanoseconds_are_one_time() -> None:
 
 SCALES = {
     "B = load cell, 1 V = 200 N": (200.0, 0.0, "V", "N"),
-    "B: pressure 0-10 V for 0-10 bar(g)": (1.0, 0.0, "V", "bar(g)"),
+    "B: pressure 0-10 V for 0-10 bar(g)": (1.0, 0.0, "V", "bar"),
     "B: pressure, 4..20 mA = 0..8 bar": (0.5, -2.0, "mA", "bar"),
     "B = force 20 mV/N": (0.05, 0.0, "mV", "N"),
     "B = stroke 8 mm/V": (8.0, 0.0, "V", "mm"),
     "B = valve, 5 V closed, 10 V open": (0.2, -1.0, "V", "1"),
 }
+
+
+@pytest.mark.parametrize("text", SCALES)
+def test_scales(text: str) -> None:
+    ((found, _),) = scales_in(text)
+    offset = -found.factor * found.offset
+    assert (found.factor, offset, found.raw, found.unit) == pytest.approx(SCALES[text])
+
+
+def test_a_scale_says_what_its_pressure_counts_from() -> None:
+    assert [scale.absolute for scale, _ in scales_in("0-10 V = 0-10 bar(a)")] == [True]
 
 
 def test_volts_are_read_by_the_scales_of_the_file_and_asked_about_without() -> None:
@@ -35,7 +47,7 @@ def test_volts_are_read_by_the_scales_of_the_file_and_asked_about_without() -> N
     rows = table(PRESSURE, FORCE / 200.0, STROKE / 20.0)
     found = read(f"{said}CH1 [V],CH2 [V],CH3 [V]\n{rows}")
     assert_is_the_test(found)
-    assert sum("is read by its scale" in message for message in found.messages) == 3
+    assert sum("is scaled: " in message for message in found.messages) == 3
     with pytest.raises(InputError):
         read(f"CH1 [V],CH2 [V],CH3 [V]\n{rows}")
 

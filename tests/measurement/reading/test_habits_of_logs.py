@@ -9,6 +9,9 @@ import pytest
 
 from mckibben.measurement.reading import read_measurement
 from mckibben.measurement.reading.correction import Correction
+from mckibben.measurement.reading.evidence import stated_marks
+from mckibben.measurement.reading.model import Span, Table
+from mckibben.measurement.reading.zeros import hangers_in
 from mckibben.physics.errors import InputError
 from tests.measurement.reading.isobaric import FORCE, PRESSURE, STROKE, TIME, assert_is_the_test, read, table
 
@@ -57,6 +60,27 @@ HANGERS = {
 }
 
 
+@pytest.mark.parametrize("text", HANGERS)
+def test_what_a_sentence_says_of_a_hanger(text: str) -> None:
+    (hanger,) = hangers_in(Span("line 1", text))
+    mass, contained = HANGERS[text]
+    np.testing.assert_allclose(hanger.weight, mass * KILOGRAM)
+    assert hanger.contained is contained
+
+
+@pytest.mark.parametrize("text", ["a mass of 5 kg", "the hanger is made of steel", "hanger length 45 mm"])
+def test_what_is_no_hanger_with_a_mass(text: str) -> None:
+    assert list(hangers_in(Span("line 1", text))) == []
+
+
+def test_a_hanger_is_added_to_the_load_of_the_whole_test() -> None:
+    rows = table(TIME, PRESSURE, STROKE)
+    head = "# rest length 300 mm\n# load 5 kg\n# plus a hanger of 0.5 kg\n"
+    found = read(f"{head}t [s],p [bar],shortening [mm]\n{rows}")
+    assert found.conditions["load_mass"] == pytest.approx(5.5)
+    assert any("0.5 kg is added to the load for the hanger" in message for message in found.messages)
+
+
 MASSES = np.repeat([5.0, 10.0, 20.0], 8)
 LENGTHS = 290.0 - np.tile(np.arange(8.0), 3) * 5.0 + MASSES / 5.0
 LOADED = "mass [kg];p [bar];length [mm]\n" + table(
@@ -67,6 +91,7 @@ LOADED = "mass [kg];p [bar];length [mm]\n" + table(
 def test_a_hanger_is_added_where_the_file_says_that_the_masses_lack_it() -> None:
     found = read(f"# rest length 300 mm\n# the hanger (0.5 kg) is not included in the mass\n{LOADED}")
     np.testing.assert_allclose(found.columns["force"], (MASSES + 0.5) * KILOGRAM)
+    assert any(message.startswith("4.90332 N is added to the force: ") for message in found.messages)
     included = read(f"# rest length 300 mm\n# the mass includes the hanger of 0.5 kg\n{LOADED}")
     np.testing.assert_allclose(included.columns["force"], MASSES * KILOGRAM)
 
@@ -88,6 +113,19 @@ def test_numbers_that_a_text_says_to_be_no_reading() -> None:
     assert found.rows == len(rows) - 1
     assert min(found.columns["force"]) > 0.0
     assert any("means no reading" in message for message in found.messages)
+
+
+@pytest.mark.parametrize(
+    ("text", "expected"),
+    [
+        ("9999 = sensor error", [9999.0]), ("lost samples are entered as -1.0", [-1.0]),
+        ("max. force error 0.5 N", []), ("3 samples lost", []), ("error = 0.5 %", []), ("error = 0.5", []),
+        ("-1.0 is the lowest force", []), ("NoValue: -9999", [-9999.0]),
+    ],
+)  # fmt: skip
+def test_which_numbers_stand_for_no_reading(text: str, expected: list[float]) -> None:
+    beside = Table((), (Span("line 1", text),), np.zeros(0, np.intp))
+    assert [mark for mark, _ in stated_marks(beside)] == expected
 
 
 def test_keys_and_values_with_units_and_time_stamps() -> None:
@@ -137,7 +175,7 @@ def test_a_time_in_ticks_keeps_the_name_of_its_column() -> None:
     rows = table(TIME * 100.0 + 5000.0, PRESSURE, FORCE, STROKE)
     found = read(f"# rest length 300 mm\n# 1 tick = 10 ms\ntick,p [bar],F [N],shortening [mm]\n{rows}")
     np.testing.assert_allclose(found.columns["time"], TIME, atol=1e-9)
-    assert next(channel.column for channel in found.channels if channel.name == "time") == "tick (time)"
+    assert next(channel.column for channel in found.channels if channel.name == "time") == "tick"
 
 
 def test_the_states_of_a_valve_by_numbers() -> None:

@@ -24,9 +24,11 @@ def read(**values: object) -> Measurement:
 
 
 def assert_is_the_map(result: Measurement, stroke: str = "contraction", factor: float = 0.01) -> None:
-    np.testing.assert_allclose(result.columns["pressure"], np.repeat(PRESSURE, len(SHARE)) * 1e5)
-    np.testing.assert_allclose(result.columns[stroke], np.tile(SHARE, len(PRESSURE)) * factor)
-    np.testing.assert_allclose(result.columns["force"], FORCE.T.reshape(-1))
+    order = np.lexsort((result.columns[stroke], result.columns["pressure"]))  # rows stand as in the matrix
+    found = {name: values[order] for name, values in result.columns.items()}
+    np.testing.assert_allclose(found["pressure"], np.repeat(PRESSURE, len(SHARE)) * 1e5)
+    np.testing.assert_allclose(found[stroke], np.tile(SHARE, len(PRESSURE)) * factor)
+    np.testing.assert_allclose(found["force"], FORCE.T.reshape(-1))
 
 
 @pytest.mark.parametrize("turned", [False, True])

@@ -30,7 +30,7 @@ def test_scales_in_remarks_name_their_channel() -> None:
     found = read(f"{SCALES}{SCOPE}{VOLTS}")
     assert_is_the_test(found)
     np.testing.assert_allclose(found.columns["time"], TIME)
-    assert sum("is read by its scale" in message for message in found.messages) == 3
+    assert sum("is scaled: " in message for message in found.messages) == 3
 
 
 def test_volts_without_a_scale_are_asked_about_in_volts() -> None:
@@ -80,7 +80,7 @@ def test_counts_beside_a_stroke_are_no_question() -> None:
 
 def test_counts_that_start_nowhere_are_not_scaled() -> None:
     head = "# rest length 300 mm\n# Encoder: 80 counts = 1 mm\npressure_bar,force_N,Encoder [counts]\n"
-    with pytest.raises(InputError, match="where the stroke is 0"):
+    with pytest.raises(InputError, match=r"which length has it.*\[43200 to 48000 count = 240 to 300 mm\]"):
         read(head + table(PRESSURE, FORCE, COUNTS))
 
 
@@ -89,7 +89,7 @@ def test_the_symbol_of_a_voltage_says_the_channel_whose_scale_is_asked_for() -> 
     text = f"t_s,U_p_V,F_N,L_mm\n{rows}"
     with pytest.raises(InputError) as refused:
         read(text)
-    assert "'U_p_V' (pressure) is a signal in V" in refused.value.message
+    assert "'U_p_V' is a signal in V, and no text states its scale: which pressure" in refused.value.message
     assert "load" not in refused.value.message
     said = spoken_correction(columns=["pressure=U_p [1-3 V = 1-5 bar]"])
     found = read_measurement(text.encode(), "a.csv", said)

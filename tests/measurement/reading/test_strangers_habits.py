@@ -222,7 +222,7 @@ def test_a_mostly_slack_muscle_is_read_without_its_empty_rows() -> None:
     result = read_measurement("\n".join(["length_mm,pressure_bar,force_N", *rows]).encode(), "a.csv")
     assert result.columns["force"].tolist() == [force for _, force in forces if force > 0]
     assert any("34 rows left out: an empty cell (first: row 28" in said for said in result.messages)
-    with pytest.raises(InputError, match=r"row 6, column 'force_N': the cell is empty"):
+    with pytest.raises(InputError, match=r"row 6, column 'force_N': an empty cell, and in 8 rows"):
         read_measurement(
             "\n".join(["length_mm,pressure_bar,force_N", *rows[22:34]]).encode(), "a.csv"
         )  # too few are left
@@ -286,10 +286,10 @@ def test_a_scale_that_the_muscle_pulls_is_asked_about() -> None:
         "L0 = 300 mm\nscale reads 0.850 kg with nothing attached\nt [s]\tp [bar]\tstroke [mm]\tscale [kg]\n"
     )
     text += "\n".join(f"{k}\t{1 + k % 3}\t{2 * k}\t{0.85 + 9.0 - 0.2 * k:.3f}" for k in range(30))
-    with pytest.raises(InputError, match=r"'scale \[kg\]' is in kg and is not read .*force=scale"):
+    with pytest.raises(InputError, match=r"'scale \[kg\]' .*force=scale"):
         read_measurement(text.encode(), "scale.txt")
     force = {"columns": ["force=scale"]}
-    with pytest.raises(InputError, match=r"force_zero=8\.336 N"):
+    with pytest.raises(InputError, match=r"force_zero=8\.33565 N"):
         read_measurement(text.encode(), "scale.txt", spoken_correction(**force))
     zeroed = replace(spoken_correction(**force), conditions={"force_zero": 0.85 * 9.80665})
     found = read_measurement(text.encode(), "scale.txt", zeroed)

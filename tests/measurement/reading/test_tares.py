@@ -7,6 +7,8 @@ import pytest
 
 from mckibben.measurement.reading import read_measurement
 from mckibben.measurement.reading.correction import Correction
+from mckibben.measurement.reading.model import Span
+from mckibben.measurement.reading.zeros import zeros_in
 from mckibben.physics.errors import InputError
 from tests.measurement.reading.isobaric import FORCE, PRESSURE, STROKE, read, table
 
@@ -23,6 +25,22 @@ SENTENCES = {
     "tare: 4 N": (4.0, None),
     "tare 3 N is included, do not subtract": (3.0, None),
 }
+
+
+@pytest.mark.parametrize("text", SENTENCES)
+def test_what_a_sentence_says_of_a_tare(text: str) -> None:
+    (found,) = zeros_in(Span("line 1", text))
+    assert found.value == pytest.approx(SENTENCES[text][0])
+    assert found.contained is SENTENCES[text][1]
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["operator: Tara, load 5 kg", "tare done before each run", "tare pressure 0.1 bar", "Tare: 0 N",
+     "load cell 200 N, tared", "Target 5 N"],
+)  # fmt: skip
+def test_no_tare_is_stated(text: str) -> None:
+    assert list(zeros_in(Span("line 1", text))) == []
 
 
 @pytest.mark.parametrize("head", ["rest length 300 mm, tare 4.25 N not subtracted\n\n",

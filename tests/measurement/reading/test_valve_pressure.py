@@ -24,7 +24,11 @@ def file(*lines: str, pressure: str = "p_valve", volts: str = "U_valve", rows: s
 @pytest.mark.parametrize(
     ("line", "volts", "said"),
     [
-        ("pressure at the valve outlet (gauge), load cell", "U_valve", "line 2 says 'pressure at the valve"),
+        (
+            "pressure at the valve outlet (gauge), load cell",
+            "U_valve",
+            "line 2 says '% pressure at the valve",
+        ),
         ("load cell 5 kN", "U_valve", "the command is 'U_valve'"),
         ("Druckaufnehmer am Ventil, gemessen", "Kanal B", "line 2 says"),
     ],
@@ -40,7 +44,9 @@ def test_the_only_pressure_is_the_measured_one(line: str, volts: str, said: str)
 )
 def test_a_set_point_stays_a_command(pressure: str) -> None:
     shown = preview(file("pressure at the valve outlet", pressure=pressure).encode(), "a.dat", Correction())
-    assert not any(column.channel == "pressure" for column in shown.columns)
+    assert [
+        q.text for q in shown.questions if q.stops and q.column == pressure and "is a set value" in q.text
+    ]
 
 
 @pytest.mark.parametrize(
@@ -58,8 +64,9 @@ def test_without_evidence_it_is_asked_about(text: str) -> None:
 
 def test_a_pressure_beside_it_is_the_pressure() -> None:
     text = "t [s],p_valve [bar],p_muscle [bar],F [N],stroke [mm]\n"
-    with pytest.raises(InputError, match="p_valve"):
-        read("# rest length 300 mm\n" + text + table(TIME, MEASURED + 0.2, MEASURED, FORCE, STROKE))
+    found = read("# rest length 300 mm\n" + text + table(TIME, MEASURED + 0.2, MEASURED, FORCE, STROKE))
+    np.testing.assert_allclose(found.columns["pressure"], 1e5 * MEASURED, rtol=1e-6)
+    assert ("p_valve [bar]", "it is the pressure at the valve") in found.unread
 
 
 def steps(*, sensed: bool) -> str:
@@ -98,7 +105,7 @@ def test_a_command_in_a_unit_of_pressure_is_a_set_value(head: str) -> None:
 
 @pytest.mark.parametrize("head", ["Command (bar)", "command_bar", "set pressure [bar]"])
 def test_alone_it_is_asked_about_as_any_set_pressure(head: str) -> None:
-    with pytest.raises(InputError, match=r"not read \(it is a set value\); what is it"):
+    with pytest.raises(InputError, match="is a set value, and no measured pressure is there; take it"):
         read(f"# rest length 300 mm\nt [s],{head},F [N],stroke [mm]\n" + table(TIME, PRESSURE, FORCE, STROKE))
 
 

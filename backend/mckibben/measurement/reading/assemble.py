@@ -20,7 +20,7 @@ from mckibben.measurement.measurement import (
 )
 from mckibben.measurement.order import FROM_ROWS, order_of_rows
 from mckibben.measurement.question import Question
-from mckibben.measurement.reading.answers import DISMISSED
+from mckibben.measurement.reading.answers import DISMISSED, refusal
 from mckibben.measurement.reading.containers import sheets_of
 from mckibben.measurement.reading.correction import Correction
 from mckibben.measurement.reading.decide import SLOTS, decide, roles_of
@@ -32,9 +32,18 @@ from mckibben.measurement.reading.layout import table_of
 from mckibben.measurement.reading.lexicon import words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table
 from mckibben.measurement.reading.numbers import TEXT, kind_of
-from mckibben.measurement.reading.questions import Reading, questions_of
+from mckibben.measurement.reading.questions import (
+    MOTION,
+    SCALABLE,
+    Reading,
+    antagonists,
+    questions_of,
+    scale_question,
+    though_at_the_valve,
+)
 from mckibben.measurement.reading.rows import rows_of
-from mckibben.measurement.reading.units import dimension_of
+from mckibben.measurement.reading.units import RAW, dimension_of
+from mckibben.measurement.reading.zeros import stated_zeros
 from mckibben.physics.errors import InputError, did_you_mean
 
 _SIGNALS = {
@@ -44,6 +53,7 @@ _SIGNALS = {
 _MOST_OTHERS = 6  # columns of other tables that are named in messages
 _NAMED = 4  # columns in a message
 _LOADS = ("load_mass", "load_force")
+_BY_UNIT = ("unit", "ticks_of_milliseconds", "ticks_of_microseconds")  # rules of heads that are only a unit
 UNKNOWN = "its name is not known"
 #: Role of a column -> what it is.
 _ROLES = {
@@ -107,21 +117,16 @@ def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputEr
         return InputError(
             why, field="columns", hint='--column "pressure=column 1 [bar]" --column "length=column 2 [mm]"'
         )
-    raw = [
-        table.columns[e.target].title
-        for e in evidence
-        if e.facet == "role" and e.value == "raw" and e.target >= 0
-    ]
-    if raw:
-        why = (
-            f"{name}: {table.noun} '{raw[0]}' is a signal without a scale, and no other column is "
-            f"known; columns: {heads}"
-        )
-        return InputError(
-            why,
-            field=f"{table.noun} {raw[0]}",
-            hint=f'--column "pressure={raw[0]} [0 to 10 V = 0 to 10 bar]"',
-        )
+    raw: dict[str, Question] = {}
+    for i in dict.fromkeys(e.target for e in evidence if e.facet == "role" and e.value == "raw"):
+        column, own = table.columns[i], [e for e in evidence if e.target == i]
+        claimed = {e.value for e in own if e.facet == "channel"} or {"pressure"}
+        unit = next((e.value for e in own if e.facet == "unit"), None)
+        if (wanted := next((c for c in SCALABLE if c in claimed), None)) is not None:
+            label = f"{table.noun} '{column.title}'"
+            raw.setdefault(wanted, scale_question(label, column, wanted, unit))
+    if (asked := refusal(name, list(raw.values()))) is not None:
+        return asked
     worded = [
         (c, next((w for w in c.words if kind_of(w) == TEXT), ""))
         for c in table.columns
@@ -281,8 +286,11 @@ def said(reading: Reading) -> list[str]:
                 lines.append(f"{label} is the {channel} in {use.unit}{why}")
             elif best.facet == "unit_word":
                 lines.append(f"{label} is the {channel} in {use.unit}")
-        if use.scale != 1.0 or use.offset or any(e.facet == "scale" for e in reading.own(i)):
-            lines.append(f"{label} is scaled: {_reason(reading, i, 'scale', None)}")
+        raw = reading.unit(i)
+        is_raw = raw not in (None, use.unit) and dimension_of(raw) in RAW
+        if use.scale != 1.0 or use.offset or is_raw or any(e.facet == "scale" for e in reading.own(i)):
+            first = ", and counts from its first row" if channel == "time" else ""
+            lines.append(f"{label} is scaled: {_reason(reading, i, 'scale', None)}{first}")
         if use.sign == -1:
             facet = "sign_force" if channel == "force" else "sign_stroke"
             lines.append(f"{label} has its sign reversed: {_reason(reading, i, facet, -1)}")
@@ -305,17 +313,35 @@ def said(reading: Reading) -> list[str]:
                 )
             elif not any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence):
                 lines.append(f"{label} read as gauge pressure")
-        if channel == "force" and dimension_of(use.unit) == "mass":
+        if channel == "force" and (
+            dimension_of(use.unit) == "mass" or (reading.by_user(channel) and use.unit in ("kgf", "gf"))
+        ):
             lines.append(f"{label} is a mass: its weight is the force")
+        if channel == "time" and all(e.rule in _BY_UNIT for e in reading.claims(i, channel)):
+            lines.append(f"{label} is read as time by its unit")
+        if channel == "pressure" and (because := though_at_the_valve(reading)):
+            lines.append(f"{label} is read as pressure though it is named after the valve: {because}")
         if use.zero:
             reason = _reason(reading, i, f"zero:{channel}", None)
-            lines.append(f"{use.zero:g} {CHANNEL_UNITS[channel]} is subtracted from the {channel}: {reason}")
+            done = "subtracted from" if use.zero > 0.0 else "added to"
+            lines.append(f"{abs(use.zero):g} {CHANNEL_UNITS[channel]} is {done} the {channel}: {reason}")
+    lines += [
+        f"'{other}' runs against the pressure you took: in a joint of two muscles the force is that of both"
+        for other in antagonists(reading)
+    ]
+    lines += [
+        f"what the sensor of the {z.channel} shows at zero is already subtracted from the {z.channel}: "
+        f"'{z.span.text[:80]}' ({z.span.where})"
+        for z in stated_zeros(reading.table)
+        if z.contained is False and z.channel in reading.rows.channels
+    ]
     return lines
 
 
 def _reason(reading: Reading, i: int, facet: str, value: object) -> str:
-    """The words that decided, and where they stand."""
-    if i in reading.known.chosen:
+    """The words that decided, and where they stand; without any, what the readings show."""
+    choice = reading.known.chosen.get(i)
+    if choice is not None and (facet.startswith("sign") or getattr(choice, facet, None) is not None):
         return "you say so"
     found = [
         e
@@ -323,7 +349,9 @@ def _reason(reading: Reading, i: int, facet: str, value: object) -> str:
         if e.facet == facet and e.target in (i, FILE) and (value is None or e.value == value)
     ]
     if not found:
-        return "its readings behave so, no words say it"
+        shown = [t for t, v in reading.decision.terms if t in MOTION and v > 0.0]
+        of_stroke = f"so {shown[0]}" if shown else "its readings behave so"
+        return f"no words say it, but {'a muscle pulls' if facet == 'sign_force' else of_stroke}"
     best = max(found, key=lambda e: e.weight)
     return f"'{best.span.text[:80]}' ({best.span.where})"
 
@@ -364,6 +392,8 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
         return f"it is {_ROLES.get(role) or f'a {role}'}"
     if column.words is not None:
         return "it holds words"
+    if roles_of(own).get("at the valve") and unit is not None and dimension_of(unit) == "pressure":
+        return "it is the pressure at the valve"
     claimed = [e.value for e in own if e.facet == "channel"]
     if claimed:
         taken = next((c for c in claimed if c in reading.decision.uses), None)

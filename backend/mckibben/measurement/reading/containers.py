@@ -293,10 +293,18 @@ def _workbook(data: bytes, name: str) -> list[Sheet]:
             rows: list[list[Cell]] = [
                 [_cell(c) for c in row[:MAX_COLUMNS]] for row in sheet.to_python(skip_empty_area=False)
             ]
-            _carry_merged(rows, sheet)
+            merged = f"sheet '{title}': the value of merged cells counts for each of their rows"
+            said = (merged,) if _carry_merged(rows, sheet) else ()
             style = style_of(cell for row in rows[:400] for cell in row)
             sheets.append(
-                Sheet(name=title, rows=rows, format="xlsx", decimal=style.decimal, thousands=style.thousands)
+                Sheet(
+                    name=title,
+                    rows=rows,
+                    format="xlsx",
+                    decimal=style.decimal,
+                    thousands=style.thousands,
+                    messages=said,
+                )
             )
     except InputError:
         raise
@@ -327,16 +335,19 @@ def _cell(cell: Any) -> Cell:
     return narrow(str(cell).strip())
 
 
-def _carry_merged(rows: list[list[Cell]], sheet: Any) -> None:
-    """Merged cells below each other hold one value: it counts for each of their rows."""
+def _carry_merged(rows: list[list[Cell]], sheet: Any) -> bool:
+    """Carry the value of merged cells below each other to all of their rows; whether there are such."""
     done = 0
+    carried = False
     for (top, left), (bottom, _) in getattr(sheet, "merged_cell_ranges", None) or ():
         for row in range(top + 1, bottom + 1):
             done += 1
             if done > _MERGED or row >= len(rows) or left >= len(rows[row]) or top >= len(rows):
-                return
+                return carried
             if rows[row][left] == "" and isinstance(rows[top][left], (float, str)):
                 rows[row][left] = rows[top][left]
+                carried |= isinstance(rows[top][left], float)
+    return carried
 
 
 def _mat5(data: bytes, name: str) -> list[Sheet]:

@@ -182,8 +182,8 @@ def _units(
         return [(CLOCK, 0.0, None)] if channel == "time" else []
     if scale is not None and scale.rule == "valve states":
         return [("1", 0.0, scale)] if channel == "command" else []
-    if scale is not None and dimension_of(scale.unit) in FITTING[channel]:
-        return [(scale.unit, 0.0, scale)]
+    if scale is not None:
+        return [(scale.unit, 0.0, scale)] if dimension_of(scale.unit) in FITTING[channel] else []
     stated = next((e.value for e in own if e.facet == "unit"), None)
     stated = stated or next((e.value for e in own if e.facet == "unit_word" and channel == "time"), None)
     if stated is not None:
@@ -219,7 +219,7 @@ def _signed(
 ) -> list[Option]:  # fmt: skip
     """The uses with each sign and reference, by what is said of them."""
     scaling = (1.0, 0.0) if scale is None else (scale.factor, scale.offset)
-    zero = next((e.value for e in evidence if e.facet == f"zero:{channel}"), 0.0)
+    zero = next((e.value for e in evidence if e.facet == f"zero:{channel}" and e.target in (i, FILE)), 0.0)
     if channel == "pressure":
         near, far = _references(own), _references([e for e in evidence if e.target == FILE])
         said = (

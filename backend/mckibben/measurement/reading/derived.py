@@ -11,7 +11,8 @@ import numpy as np
 
 from mckibben.measurement.reading.evidence import stated_marks
 from mckibben.measurement.reading.heads import head_claims, taken_apart
-from mckibben.measurement.reading.model import Column, Gap, Table
+from mckibben.measurement.reading.model import Column, Table
+from mckibben.measurement.reading.shapes import mark_gap
 from mckibben.measurement.reading.units import Unit, quantity_si
 
 _FEW = 0.3  # share of the rows that may be lost
@@ -26,10 +27,7 @@ def without_stated_marks(table: Table) -> Table:
     for column in table.columns:
         here = np.isin(column.values, [mark for mark, _ in marks])
         if column.words is None and here.any() and not here.all() and np.mean(here) < _FEW:
-            gaps = {
-                int(r): Gap(f"{column.values[r]:g} means no reading", f"{column.values[r]:g}")
-                for r in np.flatnonzero(here)
-            }
+            gaps = {int(r): mark_gap(column.values[r]) for r in np.flatnonzero(here)}
             column = replace(
                 column, values=np.where(here, np.nan, column.values), gaps={**column.gaps, **gaps}
             )

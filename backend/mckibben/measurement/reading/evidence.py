@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator
 from functools import cache
 from pathlib import PurePath
 from typing import NamedTuple
@@ -23,6 +23,7 @@ from mckibben.measurement.reading.lexicon import (
 )
 from mckibben.measurement.reading.limits import MAX_TEXT
 from mckibben.measurement.reading.model import BLOCK, FILE, Column, Evidence, Span, Table
+from mckibben.measurement.reading.positions import of_positions
 from mckibben.measurement.reading.scales import Scale, scales_in
 from mckibben.measurement.reading.units import (
     BRIDGE,
@@ -48,7 +49,9 @@ _EVEN = 4.0  # nats of even steps, from row to row of a long record
 _LONG_RECORD = 100  # rows
 _OVER = 0.35  # of the weight of a head, that texts over it have
 NAME = "the file's name"
-_CLAUSES = re.compile(r"[,;.|()\[\]](?!\d)|\s[/–-]\s|\s(?:and|und|et|e|y|og|och|en|i|a|ve|и|та)\s")
+_CLAUSES = re.compile(
+    r"(?:,(?!\s?(?:wenn|when|if|falls|quand|si|quando|cuando|se|als|om)\b)|[;.|()\[\]])(?!\d)|\s[/–-]\s|\s(?:and|und|et|e|y|og|och|en|i|a|ve|и|та)\s"
+)
 _SIGN_BEFORE = re.compile(r"(?<![\w.,+-])\(?(?P<sign>[+−-])\)?(?=\s?(?:[A-Za-z]\w{0,2}\s?)?(?:=|≙|->|→))")
 _SIGN_BEHIND = re.compile(
     r"(?<=[^\W\d_])\s?[:=]?\s?\(?(?P<sign>\+)\)?(?=\s?(?:[,;.)/]|$))|(?<=[^\W\d_])\s?[:=]?\s\(?(?P<minus>[−-])\)?(?=\s?(?:[,;.)/]|$))"
@@ -56,10 +59,18 @@ _SIGN_BEHIND = re.compile(
 _L_ZERO = re.compile(r"(?<![^\W_])[Ll](?:_\{?0\}?|_?o(?=\s?[=:≈])|[ ]0(?=\s?[=:≈])|₀)")
 _NO_PRESSURE = re.compile(
     r"(?<![\w.,])(?:p\s?=\s?)?0(?:[.,]0{1,4})?\s?(?:mbar|bar|hPa|kPa|MPa|Pa|psig?)(?:\s?\(g\))?(?!\w)"
+    r"|(?i:(?<!\w)(?:without|no|ohne|sans|senza|sin|sem)\s(?:pressure|druck|pression|pressione|presión|pressão)(?!\w))"
 )
 _AT_PRESSURE = re.compile(
     r"(?i)[\s(,]{0,3}(?:at|bei|@|à|a|con|mit|with|under)?\s?[0-9.,]{0,6}[1-9][0-9.,]{0,6}\s?(?:mbar|bar|[hkM]?Pa|psi)(?!\w)"
 )
+_TO = r"(?:to|bis|à|a|al|hasta|até|tot|до|-|–|→|\.{2,3}|…)"
+_BOUND = r"(?<![^\W_])(?<!\.)(?!0\d)\d{1,4}(?:[.,]\d{1,4})?"
+_RANGE_BEFORE = re.compile(
+    rf"(?i)(?:unpressurized|{_BOUND}\s?[^\W\d_]{{1,4}})\s{{0,3}}{_TO}\s?$"
+    rf"|{_BOUND}(?:[-–…]|\.{{2,3}}|\s(?:to|bis|à)\s)$"
+)
+_RANGE_BEHIND = re.compile(rf"(?i)\s?{_TO}\s?\d")
 _MERCURY = re.compile(
     r"(?i)мм\s?рт\.?\s?ст\.?|mm\s?hg\b|mm\s(?:of\s|de\s|di\s)?(?:mercur\w{0,6}|quecksilber\w{0,6}|qs\b)"
 )
@@ -68,12 +79,13 @@ _CHANNEL = re.compile(
     r"(?i)(?<![^\W_])(?:(?:ch|chan|channel|kanal|canal|voie|ai|input|in)[ _-]?0?(\d{1,2})"
     r"|(?:ch|chan|channel|kanal|canal|voie)[ _-]?([a-h]))(?![^\W_])"
 )
-_NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?)\s?[:=]\s?(?P<value>.{1,900})")
+_NOTE = re.compile(r"[#%/!;\s]{0,10}(?P<key>[A-Za-z][A-Za-z_ -]{0,30}?0?)\s?[:=]\s?(?P<value>.{1,900})")
 _CODE = re.compile(
     r"(?<![A-Za-z0-9])([A-Za-z]{2,6})[-_ ]?([0-9]{1,3})(?:-([0-9]{2,4})(?![0-9]))?(?![0-9a-z])"
 )
 _OTHER_GAUGES = re.compile(
-    r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]?gau?ges?|gau?ge length"
+    r"(?i)(?:strain|dial|length|load|force|displacement|feeler)[ -]?gau?ges?|gau?ge length|"
+    r"positive[ -]displacement"
 )
 _BEHIND_UPTO = re.compile(r"[,;.:(](?!\d)|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s")
 _SCALED = re.compile(
@@ -84,6 +96,11 @@ _SHORT_LENGTH = 0.08  # m; a title that says less without a word names a stroke,
 _COLUMN_SAMPLE = 5000
 
 
+#: What says that a number stands for something.
+_MEANS = re.compile(
+    r"(?i)=|:|->|\b(?:marks?|means?|denotes?|indicates?|stands?|is|are|bedeutet|heißt|kennzeichnet|steht|signifie|"
+    r"indique|significa|indica|oznacza|znamená|betekent|betyder|was|were|entered|written|recorded|as)\b"
+)
 _LOST = re.compile(r"(?<![\w.])([-+]?\d{1,7}(?:[.,]\d{1,6})?)(?![\w.]*\d)")
 
 
@@ -93,10 +110,14 @@ def stated_marks(table: Table) -> tuple[tuple[float, Span], ...]:
     """
     found = []
     for span in table.texts:
-        words = words_of(span.text[:MAX_TEXT])
-        if word_set("no_reading").among(words) or "novalue" in words or ("no" in words and "value" in words):
-            numbers = _LOST.findall(span.text[:MAX_TEXT])
-            found += [(number_of(n), span) for n in numbers[:1] if len(numbers) == 1]
+        for clause in re.split(r"[;|]|,\s|[.](?=\s|$)", span.text[:MAX_TEXT]):
+            words = words_of(clause)
+            named = word_set("no_reading").among(words) or "novalue" in words or {"no", "value"} <= {*words}
+            numbers = list(_LOST.finditer(clause)) if named and _MEANS.search(clause) else ()
+            if len(numbers) != 1 or clause[numbers[0].end() :].lstrip().startswith("%"):
+                continue  # "error = 0.5 %" is a size
+            if not word_set("deviation_words").among(words_of(clause[: numbers[0].start()])[-2:]):
+                found.append((number_of(numbers[0][1]), span))
     return tuple(found)
 
 
@@ -108,7 +129,7 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     found = _only_pressure(found, table)
     for span in table.texts:
         found += _of_text(span, FILE, table)
-    found += [*of_bridge(table), *of_zeros(table)]
+    found += [*of_bridge(table), *of_zeros(table), *of_positions(table)]
     for k, spans in enumerate(table.titles):
         for span in spans if len(table.titles) > 1 else ():
             found += _of_title(span, BLOCK - k)
@@ -233,6 +254,7 @@ class _Context(NamedTuple):
     before: tuple[str, ...]
     behind: tuple[str, ...]
     pressed: bool
+    ranged: bool
 
 
 def _contexts(text: str) -> list[_Context]:
@@ -244,7 +266,11 @@ def _contexts(text: str) -> list[_Context]:
     contexts = []
     for k, quantity in enumerate(found):
         pieces = re.split(r"[;,](?!\d)(?![^()]{0,60}\))", text[begin : quantity.begin])
-        before = next((p for p in reversed(pieces) if any(w != quantity.unit.name for w in words_of(p))), "")
+        worded = [n for n, p in enumerate(pieces) if any(w != quantity.unit.name for w in words_of(p))]
+        mine = bool(worded) and (
+            worded[-1] > 0 or k == 0 or len(pieces) == 1
+        )  # not what stands behind another one
+        before = pieces[worded[-1]] if mine else ""
         upto = found[k + 1].begin if k + 1 < len(found) else len(text)
         begin = quantity.end
         behind = _BEHIND_UPTO.split(text[begin : min(upto, begin + 60)].lstrip(" ("))[0]
@@ -254,6 +280,8 @@ def _contexts(text: str) -> list[_Context]:
                 words_of(before),
                 words_of(behind),
                 _AT_PRESSURE.match(text, quantity.end) is not None,
+                _RANGE_BEHIND.match(text, quantity.end) is not None
+                or _RANGE_BEFORE.search(text[max(0, quantity.begin - 30) : quantity.begin]) is not None,
             )
         )
     return contexts
@@ -272,7 +300,8 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
     ):
         return [noted]
     scales = _of_scales(span, table)
-    found += [] if noted is None or (scales and noted.facet == "note") else [noted]
+    if noted is not None and not (scales and noted.facet == "note"):
+        found += [noted, *_bare_rest_length(noted)]
     if noted is not None and noted.facet == "condition:pressure":
         absolute = REFERENCES.get(folded(str(noted.value)), str(noted.value).lower().startswith("abs"))
         found.append(Evidence(FILE, "absolute", absolute, 6.0, span, "note"))
@@ -353,6 +382,27 @@ def _of_note(span: Span, *, named: bool = False) -> Evidence | None:
     return None
 
 
+def _bare_rest_length(noted: Evidence) -> list[Evidence]:
+    """A rest length without a unit, ``L0: 250``: in the one of mm and m in which a muscle can have it."""
+    key, value = noted.value if noted.facet == "note" else ("", "")
+    if re.fullmatch(r"\d{1,4}(?:[.,]\d{1,4})?", value.strip()) is None:
+        return []
+    words = words_of(_L_ZERO.sub("L0", f"{key.replace('_', ' ')} ="))
+    number = number_of(value)
+    unit = next((u for u, (low, high) in _MUSCLES.items() if low <= number < high), None)
+    if unit is None or (
+        not word_set("l0|rest_length").among(words)
+        and not (word_set("at_rest").among(words) and word_set("@length").among(words))
+    ):
+        return []
+    quantity = Quantity(0, 0, number, Unit(unit, "length"), f"{value.strip()} {unit}")
+    return [Evidence(FILE, "condition:nominal_length", quantity, 4.0, noted.span, NO_UNIT)]
+
+
+NO_UNIT = "no unit"
+_MUSCLES = {"m": (0.02, 5.0), "mm": (20.0, 5000.0)}  # lengths of muscles
+
+
 def _of_clauses(span: Span, table: Table) -> list[Evidence]:
     """Signs and references that the clauses of a text say."""
     found: list[Evidence] = []
@@ -360,7 +410,8 @@ def _of_clauses(span: Span, table: Table) -> list[Evidence]:
     text = _SIGN_BEHIND.sub(lambda m: " plus" if m["sign"] else " minus", text)
     text = _SIGN_BEFORE.sub(lambda m: " plus " if m["sign"] == "+" else " minus ", text)
     owner = _column_named(text, table)
-    for clause in _CLAUSES.split(text):
+    plain = re.sub(r"\([^()]{0,60}\)", " ", text)  # "tension (pull) is negative"
+    for clause in dict.fromkeys(" ".join(c.split()) for c in (*_CLAUSES.split(text), *_CLAUSES.split(plain))):
         words = words_of(clause)
         if not words or len(words) > 40:
             continue
@@ -400,7 +451,7 @@ def _of_quantity(context: _Context, target: int, span: Span) -> Evidence | None:
         if quantity.unit.dimension not in rule.dimension or not _fires(rule, before, behind):
             continue
         ((facet, key),) = rule.claims.items()
-        if context.pressed and key == "nominal_length":
+        if (context.pressed and key == "nominal_length") or (context.ranged and facet == "held"):
             continue
         if best is None or rule.weight > best.weight:
             best = Evidence(target, f"{facet}:{key}", quantity, rule.weight, span, rule.id)
@@ -413,6 +464,7 @@ def _fires(rule: Rule, before: tuple[str, ...], behind: tuple[str, ...]) -> bool
         return False
     ahead = bool(rule.needs) and all(word_set(name).among(before) for name in rule.needs)
     after = bool(rule.behind) and all(word_set(name).among(behind) for name in rule.behind)
+    after = after and not any(word_set(name).among(behind[:3]) for name in rule.without)
     return (ahead and after) if rule.both else (ahead or after)
 
 
@@ -424,7 +476,8 @@ def _of_title(span: Span, target: int) -> list[Evidence]:
     for context in _contexts(span.text):
         evidence = _of_quantity(context, target, span)
         quantity = context.quantity
-        if evidence is None and (channel := _HELD_BY.get(quantity.unit.dimension)) is not None:
+        channel = None if context.ranged else _HELD_BY.get(quantity.unit.dimension)
+        if evidence is None and channel is not None:
             if channel == "length" and quantity_si(quantity.value, quantity.unit.name, "m") < _SHORT_LENGTH:
                 channel = "displacement"
             facet = "condition" if channel == "load_mass" else "held"
@@ -452,7 +505,7 @@ def _of_name(span: Span) -> list[Evidence]:
             and not _HELD_STEM.search(stem)
         ):
             found.append(Evidence(FILE, "condition:nominal_length", quantity, 1.5, span, "name"))
-        if evidence is None:
+        if evidence is None and not context.ranged:
             channel = _HELD_BY.get(quantity.unit.dimension)
             if channel in ("pressure", "length"):
                 evidence = Evidence(FILE, f"held:{channel}", quantity, 1.5, span, "name")
@@ -623,6 +676,9 @@ def _of_scales(span: Span, table: Table) -> list[Evidence]:
                 if scale.rule != "valve states"
                 else ["command"]
             )
+            if scale.raw == "count" and not scale.offset and "displacement" in channels:
+                channels = ["displacement"]  # where its counts begin, is not known
+                found.append(Evidence(i, "zero_open", True, 2.0, span, "counts"))
             claims = {
                 c.value
                 for c in head_claims(table.columns[i].head[:200], table.columns[i].unit)
@@ -650,14 +706,19 @@ def _scaled_column(scale: Scale, around: str, table: Table) -> int | None:
     named = _column_named(around, table)
     for i, column in enumerate(table.columns):
         unit = _unit_of(column)
-        raw = unit is None or unit.dimension in RAW or (unit.name == "%" and scale.raw == "%")
+        raw = (
+            unit is None
+            or unit.dimension in RAW
+            or (unit.name == "%" and (scale.raw == "%" or scale.rule == "valve states"))
+        )
         if column.words is not None or column.clock or not raw:
             continue
         claims = {c.value for c in head_claims(column.head[:200], column.unit) if c.facet == "channel"}
         if scale.rule == "valve states" and "command" not in claims and named != i:
             continue
-        if claims and not claims & channels and "command" not in claims:
-            continue
+        served = _is_served(_dimension(scale.unit), table)
+        if claims and not claims & channels and ("command" not in claims or served):
+            continue  # a command says what was wanted of what another column shows
         head = words_of(taken_apart(column.head, column.unit).name)
         score = 2.0 * bool(claims & channels) + 1.5 * len(words & set(head)) + (3.0 if named == i else 0.0)
         score += 4.0 if scale.raw and scale.raw == taken_apart(column.head, column.unit).name else 0.0
@@ -731,9 +792,3 @@ def _dimension(unit: str) -> str:
 
 def _text_rule(id: str) -> Rule:
     return next(rule for rule in rules("text") if rule.id == id)
-
-
-def strongest(evidence: Sequence[Evidence], facet: str, target: int | None = None) -> Evidence | None:
-    """The heaviest claim of a facet."""
-    found = [e for e in evidence if e.facet == facet and (target is None or e.target == target)]
-    return max(found, key=lambda e: e.weight, default=None)

@@ -15,18 +15,20 @@ from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.reading.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
 from mckibben.measurement.reading.correction import Choice, Correction
 from mckibben.measurement.reading.decide import Facts
-from mckibben.measurement.reading.evidence import of_code
+from mckibben.measurement.reading.evidence import NO_UNIT, of_code
 from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.lexicon import REFERENCES, folded
 from mckibben.measurement.reading.model import BLOCK, FILE, Array, Evidence, Span, Table
 from mckibben.measurement.reading.physics import ATMOSPHERE
 from mckibben.measurement.reading.units import Quantity, Unit, dimension_of, quantity_si
+from mckibben.measurement.reading.zeros import stated_hangers
 from mckibben.physics.errors import InputError, did_you_mean
 
+GRAVITY = 9.80665  # m/s2, standard
 _SAME = 2e-3  # relative; values that differ by less are the same one, rounded
 _STATED = 4.0  # nats from which a value counts as stated; two of them that differ are asked about
 _POSSIBLE_AIR = (5e4, 1.1e5)  # Pa; of the air where people work
-_OTHER_UNITS = {"diameter": "m", "pulley_radius": "m"}  # of conditions that only the physics uses
+_OTHER_UNITS = {"diameter": "m"}  # of conditions that only the physics uses
 _SIZE = re.compile(r"(?:DMSP|MAS)-(\d{1,3})")
 _YOU = Span("you", "")
 #: Conditions of which two values are asked about -> (their name, the option that sets them).
@@ -137,6 +139,8 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
             continue
         ranked = _ranked(key, found, name, messages)
         stated[key] = ranked[0][1]
+        if any(e.rule == NO_UNIT and e.span == stated[key].where for e in found):
+            messages.append(f"{key}: no unit given, read as {stated[key].text}")
         if (
             key in _ASKED
             and len(ranked) > 1
@@ -151,6 +155,13 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
         if e.facet == "note" and e.value[0] not in conditions:
             conditions[e.value[0]] = str(e.value[1]).strip()[:200]
             stated.setdefault(e.value[0], Stated(conditions[e.value[0]], e.span, str(e.value[1])))
+    hangers, load = stated_hangers(table), conditions.get("load_mass")
+    if len(hangers) == 1 and hangers[0].contained is False and isinstance(load, float):
+        more = hangers[0].weight / GRAVITY
+        if more < 0.9 * load:
+            conditions["load_mass"] = load + more
+            place = f"'{hangers[0].span.text[:80]}' ({hangers[0].span.where})"
+            messages.append(f"{more:.4g} kg is added to the load for the hanger: {place}")
     for key, value in correction.conditions.items():
         if value is None:
             conditions.pop(key, None)
@@ -173,7 +184,7 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
         stated,
         tuple(contradictions),
         held,
-        _air_of_rows(table, columns),
+        _air_of_rows(table, columns, evidence),
         columns,
         several,
         said.pop() if len(said) == 1 else "",
@@ -252,10 +263,21 @@ def _of_columns(table: Table, columns: Mapping[str, tuple[int, tuple[float, ...]
     return found
 
 
-def _air_of_rows(table: Table, columns: Mapping[str, tuple[int, tuple[float, ...]]]) -> Array | None:
-    """The pressure of the surrounding air [Pa] in each row, where its column holds several values."""
+def _air_of_rows(
+    table: Table, columns: Mapping[str, tuple[int, tuple[float, ...]]], evidence: Sequence[Evidence]
+) -> Array | None:
+    """The pressure of the surrounding air [Pa] in each row, where a column holds several values, or blocks
+    have their own.
+    """
     i, values = columns.get("ambient_pressure", (-1, ()))
     if len(values) < 2:
+        of_block = {
+            BLOCK - e.target: quantity_si(e.value.value, e.value.unit.name, "Pa")
+            for e in evidence
+            if e.facet == "condition:ambient_pressure" and e.target <= BLOCK
+        }
+        if len(of_block) == len(table.titles) > 1:
+            return np.array([of_block[k] for k in range(len(of_block))])[table.blocks]
         return None
     unit = _stated_unit(table, i)
     return np.array([quantity_si(v, unit, "Pa") for v in table.columns[i].values.tolist()])
@@ -334,10 +356,7 @@ def _held(
               "condition:load_force": "load_force"}  # fmt: skip
     for facet, channel in facets.items():
         claims = [e for e in evidence if e.facet == facet and isinstance(e.value, Quantity)]
-        own = {
-            k: max((e for e in claims if e.target == BLOCK - k), key=lambda e: e.weight, default=None)
-            for k in range(blocks)
-        }
+        own = {k: _only([e for e in claims if e.target == BLOCK - k]) for k in range(blocks)}
         if blocks > 1 and all(e is not None for e in own.values()):
             values = np.array(
                 [_held_value(channel, e, conditions, evidence, k) for k, e in own.items() if e is not None]
@@ -367,6 +386,14 @@ def _held(
         elif distinct:
             several[channel] = tuple(distinct.values())
     return held, several
+
+
+def _only(claims: Sequence[Evidence]) -> Evidence | None:
+    """The strongest claim; None = there is none, or two as strong ones differ: "from 1 bar to 3 bar"."""
+    best = max(claims, key=lambda e: e.weight, default=None)
+    if best is None or any(e.weight == best.weight and e.value[2:4] != best.value[2:4] for e in claims):
+        return None
+    return best
 
 
 def _held_value(

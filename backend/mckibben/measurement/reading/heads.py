@@ -228,6 +228,9 @@ def counts_runs(word: str) -> bool:
 _DIMENSIONS = {rule.id: rule.dimension for rule in rules("head") if rule.dimension}
 
 
+_AT_THE_VALVE = next(rule.words for rule in rules("head") if rule.id == "at_the_valve" and rule.words)
+
+
 @lru_cache(maxsize=8192)
 def head_claims(head: str, unit_below: str = "") -> tuple[Claim, ...]:
     """What the words of a head claim; a unit has been taken off."""
@@ -252,7 +255,10 @@ def head_claims(head: str, unit_below: str = "") -> tuple[Claim, ...]:
     channels = {claim.value for claim in found if claim.facet == "channel"}
     if channels and dimension:
         found = [claim for claim in found if claim.value != "running number"]
-    if "command" in channels and dimension in ("pressure", "length", "force") and "valve" not in words:
+    commanded = "command" in channels and any(  # and not only named after the valve
+        word_set("@command").knows(word) and not _AT_THE_VALVE.knows(word) for word in words
+    )
+    if commanded and dimension in ("pressure", "length", "force"):
         found.append(Claim("role", "set value", 4.0, "command in a physical unit"))
     if (
         dimension == "ratio"
@@ -352,7 +358,7 @@ def _compound_roles(word: str) -> list[Rule]:
         if "role" not in rule.claims or rule.words is None:
             continue
         for end in range(4, len(word)):
-            if word[:end] in rule.words.words and _names_channel(word[end:].removeprefix("s")):
+            if word[:end] in rule.words.joining and _names_channel(word[end:].removeprefix("s")):
                 found.append(rule)
                 break
     return found

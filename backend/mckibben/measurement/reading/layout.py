@@ -53,9 +53,11 @@ _POOR_HEADS = 0.8  # nats a column, below which other names are looked for
 _EMPTY_HEADS = 2.0  # score of a run without heads
 _MOST_OF_A_HEAD = 3.0  # what one head adds to the score of its run
 _SHOWN_ROWS, _SHOWN_BELOW, _SHOWN_ABOVE, _SHOWN_CELLS, _SHOWN_LENGTH = 60, 8, 20, 60, 80
+_SHOWN_REMARKS = 6  # texts between readings that a message shows
 _LONGEST_HEAD = 300  # characters of a head
 _LONGEST_WORDS = 32  # characters of a cell of a row that groups columns
 _QUANTITY = re.compile(r"\s*[-+]?[0-9.,]+\s*\S{0,12}\s*")
+_LIST = re.compile(r"(?i)^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?")
 _LABELS = 3  # rows of labels, from which a column of them is one
 _HINT = "e.g. a header 'pressure_bar,length_mm,force_N'"
 
@@ -228,8 +230,9 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
     if rivals:
         parts = [part for run in alike if run.sheet is best.sheet for part in parts_of(run, list(run.title))]
     head_row = None if best.head_row is None else best.sheet.line(best.head_row)
+    whole = stacked(parts, texts)
     return replace(
-        stacked(parts, texts),
+        whole,
         where=f"{name}, sheet '{best.sheet.name}'" if best.sheet.name else name,
         format=best.sheet.format,
         head_row=head_row,
@@ -241,6 +244,7 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         raw=_shown(best.sheet, best.head_row),
         messages=(
             *(m for s in sheets for m in s.messages),
+            *whole.messages,
             *_unread_rows(alike, best),
             *_as_runs([run.sheet.place(run.rows[0]) for run in alike if not rivals]),
             *([f"only the first {MAX_TEXTS} texts beside the table are searched"] * (len(texts) > MAX_TEXTS)),
@@ -335,6 +339,7 @@ def stacked(parts: Sequence[Part], texts: Sequence[Span]) -> Table:
         lines=np.concatenate([part.lines for part in parts]),
         bad=bad,
         also=tuple(sorted(place for place in also if place >= 0)),
+        messages=tuple(dict.fromkeys(m for part in parts for m in part.messages)),
     )
 
 
@@ -676,11 +681,13 @@ def _listed_names(run: Run) -> None:
     """Names of all columns in one line further above, where the heads themselves say nothing."""
     for i in range(run.rows[0] - 1, max(-1, run.rows[0] - _LOOK), -1):
         filled = [str(c) for c in run.sheet.rows[i] if c != ""]
-        if (i in run.above and len(filled) > 1) or len(filled) != 1:
+        listed = len(filled) == len(run.columns) and _LISTED.match(filled[0]) is not None
+        if len(filled) > 1 and (i in run.above or not listed):
             continue
+        text = ";".join(filled)
         below = [str(c) for c in run.sheet.rows[i + 1] if c != ""]
-        goes_on = filled[0].rstrip().endswith(",") and len(below) == 1 and i + 1 < run.rows[0]
-        names = _split_head(f"{filled[0]} {below[0]}" if goes_on else filled[0], len(run.columns))
+        goes_on = text.rstrip().endswith(",") and len(below) == 1 and i + 1 < run.rows[0]
+        names = _split_head(f"{text} {below[0]}" if goes_on else text, len(run.columns))
         if names and sum(head_score(n) for n in names) > sum(head_score(h) for h in run.heads.values()):
             run.heads = dict(zip(run.columns, names, strict=True))
             return

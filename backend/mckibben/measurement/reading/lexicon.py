@@ -21,6 +21,7 @@ _UMLAUTS = str.maketrans({"ä": "ae", "ö": "oe", "ü": "ue"})
 _STEM = 6  # letters from which a word counts as the beginning of its other forms
 _PART = 5  # letters from which a word counts as a part of a compound
 _LONGEST = 12  # letters of the longest unparted word that is looked for
+_JOINING = ("any", "de", "nl", "sv", "da", "fi", "hu")  # languages that join words to longer ones
 _END = 100  # strength of the end of a compound, above that of its beginning
 EXACT = 1000  # strength from which a word is known as it stands
 _ENDINGS = "aeiyаеияый"  # of words whose other forms end otherwise
@@ -69,7 +70,9 @@ class WordSet:
     """
 
     def __init__(self, entries: Iterable[str], *, compounds: bool = False) -> None:
+        entries = list(entries)
         self.compounds = compounds
+        self._among = lru_cache(maxsize=64)(self._found)  # a clause is asked again for each of its quantities
         plain = [word for entry in entries for word in entry.partition(":")[2].split()]
         plain += [word.translate(_UMLAUTS) for word in plain if set(word) & set("äöü")]
         self.words = frozenset(folded(word.strip("*") or word) for word in plain)
@@ -77,15 +80,19 @@ class WordSet:
         parted = {word for word in self.words if word and word[0] < _UNPARTED}
         self.unparted = frozenset(word for word in self.words - parted if len(word) > 1)
         self.single = frozenset(word for word in self.words - parted if len(word) == 1)
+        self.joining = frozenset(
+            folded(w) for e in entries for w in e.partition(":")[2].split() if e.partition(":")[0] in _JOINING
+        )
         self.parts = frozenset(word for word in parted if len(word) >= _PART or word in marked)
         self.stems = frozenset(word for word in parted if len(word) >= _STEM)
         self.forms = frozenset(word[:-1] for word in parted if len(word) >= _FORMS and word[-1] in _ENDINGS)
 
     def among(self, words: Iterable[str]) -> bool:
         """Whether one of the words of a text is known, also as another form of a long one."""
-        if self.compounds:
-            return any(self.strength(word) for word in words)
-        return any(self.knows(word) for word in words)
+        return self._among(tuple(words))
+
+    def _found(self, words: tuple[str, ...]) -> bool:
+        return any((self.strength if self.compounds else self.knows)(word) for word in words)
 
     def knows(self, word: str) -> bool:
         """Whether a word is known, or begins like a long known one, or holds an unparted one."""

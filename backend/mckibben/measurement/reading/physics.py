@@ -312,7 +312,9 @@ def _clip(value: float, bound: float) -> float:
 
 
 def _varies(s: Array, share: float) -> bool:
-    return bool(np.ptp(s) > share * max(np.max(np.abs(s)), 1e-9))
+    """Whether readings differ by more than a share of the largest, one lone reading apart."""
+    off = np.sort(np.abs(s - np.median(s)))[:-1]
+    return bool(off[-1] > 0.5 * share * max(np.max(np.abs(s)), 1e-9))
 
 
 def _corr(a: Array, b: Array) -> float:

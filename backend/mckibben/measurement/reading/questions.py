@@ -31,7 +31,7 @@ from mckibben.measurement.reading.decide import (
 from mckibben.measurement.reading.evidence import NAME, NO_ZERO
 from mckibben.measurement.reading.facts import Known
 from mckibben.measurement.reading.heads import head_claims, taken_apart
-from mckibben.measurement.reading.lexicon import word_set, words_of
+from mckibben.measurement.reading.lexicon import rules, word_set, words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Span, Table, Use
 from mckibben.measurement.reading.named import is_isometric, number_of_name
 from mckibben.measurement.reading.numbers import MARK, TEXT, kind_of
@@ -45,10 +45,9 @@ from mckibben.measurement.reading.units import (
     WEIGHTS,
     Quantity,
     dimension_of,
-    quantities,
     quantity_si,
 )
-from mckibben.measurement.reading.zeros import stated_zeros
+from mckibben.measurement.reading.zeros import stated_hangers, stated_zeros
 from mckibben.physics.units import convert
 
 REVERSE, KEEP = "reverse the sign", "keep the sign"
@@ -70,6 +69,7 @@ _RAW_SPANS = {
     "mV/V": "0 to 2 mV/V",
     "%FS": "0 to 100 %FS",
 }
+SCALABLE = ("pressure", "force", *STROKES, "command")
 _SCALED = {"pressure": "0 to 10 bar", "force": "0 to 2000 N", "length": "0 to 300 mm",
            "displacement": "0 to 100 mm",
            "contraction": "0 to 100 mm", "command": "-100 to 100 %"}  # fmt: skip
@@ -125,6 +125,14 @@ class Reading:
     def unit(self, i: int) -> str | None:
         """The unit that is stated for a column."""
         return next((e.value for e in self.own(i) if e.facet == "unit"), None)
+
+    def claims(self, i: int, channel: str) -> list[Evidence]:
+        """What says that a column is a channel."""
+        return [e for e in self.own(i) if e.facet == "channel" and e.value == channel]
+
+    def facet(self, i: int, facet: str) -> bool:
+        """Whether something is claimed of a column."""
+        return any(e.facet == facet for e in self.own(i))
 
     def roles(self, i: int) -> dict[str, float]:
         """Role -> what is said for it."""
@@ -312,8 +320,8 @@ def _unnamed(reading: Reading) -> Iterator[Question]:
     for channel, i, use, column in reading.uses():
         if i in reading.known.chosen or channel not in ("pressure", "force", *STROKES, "time"):
             continue
-        claims = [e for e in reading.own(i) if e.facet == "channel" and e.value == channel]
-        if not claims:
+        claims = reading.claims(i, channel)
+        if not claims or (dimension_of(use.unit) == "mass" and all(e.rule == "unit" for e in claims)):
             yield Question(
                 f"column '{bare(column)}'",
                 f"nothing says what {reading.table.noun} '{column.title}' is; its readings behave like "
@@ -323,7 +331,7 @@ def _unnamed(reading: Reading) -> Iterator[Question]:
                 channel,
                 (channel, "ignore"),
             )
-        elif channel in STROKES and all(e.rule in ("unit", "position_of_a_sensor") for e in claims):
+        elif _is_by_unit(reading, channel, i):
             other = "length" if channel == "displacement" else "displacement"
             yield Question(
                 f"column '{bare(column)}'",
@@ -334,7 +342,9 @@ def _unnamed(reading: Reading) -> Iterator[Question]:
                 column.head,
                 channel,
                 (channel, other, "ignore"),
-                stops=len(set(STROKES) & set(reading.rows.channels)) > 1,
+                # Two strokes cannot both be right, and a constant shows nothing.
+                stops=len(set(STROKES) & set(reading.rows.channels)) > 1
+                or bool(np.ptp(reading.rows.channels[channel]) == 0.0),
             )
 
 
@@ -361,6 +371,12 @@ def _headless(reading: Reading) -> Iterator[Question]:
         )
 
 
+def _is_by_unit(reading: Reading, channel: str, i: int) -> bool:
+    """Whether a stroke is told by nothing but its unit, or by the name of a sensor."""
+    rules = {e.rule for e in reading.claims(i, channel)}
+    return channel in STROKES and bool(rules) and rules <= {"unit", "position_of_a_sensor"}
+
+
 def _unread(reading: Reading) -> Iterator[Question]:
     """A column in N, bar or mm, or called like a channel that nothing is read for, of which nothing says what
     it is.
@@ -378,7 +394,7 @@ def _unread(reading: Reading) -> Iterator[Question]:
         ):
             continue
         if (choice := reading.known.chosen.get(i)) is not None:
-            yield from _raw_signal(reading, column, {choice.channel}, filled, reading.unit(i))
+            yield from _raw_signal(reading, i, {choice.channel}, filled)
             continue
         own = reading.own(i)
         roles = reading.roles(i)
@@ -387,9 +403,10 @@ def _unread(reading: Reading) -> Iterator[Question]:
         unit = reading.unit(i)
         dimension = dimension_of(unit) if unit else ""
         claimed = {e.value for e in own if e.facet == "channel" and e.rule != "unit"}
+        if roles.get("counter", 0.0) >= 3.0 and "stroke" not in filled:
+            continue  # see `_counted`
         if dimension in RAW or roles.get("raw", 0.0) >= 3.0 or roles.get("counter", 0.0) >= 3.0:
-            counted = "count" if roles.get("raw", 0.0) >= 3.0 and unit is None else unit
-            yield from _raw_signal(reading, column, claimed, filled, counted)
+            yield from _raw_signal(reading, i, claimed, filled)
             continue
         channel = _CARRIES.get(dimension) or (
             "force" if dimension == "mass" and "force" not in filled else None
@@ -398,6 +415,8 @@ def _unread(reading: Reading) -> Iterator[Question]:
             continue
         if claimed & set(SLOTS) and SLOTS[next(iter(claimed & set(SLOTS)))] in filled:
             continue  # another column is read for it: see `_seconds`
+        if channel == "pressure" and "pressure" in filled and roles.get("at the valve", 0.0) > 0.0:
+            continue  # it was measured elsewhere
         others = (channel,) if channel != "displacement" else ("displacement", "length", "diameter")
         why = " (it is a set value)" if roles.get("set value", 0.0) >= 2.0 else ""
         doubt = "; what is it"
@@ -442,14 +461,10 @@ def _unreadable(reading: Reading) -> Iterator[Question]:
         )
 
 
-def _raw_signal(
-    reading: Reading, column: Column, claimed: set[str], filled: set[str], unit: str | None
-) -> Iterator[Question]:
+def _raw_signal(reading: Reading, i: int, claimed: set[str], filled: set[str]) -> Iterator[Question]:
     """A signal without a scale where the channel that it is called like is missing."""
-    wanted = next(
-        (c for c in ("pressure", "force", *STROKES, "command") if c in claimed and SLOTS[c] not in filled),
-        None,
-    )
+    column, unit = reading.table.columns[i], reading.unit(i)
+    wanted = next((c for c in SCALABLE if c in claimed and SLOTS[c] not in filled), None)
     if (
         reading.correction.columns
         and wanted is None
@@ -466,12 +481,18 @@ def _raw_signal(
         ):
             return
         wanted = missing[0]
-    span = _RAW_SPANS.get(unit or "count", "0 to 10 V")
-    scale = f"{span} = {_SCALED[wanted]}"
-    yield Question(
+    several = next((e.value for e in reading.own(i) if e.facet == "several scales"), "")
+    yield scale_question(reading.label(column), column, wanted, unit, several)
+
+
+def scale_question(label: str, column: Column, wanted: str, unit: str | None, several: str = "") -> Question:
+    """What scale a signal has."""
+    scale = f"{_RAW_SPANS.get(unit or 'count', '0 to 10 V')} = {_SCALED[wanted]}"
+    return Question(
         f"scale of {wanted}",
-        f"{reading.label(column)} is a signal in {unit or 'counts'}, and no text states its "
-        f"scale: which {wanted} is which reading",
+        f"{label} is a signal in {unit or 'counts'}, and "
+        f"{f'texts state several scales, {several}' if several else 'no text states its scale'}: "
+        f"which {wanted} is which reading",
         f"{option_of(wanted, column, scale)} or {ignore_option(bare(column))}",
         column.head,
         None,
@@ -547,6 +568,33 @@ def _seconds(reading: Reading) -> Iterator[Question]:
             )
 
 
+_SIGN_CLAUSES = frozenset(rule.id for rule in rules("clause"))
+
+
+def _times(reading: Reading) -> Iterator[Question]:
+    """Columns of times that are called alike and differ: a row holds readings of different times."""
+    column, time = reading.column("time"), reading.rows.channels.get("time")
+    if column is None or time is None or reading.by_user("time"):
+        return
+    i = reading.decision.uses["time"][0]
+    for j, other in enumerate(reading.table.columns):
+        if j == i or j in reading.known.chosen or bare(other) != bare(column) or other.unit != column.unit:
+            continue
+        a, b = column.values, other.values
+        both = np.isfinite(a) & np.isfinite(b)
+        if both.any() and np.max(np.abs((a - b)[both])) > _SAME * max(float(np.ptp(a[both])), 1e-12):
+            yield Question(
+                f"second time in {other.title}",
+                f"{reading.table.noun}s '{column.title}' and '{other.title}' differ: they are times of "
+                f"different signals, and the readings of a row belong to different times; which one holds",
+                f"{column_option('time', column.title)} or {column_option('time', other.title)}",
+                other.title,
+                column.title,
+                (column.title, other.title),
+            )
+            return
+
+
 def _aside(reading: Reading, i: int) -> bool:
     roles = reading.roles(i)
     return roles.get("set value", 0.0) >= 2.0
@@ -572,8 +620,24 @@ def _joint(reading: Reading, i: int, j: int) -> str:
         and np.ptp(b[both]) > 0
         and np.corrcoef(a[both], b[both])[0, 1] < _OPPOSED
     ):
-        return ", one filled as the other is vented, as the two muscles of a joint are"
+        return (
+            ", one filled as the other is vented, as those of a joint of two muscles: its force is that of "
+            "both; measure with one of them vented, or model the pair as 'antagonist'"
+        )
     return ""
+
+
+def antagonists(reading: Reading) -> list[str]:
+    """The pressures that run against the one that the user took."""
+    if "pressure" not in reading.rows.channels or not reading.by_user("pressure"):
+        return []
+    i = reading.decision.uses["pressure"][0]
+    others = [
+        j
+        for j, c in enumerate(reading.table.columns)
+        if j != i and c.words is None and reading.claims(j, "pressure")
+    ]
+    return [reading.table.columns[j].title for j in others if _joint(reading, i, j)]
 
 
 def _signs(reading: Reading) -> Iterator[Question]:
@@ -584,14 +648,16 @@ def _signs(reading: Reading) -> Iterator[Question]:
             continue
         i, use = reading.decision.uses[channel]
         facet = "sign_force" if channel == "force" else "sign_stroke"
-        said = [
-            e for e in reading.evidence if e.facet == facet and e.target in (i, FILE) and e.value == use.sign
-        ]
+        about = [e for e in reading.evidence if e.facet == facet and e.target in (i, FILE)]
+        said = [e for e in about if e.value == use.sign]
+        against = [e for e in about if e.value != use.sign and e.rule in _SIGN_CLAUSES]
+        shown = channel == "force" or any(t in MOTION and v > -_AGAINST for t, v in reading.decision.terms)
         rival = next(
             (r for r in reading.decision.rivals if r.slot == SLOTS[channel] and r.part == "sign"), None
         )
         close = rival is not None and rival.margin < MARGIN
-        if (use.sign == 1 and not close) or (use.sign == -1 and said and not close):
+        doubt = close or (use.sign == -1 and not said and bool(against or not shown))
+        if not doubt and (use.sign == 1 or said or _is_by_unit(reading, channel, i)):
             continue
         what = {
             "force": "a pulling force is positive here",
@@ -601,13 +667,14 @@ def _signs(reading: Reading) -> Iterator[Question]:
         other = option_of(channel, column, sign=-use.sign)
         text = (
             f"{reading.label(column)} is read with its sign reversed: {what}, and its readings "
-            f"run the other way"
+            f"run the other way{'' if shown else ', though they hardly show it'}"
             if use.sign == -1
             else f"{reading.label(column)}: {what}, but its readings hardly show which way they count"
         )
+        text += "".join(f"; '{e.span.text[:60]}' ({e.span.where}) says otherwise" for e in against[:1])
         yield Question(f"sign of {channel}",
         text, f"{option_of(channel, column, sign=use.sign)} or {other}", column.head,
-                       REVERSE if use.sign == -1 else KEEP, (REVERSE, KEEP), stops=close)  # fmt: skip
+                       REVERSE if use.sign == -1 else KEEP, (REVERSE, KEEP), stops=doubt)  # fmt: skip
 
 
 def _reference(reading: Reading) -> Iterator[Question]:
@@ -758,7 +825,7 @@ def _runs_against(reading: Reading) -> Iterator[Question]:
         if column is None or reading.by_user(channel):
             continue
         i, _ = reading.decision.uses[channel]
-        worst = min((v for t, v in reading.decision.terms if t in _MOTION), default=0.0)
+        worst = min((v for t, v in reading.decision.terms if t in MOTION), default=0.0)
         if worst > _AGAINST or any(
             e.facet == "sign_stroke" and e.target in (i, FILE) for e in reading.evidence
         ):
@@ -782,27 +849,32 @@ def _runs_against(reading: Reading) -> Iterator[Question]:
 
 def _lengthens(reading: Reading, column: Column, rest: float) -> Question:
     """A position that grows as the muscle lengthens, and shows 0 where it is not at its rest length [m]."""
-    unit, stroke = reading.use("displacement").unit, np.abs(reading.rows.channels["displacement"])
+    use, stroke = reading.use("displacement"), np.abs(reading.rows.channels["displacement"])
     low, high = float(np.min(stroke)), float(np.max(stroke))
     low = low if low > 0.5 * high else 0.0  # a position of the machine, which never comes near its 0
-    first, reach, whole = (float(v) for v in convert([low, high, rest], "m", unit))
-    span = f"{first:.4g} to {reach:.4g} {unit} = {whole - reach + first:.4g} to {whole:.4g} {unit}"
+    first, reach, whole = (float(v) for v in convert([low, high, rest], "m", use.unit))
+    shortest, unit = whole - reach + first, use.unit
+    if use.scale != 1.0 or use.offset:  # the answer is about the signal
+        first, reach = (v / abs(use.scale) + use.offset for v in (first, reach))
+        unit = reading.unit(reading.decision.uses["displacement"][0]) or "counts"
+    span = f"{first:.6g} to {reach:.6g} {unit} = {shortest:.4g} to {whole:.4g} {use.unit}"
     return Question(
         "zero of displacement",
-        f"{reading.label(column)} grows as the muscle lengthens, up to {reach:.4g} {unit}: a "
-        f"muscle of {whole:.4g} {unit} is not at its rest length where it shows 0; which length has it "
-        f"{'there' if not low else f'at {first:.4g} {unit}'} and at the end",
+        f"{reading.label(column)} grows as the muscle lengthens, up to {reach:.6g} {unit}: a "
+        f"muscle of {whole:.4g} {use.unit} is not at its rest length where it shows 0; which length has it "
+        f"{'there' if not low else f'at {first:.6g} {unit}'} and at the end",
         option_of("length", column, span),
         column.head,
     )
 
 
-_MOTION = ("the force falls as it contracts", "it contracts as the pressure rises")
+MOTION = ("the force falls as it contracts", "it contracts as the pressure rises")
 _AGAINST = -1.5  # nats of what a motion shows, below which it runs against physics
 
 
 def _zero(reading: Reading) -> Iterator[Question]:
     """A position of which nothing says where the muscle is at its rest length."""
+    yield from _zero_of_length(reading)
     column = reading.column("displacement")
     if column is None or reading.by_user("displacement"):
         return
@@ -834,38 +906,67 @@ def _zero(reading: Reading) -> Iterator[Question]:
     )
 
 
+def _zero_of_length(reading: Reading) -> Iterator[Question]:
+    """A position that could be the length, or a stroke from a zero that nothing says."""
+    column = reading.column("length")
+    if column is None or reading.by_user("length"):
+        return
+    i, use = reading.decision.uses["length"]
+    rivals = [r for r in reading.decision.rivals if r.slot == "stroke" and r.part == "channel"]
+    other = rivals[0].other if rivals else None
+    if other is None or not _is_by_unit(reading, "length", i) or not reading.facet(i, "zero_open"):
+        return
+    if rivals[0].margin < MARGIN or "length" in reading.decision.against:
+        low, high = float(np.nanmin(column.values)), float(np.nanmax(column.values))
+        ends = f"{high - low:.6g} to 0" if other.use.sign < 0 else f"0 to {high - low:.6g}"
+        span = f"{low:.6g} to {high:.6g} {use.unit} = {ends} {use.unit}"
+        yield Question(
+            "zero of length",
+            f"{reading.label(column)} is a position, and no text states one zero of it; at which "
+            f"reading is the muscle at its rest length",
+            f"{option_of('displacement', column, span)} or {option_of('length', column)}",
+            column.head,
+            None,
+            ("displacement", "length"),
+        )
+
+
 def _by_valve(reading: Reading) -> Iterator[Question]:
     """The only pressure is named after the valve, and nothing says that it was measured."""
     column = reading.column("pressure")
-    if column is None or reading.by_user("pressure"):
-        return
-    i = reading.decision.uses["pressure"][0]
-    if reading.roles(i).get("at the valve", 0.0) <= 0.0 or reading.use("pressure").scale != 1.0:
-        return
-    said = any(
-        word_set("measured").among(words_of(t.text)) and _of_pressure(t.text) for t in reading.table.texts
-    )
-    commands = [
-        e.target
-        for e in reading.evidence
-        if e.facet == "channel" and e.value == "command" and e.target not in (i, FILE)
-    ]
-    steps = len(np.unique(column.values)) < _FEW_LEVELS * len(column.values)
-    if (
-        said
-        or reading.roles(i).get("measured", 0.0) > 0.0
-        or (commands and not steps)
-        or is_sensed(
-            column.values,
-            [reading.rows.channels[c] for c in ("force", *STROKES) if c in reading.rows.channels],
-        )
-    ):
+    if column is None or though_at_the_valve(reading) != "":
         return
     text = (
         "is the only pressure and named after the valve or the supply; no text says that it was measured at "
         "the muscle; take it"
     )
     yield taken_or_not(reading, "pressure", column, text)
+
+
+def though_at_the_valve(reading: Reading) -> str | None:
+    """Why a pressure that is named after the valve is the measured one; "" = nothing says so, None = it is
+    not named so, or the user took it.
+    """
+    column = reading.column("pressure")
+    if column is None or reading.by_user("pressure"):
+        return None
+    i = reading.decision.uses["pressure"][0]
+    if reading.roles(i).get("at the valve", 0.0) <= 0.0 or reading.use("pressure").scale != 1.0:
+        return None
+    for text in reading.table.texts:
+        if word_set("measured").among(words_of(text.text)) and _of_pressure(text.text):
+            return f"{text.where} says '{text.text[:60]}'"
+    if reading.roles(i).get("measured", 0.0) > 0.0:
+        return "its name says that it was measured"
+    commands = [
+        reading.table.columns[e.target].title
+        for e in reading.evidence
+        if e.facet == "channel" and e.value == "command" and e.target not in (i, FILE)
+    ]
+    if commands and len(np.unique(column.values)) >= _FEW_LEVELS * len(column.values):
+        return f"the command is '{commands[0]}'"
+    others = [reading.rows.channels[c] for c in ("force", *STROKES) if c in reading.rows.channels]
+    return "its readings scatter as those of a sensor" if is_sensed(column.values, others) else ""
 
 
 _FEW_LEVELS = 0.2  # different values by row, below which a series is that of a set value
@@ -893,17 +994,37 @@ def _counted(reading: Reading) -> Iterator[Question]:
             if angle
             else f"counts of an encoder, {low:.6g} to {high:.6g}"
         )
-        span = f"{low:.4g} to {high:.4g} {unit if angle else 'counts'} = 0 to 60 mm"
+        span = f"{low:.6g} to {high:.6g} {unit if angle else 'counts'} = 0 to 60 mm"
+        open_ = "how it counts" if angle else "the counts per mm, nor at which of them the stroke is 0"
         yield Question(
             "stroke",
-            f"{reading.label(column)} holds {what}, and the file has no other stroke; no text "
-            f"states how it counts",
+            f"{reading.label(column)} holds {what}, and the file has no other stroke; no text states {open_}",
             f"{option_of('displacement', column, span)} or {ignore_option(bare(column))}",
             column.head,
             None,
             ("displacement", "ignore"),
         )
         return
+
+
+def _torque(reading: Reading) -> Iterator[Question]:
+    """A torque, where the file has no force."""
+    for i, column in enumerate(reading.table.columns):
+        unit = reading.unit(i)
+        if unit is None or dimension_of(unit) != "torque" or {"force"} & set(reading.rows.channels):
+            continue
+        if column.words is None and i not in reading.known.chosen:
+            torque = 3.0 / quantity_si(1.0, unit, "N*m")  # on a radius of 30 mm
+            span = f"0 to {torque:.4g} {unit.replace('*', '')} = 0 to 100 N"
+            yield Question(
+                "force",
+                f"{reading.label(column)} holds a torque, and the file has no force, which is the torque "
+                f"over the radius at which the muscle pulls; which radius is it (here 30 mm)",
+                f"{option_of('force', column, span)} or {ignore_option(bare(column))}",
+                column.head,
+                None,
+                ("force", "ignore"),
+            )
 
 
 def _stated_zeros(reading: Reading) -> Iterator[Question]:
@@ -917,24 +1038,24 @@ def _stated_zeros(reading: Reading) -> Iterator[Question]:
             or (channel in STROKES and reading.by_user(channel))
         ):
             continue
-        option = f'--experiment "{channel}_zero={zero.text.strip(": ")}"'
+        option = f'--experiment "{channel}_zero={zero.value:.6g} {CHANNEL_UNITS[channel]}"'
         if channel in STROKES and column is not None:
             option = _from_zero(reading, channel, column, zero.value)
-        what = "a tare of the force" if channel == "force" else f"a zero of the {channel}"
+        what = f"a {'tare' if channel == 'force' else 'zero'} of the {channel}"
+        what += " without a unit" if zero.bare else ""
         yield from _contained(reading, channel, what, zero.span, option)
 
 
 def _hangers(reading: Reading) -> Iterator[Question]:
     """The weight of a hanger, where the force is a mass that may or may not contain it."""
-    if "force" in reading.decision.uses and dimension_of(reading.use("force").unit) != "mass":
+    if "force" not in reading.decision.uses or (
+        dimension_of(reading.use("force").unit) != "mass" and not reading.by_user("force")
+    ):
         return
-    for span in reading.table.texts:
-        words = words_of(span.text)
-        done = word_set("tare_done").among(words) and not word_set("negations").among(words)
-        weighs = any(q.unit.dimension == "mass" for q in quantities(span.text))
-        if word_set("hanger").among(words) and weighs and not done:
-            option = '--experiment "force_zero=0 N"'
-            yield from _contained(reading, "force", "the weight of a hanger", span, option)
+    for hanger in stated_hangers(reading.table):
+        if not hanger.contained and not reading.use("force").zero:
+            option = f'--experiment "force_zero={-hanger.weight:.6g} N" or --experiment "force_zero=0 N"'
+            yield from _contained(reading, "force", "the weight of a hanger", hanger.span, option)
 
 
 def _contained(reading: Reading, channel: str, what: str, span: Span, option: str) -> Iterator[Question]:
@@ -1174,7 +1295,7 @@ def _unknown_unit(reading: Reading) -> Iterator[Question]:
         bracket = _BRACKET.search(column.head)
         if not claimed:
             continue
-        if words_of(column.head)[-1:] == ("last",):
+        if words_of(bare(column))[-1:] == ("last",):
             continue  # a statistic
         channel = claimed[0]
         si = CHANNEL_UNITS[channel]
@@ -1279,7 +1400,7 @@ def _several(reading: Reading) -> Iterator[Question]:
 Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
-    _units, _unread, _headless, _scales, _set_point, _by_valve, _counted, _signs,
+    _units, _unread, _headless, _scales, _times, _set_point, _by_valve, _counted, _torque, _signs,
     _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
 )  # fmt: skip
 #: Asked always.

@@ -18,16 +18,15 @@ from mckibben.measurement.reading.answers import ignore_option
 from mckibben.measurement.reading.correction import SAMPLE, SLACK, Correction
 from mckibben.measurement.reading.decide import Decision, roles_of, value_of
 from mckibben.measurement.reading.evidence import NAME
-from mckibben.measurement.reading.facts import Held, Known
+from mckibben.measurement.reading.facts import GRAVITY, Held, Known
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import Array, Column, Evidence, Skip, Table, Use
 from mckibben.measurement.reading.named import length_of_name
 from mckibben.measurement.reading.numbers import BROKEN
-from mckibben.measurement.reading.units import quantity_si
+from mckibben.measurement.reading.units import Quantity, quantity_si
 from mckibben.physics.errors import InputError
 
 LARGEST = 1e15  # in SI; more is of no physical size
-GRAVITY = 9.80665
 _ENOUGH_ROWS = 20
 _MOST_WITHOUT = 4  # rows without a reading for each other one; more are a slow signal or a wrong column
 _MOST_CUT = 40  # whole rows for each line that breaks off, from which the writing of the line was cut short
@@ -122,6 +121,9 @@ def rows_of(
     _even_time(rows, table, decision, evidence)
     if "time" in rows.channels and "time" in decision.uses and decision.uses["time"][1].unit in ("clock",):
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
+    counted = decision.uses.get("time")
+    if counted is not None and counted[1].scale != 1.0 and counted[0] not in known.chosen:
+        rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]  # counts begin anywhere
     if "time" in rows.channels and "time" in decision.uses and rows.channels["time"][0] > 1e8:
         rows.channels["time"] = rows.channels["time"] - rows.channels["time"][0]
         rows.messages.append(
@@ -143,18 +145,18 @@ def _even_time(rows: Rows, table: Table, decision: Decision, evidence: Sequence[
     """The time by a stated interval of sampling, where the file has none, or a clock that stands still for
     several rows.
     """
-    step = max(
-        (e for e in evidence if e.facet == "condition:sampling_step"), key=lambda e: e.weight, default=None
-    )
-    if step is None or len(table.titles) > 1:
+    steps = {_seconds(e.value): e for e in evidence if e.facet == "condition:sampling_step"}
+    if not steps or len(table.titles) > 1:
         return
     time = rows.channels.get("time")
-    unit = step.value.unit
-    seconds = (
-        1.0 / quantity_si(step.value.value, unit.name, "Hz")
-        if unit.dimension == "frequency"
-        else quantity_si(step.value.value, unit.name, "s")
-    )
+    seconds, step = next(iter(steps.items()))
+    thinned = any(word_set("thinned").among(words_of(e.span.text)) for e in steps.values())
+    if (len(steps) > 1 or thinned) and time is None:
+        rows.messages.append(
+            f"no time: '{step.span.text[:60]}' ({step.span.where}) does not say how far apart the rows are"
+        )
+    if len(steps) > 1 or thinned:
+        return
     if time is not None:
         column = table.columns[decision.uses["time"][0]]
         if (
@@ -170,6 +172,13 @@ def _even_time(rows: Rows, table: Table, decision: Decision, evidence: Sequence[
     rows.messages.append(
         f"time is counted by the interval of sampling, '{step.span.text[:60]}' ({step.span.where})"
     )
+
+
+def _seconds(step: Quantity) -> float:
+    """The interval [s] of an interval or a rate."""
+    rate = step.unit.dimension == "frequency"
+    value = quantity_si(step.value, step.unit.name, "Hz" if rate else "s")
+    return round(1.0 / value if rate and value else value, 12)
 
 
 def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) -> NDArray[np.bool_]:

@@ -5,12 +5,13 @@ bar``.
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Sequence
+from functools import lru_cache
 from typing import NamedTuple
 
 from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.lexicon import pattern_of, rules, word_set, words_of
-from mckibben.measurement.reading.units import Unit, number_of, unit_of
+from mckibben.measurement.reading.units import RAW, Unit, number_of, unit_of
 
 _NUMBER = r"[-+]?\d{1,9}(?:[.,]\d{1,9})?"
 _ANSWER_RANGE = re.compile(
@@ -26,10 +27,7 @@ _ANSWER_PER = re.compile(
 
 
 class Scale(NamedTuple):
-    """value [unit] = factor * (reading - offset).
-
-    ``raw`` is the unit or the name of the reading, ``name`` what the value is called; empty = not said.
-    """
+    """value [unit] = factor * (reading - offset); ``raw``: unit of the reading, empty = not said."""
 
     factor: float
     offset: float
@@ -42,56 +40,83 @@ class Scale(NamedTuple):
     name: str = ""
 
 
-def scales_in(text: str) -> Iterator[tuple[Scale, str]]:
+@lru_cache(maxsize=4096)
+def scales_in(text: str) -> tuple[tuple[Scale, str], ...]:
     """(scale, words around it) of every calibration in a text."""
     if not any(character.isdigit() for character in text):
-        return
+        return ()
+    found: list[tuple[Scale, str]] = []
     states = valve_scale(text)
     if states is not None:
-        yield states, f"valve {text}"
+        found.append((states, text))
     points = _points(text)
-    taken: list[tuple[int, int]] = []
+    taken = bytearray(len(text))
     if points is not None:
-        taken = [span for _, span in points]
+        for _, (begin, end) in points:
+            taken[begin:end] = b"x" * (end - begin)
         if (scale := _through(points)) is not None:
-            before = re.split(r"[;,](?!\d)", text[: taken[0][0]])[-1]
-            yield scale, f"{before} {text}"
+            found.append((scale, f"{_before(text, points[0][1][0])} {text}"))
+    slopes: list[tuple[Scale, re.Match[str]]] = []
     for rule in sorted((r for r in rules("text") if "scale" in r.claims), key=lambda r: -r.weight):
         for match in pattern_of(rule).finditer(text):
-            if any(match.start() < end and begin < match.end() for begin, end in taken):
-                continue
-            scale = _of_match(match, rule.id, rule.weight)
+            begin, end = match.span()
+            scale = None if any(taken[begin:end]) else _of_match(match, rule.id, rule.weight)
             if scale is not None:
-                taken.append(match.span())
-                before = re.split(r"[;,](?!\d)", text[: match.start()])[-1]
-                shift = _SHIFTED.search(text, match.end())
-                if shift is not None and shift.start() - match.end() < 4 and not scale.offset:
-                    scale = scale._replace(
-                        offset=number_of(shift["number"]) * (1.0 if shift["sign"] != "+" else -1.0)
-                    )
-                zero = next(
-                    (
-                        m
-                        for m in _POINT.finditer(text)
-                        if number_of(m["y"]) == 0.0 and number_of(m["x"]) != 0.0
-                    ),
-                    None,
-                )
-                if (
-                    zero is not None
-                    and not scale.offset
-                    and scale.rule in ("calibration_per_volt", "calibration_point")
-                ):
-                    scale = scale._replace(offset=number_of(zero["x"]))
-                at_rest = _AT_REST.search(text)
-                if at_rest is not None and not scale.offset and scale.unit in ("mm", "cm", "m", "in"):
-                    scale = scale._replace(offset=number_of(at_rest[1]))
-                yield scale, f"{before} {match[0]}"
+                taken[begin:end] = b"x" * (end - begin)
+                slopes.append((scale, match))
+    if slopes:
+        zeros = [m for m in _POINT.finditer(text) if number_of(m["y"]) == 0.0 and number_of(m["x"]) != 0.0]
+        offsets = list(_OFFSET.finditer(text))
+        at_rest = _AT_REST.search(text)
+        for scale, match in slopes:
+            near = [o for o in offsets if len(slopes) == 1 or 0 <= o.start() - match.end() < _NEAR]
+            scale = _shifted(scale, match, zeros, near)
+            if at_rest is not None and scale.unit in ("mm", "cm", "m", "in"):
+                scale = scale._replace(offset=number_of(at_rest[1]))
+            found.append((scale, f"{_before(text, match.start())} {match[0]}"))
+    return tuple(found)
 
 
+def _before(text: str, begin: int) -> str:
+    """The words before a calibration, since the last comma."""
+    return re.split(r"[;,](?!\d)", text[:begin])[-1]
+
+
+def _shifted(
+    scale: Scale, match: re.Match[str], zeros: Sequence[re.Match[str]], offsets: Sequence[re.Match[str]]
+) -> Scale:
+    """A slope with the reading that belongs to 0: taken off, stated, or by what is added behind it."""
+    text, end = match.string, match.end()
+    if scale.offset or scale.rule == _FORMULA:
+        return scale
+    shift = _SHIFTED.search(text, end)
+    if shift is not None and shift.start() - end < _NEAR:
+        return scale._replace(offset=number_of(shift["number"]) * (1.0 if shift["sign"] != "+" else -1.0))
+    if scale.rule in ("calibration_per_volt", "calibration_point"):
+        for zero in zeros:
+            unit, own = unit_of(zero["unit"]), unit_of(scale.unit)
+            if unit is not None and own is not None and unit.dimension == own.dimension:
+                return scale._replace(offset=number_of(zero["x"]))
+    if (added := _ADDED.match(text, end)) is not None:
+        more = number_of(f"{added['sign'].replace('−', '-')}{added['number']}")
+        return scale._replace(offset=-more / scale.factor)
+    return scale._replace(offset=number_of(offsets[0]["number"])) if offsets else scale
+
+
+_NEAR = 4  # characters behind a slope, in which its shift begins
 #: The reading that is taken off: "(U - 1 V)".
 _SHIFTED = re.compile(
     r"\(\s?[^\W\d]\w{0,20}\s?(?P<sign>[-−–+])\s?(?P<number>\d{1,7}(?:[.,]\d{1,6})?)\s?(?:V|mV|mA|counts?)?\s?\)"
+)
+_FORMULA = "calibration_formula"  # the rule in which a signal has its name
+#: What is added behind the slope: "2.5 bar/V * U_p - 1.25 bar".
+_ADDED = re.compile(
+    r"\s?[*·x×]\s?[^\W\d]\w{0,20}\s?(?P<sign>[-−+])\s?(?P<number>\d{1,7}(?:[.,]\d{1,6})?)(?!\s?(?:m?V|mA|counts?)(?!\w))"
+)
+#: The reading at zero, in its own unit: "offset 0.12 V".
+_OFFSET = re.compile(
+    r"(?i)(?<![^\W\d_])(?:zero|offset|null(?:punkt|wert)?|bias|d[ée]calage|nulpunt)\s?(?:=|:|of|bei|at|de)?\s?"
+    r"(?P<number>[-+]?\d{1,7}(?:[.,]\d{1,6})?)\s?(?:m?V|mA|counts?|digits?)(?![\w/])"
 )
 #: The reading at the rest length: "4 mA at the rest length", "0 V bei Ruhelänge".
 _AT_REST = re.compile(
@@ -100,16 +125,16 @@ _AT_REST = re.compile(
 )
 _STATE = re.compile(
     r"(?P<before>[^\W\d_]+)?\s?(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s?(?<![\d.,])(?P<number>-?\d{1,4}(?:[.,]\d{1,4})?)\s?(?P<raw>mV|V|mA|A|%|)(?!\w|[.,]\d)\)?"
-    r"(?=(?:\s?(?:=|≙|:|->|→|is)?\s?(?P<behind>[^\W\d_]+(?:\s[^\W\d_]+)?))?)"
+    r"(?=(?:\s?(?:=|≙|:|->|→|is)?\s?(?P<behind>[^\W\d_]+(?:\s[^\W\d_]+){0,3}))?)"
 )
 _POINT = re.compile(
     r"(?<![\d.,-])(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)\s?(?:=|->|→|≙|:|at|bei)\s?"
     r"(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}(?:\s?\((?:g|a|abs|gauge)\))?|%)(?![\w/])"
 )
 #: The same the other way round: "0 bar = 0.5 V".
-_POINT_BACK = re.compile(
-    r"(?<![\d.,-])(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}(?:\s?\((?:g|a|abs|gauge)\))?|%)\s?"
-    r"(?:=|≙|->|→|at|bei|@)\s?(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)(?![\w/])"
+_POINT_REVERSED = re.compile(
+    r"(?<![\d.,-])(?P<y>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<unit>[^\W\d_]{1,5}(?:\s?\((?:g|a|abs|gauge)\))?|%)\s?(?:=|->|→|≙|:|at|bei)\s?"
+    r"(?P<x>-?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>mV/V|mV|V|mA|counts?|digits?)(?![\w/])"
 )
 _STRAIGHT = 0.005  # of the range, that points of one line may be off
 
@@ -117,10 +142,10 @@ _STRAIGHT = 0.005  # of the range, that points of one line may be off
 def _points(text: str) -> list[tuple[tuple[float, float, str, Unit], tuple[int, int]]] | None:
     """The points ``0.5 V = 0 bar, 4.5 V = 10 bar`` of a text that has two or more in one pair of units."""
     found = []
-    ways = [list(point.finditer(text)) for point in (_POINT, _POINT_BACK)]
+    ways = [list(point.finditer(text)) for point in (_POINT, _POINT_REVERSED)]
     for match in max(ways, key=len):
         unit = unit_of(match["unit"])
-        if unit is not None and unit.dimension:
+        if unit is not None and unit.dimension not in ("", *RAW):
             found.append(((number_of(match["x"]), number_of(match["y"]), match["raw"], unit), match.span()))
     return found if len({f[0][0] for f in found}) > 1 and len({f[0][2:] for f in found}) == 1 else None
 
@@ -156,7 +181,7 @@ def valve_scale(text: str) -> Scale | None:
         state = next(filter(None, (state_of(side or "") for side in sides)), None)
         if state is not None:
             states.setdefault(state, set()).add((number_of(found["number"]), found["raw"]))
-    signals = {raw for values in states.values() for _, raw in values}
+    signals = {raw for values in states.values() for number, raw in values if raw or number} or {""}
     if len(signals) != 1 or not {"closed", "open"} <= set(states) or any(len(v) > 1 for v in states.values()):
         return None
     level = {state: next(iter(values))[0] for state, values in states.items()}
@@ -179,6 +204,8 @@ def state_of(text: str) -> str | None:
         "exhaust": "valve_exhaust|way_lengthening",
     }
     found = [state for state, names in known.items() if word_set(names).among(words)]
+    if found == ["open", "exhaust"]:
+        return "exhaust"  # "fully open to exhaust"
     return found[0] if len(found) == 1 else None
 
 
@@ -271,7 +298,11 @@ def _of_formula(match: re.Match[str], weight: float) -> Scale | None:
         return None
     head = taken_apart(match["name"])
     behind = re.match(r"\s?\[?([^\W\d_]{1,5}|%)\]?(?![^\W_])", formula.text[formula.end :])
-    unit = unit_of(match["unit"] or "") or head.unit or (unit_of(behind[1]) if behind else None)
+    unit = (
+        unit_of(match["unit"] or match["unitin"] or "")
+        or head.unit
+        or (unit_of(behind[1]) if behind else None)
+    )
     if not slope or not formula.symbol or unit is None or not unit.dimension:
         return None
     text = match[0][: match.start("formula") - match.start() + formula.end]
@@ -280,7 +311,7 @@ def _of_formula(match: re.Match[str], weight: float) -> Scale | None:
         -constant / slope,
         unit.name,
         formula.symbol,
-        "calibration_formula",
+        _FORMULA,
         weight,
         text,
         unit.absolute,
@@ -288,14 +319,23 @@ def _of_formula(match: re.Match[str], weight: float) -> Scale | None:
     )
 
 
+_MEASURED = ("pressure", "force", "length", "mass")  # what a signal per unit is of
+
+
 def _of_match(match: re.Match[str], rule: str, weight: float) -> Scale | None:
-    if rule == "calibration_formula":
+    if rule == _FORMULA:
         return _of_formula(match, weight)
     groups = match.groupdict()
     unit = unit_of(groups.get("unit") or "")
-    if unit is None or not unit.dimension:
+    if unit is None or unit.dimension in ("", *RAW):
         return None
-    value = number_of(groups["value"])
+    if groups.get("divisor"):
+        divisor = number_of(groups["divisor"])
+        if divisor == 0.0 or (rule == "calibration_inverse" and unit.dimension not in _MEASURED):
+            return None
+        value = 1.0 / divisor
+    else:
+        value = number_of(groups["value"])
     raw = unit_of(groups.get("raw") or "")
     raw_name = "" if raw is None else raw.name
     if groups.get("high"):

@@ -43,12 +43,13 @@ TRAILING = re.compile(r"\s{0,3}[\\/|]\s{0,3}")
 
 
 class Part(NamedTuple):
-    """A block of a table: its columns, what stands over it, the number in the file of each row."""
+    """A block of a table: its columns, what stands over it, the number of each row, and what was done."""
 
     columns: tuple[Column, ...]
     title: tuple[Span, ...]
     lines: NDArray[np.int64]
     bad: Mapping[int, str] = MappingProxyType({})
+    messages: tuple[str, ...] = ()
 
 
 def column_of(
@@ -107,7 +108,8 @@ def column_of(
     return made
 
 
-_MARKS = (-9999.0, -999.0, 9999.0, -99999.0, 99999.0, -999.25, 1e30, -1e30)  # of loggers for a lost reading
+_MARKS = (-9999.0, -999.0, 9999.0, -99999.0, 99999.0, -999.25, 1e30, -1e30,
+          9.9e37, 9.91e37)  # fmt: skip  # of loggers and of instruments (SCPI) for a lost reading
 _FAR = 0.5  # of a mark, below which all other readings are
 
 
@@ -123,13 +125,18 @@ def without_marks(values: NDArray[np.float64]) -> dict[int, Gap]:
         here = values == mark
         others = finite & ~here
         if here.any() and others.any() and np.max(np.abs(values[others])) < _FAR * abs(mark):
-            found |= {int(r): Gap("no reading", f"{mark:g}") for r in np.flatnonzero(here)}
+            found |= {int(r): mark_gap(mark) for r in np.flatnonzero(here)}
     usual = float(np.median(np.abs(values[finite])))
-    huge = finite & (np.abs(values) > max(1e9 * usual, 1e15))
+    huge = finite & (np.abs(values) > max(1e9 * usual, 1e15)) & ~np.isin(values, _MARKS)
     if usual > 0.0:
         found |= {int(r): Gap("out of range", f"{values[r]:g}") for r in np.flatnonzero(huge)}
     values[list(found)] = np.nan
     return found
+
+
+def mark_gap(mark: float) -> Gap:
+    """What stands where a number stands that means none."""
+    return Gap(f"{mark:g} means no reading", f"{mark:g}")
 
 
 def parts_of(run: Run, title: list[Span]) -> list[Part]:
@@ -146,9 +153,16 @@ def parts_of(run: Run, title: list[Span]) -> list[Part]:
             return parts
     wide = _tall(list(columns.values()), lines)
     if wide is not None:
-        return [Part(tuple(wide[0]), tuple(title), wide[1])]
-    made = [_carried(c) for c in _joined_times(list(columns.values()))]
-    return [Part(tuple(made), tuple(title), lines, _ragged(run))]
+        said = ("the table has one value per line: each signal is read as a column",)
+        return [Part(tuple(wide[0]), tuple(title), wide[1], messages=said)]
+    whole, messages = _joined_times(list(columns.values()))
+    made = [_carried(c) for c in whole]
+    messages += [
+        f"column '{c.head}' has a value in the first row of each block only: it counts for the rows below"
+        for c, old in zip(made, whole, strict=True)
+        if c is not old
+    ]
+    return [Part(tuple(made), tuple(title), lines, _ragged(run), tuple(messages))]
 
 
 class NeedsCellsError(Exception):
@@ -213,9 +227,10 @@ def _carried(column: Column) -> Column:
     return replace(column, values=column.values[last], gaps={})
 
 
-def _joined_times(columns: list[Column]) -> list[Column]:
-    """A clock with the milliseconds in the column beside it as one column."""
+def _joined_times(columns: list[Column]) -> tuple[list[Column], list[str]]:
+    """A clock with the milliseconds in the column beside it as one column, and what is said of it."""
     for k, (clock, beside) in enumerate(pairwise(columns)):
+        said = [f"the time is the sum of '{clock.head}' and '{beside.head}'"]
         unit = taken_apart(beside.head, beside.unit).unit
         is_ms = (
             any(text.strip().lower() == "ms" for text in beside.above)
@@ -236,7 +251,7 @@ def _joined_times(columns: list[Column]) -> list[Column]:
             and np.nanmin(clock.values) > 1e8
         ):
             values = (clock.values - clock.values[0]) + np.nan_to_num(beside.values) / fine
-            return [*columns[:k], replace(clock, values=values - values[0]), *columns[k + 2 :]]
+            return [*columns[:k], replace(clock, values=values - values[0]), *columns[k + 2 :]], said
         if (
             clock.clock
             and is_ms
@@ -247,8 +262,8 @@ def _joined_times(columns: list[Column]) -> list[Column]:
             and finite.max() < 1000.0
         ):
             values = clock.values + np.nan_to_num(beside.values) / 1000.0
-            return [*columns[:k], replace(clock, values=values - values[0]), *columns[k + 2 :]]
-    return columns
+            return [*columns[:k], replace(clock, values=values - values[0]), *columns[k + 2 :]], said
+    return columns, []
 
 
 def _ragged(run: Run) -> dict[int, str]:
@@ -586,7 +601,10 @@ def _melted(run: Run, title: list[Span]) -> Part:
         Column(across_name, second[~empty], where),
         Column(subject, third[~empty], where),
     )
-    return Part(made, tuple(title), numbers[~empty])
+    said = f"a map of {len(down)} x {len(upper)} cells: each cell is read as a row"
+    if empty.any():
+        said += f"; {int(empty.sum())} empty cells hold no reading"
+    return Part(made, tuple(title), numbers[~empty], messages=(said,))
 
 
 _FAR_ABOVE = 12  # rows above a map in which its values may be named

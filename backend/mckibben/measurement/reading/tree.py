@@ -15,6 +15,7 @@ from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_DEPTH, MAX_NODE
 from mckibben.measurement.reading.model import Sheet, Span
 from mckibben.measurement.reading.unit_lists import unit_said
 from mckibben.measurement.reading.units import unit_of
+from mckibben.physics.errors import InputError
 
 _FEWEST = 2  # values of an array
 _NAMES = ("name", "label", "title", "channel", "signal", "quantity", "id", "key")
@@ -302,7 +303,9 @@ def _of_names(
             below.append((head, value))
         elif why := _no_column(value):
             lost[head] = why
-    arrays |= _map_of(node, arrays)
+    melted, messages = _map_of(node, arrays, walk.noun)
+    arrays |= melted
+    walk.messages += messages
     if not arrays:
         for key, value in node.items():
             arrays |= _unnamed(str(key), value)
@@ -329,32 +332,49 @@ def _no_column(value: Any) -> str:
     return ""
 
 
-def _map_of(node: Mapping[str, Any], arrays: dict[str, Any]) -> dict[str, Any]:
-    """A matrix over the two vectors whose lengths are its sides, as three columns; these vectors are then
-    taken away.
+def _map_of(
+    node: Mapping[str, Any], arrays: dict[str, Any], noun: str
+) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """A matrix over the two vectors whose lengths are its sides, as three columns, and what is said of it;
+    these vectors are then taken away.
+
+    Raises:
+        InputError: either vector could be its rows.
     """
     matrices = [
         (k, v)
         for k, v in node.items()
         if isinstance(v, np.ndarray) and v.ndim == 2 and min(v.shape) > 1 and v.dtype.kind in "biuf"
     ]
+    messages = tuple(
+        f"{noun} '{k}' is not used: a matrix of {v.shape[0]} x {v.shape[1]} cells that fits no vectors"
+        for k, v in matrices
+        if k not in arrays
+    )
     if len(matrices) != 1:
-        return {}
+        return {}, messages
     name, matrix = matrices[0]
+    size = f"a map of {matrix.shape[0]} x {matrix.shape[1]} cells"
     down = [k for k, v in arrays.items() if len(v) == matrix.shape[0] and not isinstance(v[0], str)]
     across = [
         k
         for k, v in arrays.items()
         if len(v) == matrix.shape[1] and k not in down[:1] and not isinstance(v[0], str)
     ]
-    if len(down) < 1 or len(across) < 1 or (matrix.shape[0] == matrix.shape[1] and len(down) != 2):
-        return {}
+    if len(down) < 1 or len(across) < 1:
+        return {}, messages
+    if matrix.shape[0] == matrix.shape[1]:
+        raise InputError(
+            f"'{name}': {size} over {' and '.join(map(repr, down))}, either of which could be its rows",
+            field=f"{noun} {name}",
+            hint="write its cells as rows of three columns, or one row more than columns",
+        )
     first, second = np.asarray(arrays.pop(down[0]), float), np.asarray(arrays.pop(across[0]), float)
     return {
         down[0]: np.repeat(first, len(second)),
         across[0]: np.tile(second, len(first)),
         str(name): np.asarray(matrix, float).ravel(),
-    }
+    }, (f"{noun} '{name}' is {size} over '{down[0]}' and '{across[0]}': each cell is read as a row",)
 
 
 def _has_arrays(value: Any, depth: int = 0) -> bool:

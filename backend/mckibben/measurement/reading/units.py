@@ -201,16 +201,17 @@ def number_of(text: str) -> float:
     return float(re.sub("[dD]", "e", text).replace(",", ".").replace("−", "-"))
 
 
-def quantities(text: str) -> list[Quantity]:
+@lru_cache(maxsize=8192)
+def quantities(text: str) -> tuple[Quantity, ...]:
     """All quantities of a text, in their order; none overlaps another one."""
     found: list[Quantity] = []
+    taken = bytearray(len(text))
     for pattern in (_UNIT_FIRST, _UNIT_IN_NAME, _QUANTITY, _UNIT_BEFORE, _GLUED_SYMBOL):
-        found += [
-            q
-            for q in _of_pattern(pattern, text)
-            if not any(q.begin < o.end and o.begin < q.end for o in found)
-        ]
-    return sorted(found)
+        new = [q for q in _of_pattern(pattern, text) if not any(taken[q.begin : q.end])]
+        for q in new:
+            taken[q.begin : q.end] = b"x" * (q.end - q.begin)
+        found += new
+    return tuple(sorted(found))
 
 
 def _of_pattern(pattern: re.Pattern[str], text: str) -> Iterator[Quantity]:
