@@ -68,7 +68,7 @@ def test_an_offset_in_the_unit_of_the_result_is_asked_about() -> None:
 
 def test_two_calibrations_of_one_column_are_none() -> None:
     rows = table(TIME, PRESSURE, FORCE / 200.0, STROKE)
-    with pytest.raises(InputError, match=r"several scales, 'F \[N\] = 200\*U_F' \(line 2\) and"):
+    with pytest.raises(InputError, match=r"two scales for .*'F \[N\] = 200\*U_F' \(line 2\) and"):
         read(f"{REST}# F [N] = 200*U_F\n# F [N] = 210*U_F\nt [s],p [bar],U_F [V],s [mm]\n{rows}")
 
 

@@ -222,7 +222,9 @@ def test_a_mostly_slack_muscle_is_read_without_its_empty_rows() -> None:
     result = read_measurement("\n".join(["length_mm,pressure_bar,force_N", *rows]).encode(), "a.csv")
     assert result.columns["force"].tolist() == [force for _, force in forces if force > 0]
     assert any("34 rows left out: an empty cell (first: row 28" in said for said in result.messages)
-    with pytest.raises(InputError, match=r"row 6, column 'force_N': an empty cell, and in 8 rows"):
+    with pytest.raises(
+        InputError, match=r"row 6, column 'force_N': the cell is empty, and 8 rows have no number"
+    ):
         read_measurement(
             "\n".join(["length_mm,pressure_bar,force_N", *rows[22:34]]).encode(), "a.csv"
         )  # too few are left

@@ -167,7 +167,8 @@ def _packed(data: bytes, name: str, *, packed: bool) -> list[Sheet]:
                 sheets = _workbook(data, name)
                 pictures = any(n.startswith("xl/media/") for n in names)
                 return [
-                    replace(s, messages=(_PICTURE,) if pictures and s is sheets[0] else ()) for s in sheets
+                    replace(s, messages=(*s.messages, _PICTURE)) if pictures and s is sheets[0] else s
+                    for s in sheets
                 ]
             if names and all(n.endswith(".npy") for n in names):
                 raise _no_table(name, "an archive of numpy's arrays (.npz)")

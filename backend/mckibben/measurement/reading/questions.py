@@ -578,7 +578,8 @@ def _times(reading: Reading) -> Iterator[Question]:
         return
     i = reading.decision.uses["time"][0]
     for j, other in enumerate(reading.table.columns):
-        if j == i or j in reading.known.chosen or bare(other) != bare(column) or other.unit != column.unit:
+        alike = taken_apart(other.head).name == taken_apart(column.head).name and other.unit == column.unit
+        if j == i or j in reading.known.chosen or not alike:
             continue
         a, b = column.values, other.values
         both = np.isfinite(a) & np.isfinite(b)

@@ -297,7 +297,7 @@ def _of_formula(match: re.Match[str], weight: float) -> Scale | None:
     except ValueError:
         return None
     head = taken_apart(match["name"])
-    behind = re.match(r"\s?\[?([^\W\d_]{1,5}|%)\]?(?![^\W_])", formula.text[formula.end :])
+    behind = re.match(r"\s?[\[(]?([^\W\d_]{1,5}|%)[\])]?(?![^\W_])", formula.text[formula.end :])
     unit = (
         unit_of(match["unit"] or match["unitin"] or "")
         or head.unit
