@@ -85,7 +85,7 @@ def test_a_content_stays_as_long_as_one_reading_of_it_is_kept(client: TestClient
     client.delete(f"/api/kept/files/{plain}")
     store = MeasurementStore(tmp_path / "data", quota=0)
     with pytest.raises(InputError, match="of 0 MB"):  # it removed for good what it could
-        store.put(CSV + b"1;2;3\n", "other.csv")
+        store.put(CSV + b"1;282;120\n", "other.csv")
     assert store.deleted() == []
     assert client.get(f"/api/measurements/{corrected}").status_code == 200
     assert_error(client.post(f"/api/kept/files/{plain}/restore"), 404)
