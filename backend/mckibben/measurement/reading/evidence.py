@@ -202,6 +202,7 @@ def _of_cells(i: int, column: Column, unit: Unit | None, span: Span) -> list[Evi
     low, high = float(np.min(values)), float(np.max(values))
     steps = np.diff(values)
     even = len(values) >= _LONG_RECORD and steps[0] > 0.0 and np.ptp(steps) <= 1e-3 * steps[0]
+    even = even and not found  # a running number
     if even and unit is None and not head_claims(column.head[:200]):
         since = Span(span.where, f"grows by {steps[0]:.6g} from row to row")
         found.append(Evidence(i, "channel", "time", _EVEN, since, "even steps"))
@@ -228,6 +229,7 @@ class _Context(NamedTuple):
     quantity: Quantity
     before: tuple[str, ...]
     behind: tuple[str, ...]
+    further: tuple[str, ...]
     pressed: bool
 
 
@@ -243,12 +245,14 @@ def _contexts(text: str) -> list[_Context]:
         before = next((p for p in reversed(pieces) if any(w != quantity.unit.name for w in words_of(p))), "")
         upto = found[k + 1].begin if k + 1 < len(found) else len(text)
         begin = quantity.end
-        behind = _BEHIND_UPTO.split(text[begin : min(upto, begin + 60)].lstrip(" ("))[0]
+        behind, *more = _BEHIND_UPTO.split(text[begin : min(upto, begin + 60)].lstrip(" ("))
+        whole = upto == len(text) or len(more) > 1  # no clause of the next quantity
         contexts.append(
             _Context(
                 quantity,
                 words_of(before),
                 words_of(behind),
+                words_of(more[0]) if more and whole else (),
                 _AT_PRESSURE.match(text, quantity.end) is not None,
             )
         )
@@ -273,7 +277,9 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         absolute = REFERENCES.get(folded(str(noted.value)), str(noted.value).lower().startswith("abs"))
         found.append(Evidence(FILE, "absolute", absolute, 6.0, span, "note"))
     if noted is not None and noted.facet == "condition:muscle":
-        found[-1] = noted._replace(value=re.split(r"[,;]\s", str(noted.value))[0])
+        plain = re.split(r"[,;]\s", str(noted.value))[0]
+        codes = (e.value for e in of_code(span) if e.facet == "condition:muscle" and " " in plain)
+        found[-1] = noted._replace(value=next(codes, plain))
     found += _of_clauses(span, table)
     claims = (_of_quantity(context, target, span) for context in _contexts(text))
     found += [claim for claim in claims if claim is not None]
@@ -345,11 +351,12 @@ def _of_clauses(span: Span, table: Table) -> list[Evidence]:
     text = _SIGN_BEHIND.sub(lambda m: " plus" if m["sign"] else " minus", text)
     text = _SIGN_BEFORE.sub(lambda m: " plus " if m["sign"] == "+" else " minus ", text)
     owner = _column_named(text, table)
-    for clause in _CLAUSES.split(text):
+    pieces = [(rules("clause"), clause) for clause in _CLAUSES.split(text)]
+    for those, clause in (*pieces, (rules("sentence"), text)):
         words = words_of(clause)
         if not words or len(words) > 40:
             continue
-        for rule in rules("clause"):
+        for rule in those:
             if all(word_set(name).among(words) for name in rule.needs) and not any(
                 word_set(n).among(words) for n in rule.without
             ):
@@ -382,7 +389,8 @@ def _of_quantity(context: _Context, target: int, span: Span) -> Evidence | None:
     best: Evidence | None = None
     quantity, before, behind = context.quantity, context.before, context.behind
     for rule in rules("quantity"):
-        if quantity.unit.dimension not in rule.dimension or not _fires(rule, before, behind):
+        after = behind or context.further if rule.both else behind
+        if quantity.unit.dimension not in rule.dimension or not _fires(rule, before, after):
             continue
         ((facet, key),) = rule.claims.items()
         if context.pressed and key == "nominal_length":

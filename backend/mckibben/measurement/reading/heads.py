@@ -245,6 +245,9 @@ def head_claims(head: str, unit_below: str = "") -> tuple[Claim, ...]:
     found = [
         c for c in _of_words(words) if not (needed := _DIMENSIONS.get(c.rule, ())) or dimension in needed
     ]
+    for rule in rules("head"):
+        if rule.pattern is not None and rule.pattern.match(head.strip()):
+            found += [Claim(facet, value, rule.weight, rule.id) for facet, value in rule.claims.items()]
     if _DESIRED.search(name):
         found.append(Claim("role", "set value", 4.0, "desired"))
     if dimension in RAW:

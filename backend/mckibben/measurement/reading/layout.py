@@ -176,6 +176,7 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
     for run in alike:
         title = [*run.title, *([Span(f"sheet '{run.sheet.name}'", run.sheet.name)] if several else [])]
         parts += parts_of(run, title)
+    parts = _with_results(parts, [run for run in runs if not any(run is one for one in alike)])
     texts = [t for s in sheets for t in s.texts] + _texts(sheets, used)
     if best.sheet.name and not several:
         texts.append(Span(f"name of sheet '{best.sheet.name}'", best.sheet.name))
@@ -208,6 +209,34 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         messages=(*(m for s in sheets for m in s.messages), *_below(alike, best)),
         headless=not any(best.heads.values()),
     )
+
+
+def _with_results(parts: list[Part], others: Sequence[Run]) -> list[Part]:
+    """Blocks with what a table of the file has in the row that is called like them: "Probe 1", 3.5 bar."""
+    names = [[span.text.strip().casefold() for span in part.title] for part in parts]
+    for run in others if len(parts) > 1 else ():
+        labels = {_text(run.sheet.rows[r][0]).casefold(): r for r in run.rows if run.sheet.rows[r]}
+        rows = [next((labels[name] for name in own if name in labels), None) for own in names]
+        if None not in rows and len(set(rows)) == len(rows):
+            return [
+                part._replace(title=(*part.title, *_stated_in(run, row)))
+                for part, row in zip(parts, rows, strict=True)
+                if row is not None
+            ]
+    return parts
+
+
+def _stated_in(run: Run, row: int) -> list[Span]:
+    """The cells of a row with their heads and units, statistics left out."""
+    cells = run.sheet.rows[row]
+    return [
+        Span(run.sheet.place(row), f"{run.heads[c]}: {_text(cells[c])} {run.units.get(c, '')}".strip())
+        for c in run.columns
+        if c < len(cells)
+        and kind_of(cells[c]) == NUMBER
+        and run.heads.get(c)
+        and not word_set("statistic").among(words_of(run.heads[c]))
+    ]
 
 
 def _below(alike: Sequence[Run], best: Run) -> list[str]:
@@ -388,7 +417,10 @@ def _runs(sheet: Sheet) -> list[Run]:
     found: list[Run] = []
     current: Run | None = None
     gap: list[int] = []
+    upto = 0
     for i, row in enumerate(sheet.rows):
+        if i < upto:
+            continue
         places, texts, first, marks = _kinds(row)
         is_data = len(places) >= 2 and texts <= len(places) and not _is_statistic(first)
         if is_data and first and gap and _is_statistic(_kinds(sheet.rows[gap[-1]])[2]):
@@ -414,7 +446,8 @@ def _runs(sheet: Sheet) -> list[Run]:
         if is_data and texts and first and current is None:
             is_data = _goes_on(sheet, i, places)
         if not is_data:
-            if current is not None and _is_head_again(current, i):
+            if current is not None and (count := _page_head(current, i)):
+                upto = i + count
                 continue
             if current is not None:
                 gap.append(i)
@@ -442,18 +475,29 @@ def _runs(sheet: Sheet) -> list[Run]:
     return long or [run for run in found if len(run.rows) >= 1 and len(run.columns) > 1]
 
 
-def _is_head_again(run: Run, i: int) -> bool:
-    """Whether a row repeats the head of a run, and the first column counts on below it: it is printed once a
-    page.
+def _page_head(run: Run, i: int) -> int:
+    """Number of rows from a row on that stand above the run as well, where the first column counts on below
+    them: the head of a page; 0 = there is none.
     """
     rows, first = run.sheet.rows, run.rows[0]
-    if first == 0 or i + 1 >= len(rows) or len(run.rows) < 2 or rows[i] != rows[first - 1]:
-        return False
-    style = NumberStyle(run.sheet.decimal, run.sheet.thousands)
-    before, last, below = numbers_of([rows[r][0] if rows[r] else "" for r in (*run.rows[-2:], i + 1)], style)[
-        0
-    ]
-    return bool(before < last < below)
+    for count in range(1, min(_LOOK, first, len(rows) - i - 1) + 1):
+        if not all(_is_printed_again(rows[first - 1 - k], rows[i + count - 1 - k]) for k in range(count)):
+            continue
+        style = NumberStyle(run.sheet.decimal, run.sheet.thousands)
+        counts = [rows[r][0] if rows[r] else "" for r in (*run.rows[-2:], i + count)]
+        before, last, below = numbers_of([*[""] * (3 - len(counts)), *counts], style)[0]
+        if last - before == below - last or (count == 1 and before < last < below):
+            return count
+    return 0
+
+
+def _is_printed_again(row: Sequence[Cell], other: Sequence[Cell]) -> bool:
+    """Whether two rows are the same but for numbers without a unit, as those of pages."""
+    if list(row) == list(other):
+        return True
+    a, b = sentence(row), sentence(other)
+    same = [(q.value, q.unit) for q in quantities(a)] == [(q.value, q.unit) for q in quantities(b)]
+    return same and re.sub(r"\d+", "#", a) == re.sub(r"\d+", "#", b)
 
 
 def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
@@ -662,6 +706,16 @@ def _is_row_of_values(row: Sequence[Cell]) -> bool:
     return len(filled) > 1 and len(values) > 0.5 * len(filled)
 
 
+def _is_statement(row: Sequence[Cell]) -> bool:
+    """Whether the cells of a row are a name, its value and its unit: "Muskellänge", "237,5", "mm"."""
+    filled = [c for c in row if c != ""]
+    return (
+        [kind_of(c) for c in filled] == [TEXT, NUMBER, TEXT]
+        and unit_of(str(filled[0])) is None
+        and unit_of(str(filled[2])) is not None
+    )
+
+
 def _second_row(run: Run) -> None:
     """A row of units and of names with units below the heads: "Druck" over "Soll [bar]" and "Ist [bar]"."""
     rows = run.sheet.rows
@@ -696,7 +750,11 @@ def _candidates(run: Run) -> list[int]:
         if not filled:
             if found:
                 break
-        elif len(filled) >= max(2, _HEAD_SHARE * len(run.columns)) and not _is_numeric(rows[i]):
+        elif (
+            len(filled) >= max(2, _HEAD_SHARE * len(run.columns))
+            and not _is_numeric(rows[i])
+            and not _is_statement(rows[i])
+        ):
             found.append(i)
         elif found:
             if (

@@ -497,7 +497,7 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
         chosen = [columns[places[k]] for places in many]
         block = [
             *shared,
-            *(replace(c, head=_without_quantity(c.head) or corner or subject) for c in chosen),
+            *(replace(c, head=_name_of_values(c.head, corner or subject)) for c in chosen),
         ]
         keep = ~np.all([np.isnan(c.values) for c in chosen], axis=0)
         over = [Span(c.where, c.head) for c in chosen]
@@ -510,6 +510,15 @@ def _labelled(column: Column, columns: Mapping[int, Column]) -> Column:
     again = sum(other.head == column.head for other in columns.values()) > 1
     over = next((text for text in column.above if quantities(text)), "") if again else ""
     return replace(column, head=f"{column.head} {over}") if over else column
+
+
+def _name_of_values(head: str, subject: str) -> str:
+    """What the values below a head are that names a quantity: "F @ 2 bar [N]" is "F [N]"; "Charge 50 N" names
+    the load alone, and what stands elsewhere names the values.
+    """
+    rest = _without_quantity(head)
+    own = {q.unit.dimension for q in quantities(head.replace("_", " "))}
+    return rest if rest and not (subject and _channels([rest]) and _channels([rest]) <= own) else subject
 
 
 def _without_quantity(head: str) -> str:
