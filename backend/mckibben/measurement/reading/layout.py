@@ -52,6 +52,7 @@ _POOR_HEADS = 0.8  # nats a column, below which other names are looked for
 _EMPTY_HEADS = 2.0  # score of a run without heads
 _MOST_OF_A_HEAD = 3.0  # what one head adds to the score of its run
 _SHOWN_ROWS, _SHOWN_BELOW, _SHOWN_ABOVE, _SHOWN_CELLS, _SHOWN_LENGTH = 60, 8, 20, 60, 80
+_COMMENTS = ("#", "%", "!", "/", '"', "'", ";")
 _LONGEST_HEAD = 300  # characters of a head
 _LONGEST_WORDS = 32  # characters of a cell of a row that groups columns
 _QUANTITY = re.compile(r"\s*[-+]?[0-9.,]+\s*\S{0,12}\s*")
@@ -206,7 +207,7 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         tables=tables if len(tables) > 1 else (),
         rivals=rivals,
         raw=_shown(best.sheet, best.head_row),
-        messages=(*(m for s in sheets for m in s.messages), *_below(alike, best)),
+        messages=(*(m for s in sheets for m in s.messages), *_between(alike), *_below(alike, best)),
         headless=not any(best.heads.values()),
     )
 
@@ -237,6 +238,22 @@ def _stated_in(run: Run, row: int) -> list[Span]:
         and run.heads.get(c)
         and not word_set("statistic").among(words_of(run.heads[c]))
     ]
+
+
+def _between(alike: Sequence[Run]) -> list[str]:
+    """What is said of words between the rows of a table."""
+    found = [
+        (run.sheet, i)
+        for run in alike
+        for i in run.remarks
+        if run.rows[0] < i < run.rows[-1]
+        and not str(run.sheet.rows[i][0]).startswith(_COMMENTS)
+        and not _is_statistic(_kinds(run.sheet.rows[i])[2])
+    ]
+    if not found:
+        return []
+    shown = ", ".join(f"'{sentence(sheet.rows[i])[:40]}' (row {sheet.line(i)})" for sheet, i in found[:3])
+    return [f"{len(found)} rows between the readings hold words and are not read: {shown}"]
 
 
 def _below(alike: Sequence[Run], best: Run) -> list[str]:
@@ -443,6 +460,8 @@ def _runs(sheet: Sheet) -> list[Run]:
             and current is not None
         ):
             is_data = set(places) <= set(current.columns)
+        if not is_data and current is not None and _is_part_of_row(current, i):
+            is_data = set(places) <= set(current.columns)
         if is_data and texts and first and current is None:
             is_data = _goes_on(sheet, i, places)
         if not is_data:
@@ -473,6 +492,18 @@ def _runs(sheet: Sheet) -> list[Run]:
         found.append(current)
     long = [run for run in found if len(run.rows) >= 3]
     return long or [run for run in found if len(run.rows) >= 1 and len(run.columns) > 1]
+
+
+_DIGITS = re.compile(r"[-+\d.,;|eE\s]*\d[-+\d.,;|eE\s]*")
+
+
+def _is_part_of_row(run: Run, i: int) -> bool:
+    """Whether a line of a text right below a row of numbers is numbers as well: a row that breaks off, or is
+    parted by other signs.
+    """
+    text = " ".join(str(c) for c in run.sheet.rows[i])
+    below = len(run.rows) > 1 and run.rows[-1] == i - 1 and run.sheet.noun == "line"
+    return below and run.sheet.format == "csv" and _DIGITS.fullmatch(text) is not None
 
 
 def _page_head(run: Run, i: int) -> int:

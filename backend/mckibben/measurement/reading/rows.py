@@ -185,7 +185,7 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
     first: dict[int, tuple[int, str, str]] = {}
     for i in places:
         for r, gap in table.columns[i].gaps.items():
-            if not empty[r] and r not in first:
+            if not empty[r] and (r not in first or gap.reason == "short"):
                 first[r] = (i, gap.reason, gap.text)
     missing: list[tuple[int, str, str, int]] = []
     cut = sum(reason == "short" for _, reason, _ in first.values()) * _MOST_CUT <= keep.sum()

@@ -267,6 +267,10 @@ def _ragged(run: Run) -> dict[int, str]:
     }
 
 
+def _too_short(cells: int, width: int) -> str:
+    return f"{cells} {'cell' if cells == 1 else 'cells'}, the header has {width}"
+
+
 def _columns(run: Run) -> dict[int, Column]:
     sheet, rows = run.sheet, run.sheet.rows
     width = min(1000, max([len(rows[r]) for r in run.rows[:200]] + [c + 1 for c in run.heads]))
@@ -296,7 +300,7 @@ def _columns(run: Run) -> dict[int, Column]:
                     column,
                     gaps={
                         **column.gaps,
-                        **{k: Gap("short", f"{n} cells, the header has {width}") for k, n in short.items()},
+                        **{k: Gap("short", _too_short(n, width)) for k, n in short.items()},
                     },
                 )
             found[c] = column
