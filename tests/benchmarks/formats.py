@@ -26,7 +26,7 @@ from tests.measurement.reading.sealed_files import WRITERS, LabFile, differs
 CORPUS = Path(__file__).parents[3] / "shared" / "data" / "lab-formats"
 CLASSES = ("right", "asked", "refused", "part", "wrong", "crashed")
 SAME = 1e-6  # of the largest value
-EXTRAS = ("temperature", "velocity", "diameter")  # columns of files that an index need not list
+EXTRAS = ("temperature", "velocity", "diameter", "command")  # columns of files that an index need not list
 AS_PRINTED = "absolute pressures as printed"  # of an entry whose index does not subtract the air from them
 _KEYS = {
     "rest_length": "nominal_length", "load_mass": "load_mass", "supply_pressure": "supply_pressure",

@@ -147,12 +147,23 @@ def of_column(i: int, column: Column) -> list[Evidence]:
     for text in column.above:
         found += [_from_claim(i, c, Span(column.where, text), _OVER) for c in head_claims(text[:200])]
     for text in column.described:
+        where = Span(column.where, text)
+        scales = [scale for scale, _ in scales_in(text[:MAX_TEXT])]  # "p 1 bar/V (gauge)"
+        found += [Evidence(i, "scale", scale, scale.weight, where, scale.rule) for scale in scales]
         found += [
-            _from_claim(i, c, Span(column.where, text), 0.9)
-            for c in head_claims(text[:200])
+            _from_claim(i, c, where, 0.9)
+            for c in (
+                head_claims(text.replace(scales[0].text, "")[:200], scales[0].unit)
+                if scales
+                else head_claims(text[:200])
+            )
             if c.facet != "role" or c.value == "set value"
         ]
     absolute = taken_apart(column.head, column.unit).absolute
+    share = taken_apart(column.head, column.unit).share
+    if unit is not None and share != 1.0:
+        part = Scale(share, 0.0, unit.name, rule="part of a unit", text=column.unit or column.head)
+        found.append(Evidence(i, "scale", part, part.weight, span, part.rule))
     texts = [t for t in (*column.above, *column.described) if absolute is None]
     for text in texts:
         absolute = taken_apart(text[:200]).absolute if absolute is None else absolute
@@ -278,7 +289,7 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         found.append(Evidence(FILE, "absolute", absolute, 6.0, span, "note"))
     if noted is not None and noted.facet == "condition:muscle":
         plain = re.split(r"[,;]\s", str(noted.value))[0]
-        codes = (e.value for e in of_code(span) if e.facet == "condition:muscle" and " " in plain)
+        codes = (e.value for e in of_code(span) if e.facet == "condition:muscle")
         found[-1] = noted._replace(value=next(codes, plain))
     found += _of_clauses(span, table)
     claims = (_of_quantity(context, target, span) for context in _contexts(text))

@@ -42,7 +42,7 @@ from mckibben.measurement.reading.shapes import (
 from mckibben.measurement.reading.units import RAW, quantities, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 
-_ABOVE = 6  # rows above a run that may be its heads
+_ABOVE = 8  # rows above a run that may be its heads
 _LOOK = 25  # rows above in which a labelled row of units or of descriptions is looked for
 _GAP = 3  # rows without numbers that a run goes on behind
 _INSIDE = 0.5  # share of the numbers of a row that stand where those of the run do
@@ -452,6 +452,12 @@ def _runs(sheet: Sheet) -> list[Run]:
             is_data = False
         if is_data and texts == len(places) and current is not None and len(current.rows) > 2 and first:
             is_data = _was_labelled(current)
+        if is_data and first and gap and current is not None and not _was_labelled(current):
+            words_above = any(any(c != "" for c in sheet.rows[g]) for g in gap)
+            words_below = i + 1 < len(sheet.rows) and _kinds(sheet.rows[i + 1])[2] != ""
+            is_data = not (words_above and words_below)  # the head of a next block
+        if is_data and first and texts > 1 and texts == len(places):
+            is_data = len({str(c) for c in row if kind_of(c) == TEXT}) > 1  # "Offset", 0, "Offset", 0
         if (
             not is_data
             and len(places) >= 1
@@ -638,6 +644,7 @@ def _head(run: Run, wanted: int | None) -> None:
     else:
         _labelled_units(run)
     _descriptions(run)
+    _labelled_names(run)
     said = sum(_MOST_OF_A_HEAD if quantities(h) else head_score(h) for h in run.heads.values())
     if not run.described and said < _POOR_HEADS * len(run.columns):
         _listed_names(run)
@@ -708,7 +715,9 @@ def _completed(run: Run) -> None:
                 if unit_of(head) is not None:
                     run.units.setdefault(c, head)
             elif re.fullmatch(r"(?i)(?:ch|ai|chan|channel|kanal)[ _]?\d{1,2}", other) and other not in head:
-                run.heads[c] = f"{other} {head}"
+                if unit_of(head) is not None:
+                    run.units.setdefault(c, head)
+                run.heads[c] = other if unit_of(head) is not None else f"{other} {head}"
 
 
 def _shift_heads(run: Run) -> None:
@@ -891,6 +900,26 @@ def _labelled_units(run: Run) -> None:
             shift = 1 if run.columns and run.columns[0] == 0 and len(cells) - 1 < len(run.columns) else 0
             run.units = {c: _text(u) for c, u in zip(run.columns[shift:], cells[1:], strict=False)}
             run.unit_row = i
+            return
+
+
+def _labelled_names(run: Run) -> None:
+    """A row further above that begins with a word for names, and has one text for each column or for all but
+    the first: it describes them.
+    """
+    rows = run.sheet.rows
+    for i in range(run.rows[0] - 1, max(-1, run.rows[0] - _LOOK), -1):
+        cells = [_text(c) for c in rows[i] if c != ""]
+        missing = len(run.columns) - len(cells) + 1
+        if (
+            i not in run.above
+            and len(cells) > 2
+            and missing in (0, 1)
+            and word_set("name_row").among(words_of(cells[0][:40])[:1])
+            and any(head_score(c[:200]) > 0.0 for c in cells[1:])
+        ):
+            for c, text in zip(run.columns[missing:], cells[1:], strict=True):
+                run.described[c] = (*run.described.get(c, ()), text)
             return
 
 

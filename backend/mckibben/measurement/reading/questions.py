@@ -35,7 +35,7 @@ from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Span, Table, Use
 from mckibben.measurement.reading.named import is_isometric
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
-from mckibben.measurement.reading.rows import Rows
+from mckibben.measurement.reading.rows import Rows, counts_rows
 from mckibben.measurement.reading.scales import Scale
 from mckibben.measurement.reading.scatter import is_sensed
 from mckibben.measurement.reading.units import (
@@ -896,6 +896,30 @@ def _counted(reading: Reading) -> Iterator[Question]:
         return
 
 
+def _cycles(reading: Reading) -> Iterator[Question]:
+    """Cycles that count on in each row of a test without time: of the controller, of unknown length."""
+    channels = reading.rows.channels
+    moving = [c for c in ("pressure", "force", *STROKES) if c in channels and _sweeps(channels[c])]
+    for i, column in enumerate(reading.table.columns if len(moving) > 1 else ()):
+        named = any(e.facet == "channel" and e.value == "group" for e in reading.own(i))
+        if "time" in channels or i in reading.known.chosen or not named or not counts_rows(column.values):
+            continue
+        yield Question(
+            "unit of time",
+            f"{reading.label(column)} counts on in each row, and no text states how long one is; the "
+            "test has no other time",
+            f"{option_of('time', column, '1 count = 10 ms')} or {ignore_option(bare(column))}",
+            column.head,
+            None,
+            ("time", "ignore"),
+        )
+        return
+
+
+def _sweeps(values: Array) -> bool:
+    return bool(np.ptp(values) > _SWING * np.max(np.abs(values)))
+
+
 def _stated_zeros(reading: Reading) -> Iterator[Question]:
     """A reading at true zero that a text states without saying whether the readings contain it, or twice."""
     applied = {e.facet for e in reading.evidence if e.facet.startswith("zero:")}
@@ -1263,7 +1287,7 @@ Policy = Callable[[Reading], Iterator[Question]]
 POLICIES: tuple[Policy, ...] = (
     _units, _unnamed, _headless, _unread, _scales, _seconds,
     _set_point, _by_valve, _counted, _specimens, _signs,
-    _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
+    _cycles, _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
 )  # fmt: skip
 #: Asked always.
 ALWAYS: tuple[Policy, ...] = (

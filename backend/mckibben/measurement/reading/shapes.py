@@ -148,7 +148,10 @@ def parts_of(run: Run, title: list[Span]) -> list[Part]:
     if wide is not None:
         return [Part(tuple(wide[0]), tuple(title), wide[1])]
     made = [_carried(c) for c in _joined_times(list(columns.values()))]
-    return [Part(tuple(made), tuple(title), lines, _ragged(run))]
+    said = [
+        Span(c.where, c.words[0]) for c in made if c.words and c.words[0].strip() and not any(c.words[1:])
+    ]
+    return [Part(tuple(made), (*title, *said), lines, _ragged(run))]
 
 
 class NeedsCellsError(Exception):
