@@ -1,4 +1,4 @@
-"""Habits that benches and controllers taught: printed pages, scatter, tenths of units, cycles, broken rows."""
+"""Habits of benches and controllers: printed pages, scatter, tenths of units, cycles, broken rows."""
 
 from __future__ import annotations
 
