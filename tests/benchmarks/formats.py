@@ -128,7 +128,8 @@ def _examined(entry: Mapping[str, Any], read: Measurement) -> tuple[list[str], l
     for item in entry["states"]:
         key = _KEYS.get(item["what"])
         value = read.conditions.get(key) if key else None
-        if key and (value is None or not _same(value, item["value"])):
+        as_printed = isinstance(value, str) and value in item["as"]
+        if key and (value is None or not (as_printed or _same(value, item["value"]))):
             missing.append(f"{item['what']} ({item['where']}): {value!r}")
     return wrong, missing
 

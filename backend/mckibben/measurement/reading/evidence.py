@@ -190,7 +190,7 @@ def _unit_of(column: Column) -> Unit | None:
     """The unit of a column, in its head, below it, or in the row that describes it."""
     unit = taken_apart(column.head, column.unit).unit
     if unit is None:
-        for text in (*column.described, *column.above):
+        for text in (*column.described, *(t for t in column.above if not quantities(t))):
             unit = unit or unit_of(text) or taken_apart(text[:200]).unit
     return unit
 
@@ -239,6 +239,7 @@ class _Context(NamedTuple):
 
     quantity: Quantity
     before: tuple[str, ...]
+    label: tuple[str, ...]
     behind: tuple[str, ...]
     further: tuple[str, ...]
     pressed: bool
@@ -252,7 +253,8 @@ def _contexts(text: str) -> list[_Context]:
     begin = 0
     contexts = []
     for k, quantity in enumerate(found):
-        pieces = re.split(r"[;,](?!\d)(?![^()]{0,60}\))", text[begin : quantity.begin])
+        label = text[begin : quantity.begin]  # "L at rest, vented: 28 cm"
+        pieces = re.split(r"[;,](?!\d)(?![^()]{0,60}\))", label)
         before = next((p for p in reversed(pieces) if any(w != quantity.unit.name for w in words_of(p))), "")
         upto = found[k + 1].begin if k + 1 < len(found) else len(text)
         begin = quantity.end
@@ -262,6 +264,7 @@ def _contexts(text: str) -> list[_Context]:
             _Context(
                 quantity,
                 words_of(before),
+                words_of(label) if before.rstrip().endswith(":") else (),
                 words_of(behind),
                 words_of(more[0]) if more and whole else (),
                 _AT_PRESSURE.match(text, quantity.end) is not None,
@@ -399,6 +402,9 @@ def _of_quantity(context: _Context, target: int, span: Span) -> Evidence | None:
     """What a quantity is, by the words around it: the claim with most weight."""
     best: Evidence | None = None
     quantity, before, behind = context.quantity, context.before, context.behind
+    if context.label and context.label != before:
+        plain = _of_quantity(context._replace(label=()), target, span)
+        return plain or _of_quantity(context._replace(before=context.label, label=()), target, span)
     for rule in rules("quantity"):
         after = behind or context.further if rule.both else behind
         if quantity.unit.dimension not in rule.dimension or not _fires(rule, before, after):

@@ -16,7 +16,7 @@ _WITHIN = re.compile(r"[\[({<]([^\[\](){}<>]{1,40}(?:\([^()]{0,20}\))?)[\])}>](?
 _BEHIND = (
     re.compile(r"([^/]+)\s?/\s?([^/]+)"),
     re.compile(r"(.+),\s?([^,]+)"),
-    re.compile(r"(.+)\sin\s(\S+)"),
+    re.compile(r"(.+)\s(?:in|en|em|v|w)\s(\S+)"),
     re.compile(r"([^:]+):\s?(\S{1,8})"),
 )
 _SURE = frozenset([

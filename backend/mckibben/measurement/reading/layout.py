@@ -56,6 +56,7 @@ _COMMENTS = ("#", "%", "!", "/", '"', "'", ";")
 _LONGEST_HEAD = 300  # characters of a head
 _LONGEST_WORDS = 32  # characters of a cell of a row that groups columns
 _QUANTITY = re.compile(r"\s*[-+]?[0-9.,]+\s*\S{0,12}\s*")
+_NOTES = 0.5  # of the rows of a table, that notes beside it fill
 _LABELS = 3  # rows of labels, from which a column of them is one
 _HINT = "e.g. a header 'pressure_bar,length_mm,force_N'"
 
@@ -89,10 +90,11 @@ def table_of(
         beside = [replace(s, rows=s.rows[:200], arrays=None) for s in sheets if not others.get(s.name, True)]
         table = table_of([*chosen, *beside], name, head=head)
         return replace(table, tables=tuple(titles) if len(titles) > 1 else ())
-    named = [s for s in sheets if s.arrays is not None]
+    named = [_with_units_of_values(s) for s in sheets if s.arrays is not None]
     if named:
+        sheets = [_with_units_of_values(s) for s in sheets]
         return _of_named(named, sheets, name)
-    grids = [without_statistics(cornered(transposed(s))) for s in sheets]
+    grids = [without_notes(without_statistics(cornered(transposed(s)))) for s in sheets]
     grids = [
         s.whole() if s.whole is not None and s is not old else s for s, old in zip(grids, sheets, strict=True)
     ]
@@ -139,6 +141,21 @@ def table_of(
     return table
 
 
+def _with_units_of_values(sheet: Sheet) -> Sheet:
+    """A sheet with "p: 1" and "p_unit: bar" of one place as "p: 1 bar"."""
+    units = {
+        span.where.rpartition(mark)[0]: span.text.rpartition(": ")[2]
+        for span in sheet.texts
+        for mark in ("_unit", ".unit")
+        if span.where.lower().endswith(mark)
+    }
+    texts = [
+        Span(span.where, f"{span.text} {units[span.where]}") if span.where in units else span
+        for span in sheet.texts
+    ]
+    return replace(sheet, texts=tuple(texts)) if units else sheet
+
+
 _CELL_WITH_UNIT = re.compile(r"([-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")
 
 
@@ -173,12 +190,16 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         if row is not None
     }
     several = len({id(run.sheet) for run in alike}) > 1
+    own = [{note.text for note in run.sheet.notes} for run in alike]
+    common = set[str]().union(*own) if not several else set[str].intersection(*own)
     parts: list[Part] = []
     for run in alike:
-        title = [*run.title, *([Span(f"sheet '{run.sheet.name}'", run.sheet.name)] if several else [])]
+        title = [*run.title, *(note for note in run.sheet.notes if note.text not in common)]
+        title += [Span(f"sheet '{run.sheet.name}'", run.sheet.name)] if several else []
         parts += parts_of(run, title)
     parts = _with_results(parts, [run for run in runs if not any(run is one for one in alike)])
     texts = [t for s in sheets for t in s.texts] + _texts(sheets, used)
+    texts += {n.text: n for s in sheets for n in s.notes if n.text in common}.values()
     if best.sheet.name and not several:
         texts.append(Span(f"name of sheet '{best.sheet.name}'", best.sheet.name))
     others = [
@@ -377,6 +398,27 @@ def without_statistics(sheet: Sheet) -> Sheet:
     return sheet
 
 
+def without_notes(sheet: Sheet) -> Sheet:
+    """A sheet without what stands beside its table, behind an empty column: notes, results of a few cells."""
+    if sheet.bulk is not None or not sheet.rows:
+        return sheet
+    width = min(MAX_COLUMNS, max(len(row) for row in sheet.rows))
+    filled = [any(c < len(row) and row[c] != "" for row in sheet.rows) for c in range(width)]
+    empty = [c for c in range(1, width - 1) if not filled[c] and filled[c + 1]]
+    for c in empty[-_GAP:]:
+        sides = [[row[:c] for row in sheet.rows], [row[c + 1 :] for row in sheet.rows]]
+        left, right = ([part for part in side if any(x != "" for x in part)] for side in sides)
+        rows, beside = (sum(len(_kinds(part)[0]) > 1 for part in side) for side in (left, right))
+        if rows >= _LABELS and beside < _LABELS and len(right) < _NOTES * len(left):
+            notes = [
+                Span(sheet.place(i), text)
+                for i, row in enumerate(sheet.rows)
+                if (text := sentence(row[c + 1 :]))
+            ]
+            return replace(sheet, rows=[row[:c] for row in sheet.rows], notes=tuple(notes))
+    return sheet
+
+
 def cornered(sheet: Sheet) -> Sheet:
     """A map whose axes are named in a line above, with these names in its corner."""
     for i, row in enumerate(sheet.rows[:60]):
@@ -500,7 +542,7 @@ def _runs(sheet: Sheet) -> list[Run]:
     return long or [run for run in found if len(run.rows) >= 1 and len(run.columns) > 1]
 
 
-_DIGITS = re.compile(r"[-+\d.,;|eE\s]*\d[-+\d.,;|eE\s]*")
+_DIGITS = re.compile(r"[-+\d.,;|eE\s]+")
 
 
 def _is_part_of_row(run: Run, i: int) -> bool:
@@ -509,7 +551,8 @@ def _is_part_of_row(run: Run, i: int) -> bool:
     """
     text = " ".join(str(c) for c in run.sheet.rows[i])
     below = len(run.rows) > 1 and run.rows[-1] == i - 1 and run.sheet.noun == "line"
-    return below and run.sheet.format == "csv" and _DIGITS.fullmatch(text) is not None
+    numbers = any(c.isdigit() for c in text) and _DIGITS.fullmatch(text) is not None
+    return below and run.sheet.format == "csv" and numbers
 
 
 def _page_head(run: Run, i: int) -> int:

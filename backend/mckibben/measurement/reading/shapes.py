@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.reading.heads import head_claims, head_score, taken_apart, without_run
+from mckibben.measurement.reading.heads import counts_runs, head_claims, head_score, taken_apart, without_run
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import Cell, Column, Gap, Sheet, Span
 from mckibben.measurement.reading.numbers import (
@@ -483,12 +483,18 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
     groups: dict[str, list[int]] = {}
     columns = {c: _labelled(column, columns) for c, column in columns.items()}
     for c, column in columns.items():
-        if quantities(column.head.replace("_", " ")) and kind_of(column.head) != NUMBER:
+        if (quantities(column.head.replace("_", " ")) and kind_of(column.head) != NUMBER) or _repeat(
+            column.head
+        ):
             groups.setdefault(_pattern(column.head), []).append(c)
     many = [places for places in groups.values() if len(places) > 1]
     if not many or len({len(places) for places in many}) != 1:
         return []
-    shared = [column for c, column in columns.items() if not any(c in places for places in many)]
+    shared = [
+        column
+        for c, column in columns.items()
+        if not any(c in places for places in many) and not _is_statistic(column.head)
+    ]
     if not shared:
         return []
     corner = ""  # a head over cells in another unit names the values: "Force [N]" over "300 mm"
@@ -512,6 +518,20 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
     return parts
 
 
+_NUMBERED = re.compile(r"(?P<number>\d{1,2})[.)]?\s(?P<word>[^\W\d_]{3,20})")
+
+
+def _repeat(head: str) -> str:
+    """The number of a run in a head, "Kraft Messung 2", "2. Messung"; "" = it has none."""
+    found = _NUMBERED.fullmatch(head.strip())
+    return found["number"] if found and counts_runs(found["word"]) else without_run(f"x {head}")[1]
+
+
+def _is_statistic(head: str) -> bool:
+    words = words_of(head[:60])
+    return bool(words) and word_set("statistic").among(words[:1])
+
+
 def _labelled(column: Column, columns: Mapping[int, Column]) -> Column:
     """A column whose head comes again, with the value that stands over it in its head."""
     again = sum(other.head == column.head for other in columns.values()) > 1
@@ -523,7 +543,7 @@ def _name_of_values(head: str, subject: str) -> str:
     """What the values below a head are that names a quantity: "F @ 2 bar [N]" is "F [N]"; "Charge 50 N" names
     the load alone, and what stands elsewhere names the values.
     """
-    rest = _without_quantity(head)
+    rest = "" if _NUMBERED.fullmatch(head.strip()) else _without_quantity(without_run(f"x {head}")[0][2:])
     own = {q.unit.dimension for q in quantities(head.replace("_", " "))}
     return rest if rest and not (subject and _channels([rest]) and _channels([rest]) <= own) else subject
 
@@ -605,6 +625,7 @@ def _named_best(texts: Sequence[str], axes: Collection[str] = ()) -> str:
     """The part of some texts that names a channel best, one that no axis is; "" = none does."""
     cut = r"\s\((?=[^()]{9})|\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]|\s[–—-]\s|,\s"
     parts = [part.strip() for text in texts for part in re.split(cut, text)]
+    parts = [part for part in parts if not _is_statistic(part)]
     named = [p for p in parts if {c.value for c in head_claims(p[:200]) if c.facet == "channel"} - {*axes}]
     return max(named, key=head_score, default="")
 
