@@ -261,10 +261,11 @@ def _below_columns(line: str, row: list[str], spans: Sequence[tuple[int, int]]) 
     text, begin, placed = line.expandtabs(), 0, [""] * len(spans)
     for cell in row:
         begin = text.find(cell, begin)
-        at = [k for k, (b, e) in enumerate(spans) if begin < e and begin + len(cell) > b]
-        if begin < 0 or len(at) != 1 or placed[at[0]]:
+        over = [min(e, begin + len(cell)) - max(b, begin) for b, e in spans]
+        at = over.index(max(over))  # that it stands below most
+        if begin < 0 or over[at] <= 0 or any(placed[at:]):
             return row
-        placed[at[0]] = cell
+        placed[at] = cell
         begin += len(cell)
     return placed
 
