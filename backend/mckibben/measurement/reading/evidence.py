@@ -109,6 +109,7 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     for span in table.texts:
         found += _of_text(span, FILE, table)
     found += [*of_bridge(table), *of_zeros(table)]
+    found += _of_counts(table, found)
     for k, spans in enumerate(table.titles):
         for span in spans if len(table.titles) > 1 else ():
             found += _of_title(span, BLOCK - k)
@@ -116,6 +117,24 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     return found
 
 
+_MOST_COUNTS = 2**16
+
+
+def _of_counts(table: Table, found: Sequence[Evidence]) -> list[Evidence]:
+    """Whole numbers without a unit, where a text says that readings are counts: "both raw 10 bit"."""
+    rule = _text_rule("raw_counts")
+    said = next((span for span in table.texts if pattern_of(rule).search(span.text[:MAX_TEXT])), None)
+    aside = {e.target for e in found if e.facet in ("unit", "scale", "unit_word") or e.value in _NO_COUNTS}
+    counts = []
+    for i, column in enumerate(table.columns if said else ()):
+        values = column.values[np.isfinite(column.values)]
+        whole = len(values) > 0 and np.all(values == np.round(values)) and values.min() >= 0.0
+        if said and i not in aside and column.words is None and whole and values.max() < _MOST_COUNTS:
+            counts.append(Evidence(i, "role", "raw", rule.weight, said, rule.id))
+    return counts
+
+
+_NO_COUNTS = ("time", "group", "direction", "command", "running number", "remark")
 _MOVES = 0.25  # of its largest reading, by which no supply of a test moves
 _SCATTERED = 0.2  # different values by row, from which a series was measured and not set
 
