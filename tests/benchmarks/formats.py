@@ -16,6 +16,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 import numpy as np
+from numpy.typing import NDArray
 
 from mckibben.measurement.measurement import STROKES, Measurement
 from mckibben.measurement.reading import preview, read_measurement
@@ -25,6 +26,8 @@ from tests.measurement.reading.sealed_files import WRITERS, LabFile, differs
 CORPUS = Path(__file__).parents[3] / "shared" / "data" / "lab-formats"
 CLASSES = ("right", "asked", "refused", "part", "wrong", "crashed")
 SAME = 1e-6  # of the largest value
+EXTRAS = ("temperature", "velocity", "diameter", "command")  # columns of files that an index need not list
+AS_PRINTED = "absolute pressures as printed"  # of an entry whose index does not subtract the air from them
 _KEYS = {
     "rest_length": "nominal_length", "load_mass": "load_mass", "supply_pressure": "supply_pressure",
     "muscle": "muscle",
@@ -92,6 +95,10 @@ def _examined(entry: Mapping[str, Any], read: Measurement) -> tuple[list[str], l
         (wrong if read.rows > entry["rows"] else missing).append(f"{read.rows} rows of {entry['rows']}")
     truths = {c: (t["si"], t.get("tolerance")) for c, t in entry["channels"].items() if t["required"]}
     forms = {c: (si, None) for c, si in entry["same_as_stroke"].items()}
+    # Of a table of results without runs the index gives the order of the sheet, which need not be that of the
+    # test: its rows have to be there, each with all of its values.
+    ordered = read.kind != "static" and entry["groups"] is not None
+    near: list[NDArray[np.bool_]] = []  # of each channel: rows read that are the first rows of the index
     for channel, (si, tolerance) in (truths | forms).items():
         if channel not in read.columns:
             replaced = channel in STROKES and any(form in read.columns for form in forms)
@@ -99,6 +106,7 @@ def _examined(entry: Mapping[str, Any], read: Measurement) -> tuple[list[str], l
                 missing.append(f"{channel} not read")
             continue
         values = np.asarray(read.columns[channel], float)
+        si = _gauge(si, entry) if channel == "pressure" else si
         offset = values.min() - si["minimum"] if channel == "time" else 0.0
         allowed = tolerance or SAME * max(abs(si["minimum"]), abs(si["maximum"]))
         found = {"minimum": values.min(), "maximum": values.max(), "mean": values.mean()}
@@ -107,18 +115,37 @@ def _examined(entry: Mapping[str, Any], read: Measurement) -> tuple[list[str], l
             for what, value in found.items()
             if abs(value - offset - si[what]) > allowed
         ]
-        for place, wanted in enumerate(si["first"]):
-            if read.kind != "static" and abs(values[place] - offset - wanted) > allowed:
+        near.append(np.abs(values[:, None] - offset - np.asarray(si["first"])) <= allowed)
+        for place, wanted in enumerate(si["first"] if ordered else ()):
+            if not near[-1][place, place]:
                 wrong.append(f"{channel}: row {place + 1} is {values[place]:.7g}, not {wanted:.7g}")
+    if near and not ordered and not wrong:
+        lost = np.flatnonzero(~np.all(near, axis=0).any(axis=0))
+        wrong += [f"row {place + 1} of the index is not read" for place in lost]
     for channel in set(read.columns) - set(truths) - set(forms) - {"group", "direction"}:
-        if channel not in entry["channels"]:
+        if channel not in entry["channels"] and not _is_extra(channel, entry, read):
             wrong.append(f"a {channel} that is not there")
     for item in entry["states"]:
         key = _KEYS.get(item["what"])
         value = read.conditions.get(key) if key else None
-        if key and (value is None or not _same(value, item["value"])):
+        as_printed = isinstance(value, str) and value in item["as"]
+        if key and (value is None or not (as_printed or _same(value, item["value"]))):
             missing.append(f"{item['what']} ({item['where']}): {value!r}")
     return wrong, missing
+
+
+def _gauge(si: Mapping[str, Any], entry: Mapping[str, Any]) -> Mapping[str, Any]:
+    """A truth of pressure less the surrounding air, where the index gives it absolute as it is printed."""
+    if entry["channels"]["pressure"].get("reference") != "absolute" or not entry.get(AS_PRINTED):
+        return si
+    air = next((i["value"] for i in entry["states"] if i["what"] == "ambient_pressure"), 101_325.0)
+    return {k: [v - air for v in x] if isinstance(x, list) else x - air for k, x in si.items()}
+
+
+def _is_extra(channel: str, entry: Mapping[str, Any], read: Measurement) -> bool:
+    """Whether a channel that the index does not list stands in a column that it does not forbid."""
+    columns = [c.column for c in read.channels if c.name == channel]
+    return channel in EXTRAS and not set(columns) & set(entry.get("not_to_be_used", ()))
 
 
 def _same(value: float | str, wanted: float | str) -> bool:

@@ -35,11 +35,14 @@ from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.question import Question
 from mckibben.measurement.reading import Correction, preview_here, read_here
 from mckibben.physics.errors import InputError
+from tests.benchmarks.formats import AS_PRINTED, _examined
 
 ROOT = Path(__file__).parents[2]
 SHARED = Path(__file__).parents[3] / "shared" / "data"
 VERDICTS = ("right", "asked", "useful", "poor", "part", "wrong", "crashed")
 GROUPS = ("corpus", "strangers", "failing")
+#: Sets of strangers whose truths of absolute pressures are less the surrounding air.
+GAUGE_TRUTHS = ("loggers", "machines", "notebooks")
 #: File -> what must come of it: (kind, rows, channel -> (smallest, largest) in SI, words that a question must
 #: name).
 FAILING: Mapping[str, tuple[str, int, Mapping[str, tuple[float, float]], tuple[str, ...]]] = {
@@ -109,8 +112,6 @@ def answer(case: Case) -> Answer:
 
 def of_corpus(case: Case, new: Answer) -> tuple[str, str]:
     """(verdict, why) by the index of the corpus."""
-    from tests.benchmarks.formats import _examined
-
     assert case.entry is not None
     if new.crash:
         return "crashed", new.crash.strip().splitlines()[-1]
@@ -174,6 +175,7 @@ def _strangers() -> Iterator[Case]:
         with zipfile.ZipFile(place) as archive:
             names = {Path(name).name: name for name in archive.namelist() if not name.endswith("/")}
             for entry in json.loads(archive.read(names["index.json"]))["files"]:
+                entry[AS_PRINTED] = place.stem not in GAUGE_TRUTHS
                 name = Path(entry["file"]).name
                 yield Case(f"strangers {place.stem}", name, archive.read(names[name]), entry=entry)
 

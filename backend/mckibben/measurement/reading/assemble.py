@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from mckibben.measurement.kind import FORCE_KINDS, lifts_fast, starts_of_lifts, weights_of_runs
+from mckibben.measurement.kind import FORCE_KINDS, explain_kind, lifts_fast, starts_of_lifts, weights_of_runs
 from mckibben.measurement.measurement import (
     CHANNEL_UNITS,
     REFERENCE,
@@ -176,6 +176,9 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
     if kind is None and known.kind and not fast and _suits(known.kind, channels):
         kind = known.kind
         messages.append(f"kind {kind}: a text of the file says so")
+    if kind is None and (more := _kind_by_more(reading, channels, conditions)) is not None:
+        kind, why = more
+        messages.append(f"kind {kind}: {why}")
     order = None if "time" in channels else order_of_rows(channels)
     if order is not None and "direction" not in channels:
         channels["direction"] = order.direction
@@ -228,6 +231,26 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
     )
 
 
+def _kind_by_more(
+    reading: Reading, channels: Mapping[str, Any], conditions: Mapping[str, float | str]
+) -> tuple[str, str] | None:
+    """(kind, why) of readings over time that their channels do not tell: by a signal of the valve without a
+    scale, or by the loads of the blocks.
+    """
+    moving = {"time", "pressure", "force"} <= set(channels) and bool(set(channels) & set(STROKES))
+    if not moving or explain_kind(channels, conditions)[0] != "static":
+        return None
+    for i, column in enumerate(reading.table.columns):
+        named = any(e.facet == "channel" and e.value == "command" for e in reading.own(i))
+        if named and column.words is None and np.nanmax(column.values) > np.nanmin(column.values):
+            return "transient", f"{reading.label(column)} is a command of the valve over time"
+    load = reading.known.held.get("load_mass")
+    if load is None:
+        return None
+    kind, why = explain_kind(channels, {**conditions, "load_mass": float(load.values[0])})
+    return None if kind == "static" else (kind, why)
+
+
 def _built(unread: Sequence[tuple[str, str]], columns: Mapping[str, Any], **said: Any) -> Measurement:
     """The measurement of columns; where they fit no kind, the columns that are not read are named."""
     try:
@@ -245,6 +268,8 @@ def _rows(count: int) -> str:
 
 def _suits(kind: str, channels: Mapping[str, Array]) -> bool:
     """Whether the channels that a kind needs are there."""
+    if kind == "transient" and "time" not in channels:
+        return False
     needed = {"pressure", "force"} if kind in FORCE_KINDS else {"pressure"}
     return needed <= set(channels) and bool(set(channels) & set(STROKES))
 

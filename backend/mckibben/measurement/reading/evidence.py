@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from functools import cache
 from pathlib import PurePath
 from typing import NamedTuple
@@ -130,6 +130,7 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     for span in table.texts:
         found += _of_text(span, FILE, table)
     found += [*of_bridge(table), *of_zeros(table), *of_positions(table)]
+    found += _of_counts(table, found)
     for k, spans in enumerate(table.titles):
         for span in spans if len(table.titles) > 1 else ():
             found += _of_title(span, BLOCK - k)
@@ -140,6 +141,24 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     return found
 
 
+_MOST_COUNTS = 2**16
+
+
+def _of_counts(table: Table, found: Sequence[Evidence]) -> list[Evidence]:
+    """Whole numbers without a unit, where a text says that readings are counts: "both raw 10 bit"."""
+    rule = _text_rule("raw_counts")
+    said = next((span for span in table.texts if pattern_of(rule).search(span.text[:MAX_TEXT])), None)
+    aside = {e.target for e in found if e.facet in ("unit", "scale", "unit_word") or e.value in _NO_COUNTS}
+    counts = []
+    for i, column in enumerate(table.columns if said else ()):
+        values = column.values[np.isfinite(column.values)]
+        whole = len(values) > 0 and np.all(values == np.round(values)) and values.min() >= 0.0
+        if said and i not in aside and column.words is None and whole and values.max() < _MOST_COUNTS:
+            counts.append(Evidence(i, "role", "raw", rule.weight, said, rule.id))
+    return counts
+
+
+_NO_COUNTS = ("time", "group", "direction", "command", "running number", "remark")
 _MOVES = 0.25  # of its largest reading, by which no supply of a test moves
 _SCATTERED = 0.2  # different values by row, from which a series was measured and not set
 
@@ -171,12 +190,23 @@ def of_column(i: int, column: Column) -> list[Evidence]:
     for text in column.above:
         found += [_from_claim(i, c, Span(column.where, text), _OVER) for c in head_claims(text[:200])]
     for text in column.described:
+        where = Span(column.where, text)
+        scales = [scale for scale, _ in scales_in(text[:MAX_TEXT])]  # "p 1 bar/V (gauge)"
+        found += [Evidence(i, "scale", scale, scale.weight, where, scale.rule) for scale in scales]
         found += [
-            _from_claim(i, c, Span(column.where, text), 0.9)
-            for c in head_claims(text[:200])
+            _from_claim(i, c, where, 0.9)
+            for c in (
+                head_claims(text.replace(scales[0].text, "")[:200], scales[0].unit)
+                if scales
+                else head_claims(text[:200])
+            )
             if c.facet != "role" or c.value == "set value"
         ]
     absolute = taken_apart(column.head, column.unit).absolute
+    share = taken_apart(column.head, column.unit).share
+    if unit is not None and share != 1.0:
+        part = Scale(share, 0.0, unit.name, rule="part of a unit", text=column.unit or column.head)
+        found.append(Evidence(i, "scale", part, part.weight, span, part.rule))
     texts = [t for t in (*column.above, *column.described) if absolute is None]
     for text in texts:
         absolute = taken_apart(text[:200]).absolute if absolute is None else absolute
@@ -204,7 +234,7 @@ def _unit_of(column: Column) -> Unit | None:
     """The unit of a column, in its head, below it, or in the row that describes it."""
     unit = taken_apart(column.head, column.unit).unit
     if unit is None:
-        for text in (*column.described, *column.above):
+        for text in (*column.described, *(t for t in column.above if not quantities(t))):
             unit = unit or unit_of(text) or taken_apart(text[:200]).unit
     return unit
 
@@ -227,6 +257,7 @@ def _of_cells(i: int, column: Column, unit: Unit | None, span: Span) -> list[Evi
     low, high = float(np.min(values)), float(np.max(values))
     steps = np.diff(values)
     even = len(values) >= _LONG_RECORD and steps[0] > 0.0 and np.ptp(steps) <= 1e-3 * steps[0]
+    even = even and not found  # a running number
     if even and unit is None and not head_claims(column.head[:200]):
         since = Span(span.where, f"grows by {steps[0]:.6g} from row to row")
         found.append(Evidence(i, "channel", "time", _EVEN, since, "even steps"))
@@ -252,7 +283,9 @@ class _Context(NamedTuple):
 
     quantity: Quantity
     before: tuple[str, ...]
+    label: tuple[str, ...]
     behind: tuple[str, ...]
+    further: tuple[str, ...]
     pressed: bool
     ranged: bool
 
@@ -265,20 +298,23 @@ def _contexts(text: str) -> list[_Context]:
     begin = 0
     contexts = []
     for k, quantity in enumerate(found):
-        pieces = re.split(r"[;,](?!\d)(?![^()]{0,60}\))", text[begin : quantity.begin])
+        label = text[begin : quantity.begin]  # "L at rest, vented: 28 cm"
+        pieces = re.split(r"[;,](?!\d)(?![^()]{0,60}\))", label)
         worded = [n for n, p in enumerate(pieces) if any(w != quantity.unit.name for w in words_of(p))]
-        mine = bool(worded) and (
-            worded[-1] > 0 or k == 0 or len(pieces) == 1
-        )  # not what stands behind another one
+        # Not what stands behind another quantity.
+        mine = bool(worded) and (worded[-1] > 0 or k == 0 or len(pieces) == 1)
         before = pieces[worded[-1]] if mine else ""
         upto = found[k + 1].begin if k + 1 < len(found) else len(text)
         begin = quantity.end
-        behind = _BEHIND_UPTO.split(text[begin : min(upto, begin + 60)].lstrip(" ("))[0]
+        behind, *more = _BEHIND_UPTO.split(text[begin : min(upto, begin + 60)].lstrip(" ("))
+        whole = upto == len(text) or len(more) > 1  # no clause of the next quantity
         contexts.append(
             _Context(
                 quantity,
                 words_of(before),
+                words_of(label) if before.rstrip().endswith(":") else (),
                 words_of(behind),
+                words_of(more[0]) if more and whole else (),
                 _AT_PRESSURE.match(text, quantity.end) is not None,
                 _RANGE_BEHIND.match(text, quantity.end) is not None
                 or _RANGE_BEFORE.search(text[max(0, quantity.begin - 30) : quantity.begin]) is not None,
@@ -306,7 +342,9 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         absolute = REFERENCES.get(folded(str(noted.value)), str(noted.value).lower().startswith("abs"))
         found.append(Evidence(FILE, "absolute", absolute, 6.0, span, "note"))
     if noted is not None and noted.facet == "condition:muscle":
-        found[-1] = noted._replace(value=re.split(r"[,;]\s", str(noted.value))[0])
+        plain = re.split(r"[,;]\s", str(noted.value))[0]
+        codes = (e.value for e in of_code(span) if e.facet == "condition:muscle")
+        found[-1] = noted._replace(value=next(codes, plain))
     found += _of_clauses(span, table)
     claims = (_of_quantity(context, target, span) for context in _contexts(text))
     found += [claim for claim in claims if claim is not None]
@@ -318,7 +356,7 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
                 found.append(
                     Evidence(FILE, facet, f"'{match[0]}' ({span.where}) is {value}", 1.0, span, rule.id)
                 )
-            elif facet == "role" and (match := pattern_of(rule).search(text)):
+            elif facet == "role" and (match := pattern_of(rule).search(text)) and "what" in match.groupdict():
                 if not any(c.value == "time" for c in head_claims(match["what"])):
                     found += [
                         Evidence(i, "role", value, rule.weight, span, rule.id)
@@ -411,11 +449,13 @@ def _of_clauses(span: Span, table: Table) -> list[Evidence]:
     text = _SIGN_BEFORE.sub(lambda m: " plus " if m["sign"] == "+" else " minus ", text)
     owner = _column_named(text, table)
     plain = re.sub(r"\([^()]{0,60}\)", " ", text)  # "tension (pull) is negative"
-    for clause in dict.fromkeys(" ".join(c.split()) for c in (*_CLAUSES.split(text), *_CLAUSES.split(plain))):
+    clauses = dict.fromkeys(" ".join(c.split()) for c in (*_CLAUSES.split(text), *_CLAUSES.split(plain)))
+    pieces = [(rules("clause"), clause) for clause in clauses]
+    for those, clause in (*pieces, (rules("sentence"), text)):
         words = words_of(clause)
         if not words or len(words) > 40:
             continue
-        for rule in rules("clause"):
+        for rule in those:
             if all(word_set(name).among(words) for name in rule.needs) and not any(
                 word_set(n).among(words) for n in rule.without
             ):
@@ -447,8 +487,12 @@ def _of_quantity(context: _Context, target: int, span: Span) -> Evidence | None:
     """What a quantity is, by the words around it: the claim with most weight."""
     best: Evidence | None = None
     quantity, before, behind = context.quantity, context.before, context.behind
+    if context.label and context.label != before:
+        plain = _of_quantity(context._replace(label=()), target, span)
+        return plain or _of_quantity(context._replace(before=context.label, label=()), target, span)
     for rule in rules("quantity"):
-        if quantity.unit.dimension not in rule.dimension or not _fires(rule, before, behind):
+        after = behind or context.further if rule.both else behind
+        if quantity.unit.dimension not in rule.dimension or not _fires(rule, before, after):
             continue
         ((facet, key),) = rule.claims.items()
         if (context.pressed and key == "nominal_length") or (context.ranged and facet == "held"):

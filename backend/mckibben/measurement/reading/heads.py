@@ -16,7 +16,7 @@ _WITHIN = re.compile(r"[\[({<]([^\[\](){}<>]{1,40}(?:\([^()]{0,20}\))?)[\])}>](?
 _BEHIND = (
     re.compile(r"([^/]+)\s?/\s?([^/]+)"),
     re.compile(r"(.+),\s?([^,]+)"),
-    re.compile(r"(.+)\sin\s(\S+)"),
+    re.compile(r"(.+)\s(?:in|en|em|v|w)\s(\S+)"),
     re.compile(r"([^:]+):\s?(\S{1,8})"),
 )
 _SURE = frozenset([
@@ -24,6 +24,8 @@ _SURE = frozenset([
     "ozf", "kgf", "gf", "ms", "mV", "kg", "pct", "percent", "promille", "permille", "deg", "degC", "degF",
     "psig", "psia", "barg", "bara", "Hz", "kHz", "rpm",
 ])  # fmt: skip  # no name ends like them
+#: "0.1 N", "1e-3 bar": what one count is.
+_PART_OF_UNIT = re.compile(r"(?P<share>0[.,]0{0,5}1|1[eE]-\d)\s?\*?\s?(?P<unit>[^\W\d_]{1,5})")
 _RUN = re.compile(
     r"(?P<name>.*?[^\W\d_].*?)[\s_,;:-]{1,3}(?P<word>[^\W\d_]+)[\s_]?(?:#|n[or]\.?)?[\s_]?(?P<number>\d{1,3})"
     r"(?:\s?(?P<unit>[\[(][^\[\]()]{1,20}[\])]))?",
@@ -57,11 +59,14 @@ _MOST = 3.0  # nats that the words of a head add to its score
 
 
 class Head(NamedTuple):
-    """A head taken apart: its name without its unit, the unit, whether it says absolute or gauge."""
+    """A head taken apart: its name without its unit, the unit, whether it says absolute or gauge, and how
+    much of the unit one is: 0.1 of "[0.1 N]".
+    """
 
     name: str
     unit: Unit | None
     absolute: bool | None
+    share: float = 1.0
 
 
 class Claim(NamedTuple):
@@ -82,11 +87,12 @@ def taken_apart(head: str, unit_below: str = "") -> Head:
     or a blank, or in a cell of their own.
 
     >>> taken_apart("Druck [bar] (abs)")
-    Head(name='Druck', unit=Unit(name='bar', dimension='pressure', absolute=None), absolute=True)
+    Head(name='Druck', unit=Unit(name='bar', dimension='pressure', absolute=None), absolute=True, share=1.0)
     """
     text = " ".join(head[:_LONGEST].split())
     unit: Unit | None = None
     absolute: bool | None = None
+    share = 1.0
     for _ in range(4):
         found = _LAST.fullmatch(text)
         if found is None:
@@ -99,6 +105,8 @@ def taken_apart(head: str, unit_below: str = "") -> Head:
             absolute = mark
         elif (inner := unit_of(inside) or _first_unit(inside)) is not None and unit is None:
             unit = inner
+        elif unit is None and (part := _PART_OF_UNIT.fullmatch(inside)) and (inner := unit_of(part["unit"])):
+            unit, share = inner, float(part["share"].replace(",", "."))
         elif inside:
             text = f"{found[1]} {inside}".strip()
             continue
@@ -109,11 +117,13 @@ def taken_apart(head: str, unit_below: str = "") -> Head:
         text, unit = _behind(text)
     if unit is None and unit_below:
         unit = unit_of(unit_below) or _first_unit(unit_below)
+        if unit is None and (part := _PART_OF_UNIT.fullmatch(unit_below.strip(" []()"))):
+            unit, share = unit_of(part["unit"]), float(part["share"].replace(",", "."))
     if unit is not None and unit.absolute is not None:
         absolute = unit.absolute
     if absolute is None:
         absolute = _reference_among(words_of(text))
-    return Head(text.strip(" _:,"), unit, absolute)
+    return Head(text.strip(" _:,"), unit, absolute, share)
 
 
 def _channels_of(name: str) -> set[Any]:
@@ -248,6 +258,9 @@ def head_claims(head: str, unit_below: str = "") -> tuple[Claim, ...]:
     found = [
         c for c in _of_words(words) if not (needed := _DIMENSIONS.get(c.rule, ())) or dimension in needed
     ]
+    for rule in rules("head"):
+        if rule.pattern is not None and rule.pattern.match(head.strip()):
+            found += [Claim(facet, value, rule.weight, rule.id) for facet, value in rule.claims.items()]
     if _DESIRED.search(name):
         found.append(Claim("role", "set value", 4.0, "desired"))
     if dimension in RAW:

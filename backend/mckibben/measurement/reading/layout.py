@@ -43,7 +43,7 @@ from mckibben.measurement.reading.shapes import (
 from mckibben.measurement.reading.units import RAW, quantities, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 
-_ABOVE = 6  # rows above a run that may be its heads
+_ABOVE = 8  # rows above a run that may be its heads
 _LOOK = 25  # rows above in which a labelled row of units or of descriptions is looked for
 _GAP = 3  # rows without numbers that a run goes on behind
 _INSIDE = 0.5  # share of the numbers of a row that stand where those of the run do
@@ -53,11 +53,11 @@ _POOR_HEADS = 0.8  # nats a column, below which other names are looked for
 _EMPTY_HEADS = 2.0  # score of a run without heads
 _MOST_OF_A_HEAD = 3.0  # what one head adds to the score of its run
 _SHOWN_ROWS, _SHOWN_BELOW, _SHOWN_ABOVE, _SHOWN_CELLS, _SHOWN_LENGTH = 60, 8, 20, 60, 80
-_SHOWN_REMARKS = 6  # texts between readings that a message shows
+_COMMENTS = ("#", "%", "!", "/", '"', "'", ";")
 _LONGEST_HEAD = 300  # characters of a head
 _LONGEST_WORDS = 32  # characters of a cell of a row that groups columns
 _QUANTITY = re.compile(r"\s*[-+]?[0-9.,]+\s*\S{0,12}\s*")
-_LIST = re.compile(r"(?i)^(?:columns?|spalten?|colonnes?|fields?|header|legende?|units)\s?:\s?")
+_NOTES = 0.5  # of the rows of a table, that notes beside it fill
 _LABELS = 3  # rows of labels, from which a column of them is one
 _HINT = "e.g. a header 'pressure_bar,length_mm,force_N'"
 
@@ -91,10 +91,11 @@ def table_of(
         beside = [replace(s, rows=s.rows[:200], arrays=None) for s in sheets if not others.get(s.name, True)]
         table = table_of([*chosen, *beside], name, head=head)
         return replace(table, tables=tuple(titles) if len(titles) > 1 else ())
-    named = [s for s in sheets if s.arrays is not None]
+    named = [_with_units_of_values(s) for s in sheets if s.arrays is not None]
     if named:
+        sheets = [_with_units_of_values(s) for s in sheets]
         return _of_named(named, sheets, name)
-    grids = [without_statistics(cornered(transposed(s))) for s in sheets]
+    grids = [without_notes(without_statistics(cornered(transposed(s)))) for s in sheets]
     grids = [
         s.whole() if s.whole is not None and s is not old else s for s, old in zip(grids, sheets, strict=True)
     ]
@@ -174,6 +175,21 @@ def _no_table(sheets: Sequence[Sheet], name: str) -> InputError:
     return InputError(why, field="file", hint=_HINT)
 
 
+def _with_units_of_values(sheet: Sheet) -> Sheet:
+    """A sheet with "p: 1" and "p_unit: bar" of one place as "p: 1 bar"."""
+    units = {
+        span.where.rpartition(mark)[0]: span.text.rpartition(": ")[2]
+        for span in sheet.texts
+        for mark in ("_unit", ".unit")
+        if span.where.lower().endswith(mark)
+    }
+    texts = [
+        Span(span.where, f"{span.text} {units[span.where]}") if span.where in units else span
+        for span in sheet.texts
+    ]
+    return replace(sheet, texts=tuple(texts)) if units else sheet
+
+
 _CELL_WITH_UNIT = re.compile(r"([-+]?[0-9]{1,12}(?:[.,][0-9]{1,12})?)\s?([^\W\d_]{1,5}(?:/[^\W\d_]{1,4})?|%)")
 
 
@@ -208,11 +224,16 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
         if row is not None
     }
     several = len({id(run.sheet) for run in alike}) > 1
+    own = [{note.text for note in run.sheet.notes} for run in alike]
+    common = set[str]().union(*own) if not several else set[str].intersection(*own)
     parts: list[Part] = []
     for run in alike:
-        title = [*run.title, *([Span(f"sheet '{run.sheet.name}'", run.sheet.name)] if several else [])]
+        title = [*run.title, *(note for note in run.sheet.notes if note.text not in common)]
+        title += [Span(f"sheet '{run.sheet.name}'", run.sheet.name)] if several else []
         parts += parts_of(run, title)
+    parts = _with_results(parts, [run for run in runs if not any(run is one for one in alike)])
     texts = [t for s in sheets for t in s.texts] + _texts(sheets, used)
+    texts += {n.text: n for s in sheets for n in s.notes if n.text in common}.values()
     if best.sheet.name and not several:
         texts.append(Span(f"name of sheet '{best.sheet.name}'", best.sheet.name))
     others = [
@@ -258,7 +279,15 @@ def _unread_rows(alike: Sequence[Run], best: Run) -> list[str]:
     sheet, rows = best.sheet, best.sheet.rows
     last = max(run.rows[-1] for run in alike if run.sheet is sheet)
     below = [i for i in range(last + 1, min(len(rows), last + 200)) if any(c != "" for c in rows[i])]
-    between = [i for run in alike if run.sheet is sheet for i in run.remarks]
+    between = [
+        i
+        for run in alike
+        if run.sheet is sheet
+        for i in run.remarks
+        if run.rows[0] < i < run.rows[-1]
+        and not str(rows[i][0]).startswith(_COMMENTS)
+        and not _is_statistic(_kinds(rows[i])[2])
+    ]
     messages = []
     for found, where in ((between, "between the readings"), (below, "below the table")):
         if found:
@@ -267,6 +296,34 @@ def _unread_rows(alike: Sequence[Run], best: Run) -> list[str]:
             place = f"row {first} {where} is" if first == end else f"rows {first} to {end} {where} are"
             messages.append(f"{place} not read: {shown}")
     return messages
+
+
+def _with_results(parts: list[Part], others: Sequence[Run]) -> list[Part]:
+    """Blocks with what a table of the file has in the row that is called like them: "Probe 1", 3.5 bar."""
+    names = [[span.text.strip().casefold() for span in part.title] for part in parts]
+    for run in others if len(parts) > 1 else ():
+        labels = {_text(run.sheet.rows[r][0]).casefold(): r for r in run.rows if run.sheet.rows[r]}
+        rows = [next((labels[name] for name in own if name in labels), None) for own in names]
+        if None not in rows and len(set(rows)) == len(rows):
+            return [
+                part._replace(title=(*part.title, *_stated_in(run, row)))
+                for part, row in zip(parts, rows, strict=True)
+                if row is not None
+            ]
+    return parts
+
+
+def _stated_in(run: Run, row: int) -> list[Span]:
+    """The cells of a row with their heads and units, statistics left out."""
+    cells = run.sheet.rows[row]
+    return [
+        Span(run.sheet.place(row), f"{run.heads[c]}: {_text(cells[c])} {run.units.get(c, '')}".strip())
+        for c in run.columns
+        if c < len(cells)
+        and kind_of(cells[c]) == NUMBER
+        and run.heads.get(c)
+        and not word_set("statistic").among(words_of(run.heads[c]))
+    ]
 
 
 def _rivals(alike: list[Run], best: Run, runs: list[Run]) -> tuple[tuple[str, str], ...]:
@@ -380,6 +437,27 @@ def without_statistics(sheet: Sheet) -> Sheet:
     return sheet
 
 
+def without_notes(sheet: Sheet) -> Sheet:
+    """A sheet without what stands beside its table, behind an empty column: notes, results of a few cells."""
+    if sheet.bulk is not None or not sheet.rows:
+        return sheet
+    width = min(MAX_COLUMNS, max(len(row) for row in sheet.rows))
+    filled = [any(c < len(row) and row[c] != "" for row in sheet.rows) for c in range(width)]
+    empty = [c for c in range(1, width - 1) if not filled[c] and filled[c + 1]]
+    for c in empty[-_GAP:]:
+        sides = [[row[:c] for row in sheet.rows], [row[c + 1 :] for row in sheet.rows]]
+        left, right = ([part for part in side if any(x != "" for x in part)] for side in sides)
+        rows, beside = (sum(len(_kinds(part)[0]) > 1 for part in side) for side in (left, right))
+        if rows >= _LABELS and beside < _LABELS and len(right) < _NOTES * len(left):
+            notes = [
+                Span(sheet.place(i), text)
+                for i, row in enumerate(sheet.rows)
+                if (text := sentence(row[c + 1 :]))
+            ]
+            return replace(sheet, rows=[row[:c] for row in sheet.rows], notes=tuple(notes))
+    return sheet
+
+
 def cornered(sheet: Sheet) -> Sheet:
     """A map whose axes are named in a line above, with these names in its corner."""
     for i, row in enumerate(sheet.rows[:60]):
@@ -437,7 +515,10 @@ def _runs(sheet: Sheet) -> list[Run]:
     found: list[Run] = []
     current: Run | None = None
     gap: list[int] = []
+    upto = 0
     for i, row in enumerate(sheet.rows):
+        if i < upto:
+            continue
         places, texts, first, marks = _kinds(row)
         is_data = len(places) >= 2 and texts <= len(places) and not _is_statistic(first)
         if is_data and first and gap and _is_statistic(_kinds(sheet.rows[gap[-1]])[2]):
@@ -452,6 +533,12 @@ def _runs(sheet: Sheet) -> list[Run]:
             is_data = False
         if is_data and texts == len(places) and current is not None and len(current.rows) > 2 and first:
             is_data = _was_labelled(current)
+        if is_data and first and gap and current is not None and not _was_labelled(current):
+            words_above = any(any(c != "" for c in sheet.rows[g]) for g in gap)
+            words_below = i + 1 < len(sheet.rows) and _kinds(sheet.rows[i + 1])[2] != ""
+            is_data = not (words_above and words_below)  # the head of a next block
+        if is_data and first and texts > 1 and texts == len(places):
+            is_data = len({str(c) for c in row if kind_of(c) == TEXT}) > 1  # "Offset", 0, "Offset", 0
         if (
             not is_data
             and len(places) >= 1
@@ -462,10 +549,13 @@ def _runs(sheet: Sheet) -> list[Run]:
             is_data = set(places) <= set(current.columns)
         if not is_data and current is not None and not gap and texts and _is_broken(sheet.rows, i):
             is_data = set(places) < set(current.columns)
+        if not is_data and current is not None and _is_part_of_row(current, i):
+            is_data = set(places) <= set(current.columns)
         if is_data and texts and first and current is None:
             is_data = _goes_on(sheet, i, places)
         if not is_data:
-            if current is not None and _is_head_again(current, i):
+            if current is not None and (count := _page_head(current, i)):
+                upto = i + count
                 continue
             if current is not None:
                 gap.append(i)
@@ -493,18 +583,42 @@ def _runs(sheet: Sheet) -> list[Run]:
     return long or [run for run in found if len(run.rows) >= 1 and len(run.columns) > 1]
 
 
-def _is_head_again(run: Run, i: int) -> bool:
-    """Whether a row repeats the head of a run, and the first column counts on below it: it is printed once a
-    page.
+_DIGITS = re.compile(r"[-+\d.,;|eE\s]+")
+
+
+def _is_part_of_row(run: Run, i: int) -> bool:
+    """Whether a line of a text right below a row of numbers is numbers as well: a row that breaks off, or is
+    parted by other signs.
+    """
+    text = " ".join(str(c) for c in run.sheet.rows[i])
+    below = len(run.rows) > 1 and run.rows[-1] == i - 1 and run.sheet.noun == "line"
+    numbers = any(c.isdigit() for c in text) and _DIGITS.fullmatch(text) is not None
+    return below and run.sheet.format == "csv" and numbers
+
+
+def _page_head(run: Run, i: int) -> int:
+    """Number of rows from a row on that stand above the run as well, where the first column counts on below
+    them: the head of a page; 0 = there is none.
     """
     rows, first = run.sheet.rows, run.rows[0]
-    if first == 0 or i + 1 >= len(rows) or len(run.rows) < 2 or rows[i] != rows[first - 1]:
-        return False
-    style = NumberStyle(run.sheet.decimal, run.sheet.thousands)
-    before, last, below = numbers_of([rows[r][0] if rows[r] else "" for r in (*run.rows[-2:], i + 1)], style)[
-        0
-    ]
-    return bool(before < last < below)
+    for count in range(1, min(_LOOK, first, len(rows) - i - 1) + 1):
+        if not all(_is_printed_again(rows[first - 1 - k], rows[i + count - 1 - k]) for k in range(count)):
+            continue
+        style = NumberStyle(run.sheet.decimal, run.sheet.thousands)
+        counts = [rows[r][0] if rows[r] else "" for r in (*run.rows[-2:], i + count)]
+        before, last, below = numbers_of([*[""] * (3 - len(counts)), *counts], style)[0]
+        if last - before == below - last or (count == 1 and before < last < below):
+            return count
+    return 0
+
+
+def _is_printed_again(row: Sequence[Cell], other: Sequence[Cell]) -> bool:
+    """Whether two rows are the same but for numbers without a unit, as those of pages."""
+    if list(row) == list(other):
+        return True
+    a, b = sentence(row), sentence(other)
+    same = [(q.value, q.unit) for q in quantities(a)] == [(q.value, q.unit) for q in quantities(b)]
+    return same and re.sub(r"\d+", "#", a) == re.sub(r"\d+", "#", b)
 
 
 def _kinds(row: Sequence[Cell]) -> tuple[list[int], int, str, int]:
@@ -628,6 +742,7 @@ def _head(run: Run, wanted: int | None) -> None:
     else:
         _labelled_units(run)
     _descriptions(run)
+    _labelled_names(run)
     said = sum(_MOST_OF_A_HEAD if quantities(h) else head_score(h) for h in run.heads.values())
     if not run.described and said < _POOR_HEADS * len(run.columns):
         _listed_names(run)
@@ -702,7 +817,9 @@ def _completed(run: Run) -> None:
                 if unit_of(head) is not None:
                     run.units.setdefault(c, head)
             elif re.fullmatch(r"(?i)(?:ch|ai|chan|channel|kanal)[ _]?\d{1,2}", other) and other not in head:
-                run.heads[c] = f"{other} {head}"
+                if unit_of(head) is not None:
+                    run.units.setdefault(c, head)
+                run.heads[c] = other if unit_of(head) is not None else f"{other} {head}"
 
 
 def _shift_heads(run: Run) -> None:
@@ -729,6 +846,16 @@ def _is_row_of_values(row: Sequence[Cell]) -> bool:
     filled = [str(c).strip() for c in row if c != ""]
     values = [c for c in filled if _HELD_CELL.fullmatch(c) and ("=" in c or "@" in c or quantities(c))]
     return len(filled) > 1 and len(values) > 0.5 * len(filled)
+
+
+def _is_statement(row: Sequence[Cell]) -> bool:
+    """Whether the cells of a row are a name, its value and its unit: "Muskellänge", "237,5", "mm"."""
+    filled = [c for c in row if c != ""]
+    return (
+        [kind_of(c) for c in filled] == [TEXT, NUMBER, TEXT]
+        and unit_of(str(filled[0])) is None
+        and unit_of(str(filled[2])) is not None
+    )
 
 
 def _second_row(run: Run) -> None:
@@ -765,7 +892,11 @@ def _candidates(run: Run) -> list[int]:
         if not filled:
             if found:
                 break
-        elif len(filled) >= max(2, _HEAD_SHARE * len(run.columns)) and not _is_numeric(rows[i]):
+        elif (
+            len(filled) >= max(2, _HEAD_SHARE * len(run.columns))
+            and not _is_numeric(rows[i])
+            and not _is_statement(rows[i])
+        ):
             found.append(i)
         elif found:
             if (
@@ -876,6 +1007,26 @@ def _labelled_units(run: Run) -> None:
             shift = 1 if run.columns and run.columns[0] == 0 and len(cells) - 1 < len(run.columns) else 0
             run.units = {c: _text(u) for c, u in zip(run.columns[shift:], cells[1:], strict=False)}
             run.unit_row = i
+            return
+
+
+def _labelled_names(run: Run) -> None:
+    """A row further above that begins with a word for names, and has one text for each column or for all but
+    the first: it describes them.
+    """
+    rows = run.sheet.rows
+    for i in range(run.rows[0] - 1, max(-1, run.rows[0] - _LOOK), -1):
+        cells = [_text(c) for c in rows[i] if c != ""]
+        missing = len(run.columns) - len(cells) + 1
+        if (
+            i not in run.above
+            and len(cells) > 2
+            and missing in (0, 1)
+            and word_set("name_row").among(words_of(cells[0][:40])[:1])
+            and any(head_score(c[:200]) > 0.0 for c in cells[1:])
+        ):
+            for c, text in zip(run.columns[missing:], cells[1:], strict=True):
+                run.described[c] = (*run.described.get(c, ()), text)
             return
 
 

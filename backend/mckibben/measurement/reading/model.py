@@ -43,6 +43,7 @@ class Sheet:
         bulk: (row before which it stands, numbers) of the middle of a long table, which are no cells.
         whole: the sheet with all of its rows as cells, where there is a bulk.
         dropped: (name, why) of what stands among its arrays and is no column.
+        notes: what stands beside the table.
     """
 
     name: str = ""
@@ -59,6 +60,7 @@ class Sheet:
     bulk: tuple[int, Array] | None = None
     whole: Callable[[], Sheet] | None = None
     dropped: tuple[tuple[str, str], ...] = ()
+    notes: tuple[Span, ...] = ()
 
     def line(self, row: int) -> int:
         """Number in the file of a row."""

@@ -63,7 +63,7 @@ def _kind_of_text(text: str) -> str:
     if marker_of(bare) is not None:
         return MARK
     found = _GROUPED.fullmatch(bare)
-    if found is not None and found["mark"] != (found["rest"] or " x")[0]:
+    if found is not None and found["mark"] != (found["rest"] or "x")[0]:
         return NUMBER
     if _TOLERANCE.fullmatch(bare):
         return NUMBER

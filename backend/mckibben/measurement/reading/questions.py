@@ -36,7 +36,7 @@ from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Sp
 from mckibben.measurement.reading.named import is_isometric, number_of_name
 from mckibben.measurement.reading.numbers import MARK, TEXT, kind_of
 from mckibben.measurement.reading.physics import ENOUGH, is_plausible, median_step, proposal
-from mckibben.measurement.reading.rows import Rows
+from mckibben.measurement.reading.rows import Rows, counts_rows
 from mckibben.measurement.reading.scales import Scale
 from mckibben.measurement.reading.scatter import is_sensed
 from mckibben.measurement.reading.units import (
@@ -55,6 +55,8 @@ _SAME = 0.01  # of the range; columns that differ by less are the same reading
 _HARDLY = 2e3  # Pa; below it a pressure moves no muscle
 _LARGEST_AREA = 0.5  # m2, force over pressure; the largest catalogue muscle has 0.04
 _STRETCHED, _FEW = 0.15, 0.05  # of the rest length, at which a braid locks; share of rows that may be spikes
+_WHOLE = 1e-3  # mm
+_NOTHING = 0.02  # of the largest reading, below which it is none
 _SHORTEST = 0.4  # of the rest length, that a muscle can have
 _REST_BAND = (0.9e5, 1.1e5)  # Pa; the air outside
 _LONG_TEST, _SWING, _JUMP, _JUMPS = 900.0, 0.1, 0.6, 2
@@ -694,13 +696,15 @@ def _reference(reading: Reading) -> Iterator[Question]:
     at_rest = pressure <= float(np.min(pressure)) + 0.03e5
     shows = _REST_BAND[0] <= lowest <= _REST_BAND[1] and np.ptp(pressure) >= 0.2e5 and _idle(reading, at_rest)
     rival = next((r for r in reading.decision.rivals if r.slot == "pressure" and r.part == "reference"), None)
-    if not use.absolute and not shows and not (rival is not None and rival.margin < MARGIN):
+    both = next((e.span for e in reading.evidence if e.facet == "either_reference"), None)
+    if not use.absolute and not shows and not both and not (rival is not None and rival.margin < MARGIN):
         return
+    told = f"shows {lowest / 1e5:.2f} bar at its lowest"
+    told += f", and '{both.text[:80]}' ({both.where}) names both" if both else ""
     absolute, gauge = (option_of("pressure", column, f"{use.unit}({mark})") for mark in ("a", "g"))
     yield Question(
         "reference of pressure",
-        f"{reading.label(column)} shows {lowest / 1e5:.2f} bar at its lowest; is it absolute "
-        f"or gauge pressure",
+        f"{reading.label(column)} {told}; is it absolute or gauge pressure",
         f"{absolute} or {gauge}",
         column.head,
         "absolute",
@@ -1028,6 +1032,30 @@ def _torque(reading: Reading) -> Iterator[Question]:
             )
 
 
+def _cycles(reading: Reading) -> Iterator[Question]:
+    """Cycles that count on in each row of a test without time: of the controller, of unknown length."""
+    channels = reading.rows.channels
+    moving = [c for c in ("pressure", "force", *STROKES) if c in channels and _sweeps(channels[c])]
+    for i, column in enumerate(reading.table.columns if len(moving) > 1 else ()):
+        named = any(e.facet == "channel" and e.value == "group" for e in reading.own(i))
+        if "time" in channels or i in reading.known.chosen or not named or not counts_rows(column.values):
+            continue
+        yield Question(
+            "unit of time",
+            f"{reading.label(column)} counts on in each row, and no text states how long one is; the "
+            "test has no other time",
+            f"{option_of('time', column, '1 count = 10 ms')} or {ignore_option(bare(column))}",
+            column.head,
+            None,
+            ("time", "ignore"),
+        )
+        return
+
+
+def _sweeps(values: Array) -> bool:
+    return bool(np.ptp(values) > _SWING * np.max(np.abs(values)))
+
+
 def _stated_zeros(reading: Reading) -> Iterator[Question]:
     """A reading at true zero that a text states without saying whether the readings contain it, or twice."""
     applied = {e.facet for e in reading.evidence if e.facet.startswith("zero:")}
@@ -1154,10 +1182,17 @@ def _rest_length(reading: Reading) -> Iterator[Question]:
     """A rest length that is missing, or with which no reading is possible."""
     channels, rest = reading.rows.channels, reading.known.conditions.get("nominal_length")
     strokes = [c for c in STROKES if c in channels]
-    if strokes == ["displacement"] and "nominal_length" not in reading.known.conditions:
+    if "nominal_length" not in reading.known.conditions and (
+        strokes == ["displacement"] or (strokes == ["length"] and not _shows_rest(channels))
+    ):
+        alone = (
+            "a stroke alone"
+            if "displacement" in strokes
+            else "no reading is without pressure and pull: a length"
+        )
         yield Question(
             "rest length",
-            "the file states no rest length (L0) of the muscle; a stroke alone gives no contraction",
+            f"the file states no rest length (L0) of the muscle; {alone} gives no contraction",
             '--rest-length "300 mm"',
             stops=False,
         )
@@ -1177,6 +1212,21 @@ def _rest_length(reading: Reading) -> Iterator[Question]:
             f"{'where is the stroke 0, or ' if 'stretch' in shown else ''}which rest length is right",
             option,
         )
+
+
+def _shows_rest(channels: dict[str, Array]) -> bool:
+    """Whether the lengths show that at rest: measured without pressure and pull, or a whole number of
+    millimetres at which the test began.
+    """
+    longest = 1e3 * float(np.max(channels["length"]))
+    if abs(longest - round(longest)) < _WHOLE:
+        return True
+    small = [
+        np.abs(channels[c]) <= _NOTHING * float(np.max(np.abs(channels[c])))
+        for c in ("pressure", "force")
+        if c in channels
+    ]
+    return len(small) < 2 or bool(np.any(np.all(small, axis=0)))
 
 
 def _beyond(channels: dict[str, Array], rest: float) -> str:
@@ -1402,7 +1452,7 @@ Policy = Callable[[Reading], Iterator[Question]]
 #: Asked where there are enough rows to show something.
 POLICIES: tuple[Policy, ...] = (
     _units, _unread, _headless, _scales, _times, _set_point, _by_valve, _counted, _torque, _signs,
-    _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
+    _cycles, _runs_against, _reference, _zero, _contradicted, _close, _tare, _bridge,
 )  # fmt: skip
 #: Asked always.
 ALWAYS: tuple[Policy, ...] = (

@@ -30,6 +30,7 @@ LARGEST = 1e15  # in SI; more is of no physical size
 _ENOUGH_ROWS = 20
 _MOST_WITHOUT = 4  # rows without a reading for each other one; more are a slow signal or a wrong column
 _MOST_CUT = 40  # whole rows for each line that breaks off, from which the writing of the line was cut short
+_LONG_TABLE = 100  # rows
 _FEWEST_TO_TURN = 3  # rows
 _DISORDERED = 1.0 / 3.0  # share of steps back in time from which rows are in no order; a half by chance
 _RUN_CHANGES = (
@@ -196,7 +197,7 @@ def _readable(table: Table, places: Sequence[int], rows: Rows, *, skip: bool) ->
     first: dict[int, tuple[int, str, str]] = {}
     for i in places:
         for r, gap in table.columns[i].gaps.items():
-            if not empty[r] and r not in first:
+            if not empty[r] and (r not in first or gap.reason == "short"):
                 first[r] = (i, gap.reason, gap.text)
     missing: list[tuple[int, str, str]] = []
     cut = sum(reason == "short" for _, reason, _ in first.values()) * _MOST_CUT <= keep.sum()
@@ -419,9 +420,14 @@ def _label_column(
 
 def _are_labels(values: Array) -> bool:
     finite = values[np.isfinite(values)]
-    return (
-        bool(len(finite)) and bool(np.all(finite == np.round(finite))) and bool(np.max(np.abs(finite)) < 1e9)
-    )
+    if not len(finite) or counts_rows(finite):
+        return False
+    return bool(np.all(finite == np.round(finite))) and bool(np.max(np.abs(finite)) < 1e9)
+
+
+def counts_rows(values: Array) -> bool:
+    """Whether a column counts on in each row of a long table: no row would be in a group with another."""
+    return len(values) >= _LONG_TABLE and bool(np.all(np.diff(values) == 1.0))
 
 
 def _words(column: Column, keep: NDArray[np.bool_]) -> list[str]:

@@ -14,7 +14,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from mckibben.measurement.reading.heads import head_claims, head_score, taken_apart, without_run
+from mckibben.measurement.reading.heads import counts_runs, head_claims, head_score, taken_apart, without_run
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.model import Cell, Column, Gap, Sheet, Span
 from mckibben.measurement.reading.numbers import (
@@ -162,7 +162,10 @@ def parts_of(run: Run, title: list[Span]) -> list[Part]:
         for c, old in zip(made, whole, strict=True)
         if c is not old
     ]
-    return [Part(tuple(made), tuple(title), lines, _ragged(run), tuple(messages))]
+    beside = [
+        Span(c.where, c.words[0]) for c in made if c.words and c.words[0].strip() and not any(c.words[1:])
+    ]
+    return [Part(tuple(made), (*title, *beside), lines, _ragged(run), tuple(messages))]
 
 
 class NeedsCellsError(Exception):
@@ -282,6 +285,10 @@ def _ragged(run: Run) -> dict[int, str]:
     }
 
 
+def _too_short(cells: int, width: int) -> str:
+    return f"{cells} {'cell' if cells == 1 else 'cells'}, the header has {width}"
+
+
 def _columns(run: Run) -> dict[int, Column]:
     sheet, rows = run.sheet, run.sheet.rows
     width = min(1000, max([len(rows[r]) for r in run.rows[:200]] + [c + 1 for c in run.heads]))
@@ -311,7 +318,7 @@ def _columns(run: Run) -> dict[int, Column]:
                     column,
                     gaps={
                         **column.gaps,
-                        **{k: Gap("short", f"{n} cells, the header has {width}") for k, n in short.items()},
+                        **{k: Gap("short", _too_short(n, width)) for k, n in short.items()},
                     },
                 )
             found[c] = column
@@ -498,12 +505,18 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
     groups: dict[str, list[int]] = {}
     columns = {c: _labelled(column, columns) for c, column in columns.items()}
     for c, column in columns.items():
-        if quantities(column.head.replace("_", " ")) and kind_of(column.head) != NUMBER:
+        if (quantities(column.head.replace("_", " ")) and kind_of(column.head) != NUMBER) or _repeat(
+            column.head
+        ):
             groups.setdefault(_pattern(column.head), []).append(c)
     many = [places for places in groups.values() if len(places) > 1]
     if not many or len({len(places) for places in many}) != 1:
         return []
-    shared = [column for c, column in columns.items() if not any(c in places for places in many)]
+    shared = [
+        column
+        for c, column in columns.items()
+        if not any(c in places for places in many) and not _is_statistic(column.head)
+    ]
     if not shared:
         return []
     corner = ""  # a head over cells in another unit names the values: "Force [N]" over "300 mm"
@@ -519,7 +532,7 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
         chosen = [columns[places[k]] for places in many]
         block = [
             *shared,
-            *(replace(c, head=_without_quantity(c.head) or corner or subject) for c in chosen),
+            *(replace(c, head=_name_of_values(c.head, corner or subject)) for c in chosen),
         ]
         keep = ~np.all([np.isnan(c.values) for c in chosen], axis=0)
         over = [Span(c.where, c.head) for c in chosen]
@@ -527,11 +540,34 @@ def _wide(run: Run, columns: dict[int, Column], title: list[Span], lines: NDArra
     return parts
 
 
+_NUMBERED = re.compile(r"(?P<number>\d{1,2})[.)]?\s(?P<word>[^\W\d_]{3,20})")
+
+
+def _repeat(head: str) -> str:
+    """The number of a run in a head, "Kraft Messung 2", "2. Messung"; "" = it has none."""
+    found = _NUMBERED.fullmatch(head.strip())
+    return found["number"] if found and counts_runs(found["word"]) else without_run(f"x {head}")[1]
+
+
+def _is_statistic(head: str) -> bool:
+    words = words_of(head[:60])
+    return bool(words) and word_set("statistic").among(words[:1])
+
+
 def _labelled(column: Column, columns: Mapping[int, Column]) -> Column:
     """A column whose head comes again, with the value that stands over it in its head."""
     again = sum(other.head == column.head for other in columns.values()) > 1
     over = next((text for text in column.above if quantities(text)), "") if again else ""
     return replace(column, head=f"{column.head} {over}") if over else column
+
+
+def _name_of_values(head: str, subject: str) -> str:
+    """What the values below a head are that names a quantity: "F @ 2 bar [N]" is "F [N]"; "Charge 50 N" names
+    the load alone, and what stands elsewhere names the values.
+    """
+    rest = "" if _NUMBERED.fullmatch(head.strip()) else _without_quantity(without_run(f"x {head}")[0][2:])
+    own = {q.unit.dimension for q in quantities(head.replace("_", " "))}
+    return rest if rest and not (subject and _channels([rest]) and _channels([rest]) <= own) else subject
 
 
 def _without_quantity(head: str) -> str:
@@ -614,6 +650,7 @@ def _named_best(texts: Sequence[str], axes: Collection[str] = ()) -> str:
     """The part of some texts that names a channel best, one that no axis is; "" = none does."""
     cut = r"\s\((?=[^()]{9})|\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]|\s[–—-]\s|,\s"
     parts = [part.strip() for text in texts for part in re.split(cut, text)]
+    parts = [part for part in parts if not _is_statistic(part)]
     named = [p for p in parts if {c.value for c in head_claims(p[:200]) if c.facet == "channel"} - {*axes}]
     return max(named, key=head_score, default="")
 

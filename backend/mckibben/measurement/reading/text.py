@@ -210,6 +210,7 @@ def _cells_of(line: str, delimiter: str | None) -> list[str]:
 
 def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list[list[Cell]], list[int]]:
     """(rows of cells, number of the line of each)."""
+    spans = _fixed_columns(lines) if delimiter is None else []
     quoted = delimiter not in (None, "|") and any('"' in line for line in lines)
     usual = _usual_width(lines, delimiter)
     rows: list[list[Cell]] = []
@@ -234,6 +235,7 @@ def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list
                 if len(again) == usual and len(again) > 1 and not sentence
                 else [line.strip().strip(',;\t "')]
             )
+        row = _below_columns(line, row, spans) if spans and len(row) < len(spans) else row
         count += len(row)
         if count > MAX_CELLS:
             raise InputError(f"{name}: it has more than {MAX_CELLS} cells", field="file", hint=SPLIT)
@@ -249,6 +251,37 @@ def _is_numbers(cells: Sequence[str]) -> bool:
     return all(kind_of(cell) in (NUMBER, CLOCK) for cell in cells)
 
 
+def _fixed_columns(lines: Sequence[str]) -> list[tuple[int, int]]:
+    """Begin and end of the columns of a text with blanks between them; none where they do not line up."""
+    usual = _usual_width(lines, None)
+    found = [
+        [m.span() for m in _WORD.finditer(line.expandtabs())]
+        for line in _sample(lines)
+        if len(cells := line.split()) == usual and all(kind_of(c) in (NUMBER, CLOCK) for c in cells)
+    ]
+    if usual < 2 or not found:
+        return []
+    spans = [(min(b for b, _ in column), max(e for _, e in column)) for column in zip(*found, strict=True)]
+    return spans if all(one[1] < other[0] for one, other in pairwise(spans)) else []
+
+
+def _below_columns(line: str, row: list[str], spans: Sequence[tuple[int, int]]) -> list[str]:
+    """The cells of a line of words, fewer than the columns, in the places of the columns they stand at."""
+    if len(row) < 2 or any(kind_of(cell) in (NUMBER, CLOCK) for cell in row):
+        return row
+    text, begin, placed = line.expandtabs(), 0, [""] * len(spans)
+    for cell in row:
+        begin = text.find(cell, begin)
+        over = [min(e, begin + len(cell)) - max(b, begin) for b, e in spans]
+        at = over.index(max(over))  # that it stands below most
+        if begin < 0 or over[at] <= 0 or any(placed[at:]):
+            return row
+        placed[at] = cell
+        begin += len(cell)
+    return placed
+
+
+_WORD = re.compile(r"\S+")
 _QUOTED = re.compile(r'"[^"]*"|[^\s"]+')
 
 

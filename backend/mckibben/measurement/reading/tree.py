@@ -306,6 +306,7 @@ def _of_names(
     melted, messages = _map_of(node, arrays, walk.noun)
     arrays |= melted
     walk.messages += messages
+    arrays |= _runs_of(node, arrays)
     if not arrays:
         for key, value in node.items():
             arrays |= _unnamed(str(key), value)
@@ -377,6 +378,33 @@ def _map_of(
     }, (f"{noun} '{name}' is {size} over '{down[0]}' and '{across[0]}': each cell is read as a row",)
 
 
+def _runs_of(node: Mapping[str, Any], arrays: dict[str, Any]) -> dict[str, Any]:
+    """Matrices of one shape of which one side is as long as a vector, as the runs of a test one after
+    another; the vectors are then repeated.
+    """
+    matrices = {
+        str(k): v
+        for k, v in node.items()
+        if isinstance(v, np.ndarray) and v.ndim == 2 and min(v.shape) > 1 and v.dtype.kind in "biuf"
+    }
+    shapes = {v.shape for v in matrices.values()}
+    sizes = {len(v) for v in arrays.values() if not isinstance(v[0], str)}
+    if len(matrices) < 2 or len(shapes) != 1 or len(longs := sizes & set(shapes.pop())) == 0:
+        return {}
+    size = max(longs)
+    turned = {k: v if v.shape[1] == size else v.T for k, v in matrices.items()}
+    runs = len(next(iter(turned.values())))
+    if runs == size:
+        return {}
+    made = {k: np.tile(np.asarray(v, float), runs) for k, v in arrays.items() if len(v) == size}
+    made |= {k: np.repeat(np.asarray(v, float), size) for k, v in arrays.items() if len(v) == runs}
+    return {
+        "run": np.repeat(np.arange(1.0, runs + 1.0), size),
+        **made,
+        **{k: v.ravel() for k, v in turned.items()},
+    }
+
+
 def _has_arrays(value: Any, depth: int = 0) -> bool:
     """Whether a mapping holds an array at any depth."""
     if isinstance(value, dict):
@@ -434,8 +462,9 @@ def _matrix(value: Any, lists: Sequence[tuple[list[str], list[str]]]) -> dict[st
         ):
             try:
                 array = np.array([[np.nan if c is None else c for c in row] for row in value], float)
-            except (TypeError, ValueError):
-                return None
+            except (TypeError, ValueError):  # words among them
+                names = next((names for names, _ in lists if len(names) == width), [])
+                return {name: [row[i] for row in value] for i, name in enumerate(names)} or None
     if array is None:
         return None
     for names, units in lists:
