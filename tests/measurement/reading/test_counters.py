@@ -93,7 +93,10 @@ def test_a_column_with_stated_states_is_the_command() -> None:
     found = read(f"{head}t_s,cmd [%],pressure_bar,stroke_mm\n{table(TIME, COMMAND, PRESSURE, STROKE)}")
     np.testing.assert_allclose(found.columns["command"], COMMAND / 100.0)
     assert found.kind == "transient"
-    assert any("'cmd [%]' is scaled: '# cmd: 100 = fill" in message for message in found.messages)
+    assert any(
+        "'cmd [%]' is scaled: '100 = fill, 0 = closed, -100 = exhaust' (line 1)" in message
+        for message in found.messages
+    )
     rows = table(TIME, COMMAND, PRESSURE, STROKE)
     silent = read(f"# load_mass: 5 kg\nt_s,cmd [%],pressure_bar,stroke_mm\n{rows}")
     assert "command" not in silent.columns

@@ -395,7 +395,7 @@ ERRORS = {
     ),
     "ragged short": (BASE + "3,4\n", "a.csv, row 4: 2 cells, the header has 3"),
     "ragged long": (BASE + "3,4,5,6\n", "a.csv, row 4: 4 cells, the header has 3"),
-    "row numbers count comments": ("# a\n\n" + BASE + "3\n", "a.csv, row 6: 1 cells, the header has 3"),
+    "row numbers count comments": ("# a\n\n" + BASE + "3\n", "a.csv, row 6: 1 cell, the header has 3"),
     "comma as both": (BASE + "1,5,2,5,3,5\n", "a.csv, row 4: 6 cells, the header has 3"),
     "text": (BASE + "3,x,5\n", "a.csv, row 4, column 'length_mm': 'x' is not a number"),
     "unit in cell": (BASE + "3,300 mm,5\n", "a.csv, row 4, column 'length_mm': '300 mm' is not a number"),

@@ -189,8 +189,8 @@ def of_column(i: int, column: Column) -> list[Evidence]:
         found.append(_from_claim(i, claim, span, 1.0))
     for text in column.above:
         found += [_from_claim(i, c, Span(column.where, text), _OVER) for c in head_claims(text[:200])]
-    for text in column.described:
-        where = Span(column.where, text)
+    for where in column.described:
+        text = where.text
         scales = [scale for scale, _ in scales_in(text[:MAX_TEXT])]  # "p 1 bar/V (gauge)"
         found += [Evidence(i, "scale", scale, scale.weight, where, scale.rule) for scale in scales]
         found += [
@@ -207,7 +207,8 @@ def of_column(i: int, column: Column) -> list[Evidence]:
     if unit is not None and share != 1.0:
         part = Scale(share, 0.0, unit.name, rule="part of a unit", text=column.unit or column.head)
         found.append(Evidence(i, "scale", part, part.weight, span, part.rule))
-    texts = [t for t in (*column.above, *column.described) if absolute is None]
+    described = tuple(span.text for span in column.described)
+    texts = [t for t in (*column.above, *described) if absolute is None]
     for text in texts:
         absolute = taken_apart(text[:200]).absolute if absolute is None else absolute
     if absolute is not None:
@@ -234,7 +235,7 @@ def _unit_of(column: Column) -> Unit | None:
     """The unit of a column, in its head, below it, or in the row that describes it."""
     unit = taken_apart(column.head, column.unit).unit
     if unit is None:
-        for text in (*column.described, *(t for t in column.above if not quantities(t))):
+        for text in (*(s.text for s in column.described), *(t for t in column.above if not quantities(t))):
             unit = unit or unit_of(text) or taken_apart(text[:200]).unit
     return unit
 

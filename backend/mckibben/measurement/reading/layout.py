@@ -1026,7 +1026,7 @@ def _labelled_names(run: Run) -> None:
             and any(head_score(c[:200]) > 0.0 for c in cells[1:])
         ):
             for c, text in zip(run.columns[missing:], cells[1:], strict=True):
-                run.described[c] = (*run.described.get(c, ()), text)
+                run.described[c] = (*run.described.get(c, ()), Span(run.sheet.place(i), text))
             return
 
 
@@ -1043,13 +1043,15 @@ def _descriptions(run: Run) -> None:
             key, _, rest = sentence(rows[i]).lstrip("#%/;' ").partition(":")
             place = names.get(key.strip().casefold())
             if place is not None and len(rest) < _LONGEST_HEAD and not _QUANTITY.fullmatch(rest):
-                run.described[place] = (*run.described.get(place, ()), rest.strip())
+                said = Span(run.sheet.place(i), rest.strip())
+                run.described[place] = (*run.described.get(place, ()), said)
             continue
         cells = [_text(c) for c in rows[i][1:] if c != ""]
         unit = next((c for c in reversed(cells) if unit_of(c) is not None and not c.isdigit()), "")
         if unit:
             run.units.setdefault(place, unit)
-        run.described[place] = (*run.described.get(place, ()), *cells)
+        said = (Span(run.sheet.place(i), cell) for cell in cells)
+        run.described[place] = (*run.described.get(place, ()), *said)
 
 
 def _titles(run: Run, top: int) -> None:

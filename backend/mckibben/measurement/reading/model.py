@@ -108,7 +108,7 @@ class Column:
     where: str
     unit: str = ""
     above: tuple[str, ...] = ()
-    described: tuple[str, ...] = ()
+    described: tuple[Span, ...] = ()
     words: tuple[str, ...] | None = None
     gaps: Mapping[int, Gap] = field(default_factory=dict)
     clock: bool = False

@@ -19,7 +19,7 @@ class Run:
     heads: dict[int, str] = field(default_factory=dict)
     units: dict[int, str] = field(default_factory=dict)
     more: dict[int, tuple[str, ...]] = field(default_factory=dict)
-    described: dict[int, tuple[str, ...]] = field(default_factory=dict)
+    described: dict[int, tuple[Span, ...]] = field(default_factory=dict)
     title: list[Span] = field(default_factory=list)
     remarks: list[int] = field(default_factory=list)
     score: float = 0.0

@@ -55,7 +55,7 @@ class Part(NamedTuple):
 def column_of(
     cells: Sequence[Cell] | NDArray[Any], *, head: str, sheet: Sheet, where: str, unit: str = "",
     above: tuple[str, ...] = (),
-    described: tuple[str, ...] = (), place: int = -1,
+    described: tuple[Span, ...] = (), place: int = -1,
 ) -> Column | None:  # fmt: skip
     """A column of numbers, of times or of words; None = all of its cells are empty."""
     if isinstance(cells, np.ndarray) and cells.dtype.kind in "biuf":

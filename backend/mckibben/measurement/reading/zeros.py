@@ -110,7 +110,7 @@ def zeros_in(span: Span) -> Iterator[Zero]:
 
 def stated_zeros(table: Table) -> list[Zero]:
     """The zeros that the texts beside a table and its heads state, each once."""
-    heads = (Span(c.where, text) for c in table.columns for text in (c.head, *c.described))
+    heads = (span for c in table.columns for span in (Span(c.where, c.head), *c.described))
     return list(dict.fromkeys(zero for span in (*table.texts, *heads) for zero in zeros_in(span)))
 
 
