@@ -240,7 +240,8 @@ def _kind_by_more(
     moving = {"time", "pressure", "force"} <= set(channels) and bool(set(channels) & set(STROKES))
     if not moving or explain_kind(channels, conditions)[0] != "static":
         return None
-    for i, column in enumerate(reading.table.columns):
+    loaded = bool(set(_LOADS) & {*conditions, *reading.known.held})  # without one a transient says nothing
+    for i, column in enumerate(reading.table.columns if loaded else ()):
         named = any(e.facet == "channel" and e.value == "command" for e in reading.own(i))
         if named and column.words is None and np.nanmax(column.values) > np.nanmin(column.values):
             return "transient", f"{reading.label(column)} is a command of the valve over time"
