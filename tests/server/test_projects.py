@@ -203,13 +203,13 @@ def test_what_an_import_writes_is_counted_as_often_as_it_is_written(
 def test_an_import_that_fails_leaves_the_measurements_as_they_were(
     client: TestClient, tmp_path: Path
 ) -> None:
-    other, third = CSV + b"1.5,280.5,10.5\n", CSV + b"1.6,280.6,10.6\n"
+    other, third = CSV + b"1.5;280.5;178.1\n", CSV + b"1.6;280.6;188.1\n"
     ids = [hashlib.sha256(content).hexdigest() for content in (other, third)]
     client.put("/api/measurements", params={"name": "mine.csv"}, content=CSV)
     client.put("/api/measurements", params={"name": "binned.csv"}, content=other)
     client.delete(f"/api/kept/files/{ids[0]}")
     before = everything(tmp_path)
-    parts = {ID: CSV, ids[0]: other, ids[1]: third, "0" * 64: CSV + b"1.7,280.7,10.7\n"}
+    parts = {ID: CSV, ids[0]: other, ids[1]: third, "0" * 64: CSV + b"1.7;280.7;198.1\n"}
     error = assert_error(client.post("/api/projects/import", content=packed_project({}, parts)), 422)
     assert "was changed" in error["message"]
     assert everything(tmp_path) == before

@@ -54,6 +54,7 @@ _MOST_OTHERS = 6  # columns of other tables that are named in messages
 _NAMED = 4  # columns in a message
 _LOADS = ("load_mass", "load_force")
 _BY_UNIT = ("unit", "ticks_of_milliseconds", "ticks_of_microseconds")  # rules of heads that are only a unit
+_BY_NUMBERS = ("unit", "even steps")  # rules that need no word of a name
 UNKNOWN = "its name is not known"
 #: Role of a column -> what it is.
 _ROLES = {
@@ -198,7 +199,7 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
             c.title == title
             and (
                 i in rows.dropped
-                or any(e.facet == "channel" and e.rule != "unit" for e in reading.own(i))
+                or any(e.facet == "channel" and e.rule not in _BY_NUMBERS for e in reading.own(i))
                 or "a value" in reading.roles(i)
             )
             for i, c in enumerate(table.columns)
@@ -420,7 +421,7 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
         return "it holds words"
     if roles_of(own).get("at the valve") and unit is not None and dimension_of(unit) == "pressure":
         return "it is the pressure at the valve"
-    claimed = [e.value for e in own if e.facet == "channel"]
+    claimed = [e.value for e in own if e.facet == "channel" and e.rule not in _BY_NUMBERS]
     if claimed:
         taken = next((c for c in claimed if c in reading.decision.uses), None)
         if taken is not None:

@@ -112,7 +112,7 @@ def table_of(
             raise InputError(
                 f"{name}, row {head}: there are no rows of numbers below it",
                 field="head",
-                hint="a row with names above numbers",
+                hint="say a row with names above numbers: --head 3",
             )
     if not runs and head is None and not _stripped:
         bare = [without_units(s) for s in sheets]

@@ -42,15 +42,6 @@ def size_of(size: int) -> str:
     return f"{size / 1e6:.3g} MB" if size < 1e9 else f"{size / 1e9:.3g} GB"
 
 
-def no_table(name: str, what: str) -> InputError:
-    """The refusal of a file of another kind."""
-    return InputError(
-        f"{name}: no column can be read: {what} is not a table that mckibben reads",
-        field="file",
-        hint="save it as CSV or XLSX",
-    )
-
-
 class Allowance:
     """What a file may still become in memory.
 
@@ -78,14 +69,6 @@ class Allowance:
                 field=part,
                 hint=f"{SPLIT}; save only what belongs to the measurement",
             )
-
-
-def check_rows(rows: int, place: str) -> None:
-    """Refuse a table of too many rows."""
-    if rows > MAX_ROWS:
-        raise InputError(
-            f"{place}: the table has {rows} rows, at most {MAX_ROWS} rows are read", field="rows", hint=SPLIT
-        )
 
 
 def check_columns(columns: int, place: str, field: str) -> None:

@@ -11,7 +11,7 @@ from itertools import pairwise
 import numpy as np
 
 from mckibben.measurement.reading.encodings import decoded
-from mckibben.measurement.reading.limits import MAX_CELLS, MAX_COLUMNS, MAX_ROWS, SPLIT
+from mckibben.measurement.reading.limits import MAX_CELLS, MAX_ROW_LENGTH, MAX_ROWS, SPLIT, check_columns
 from mckibben.measurement.reading.model import Cell, Sheet
 from mckibben.measurement.reading.numbers import CLOCK, NUMBER, TEXT, kind_of, narrow, style_of
 from mckibben.physics.errors import InputError
@@ -61,6 +61,13 @@ def sheet_of_text(text: str, name: str, messages: Sequence[str] = (), *, whole: 
     if len(lines) > MAX_ROWS:
         raise InputError(
             f"{name}: it has {len(lines)} lines, at most {MAX_ROWS} are read", field="file", hint=SPLIT
+        )
+    long = next((n for n, line in enumerate(lines, 1) if len(line) > MAX_ROW_LENGTH), None)
+    if long is not None:
+        raise InputError(
+            f"{name}, row {long}: the row has more than {MAX_ROW_LENGTH} characters",
+            field=f"row {long}",
+            hint="one row of the table in each line; check how the lines end",
         )
     pairs = _paired(lines)
     if pairs is not None:
@@ -239,7 +246,8 @@ def _split(lines: Sequence[str], delimiter: str | None, name: str) -> tuple[list
         count += len(row)
         if count > MAX_CELLS:
             raise InputError(f"{name}: it has more than {MAX_CELLS} cells", field="file", hint=SPLIT)
-        rows.append(list(row[:MAX_COLUMNS]))
+        check_columns(len(row), f"{name}, row {number}", f"row {number}")
+        rows.append(list(row))
         numbers.append(number)
     return rows, numbers
 
