@@ -13,7 +13,7 @@ import numpy as np
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_DEPTH, MAX_NODES, MAX_TEXT
 from mckibben.measurement.reading.model import Sheet, Span
-from mckibben.measurement.reading.unit_lists import unit_said
+from mckibben.measurement.reading.unit_lists import units_said
 from mckibben.measurement.reading.units import unit_of
 from mckibben.physics.errors import InputError
 
@@ -272,6 +272,8 @@ def _of_names(
             flat |= {f"{key}({i + 1})": v for i, v in enumerate(value)}
         else:
             flat[str(key)] = value
+    said = units_said(node)
+    own |= {name: said[words] for name in flat if (words := words_of(name)) in said}
     for head, value in flat.items():
         channel = _channel(value)
         if channel is not None:
@@ -293,10 +295,8 @@ def _of_names(
         ):
             arrays[head] = list(value)
         elif (text := _single(value)) is not None:
-            unit = unit_said(head, node) if not isinstance(value, str) else None
+            unit = said.get(words_of(head)) if not isinstance(value, str) else None
             texts.append(Span(f"{path}{head}", f"{head}: {text} {unit or ''}".rstrip()[:MAX_TEXT]))
-            if isinstance(value, str) and unit_of(value) is not None:
-                own |= _unit_beside(head, value, flat)
         elif isinstance(value, dict) and not _has_arrays(value):
             continue
         elif isinstance(value, (dict, list, tuple)):
@@ -412,15 +412,6 @@ def _has_arrays(value: Any, depth: int = 0) -> bool:
     return (isinstance(value, (list, tuple)) and len(value) > 1) or (
         isinstance(value, np.ndarray) and value.size > 1
     )
-
-
-def _unit_beside(head: str, value: str, flat: Mapping[str, Any]) -> dict[str, str]:
-    """The unit that a text names for an array: ``Kraft_unit = 'N'``."""
-    for name in flat:
-        rest = head.lower().replace(name.lower(), "", 1)
-        if name != head and rest != head.lower() and _says_unit(rest.strip("_ .")):
-            return {name: value}
-    return {}
 
 
 def _listed_units(arrays: dict[str, Any], units: Mapping[str, str]) -> dict[str, str]:

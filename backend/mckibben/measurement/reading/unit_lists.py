@@ -19,18 +19,21 @@ def names_units(key: str) -> bool:
     return len(words) <= 1 + _MORE_WORDS and any(word in word_set("unit").words for word in words)
 
 
-def unit_said(name: str, said: Mapping[str, object]) -> str | None:
-    """The unit that an entry of its own says of a name: ``F_unit``, ``unidade_F``; None without one."""
-    own = list(words_of(name))
+def units_said(said: Mapping[str, object]) -> dict[tuple[str, ...], str]:
+    """Words of a name -> the unit that an entry of its own says of it: ``F_unit``, ``unidade_F``."""
+    found: dict[tuple[str, ...], str] = {}
     for key, value in said.items():
         if isinstance(value, str) and unit_of(value) is not None:
             words = words_of(key)
-            if (
-                len(words) > len(own)
-                and [word for word in words if word not in word_set("unit").words] == own
-            ):
-                return value
-    return None
+            own = tuple(word for word in words if word not in word_set("unit").words)
+            if len(own) < len(words):
+                found.setdefault(own, value)
+    return found
+
+
+def unit_said(name: str, said: Mapping[str, object]) -> str | None:
+    """The unit that an entry of its own says of a name; None without one."""
+    return units_said(said).get(words_of(name))
 
 
 def unit_among(name: str, attributes: Mapping[str, object]) -> str | None:
