@@ -114,7 +114,7 @@ def test_a_signal_without_its_scale_is_asked_about(head: str) -> None:
 
 
 def test_a_position_without_its_zero_is_asked_about() -> None:
-    with pytest.raises(InputError, match="zero"):
+    with pytest.raises(InputError, match="which length has it"):
         read(
             "# rest length 300 mm\nt [s],p [bar],F [N],laser [mm]\n"
             + table(TIME, PRESSURE, FORCE, 152.4 - STROKE)

@@ -25,7 +25,7 @@ from mckibben.measurement.reading.containers import sheets_of
 from mckibben.measurement.reading.correction import Correction
 from mckibben.measurement.reading.decide import SLOTS, decide, roles_of
 from mckibben.measurement.reading.derived import with_derived, without_stated_marks
-from mckibben.measurement.reading.evidence import evidence_of
+from mckibben.measurement.reading.evidence import OWN_FORM, evidence_of
 from mckibben.measurement.reading.facts import Known, known_of
 from mckibben.measurement.reading.heads import head_claims
 from mckibben.measurement.reading.layout import table_of
@@ -338,7 +338,10 @@ def said(reading: Reading) -> list[str]:
                     f"{label} is absolute pressure: {amount}, {whose}; "
                     f"{_reason(reading, i, 'absolute', True)}"
                 )
-            elif not any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence):
+            elif not any(
+                e.facet == "absolute" and e.target in (i, FILE) and e.rule != OWN_FORM
+                for e in reading.evidence
+            ):
                 lines.append(f"{label} read as gauge pressure")
         if channel == "force" and (
             dimension_of(use.unit) == "mass" or (reading.by_user(channel) and use.unit in ("kgf", "gf"))
@@ -405,11 +408,7 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
             return "it cannot be read as you say"
         return DISMISSED if i in reading.known.dismissed else "you do not want it"
     own = reading.own(i)
-    roles = {
-        r: w
-        for r, w in roles_of(own).items()
-        if r not in ("measured", "less wanted", "words", "at the valve")
-    }
+    roles = _roles(reading, i)
     unit = next((e.value for e in own if e.facet == "unit"), None)
     if "raw" in roles and unit is not None and dimension_of(unit) in _SIGNALS:
         named = next((e.value for e in own if e.facet == "channel" and e.rule != "unit"), "calibrated value")
@@ -431,12 +430,25 @@ def _why_unread(reading: Reading, i: int, column: Column) -> str:
 
 
 def _undecided(reading: Reading) -> tuple[str, ...]:
-    """Columns that nothing is read from because neither their name nor their unit tells what they are."""
-    unread = unread_of(reading)
-    titles = [title for title, why in unread if why in (UNKNOWN, "it is a raw signal")]
+    """Columns of numbers that nothing is read from because neither their name nor their unit tells what they
+    are.
+    """
+    unread = {title for title, _ in unread_of(reading)}
     return tuple(
-        title for title in titles if any(c.title == title and c.words is None for c in reading.table.columns)
+        column.title
+        for i, column in enumerate(reading.table.columns)
+        if column.title in unread
+        and column.words is None
+        and i not in (*reading.known.chosen, *reading.rows.dropped)
+        and set(_roles(reading, i)) <= {"raw"}
+        and not any(e.facet == "channel" and e.rule not in _BY_NUMBERS for e in reading.own(i))
     )
+
+
+def _roles(reading: Reading, i: int) -> dict[str, float]:
+    """What a column is instead of a channel, and what is said for it."""
+    aside = ("measured", "less wanted", "words", "at the valve")
+    return {role: weight for role, weight in reading.roles(i).items() if role not in aside}
 
 
 def stated_of(reading: Reading, conditions: Mapping[str, float | str]) -> tuple[StatedValue, ...]:
@@ -478,8 +490,9 @@ def _in_words(reading: Reading) -> frozenset[str]:
     if "pressure" in reading.decision.uses:
         i = reading.decision.uses["pressure"][0]
         choice = reading.known.chosen.get(i)
-        if any(e.facet == "absolute" and e.target in (i, FILE) for e in reading.evidence) or (
-            choice and choice.absolute is not None
-        ):
+        said = (
+            e.facet == "absolute" and e.target in (i, FILE) and e.rule != OWN_FORM for e in reading.evidence
+        )
+        if any(said) or (choice and choice.absolute is not None):
             words.add(REFERENCE)
     return frozenset(words)

@@ -504,7 +504,7 @@ def _parquet(data: bytes, name: str) -> list[Sheet]:
             if word_set("unit").among(words_of(key)):
                 units[field.name] = text
             else:
-                texts.append(Span(f"metadata of '{field.name}'", f"{field.name}: {text}"[:1000]))
+                texts.append(Span(f"said of '{field.name}'", f"{field.name}: {text}"[:1000]))
     return [Sheet("", noun="column", format="parquet", arrays=arrays, units=units, texts=tuple(texts))]
 
 

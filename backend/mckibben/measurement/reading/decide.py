@@ -59,12 +59,16 @@ SLOTS = {
 _MAIN = ("pressure", "force", "stroke")
 
 
+_UNREAD = 4.0  # nats against reading nothing from a column whose words and unit both say what it is
+
+
 class Option(NamedTuple):
     """A use of a column with the score of what is said for it."""
 
     score: float
     column: int
     use: Use
+    named: bool = False
 
 
 @dataclass(frozen=True)
@@ -135,19 +139,26 @@ def uses_of(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts) ->
     for e in own:
         if e.facet == "channel":
             channels[e.value] = channels.get(e.value, 0.0) + e.weight
+    measures = next((dimension_of(e.value) for e in own if e.facet == "unit"), "")
+    named = {e.value for e in own if e.facet == "channel" and e.rule != "unit"}
+    worded = {c for c in named if measures in FITTING.get(c, ())}
     roles = roles_of(own)
     scale = next((e.value for e in own if e.facet == "scale"), None)
     options: list[Option] = []
     for channel in SLOTS:
         if channels and channel not in channels:
             continue
-        words = channels.get(channel, 0.0) - 0.5 * max(
+        # What only its unit may be stands back behind what its words call it.
+        share = 1.0 if worded and channel not in worded else 0.5
+        words = channels.get(channel, 0.0) - share * max(
             [w for c, w in channels.items() if c != channel], default=0.0
         )
         words = words if channels else _NO_WORDS
-        words -= _aside(channel, roles, scaled=scale is not None, worded=channels.get(channel, 0.0) >= 2.0)
+        aside = _aside(channel, roles, scaled=scale is not None, worded=channels.get(channel, 0.0) >= 2.0)
+        named = bool(measures) and channel in worded and aside <= 0.0
         for unit, cost, scaling in _units(i, channel, table, own, scale):
-            options += _signed(i, channel, unit, words + cost, scaling, own, evidence)
+            for option in _signed(i, channel, unit, words - aside + cost, scaling, own, evidence):
+                options.append(option._replace(named=named))
     return sorted(options, key=lambda option: -option.score)
 
 
@@ -412,6 +423,7 @@ def _ranked(
         for slot in slots
         if slot not in _MAIN
     ]
+    named = [any(o.named for o in slots[slot]) for slot in _MAIN]
     found = []
     for combination in itertools.product(*([*slots[slot], None] for slot in _MAIN)):
         chosen = [o for o in combination if o is not None]
@@ -419,6 +431,7 @@ def _ranked(
         if len(columns) < len(chosen):
             continue
         score = sum(o.score for o in chosen) + sum(v for _, v in scorer.joint(*combination))
+        score -= _UNREAD * sum(n and o is None for n, o in zip(named, combination, strict=True))
         score += sum(
             max((s for column, s in of_slot.items() if column not in columns), default=0.0)
             for of_slot in aside

@@ -121,6 +121,10 @@ def stated_marks(table: Table) -> tuple[tuple[float, Span], ...]:
     return tuple(found)
 
 
+#: Rule of files in the form of this program, whose pressures are gauge where they say nothing else.
+OWN_FORM = "own form"
+
+
 def evidence_of(table: Table, name: str) -> list[Evidence]:
     """All claims about the columns, the blocks and the file."""
     found: list[Evidence] = []
@@ -138,6 +142,9 @@ def evidence_of(table: Table, name: str) -> list[Evidence]:
     for span in table.texts:
         if span.where.startswith("name of sheet"):
             found += [e._replace(rule="sheet") for e in _of_name(span)]
+    kind = next((e for e in found if e.facet == "condition:kind" and e.rule == "note"), None)
+    if kind is not None and not any(e.facet == "absolute" for e in found):
+        found.append(Evidence(FILE, "absolute", False, _UNIT_STATED, kind.span, OWN_FORM))
     return found
 
 
@@ -345,7 +352,7 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
     if noted is not None and noted.facet == "condition:muscle":
         plain = re.split(r"[,;]\s", str(noted.value))[0]
         codes = (e.value for e in of_code(span) if e.facet == "condition:muscle")
-        found[-1] = noted._replace(value=next(codes, plain))
+        found[-1] = noted._replace(value=plain if ":" in plain else next(codes, plain))  # "DMSP-20:800mm"
     found += _of_clauses(span, table)
     claims = (_of_quantity(context, target, span) for context in _contexts(text))
     found += [claim for claim in claims if claim is not None]

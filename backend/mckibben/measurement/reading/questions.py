@@ -60,6 +60,8 @@ _NOTHING = 0.02  # of the largest reading, below which it is none
 _SHORTEST = 0.4  # of the rest length, that a muscle can have
 _REST_BAND = (0.9e5, 1.1e5)  # Pa; the air outside
 _LONG_TEST, _SWING, _JUMP, _JUMPS = 900.0, 0.1, 0.6, 2
+#: Heads of a displacement in the plain form of this program: "position_mm".
+_PLAIN_STROKE = re.compile(r"(?:displacement|position|stroke|x)_[A-Za-z%]{1,4}")
 _BRACKET = re.compile(r"[\[(]\s?([^\W\d_]{2,20})\s?[\])]\s?$")
 _OPPOSED = -0.5  # correlation of the pressures of a pair, of which one is filled as the other is vented
 _CARRIES = {"force": "force", "pressure": "pressure", "length": "displacement"}
@@ -881,7 +883,8 @@ def _zero(reading: Reading) -> Iterator[Question]:
     """A position of which nothing says where the muscle is at its rest length."""
     yield from _zero_of_length(reading)
     column = reading.column("displacement")
-    if column is None or reading.by_user("displacement"):
+    plain = column is not None and _PLAIN_STROKE.fullmatch(column.head) is not None
+    if column is None or reading.by_user("displacement") or (plain and reading.use("displacement").sign == 1):
         return
     i, use = reading.decision.uses["displacement"]
     about = [e for e in reading.evidence if e.target in (i, FILE)]

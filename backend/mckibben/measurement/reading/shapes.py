@@ -722,11 +722,17 @@ def _marked_bad(columns: Sequence[Column]) -> dict[int, Gap]:
     }
 
 
+#: Words for the way of a row.
+_WAYS = "way_shortening|way_lengthening|way_pressure_rises|way_pressure_falls|way_one_way|way_other_way"
+
+
 def _are_signals(words: Sequence[str]) -> bool:
     """Whether words are the names of signals: few, each again and again, and two of them name channels."""
     names = {word.strip() for word in words if word.strip()}
     if not 2 <= len(names) <= _MOST_NAMES or len(words) < 2 * len(names):
         return False
+    if all(word_set(_WAYS).among(words_of(name)) for name in names):
+        return False  # they say which way each row goes
     claims = [
         c
         for name in names
