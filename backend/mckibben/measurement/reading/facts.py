@@ -151,8 +151,9 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
     if "load_mass" in stated and "load_force" in stated and "name" in stated["load_mass"].where.where:
         del stated["load_mass"]
     conditions: dict[str, float | str] = {k: s.value for k, s in stated.items() if k not in _OTHER_UNITS}
+    heads = {column.head.strip().casefold() for column in table.columns}
     for e in evidence:
-        if e.facet == "note" and e.value[0] not in conditions:
+        if e.facet == "note" and e.value[0] not in {*conditions, *heads}:
             conditions[e.value[0]] = str(e.value[1]).strip()[:200]
             stated.setdefault(e.value[0], Stated(conditions[e.value[0]], e.span, str(e.value[1])))
     hangers, load = stated_hangers(table), conditions.get("load_mass")

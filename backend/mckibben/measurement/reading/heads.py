@@ -113,10 +113,14 @@ def taken_apart(head: str, unit_below: str = "") -> Head:
         text = found[1]
     if unit is None:
         text, unit = _within(text)
+    below = (unit_of(unit_below) or _first_unit(unit_below)) if unit_below else None
     if unit is None:
-        text, unit = _behind(text)
+        name, behind = _behind(text)
+        # A unit that stands apart says more than a letter behind a name: "L_m" in mm.
+        apart = below is not None and behind is not None and below.dimension == behind.dimension
+        text, unit = (text, below) if apart and below != behind else (name, behind)
     if unit is None and unit_below:
-        unit = unit_of(unit_below) or _first_unit(unit_below)
+        unit = below
         if unit is None and (part := _PART_OF_UNIT.fullmatch(unit_below.strip(" []()"))):
             unit, share = unit_of(part["unit"]), float(part["share"].replace(",", "."))
     if unit is not None and unit.absolute is not None:

@@ -714,6 +714,7 @@ def _head(run: Run, wanted: int | None) -> None:
         width = range(min(MAX_COLUMNS, max(len(rows[r]) for r in (*run.rows[:50], best))))
         run.heads = {c: _text(rows[best][c]) if c < len(rows[best]) else "" for c in width}
         run.head_row = best
+        _named_above(run, [i for i in names if i < best])
         own = {h.strip().casefold() for h in run.heads.values() if len(h.strip()) > 1}
         others = [
             i
@@ -756,6 +757,18 @@ def _head(run: Run, wanted: int | None) -> None:
     if not run.described:
         _descriptions(run)
     _titles(run, min([run.rows[0], *run.above]))
+
+
+def _named_above(run: Run, above: Sequence[int]) -> None:
+    """Where a head is only a unit, the name stands in a row above it."""
+    for c, head in list(run.heads.items()):
+        cells = (_text(run.sheet.rows[i][c]) for i in above if c < len(run.sheet.rows[i]))
+        name = next((t for t in cells if t and kind_of(t) == TEXT and unit_of(t) is None), "")
+        is_unit = head and unit_of(head) is not None and not head_claims(head)
+        if name and is_unit:
+            run.heads[c] = name
+            if taken_apart(name).unit is None:
+                run.units[c] = head
 
 
 def _can_name(run: Run, row: Sequence[Cell]) -> bool:
@@ -1132,6 +1145,11 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
     """The best of the tables whose columns the file names itself, with those that are alike."""
     tables: list[tuple[Sheet, list[Column]]] = []
     for sheet in named:
+        said: dict[str, list[Span]] = {}  # "L_m: length between the clamps"
+        for span in sheet.texts:
+            key, _, rest = span.text.partition(": ")
+            if rest and not _QUANTITY.fullmatch(rest):
+                said.setdefault(key, []).append(Span(span.where, rest))
         columns = [
             column
             for head, values in (sheet.arrays or {}).items()
@@ -1142,6 +1160,7 @@ def _of_named(named: Sequence[Sheet], sheets: Sequence[Sheet], name: str) -> Tab
                     unit=sheet.units.get(head, ""),
                     sheet=sheet,
                     where=f"{sheet.noun} '{head}'",
+                    described=tuple(said.get(head, ())),
                 )
             )
             is not None

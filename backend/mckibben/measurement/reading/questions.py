@@ -130,6 +130,12 @@ class Reading:
         """The unit that is stated for a column."""
         return next((e.value for e in self.own(i) if e.facet == "unit"), None)
 
+    @property
+    def is_isometric(self) -> bool:
+        """Whether a text or the name of the file says that the length was held."""
+        kinds = (self.known.kind, str(self.known.conditions.get("kind", "")))
+        return "isometric" in kinds or is_isometric(self.name)
+
     def claims(self, i: int, channel: str) -> list[Evidence]:
         """What says that a column is a channel."""
         return [e for e in self.own(i) if e.facet == "channel" and e.value == channel]
@@ -242,7 +248,7 @@ def _units(reading: Reading) -> Iterator[Question]:
                 use.unit,
                 tuple(choices),
             )
-        elif not is_plausible(channel, values):
+        elif not is_plausible(channel, values) and not (channel in STROKES and reading.is_isometric):
             yield from _implausible(reading, channel, column, use, raw, values, named, span)
 
 
@@ -1256,13 +1262,8 @@ def _beyond(channels: dict[str, Array], rest: float) -> str:
 def _held_length(reading: Reading) -> Iterator[Question]:
     """An isometric test without the length at which the muscle was held."""
     channels = reading.rows.channels
-    named = (
-        reading.known.kind == "isometric"
-        or str(reading.known.conditions.get("kind", "")) == "isometric"
-        or is_isometric(reading.name)
-    )
     if (
-        named
+        reading.is_isometric
         and {"pressure", "force"} <= set(channels)
         and not set(channels) & {*STROKES, "diameter", "command"}
     ):

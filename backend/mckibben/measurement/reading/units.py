@@ -50,7 +50,7 @@ FITTING = {
 #: Unit of a mass -> that of its weight.
 WEIGHTS = {"kg": "kgf", "g": "gf", "lb": "lbf", "oz": "ozf"}
 _NO_UNITS = frozenset(
-    ("a", "A", "t", "T", "D", "at", "h0", "L", "l", "F", "p", "P", "x", "X", "i", "n", "No", "no")
+    ("a", "A", "t", "T", "D", "at", "h0", "L", "l", "F", "p", "P", "x", "X", "i", "n", "No", "no", "mass")
 )  # names rather than units
 _CLOCKS = re.compile(r"(?i)h{1,2}\s?:\s?m{1,2}(?:\s?:\s?s{1,2})?[.,:msfz0]{0,6}|clock|iso ?8601|hms")
 _DEGREES = re.compile(r"(?i)(?:deg(?:rees?)?\.?|°|º)\s?([CF])")
@@ -206,7 +206,7 @@ def quantities(text: str) -> tuple[Quantity, ...]:
     """All quantities of a text, in their order; none overlaps another one."""
     found: list[Quantity] = []
     taken = bytearray(len(text))
-    for pattern in (_UNIT_FIRST, _UNIT_IN_NAME, _QUANTITY, _UNIT_BEFORE, _GLUED_SYMBOL):
+    for pattern in (_UNIT_FIRST, _QUANTITY, _UNIT_IN_NAME, _UNIT_BEFORE, _GLUED_SYMBOL):
         new = [q for q in _of_pattern(pattern, text) if not any(taken[q.begin : q.end])]
         for q in new:
             taken[q.begin : q.end] = b"x" * (q.end - q.begin)
