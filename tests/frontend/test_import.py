@@ -546,7 +546,7 @@ def test_a_stroke_that_was_turned_keeps_its_sign_when_the_user_says_so(case: Pag
     """It does not stop; both answers stand there, and what is chosen is read and asked no more."""
     r = isobaric(2e5, 3e5)
     rows = [f"{p},{-s},{f}" for p, s, f in zip(r.pressure / 1e5, r.stroke * 1e3, r.force, strict=True)]
-    data = "\n".join(["# rest length 250 mm", "p [bar],Extension [mm],F [N]", *rows]).encode()
+    data = "\n".join(["# rest length 250 mm", "p [bar],Displacement [mm],F [N]", *rows]).encode()
     choose(case, {"name": "e.csv", "mimeType": "text/csv", "buffer": data})
     ask = panel(case).locator(".ask.may-wait[data-about='sign of displacement']")
     expect(ask).to_contain_text("read with its sign reversed")

@@ -188,7 +188,7 @@ def descending() -> OpenFile:
     )
     answer = ("--column", "length=position [mm]")
     return OpenFile(
-        "k.csv", data, ("sign of displacement", "rest length"), True, answer, ("length", 0.06 - r.stroke)
+        "k.csv", data, ("zero of displacement", "rest length"), True, answer, ("length", 0.06 - r.stroke)
     )
 
 

@@ -482,17 +482,19 @@ def stated_of(reading: Reading, conditions: Mapping[str, float | str]) -> tuple[
     return tuple(found)
 
 
+def says_reference(reading: Reading) -> bool:
+    """Whether the file or the user says what the pressure counts from."""
+    i = reading.decision.uses["pressure"][0]
+    choice = reading.known.chosen.get(i)
+    said = (e.facet == "absolute" and e.target in (i, FILE) and e.rule != OWN_FORM for e in reading.evidence)
+    return any(said) or (choice is not None and choice.absolute is not None)
+
+
 def _in_words(reading: Reading) -> frozenset[str]:
     """Channels whose unit the file or the user says, and whether one of them says what the pressure counts
     from.
     """
     words = {c for c in reading.decision.uses if c in reading.rows.channels and reading.said_unit(c)}
-    if "pressure" in reading.decision.uses:
-        i = reading.decision.uses["pressure"][0]
-        choice = reading.known.chosen.get(i)
-        said = (
-            e.facet == "absolute" and e.target in (i, FILE) and e.rule != OWN_FORM for e in reading.evidence
-        )
-        if any(said) or (choice and choice.absolute is not None):
-            words.add(REFERENCE)
+    if "pressure" in reading.decision.uses and says_reference(reading):
+        words.add(REFERENCE)
     return frozenset(words)

@@ -12,7 +12,14 @@ from mckibben.facts.result import result_class
 from mckibben.measurement.measurement import CHANNEL_UNITS, Measurement, StatedValue
 from mckibben.measurement.question import Question
 from mckibben.measurement.reading.answers import refusal
-from mckibben.measurement.reading.assemble import decided, looked_at, measurement_of, stated_of, unread_of
+from mckibben.measurement.reading.assemble import (
+    decided,
+    looked_at,
+    measurement_of,
+    says_reference,
+    stated_of,
+    unread_of,
+)
 from mckibben.measurement.reading.correction import Correction
 from mckibben.measurement.reading.model import Skip, Table
 from mckibben.measurement.reading.questions import Reading, questions_of
@@ -251,6 +258,7 @@ def _columns(
     labels = {} if reading is None else {i: use for use, i in reading.rows.labels.items()}
     ranges = {} if measurement is None else {c.name: c for c in measurement.channels}
     unread = {} if reading is None else dict(unread_of(reading))
+    said_reference = reading is not None and "pressure" in reading.decision.uses and says_reference(reading)
     found = []
     for i, column in enumerate(table.columns):
         channel, use = used.get(i, (labels.get(i), None))
@@ -273,7 +281,7 @@ def _columns(
                 header=column.title,
                 channel=channel,
                 unit=use.unit if use is not None else None,
-                absolute=use.absolute if use is not None and channel == "pressure" else None,
+                absolute=use.absolute if use and channel == "pressure" and said_reference else None,
                 minimum=span.minimum if span else None,
                 maximum=span.maximum if span else None,
                 why=wrong.get(column.head) or wrong.get(column.title),

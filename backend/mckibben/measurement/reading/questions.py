@@ -889,8 +889,14 @@ def _zero(reading: Reading) -> Iterator[Question]:
     """A position of which nothing says where the muscle is at its rest length."""
     yield from _zero_of_length(reading)
     column = reading.column("displacement")
-    plain = column is not None and _PLAIN_STROKE.fullmatch(column.head) is not None
-    if column is None or reading.by_user("displacement") or (plain and reading.use("displacement").sign == 1):
+    if column is None or reading.by_user("displacement"):
+        return
+    shown = [value for text, value in reading.decision.terms if text in MOTION]
+    if (
+        _PLAIN_STROKE.fullmatch(column.head)
+        and reading.use("displacement").sign == 1
+        and min(shown, default=0.0) > _AGAINST
+    ):
         return
     i, use = reading.decision.uses["displacement"]
     about = [e for e in reading.evidence if e.target in (i, FILE)]
