@@ -343,7 +343,8 @@ def _of_words(words: tuple[str, ...]) -> tuple[Claim, ...]:
                     channels[rule.id] = place
                     found[rule.id] = rule, rule.weight * (1.0 if strength > EXACT else 0.9)
         for rule, strength in ranked:
-            if "channel" not in rule.claims and strength > EXACT:
+            alone = len(word) > 1 or len(words) == 1 or word == "#"  # a letter of "i.O.?" says nothing
+            if "channel" not in rule.claims and strength > EXACT and alone:
                 found[rule.id] = rule, rule.weight
         if not any("role" in rule.claims and s > EXACT for rule, s in ranked):
             for rule in _compound_roles(word):

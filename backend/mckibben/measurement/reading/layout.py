@@ -764,7 +764,8 @@ def _named_above(run: Run, above: Sequence[int]) -> None:
     for c, head in list(run.heads.items()):
         cells = (_text(run.sheet.rows[i][c]) for i in above if c < len(run.sheet.rows[i]))
         name = next((t for t in cells if t and kind_of(t) == TEXT and unit_of(t) is None), "")
-        is_unit = head and unit_of(head) is not None and not head_claims(head)
+        named = any(claim.facet == "channel" for claim in head_claims(head))
+        is_unit = head and unit_of(head) is not None and not named
         if name and is_unit:
             run.heads[c] = name
             if taken_apart(name).unit is None:

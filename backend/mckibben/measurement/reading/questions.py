@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import islice
 
 import numpy as np
@@ -481,8 +481,8 @@ def _raw_signal(reading: Reading, i: int, claimed: set[str], filled: set[str]) -
         and column.key in {str(k) for k in reading.correction.columns}
     ):
         return
+    missing = [c for c in ("pressure", "force", "displacement") if SLOTS[c] not in filled]
     if wanted is None:
-        missing = [c for c in ("pressure", "force", "displacement") if SLOTS[c] not in filled]
         if (
             claimed
             or unit is None
@@ -492,7 +492,9 @@ def _raw_signal(reading: Reading, i: int, claimed: set[str], filled: set[str]) -
             return
         wanted = missing[0]
     several = next((e.value for e in reading.own(i) if e.facet == "several scales"), "")
-    yield scale_question(reading.label(column), column, wanted, unit, several)
+    question = scale_question(reading.label(column), column, wanted, unit, several)
+    open_ones = () if wanted in claimed else tuple(missing)
+    yield replace(question, choices=("ignore", *open_ones)) if len(open_ones) > 1 else question
 
 
 def scale_question(label: str, column: Column, wanted: str, unit: str | None, several: str = "") -> Question:
@@ -655,7 +657,7 @@ def _signs(reading: Reading) -> Iterator[Question]:
     """A sign that no word says: the readings decided, or do not show it."""
     for channel in ("force", "displacement", "contraction"):
         column = reading.column(channel)
-        if column is None or reading.by_user(channel):
+        if column is None or reading.by_user(channel) or (channel != "force" and reading.is_isometric):
             continue
         i, use = reading.decision.uses[channel]
         facet = "sign_force" if channel == "force" else "sign_stroke"
