@@ -84,6 +84,13 @@ def test_counts_that_start_nowhere_are_not_scaled() -> None:
         read(head + table(PRESSURE, FORCE, COUNTS))
 
 
+def test_a_signal_without_a_name_is_asked_for_its_channel_too() -> None:
+    text = f"# rest length 300 mm\nTime(s),CH1(V),CH2(V)\n{table(TIME, PRESSURE * 0.5 + 0.5, FORCE / 300.0)}"
+    with pytest.raises(InputError) as refused:
+        read(text)
+    assert "which pressure, force or displacement is which reading" in refused.value.message
+
+
 def test_the_symbol_of_a_voltage_says_the_channel_whose_scale_is_asked_for() -> None:
     rows = table(TIME, PRESSURE * 0.5 + 0.5, FORCE, 300.0 - STROKE)
     text = f"t_s,U_p_V,F_N,L_mm\n{rows}"

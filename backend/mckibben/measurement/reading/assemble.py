@@ -125,7 +125,7 @@ def _nothing(name: str, table: Table, evidence: tuple[Evidence, ...]) -> InputEr
         unit = next((e.value for e in own if e.facet == "unit"), None)
         if (wanted := next((c for c in SCALABLE if c in claimed), None)) is not None:
             label = f"{table.noun} '{column.title}'"
-            raw.setdefault(wanted, scale_question(label, column, wanted, unit))
+            raw.setdefault(wanted, scale_question(label, column, (wanted,), unit))
     if (asked := refusal(name, list(raw.values()))) is not None:
         return asked
     worded = [

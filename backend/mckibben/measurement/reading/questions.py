@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from itertools import islice
 
 import numpy as np
@@ -482,33 +482,30 @@ def _raw_signal(reading: Reading, i: int, claimed: set[str], filled: set[str]) -
     ):
         return
     missing = [c for c in ("pressure", "force", "displacement") if SLOTS[c] not in filled]
-    if wanted is None:
-        if (
-            claimed
-            or unit is None
-            or not missing
-            or ("pressure" not in missing and "displacement" not in missing)
-        ):
-            return
-        wanted = missing[0]
+    if wanted is None and (claimed or unit is None or not {"pressure", "displacement"} & set(missing)):
+        return
     several = next((e.value for e in reading.own(i) if e.facet == "several scales"), "")
-    question = scale_question(reading.label(column), column, wanted, unit, several)
-    open_ones = () if wanted in claimed else tuple(missing)
-    yield replace(question, choices=("ignore", *open_ones)) if len(open_ones) > 1 else question
+    among = (wanted,) if wanted is not None else tuple(missing)
+    yield scale_question(reading.label(column), column, among, unit, several)
 
 
-def scale_question(label: str, column: Column, wanted: str, unit: str | None, several: str = "") -> Question:
-    """What scale a signal has."""
+def scale_question(
+    label: str, column: Column, among: tuple[str, ...], unit: str | None, several: str = ""
+) -> Question:
+    """What scale a signal has, and which of the channels it is; the first stands in the example."""
+    wanted = among[0]
+    *others, last = among
+    channels = f"{', '.join(others)} or {last}" if others else last
     scale = f"{_RAW_SPANS.get(unit or 'count', '0 to 10 V')} = {_SCALED[wanted]}"
     return Question(
         f"scale of {wanted}",
         f"{label} is a signal in {unit or 'counts'}, and "
         f"{f'texts state several scales, {several}' if several else 'no text states its scale'}: "
-        f"which {wanted} is which reading",
+        f"which {channels} is which reading",
         f"{option_of(wanted, column, scale)} or {ignore_option(bare(column))}",
         column.head,
         None,
-        ("ignore", wanted),
+        ("ignore", *among),
         stops=wanted != "command",
     )
 
