@@ -18,7 +18,13 @@ from mckibben.measurement.reading.heads import taken_apart
 from mckibben.measurement.reading.limits import WORD, Allowance, check_variables, inflated
 from mckibben.measurement.reading.mat5 import Foreign
 from mckibben.measurement.reading.packed import packed_values
-from mckibben.measurement.reading.unit_lists import names_units, unit_among, unit_said, units_of_columns
+from mckibben.measurement.reading.unit_lists import (
+    names_of_columns,
+    names_units,
+    unit_among,
+    unit_said,
+    units_of_columns,
+)
 from mckibben.measurement.reading.units import reference_of, unit_of
 from mckibben.physics.errors import InputError
 
@@ -105,7 +111,6 @@ class Hdf5Reader:
     def _plain(self, key: str, dataset: Any) -> dict[str, Any]:
         """A dataset of another program: vectors with units, tables of named columns, texts."""
         attributes = self._attributes(dataset)
-        names = next((v for k, v in attributes.items() if isinstance(v, list) and not names_units(k)), None)
         unit = unit_among(key, attributes)
         if dataset.shape is None or dataset.dtype.kind not in "biufSOV":
             return {key: None}
@@ -122,7 +127,8 @@ class Hdf5Reader:
             columns = {_headed(f, u): table[f].astype(float) for f, u in zip(fields, units, strict=True)}
             return {key: _beside(attributes, columns)}
         values = packed_values(self._read(key, dataset), attributes)
-        if values.ndim == 2 and names is not None and len(names) in values.shape:
+        names = next((n for n in names_of_columns(attributes) if len(n) in values.shape), None)
+        if values.ndim == 2 and names is not None:
             table = values if values.shape[1] == len(names) else values.T
             units = units_of_columns(names, attributes)
             columns = {_headed(n, u): table[:, i] for i, (n, u) in enumerate(zip(names, units, strict=True))}

@@ -616,11 +616,10 @@ def _melted(run: Run, title: list[Span]) -> Part:
     values = np.array(
         [numbers_of([*row[1 : len(top)], *[""] * (len(top) - len(row))], style)[0] for row in body]
     )
-    corner = [part.strip() for part in TRAILING.split(str(top[0])) if part.strip()] or [""]
     where = sheet.place(run.rows[0])
     over = [str(c) for r in run.remarks for c in rows[r] if c != ""]
-    down_name, across_name = (corner[0], corner[-1]) if len(corner) > 1 else ("", corner[0])
-    if len(corner) == 1 and _counts(down):
+    down_name, across_name = _axes(run)
+    if not down_name and _counts(down):
         down_name = "cycle"
     subject = _subject(run, _channels([down_name, across_name]), over)
     lines = np.array([sheet.line(r) for r in run.rows[1:]], np.int64)
@@ -641,6 +640,30 @@ def _melted(run: Run, title: list[Span]) -> Part:
     if empty.any():
         said += f"; {int(empty.sum())} empty cells hold no reading"
     return Part(made, tuple(title), numbers[~empty], messages=(said,))
+
+
+def _axes(run: Run) -> tuple[str, str]:
+    """What the corner of a map and the row above it call its axes, down and across.
+
+    A name over the values is that of the axis across; the corner, with what stands above it, then names the
+    one down: "Contrazione (%)" below "Pressione (bar)", or "(%)" below "contraction". A corner alone names
+    both, "length / pressure", or the axis across.
+    """
+    rows = run.sheet.rows
+    corner = str(rows[run.rows[0]][0])
+    parts = [part.strip() for part in TRAILING.split(corner) if part.strip()]
+    if len(parts) > 1:
+        return parts[0], parts[-1]
+    above = next((row for row in reversed(rows[: run.rows[0]][-2:]) if any(c != "" for c in row)), [])
+    across = next((str(c) for c in above[1:] if kind_of(c) == TEXT and _names_axis(str(c))), "")
+    if not across:
+        return "", corner.strip()
+    first = "" if _channels([corner]) else str(above[0])
+    return f"{first} {corner}".strip(), across
+
+
+def _names_axis(text: str) -> bool:
+    return bool(_channels([text])) or taken_apart(text[:200]).unit is not None
 
 
 _FAR_ABOVE = 12  # rows above a map in which its values may be named

@@ -13,7 +13,7 @@ import numpy as np
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_COLUMNS, MAX_DEPTH, MAX_NODES, MAX_TEXT
 from mckibben.measurement.reading.model import Sheet, Span
-from mckibben.measurement.reading.unit_lists import units_said
+from mckibben.measurement.reading.unit_lists import names_of_columns, units_of_columns, units_said
 from mckibben.measurement.reading.units import unit_of
 from mckibben.physics.errors import InputError
 
@@ -482,13 +482,13 @@ def _name_lists(node: Mapping[str, Any], depth: int = 0) -> list[tuple[list[str]
     """Lists of names of columns, with their units: of texts, or of mappings with a name; those of inner
     mappings last.
     """
-    found = []
+    found = [
+        (names, [unit or "" for unit in units_of_columns(names, node)]) for names in names_of_columns(node)
+    ]
     for other in node.values():
         if not isinstance(other, (list, tuple)) or not other:
             continue
-        if all(isinstance(v, str) for v in other):
-            found.append(([str(v).strip() for v in other], [""] * len(other)))
-        elif all(isinstance(v, dict) and any(str(k).lower() in _NAMES for k in v) for v in other):
+        if all(isinstance(v, dict) and any(str(k).lower() in _NAMES for k in v) for v in other):
             names = [next(str(x) for k, x in v.items() if str(k).lower() in _NAMES) for v in other]
             units = [
                 " ".join(

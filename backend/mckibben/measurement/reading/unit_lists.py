@@ -1,11 +1,13 @@
-"""Units of the columns of a table that stand together in one place: a list, or pairs of name and unit."""
+"""Names and units of the columns of a table that stand together in one place: a list, a text that lists them,
+or pairs of name and unit.
+"""
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
-from mckibben.measurement.reading.heads import head_claims
+from mckibben.measurement.reading.heads import head_claims, head_score
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.units import FITTING, unit_of
 
@@ -54,6 +56,32 @@ def _can_be_unit(name: str, text: str) -> bool:
 
 
 _CARRIED = ["pressure", "force"]  # what is hardly ever written for something else
+
+
+def names_of_columns(said: Mapping[str, object]) -> Iterator[list[str]]:
+    """The lists of names beside a table: lists of texts, and texts that list them, ``"time, force, pressure"``,
+    of which more than half name a quantity.
+    """
+    for key, value in said.items():
+        if names_units(key):
+            continue
+        if isinstance(value, list | tuple) and value and all(isinstance(v, str) for v in value):
+            yield [v.strip() for v in value]
+        elif isinstance(value, str) and (names := _names_in(value)):
+            yield names
+
+
+def _names_in(text: str) -> list[str]:
+    """The names that a text lists; [] = it lists none."""
+    for sign in (r"[;|\t\n]", r","):
+        parts = [part.strip().strip("\"'") for part in re.split(sign, text.strip().strip("{}[]()"))]
+        named = sum(len(part) <= _LONGEST_NAME and head_score(part) > 0.0 for part in parts)
+        if len(parts) > 1 and all(parts) and named > len(parts) // 2:
+            return parts
+    return []
+
+
+_LONGEST_NAME = 40
 
 
 def units_of_columns(names: Sequence[str], said: Mapping[str, object]) -> list[str | None]:
