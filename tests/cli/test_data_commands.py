@@ -82,7 +82,7 @@ def test_convert_writes_what_it_prints(run: Run) -> None:
     assert code == 0, err
     assert "# nominal_length: 0.3 m" in out
     assert "# nominal_length is said by the file at prova_7.csv, line 3" in out
-    assert "# pressure is column 'Pressione relativa [mbar]' in mbar" in out
+    assert "# pressure is read from 'Pressione relativa [mbar]' in mbar" in out
     code, nothing, err = run("convert", file.name, "-o", "clean.csv")
     assert (code, nothing) == (0, "")
     assert Path("clean.csv").read_text("utf-8") == out

@@ -248,6 +248,8 @@ def test_a_proposed_unit_is_marked_and_confirmed_or_changed(case: Page) -> None:
         cell = dialog.locator(f"th[data-column='{header}']")
         expect(cell.get_by_label(f"Unit of {header}")).to_have_value(unit)
         expect(cell).to_contain_text(f"{unit} is assumed")
+    said = dialog.locator("th[data-column='F'] .state")
+    expect(said).to_have_attribute("title", re.compile(r"^force: 'F' \(line 1, column 3\)"))
     pressure = dialog.locator(".ask[data-about='unit of pressure']")
     expect(pressure.get_by_role("button").first).to_have_text("kPaassumed")
     with read_anew(case):
@@ -585,13 +587,16 @@ def test_every_question_is_answered_in_the_view(case: Page, made: OpenFile) -> N
             break
         about = asks.first.get_attribute("data-about")
         tick = dialog.locator(".unread .open input")
+        typed = asks.first.locator("input")
+        said = " ".join(made.options)
+        for field, value in zip(typed.all(), re.findall(r"[\d.]+(?=[ ,]| bar)", said), strict=False):
+            field.fill(f"{value} bar")
         with read_anew(case) as answer:
             if tick.count():
                 tick.first.click()
             else:
                 answers = asks.first.get_by_role("button")
                 words = [re.sub(r"\s*(proposed|assumed)$", "", text) for text in answers.all_inner_texts()]
-                said = " ".join(made.options)
                 right = [n for n, text in enumerate(words) if text.partition(" [")[0].strip() in said]
                 answers.nth(right[0] if right else 0).click()
         points = answer.value.json()["points"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from mckibben.measurement import measurement
-from mckibben.measurement.reading import read_measurement
+from mckibben.measurement.reading import Correction, read_measurement
 
 ROWS = 40
 STROKE = np.concatenate([np.linspace(0.0, 60.0, 20), np.linspace(60.0, 0.0, 20)]).round(2)  # mm
@@ -19,9 +19,11 @@ def table(*columns: np.ndarray, separator: str = ",") -> str:
     return "\n".join(separator.join(f"{value:.10g}" for value in row) for row in zip(*columns, strict=True))
 
 
-def read(data: str | bytes, name: str = "a.csv") -> measurement.Measurement:
+def read(
+    data: str | bytes, name: str = "a.csv", correction: Correction | None = None
+) -> measurement.Measurement:
     """The measurement in a text."""
-    return read_measurement(data.encode() if isinstance(data, str) else data, name)
+    return read_measurement(data.encode() if isinstance(data, str) else data, name, correction)
 
 
 def assert_is_the_test(found: measurement.Measurement, *, rest: bool = True) -> None:

@@ -251,7 +251,28 @@ def untared() -> OpenFile:
     return OpenFile("o.csv", data, ("zero of force", "rest length"), False, answer, ("force", resting))
 
 
+def held_pressure() -> OpenFile:
+    """A loop at one pressure, which nothing states."""
+    r = isobaric(2.5e5)
+    data = text(["stroke_mm", "force_N"], r.stroke * 1e3, r.force)
+    answer = ("--column", "pressure=2.5 bar", "--rest-length", "250 mm")
+    return OpenFile(
+        "p.csv", data, ("held pressure", "rest length"), True, answer, ("pressure", 2.5e5 + 0 * r.force)
+    )
+
+
+def levels() -> OpenFile:
+    """Loops at three pressures that are called by words."""
+    r = _isobaric()
+    nominal = np.round(r.pressure / 1e5)
+    words = [("low", "mid", "high")[int(p) - 2] for p in nominal]
+    data = text(["pressure step", "length_mm", "force_N"], words, 250 - r.stroke * 1e3, r.force)
+    answer = ("--column", "pressure=pressure step [low = 2, mid = 3, high = 4 bar]")
+    return OpenFile("q.csv", data, ("levels of pressure",), True, answer, ("pressure", nominal * 1e5))
+
+
 WRITERS: tuple[Callable[[], OpenFile], ...] = (
     no_unit, bare_psi, no_rest_length, no_load, milliseconds, absolute, second_force, two_specimens,
     crosshead, compression, descending, two_sheets, impossible, long_stroke, untared,
+    held_pressure, levels,
 )  # fmt: skip

@@ -41,4 +41,4 @@ def test_the_canonical_file_holds_the_same_channels(write: Callable[[], LabFile]
         assert again.conditions.get(key) == original.conditions.get(key)
     assert file.name in text
     for channel in original.channels:
-        assert f"# {channel.name} is column '{channel.column.replace(':', ' ')}'" in text
+        assert f"# {channel.name} is read from '{channel.column.replace(':', ' ')}'" in text

@@ -66,7 +66,7 @@ def _comments(measurement: Measurement) -> Iterator[str]:
         yield f"# {key}: {value!r} {unit}" if unit and isinstance(value, float) else f"# {key}: {value}"
     yield f"# read from {_plain(measurement.name)} (SHA-256 {measurement.id})"
     for channel in measurement.channels:
-        yield f"# {channel.name} is column '{_plain(channel.column)}' in {channel.source_unit}"
+        yield f"# {channel.name} is read from '{_plain(channel.column)}' in {channel.source_unit}"
     for stated in measurement.stated:
         if stated.key in CONDITION_UNITS or stated.key in TEXT_CONDITIONS:
             where = f" at {_plain(stated.where)}" if stated.where else ""

@@ -21,6 +21,7 @@ from mckibben.measurement.measurement import (
 from mckibben.measurement.order import FROM_ROWS, order_of_rows
 from mckibben.measurement.question import Question
 from mckibben.measurement.reading.answers import DISMISSED, refusal
+from mckibben.measurement.reading.chosen import with_levels
 from mckibben.measurement.reading.containers import sheets_of
 from mckibben.measurement.reading.correction import Correction
 from mckibben.measurement.reading.decide import SLOTS, decide, roles_of
@@ -68,9 +69,8 @@ _ROLES = {
 def looked_at(data: bytes, name: str, correction: Correction) -> tuple[Table, tuple[Evidence, ...], Known]:
     """The table of a file, the claims about it, and what is known beside its columns."""
     sheets = sheets_of(data, name)
-    table = without_stated_marks(
-        with_derived(table_of(sheets, name, wanted=correction.sheet, head=correction.head))
-    )
+    table = table_of(sheets, name, wanted=correction.sheet, head=correction.head)
+    table = without_stated_marks(with_derived(with_levels(table, correction.columns)))
     evidence = tuple(evidence_of(table, name))
     known = known_of(table, evidence, name, correction)
     stated = {f"zero:{key.removesuffix('_zero')}" for key in known.conditions if key.endswith("_zero")}

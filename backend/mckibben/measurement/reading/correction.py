@@ -16,13 +16,13 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any
+from typing import Any, NamedTuple
 
 from mckibben.measurement.kind import KINDS
 from mckibben.measurement.measurement import CHANNEL_UNITS
 from mckibben.measurement.reading.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
 from mckibben.measurement.reading.scales import answered_scale
-from mckibben.measurement.reading.units import CLOCK, RAW, WEIGHTS, unit_of
+from mckibben.measurement.reading.units import CLOCK, RAW, WEIGHTS, number_of, unit_of
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.physics.units import factor
 
@@ -39,6 +39,10 @@ _PARTS = (
 _CHOICE_KEYS = ("channel", "unit", "absolute", "sign", "scale", "assumed")
 _COLUMN = re.compile(r"\s*([a-z_]+)\s*=\s*([+-]?)\s*(.*?)\s*")
 _WITH_UNIT = re.compile(r"(.+?)\s*\[([^\[\]]*)\]")
+_LEVEL = re.compile(
+    r"\s*(?P<word>[^=]{1,40}?)\s*=\s*(?P<value>[-+]?\d{1,9}(?:[.,]\d{1,9})?)\s?(?P<unit>\S{0,12})\s*"
+)
+MOST_LEVELS = 12
 _EXAMPLE = 'e.g. {"columns": {"p1": {"channel": "pressure", "unit": "bar"}}, "kind": "isobaric"}'
 
 
@@ -239,7 +243,7 @@ def column_choice(text: str, *, where: str) -> tuple[str, Choice]:
     split = _WITH_UNIT.fullmatch(name)
     if split is None:
         return name, Choice(channel, None, None, minus)
-    scale = answered_scale(split[2])
+    scale = answered_scale(split[2]) or levels_of(split[2])
     unit = unit_of(split[2] if scale is None else scale.unit)
     if unit is None:
         raise InputError(
@@ -263,6 +267,28 @@ def column_choice(text: str, *, where: str) -> tuple[str, Choice]:
             hint=f"a unit such as {CHANNEL_UNITS.get(channel, '1')}",
         ) from error  # fmt: skip
     return split[1], Choice(channel, spelling, unit.absolute, minus, None if scale is None else split[2])
+
+
+class Levels(NamedTuple):
+    """What the words of a column stand for, in one unit."""
+
+    values: Mapping[str, float]
+    unit: str
+
+
+def levels_of(text: str) -> Levels | None:
+    """What a user says that words stand for, ``I = 1 bar, II = 2 bar``; None = it is something else.
+
+    The unit of the last one counts for those without: ``low = 1, high = 6 bar``.
+    """
+    parts = [_LEVEL.fullmatch(part) for part in re.split(r"[,;]\s", text)]
+    found = [part for part in parts if part is not None]
+    unit = found[-1]["unit"] if found else ""
+    if len(found) < len(parts) or not 1 < len(found) <= MOST_LEVELS or unit_of(unit) is None:
+        return None
+    if any(part["unit"] not in ("", unit) for part in found):
+        return None
+    return Levels({part["word"]: number_of(part["value"]) for part in found}, unit)
 
 
 def _given(value: str | float, key: str, where: str) -> float | str:
@@ -357,7 +383,7 @@ def _choice(value: Any, key: str) -> Choice | None:
 def _scaled(scale: Any, channel: str, given: Mapping[str, Any], key: str) -> Choice:
     """A column with the scale of its signal, as ``column_choice`` reads it."""
     text = _typed(scale, str, f"{key}.scale")
-    if answered_scale(text) is None:
+    if answered_scale(text) is None and levels_of(text) is None:
         raise _refused(f"{key}.scale", f"{text[:80]!r} is not a scale", "e.g. '0-10 V = 0-10 bar'")
     minus = "-" if given.get("sign") == -1 else ""
     return column_choice(f"{channel}={minus}x [{text}]", where=f"mapping{key}.scale")[1]

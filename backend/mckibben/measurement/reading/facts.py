@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from mckibben.measurement.measurement import CHANNEL_UNITS
+from mckibben.measurement.reading.chosen import chosen, places
 from mckibben.measurement.reading.conditions import CONDITION_UNITS, TEXT_CONDITIONS, condition_value
 from mckibben.measurement.reading.correction import Choice, Correction
 from mckibben.measurement.reading.decide import Facts
@@ -22,7 +23,6 @@ from mckibben.measurement.reading.model import BLOCK, FILE, Array, Evidence, Spa
 from mckibben.measurement.reading.physics import ATMOSPHERE
 from mckibben.measurement.reading.units import Quantity, Unit, dimension_of, quantity_si
 from mckibben.measurement.reading.zeros import stated_hangers
-from mckibben.physics.errors import InputError, did_you_mean
 
 GRAVITY = 9.80665  # m/s2, standard
 _SAME = 2e-3  # relative; values that differ by less are the same one, rounded
@@ -31,6 +31,9 @@ _POSSIBLE_AIR = (5e4, 1.1e5)  # Pa; of the air where people work
 _OTHER_UNITS = {"diameter": "m"}  # of conditions that only the physics uses
 _SIZE = re.compile(r"(?:DMSP|MAS)-(\d{1,3})")
 _YOU = Span("you", "")
+_ANSWER = Span("your answer", "")
+_SAID_BY_YOU = 60.0  # nats
+HELD_BY_YOU = "held, as the user says"
 #: Conditions of which two values are asked about -> (their name, the option that sets them).
 _ASKED = {
     "nominal_length": ("rest length", "--rest-length"), "load_mass": ("load", "--load"),
@@ -66,6 +69,7 @@ class Held(NamedTuple):
     where: str
     unit: str
     by_name: bool = False
+    by_you: bool = False
 
 
 @dataclass(frozen=True)
@@ -171,15 +175,19 @@ def known_of(table: Table, evidence: Sequence[Evidence], name: str, correction: 
             stated[key] = Stated(value, _YOU, "")
     contradictions = [c for c in contradictions if c.key not in correction.conditions]
     said = {e.value for e in evidence if e.facet == "kind"}
-    held, several = _held(table, evidence, conditions, messages)
+    by_user, held_by_user = chosen(table, correction.columns, name)
+    answers = [
+        Evidence(FILE, f"held:{channel}", quantity, _SAID_BY_YOU, _ANSWER, HELD_BY_YOU)
+        for channel, quantity in held_by_user.items()
+    ]
+    held, several = _held(table, (*evidence, *answers), conditions, messages)
     ignored = next((str(s.value) for k, s in stated.items() if k == "ignore"), "")
     unwanted = (
         {n.strip(): None for e in claims.get("ignore", ()) for n in str(e.value).split(",")}
         if not ignored
         else {}
     )
-    by_user = _chosen(table, correction.columns, name)
-    dismissed = {i: None for k in unwanted for i in _places(k, table)[:1] if i not in by_user}
+    dismissed = {i: None for k in unwanted for i in places(k, table)[:1] if i not in by_user}
     return Known(
         conditions,
         stated,
@@ -212,7 +220,7 @@ def _columns_of_conditions(
     found: dict[str, tuple[int, tuple[float, ...]]] = {}
     loads: dict[int, float] = {}
     named = {
-        i for said, choice in correction.columns.items() if choice is not None for i in _places(said, table)
+        i for said, choice in correction.columns.items() if choice is not None for i in places(said, table)
     }
     for i, column in enumerate(table.columns):
         own = [e for e in evidence if e.target == i]
@@ -357,6 +365,7 @@ def _held(
               "condition:load_force": "load_force"}  # fmt: skip
     for facet, channel in facets.items():
         claims = [e for e in evidence if e.facet == facet and isinstance(e.value, Quantity)]
+        claims = [e for e in claims if e.rule == HELD_BY_YOU] or claims
         own = {k: _only([e for e in claims if e.target == BLOCK - k]) for k in range(blocks)}
         if blocks > 1 and all(e is not None for e in own.values()):
             values = np.array(
@@ -382,8 +391,9 @@ def _held(
         if len(distinct) == 1:
             value, e = next(iter(distinct.items()))
             held[channel] = Held(
-                np.full(max(blocks, 1), value), e.value.text, e.span.where, e.value.unit.name, not texts
-            )
+                np.full(max(blocks, 1), value), e.value.text, e.span.where, e.value.unit.name, not texts,
+                e.rule == HELD_BY_YOU,
+            )  # fmt: skip
         elif distinct:
             several[channel] = tuple(distinct.values())
     return held, several
@@ -419,80 +429,3 @@ def _held_value(
         )
     air = conditions.get("ambient_pressure")
     return value - (air if isinstance(air, float) else ATMOSPHERE) if absolute else value
-
-
-def _places(name: str, table: Table) -> list[int]:
-    """The columns that a user means by a name: the head, with or without its unit, or "column 3"."""
-    wanted = " ".join(name.split())
-    heads = [" ".join(c.head.split()) for c in table.columns]
-    for names in (
-        [c.title for c in table.columns],
-        heads,
-        [
-            f"{h} [{c.unit.strip('[]() ')}]" if c.unit else h
-            for h, c in zip(heads, table.columns, strict=True)
-        ],
-        [taken_apart(h, c.unit).name for h, c in zip(heads, table.columns, strict=True)],
-        [h.casefold() for h in heads],
-        [_square(h) for h in heads],
-        _numbered_names(table),
-    ):
-        found = [
-            i
-            for i, one in enumerate(names)
-            if one == wanted or one == wanted.casefold() or one == _square(wanted)
-        ]
-        if found:
-            return found
-    if (number := re.fullmatch(r"(?i)column (\d{1,4})", wanted)) is not None:
-        place = int(number[1]) - 1
-        at = [i for i, c in enumerate(table.columns) if c.place == place]
-        return at or ([place] if 0 <= place < len(heads) else [])
-    return []
-
-
-def _square(name: str) -> str:
-    """A name with its unit in square brackets."""
-    return name.replace("(", "[").replace(")", "]")
-
-
-def _numbered_names(table: Table) -> list[str]:
-    """Names without their units, numbered where several are alike: "Kraft", "Kraft #2"."""
-    names = [taken_apart(" ".join(c.head.split()), c.unit).name for c in table.columns]
-    return [n if (k := names[: i + 1].count(n)) == 1 else f"{n} #{k}" for i, n in enumerate(names)]
-
-
-def _chosen(table: Table, columns: Mapping[str, Choice | None], name: str) -> dict[int, Choice | None]:
-    """Column -> what the user says it is.
-
-    Raises:
-        InputError: there is no such column, or several are called so.
-    """
-    chosen: dict[int, Choice | None] = {}
-    for said, choice in columns.items():
-        places = _places(said, table)
-        if not places and choice is None and any(said == name for name, _ in table.dropped):
-            continue
-        if not places:
-            names = [c.title for c in table.columns]
-            raise InputError(
-                f"{name}: there is no {table.noun} '{said[:80]}'",
-                field=f"{table.noun} {said[:80]}",
-                hint=did_you_mean(said, names),
-            )
-        if len(places) > 1:
-            raise InputError(
-                f"{name}: several {table.noun}s are called '{said[:80]}'",
-                field=f"{table.noun} {said[:80]}",
-                hint=f"say its place, 'column {places[0] + 1}'",
-            )
-        before = [i for i, c in chosen.items() if c is not None and choice and c.channel == choice.channel]
-        if before and places[0] not in before:
-            pair = f"'{table.columns[before[0]].title}' and '{table.columns[places[0]].title}'"
-            raise InputError(
-                f"{name}: {table.noun}s {pair} are both said to be the {choice.channel if choice else ''}",
-                field=f"{table.noun} {said[:80]}",
-                hint="say one of them, and leave the other out",
-            )
-        chosen[places[0]] = choice
-    return chosen

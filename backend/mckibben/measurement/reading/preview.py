@@ -21,7 +21,8 @@ from mckibben.measurement.reading.assemble import (
     unread_of,
 )
 from mckibben.measurement.reading.correction import Correction
-from mckibben.measurement.reading.model import Skip, Table
+from mckibben.measurement.reading.evidence import OWN_FORM
+from mckibben.measurement.reading.model import FILE, Skip, Table, Use
 from mckibben.measurement.reading.questions import Reading, questions_of
 from mckibben.measurement.reading.raw import RawRows
 from mckibben.physics.errors import InputError
@@ -64,6 +65,8 @@ class PreviewColumn:
     """Why nothing is read from the column; None = it is used."""
     place: int | None = None
     """Its cell in the rows of 'raw', from 0; None = it stands in none."""
+    evidence: tuple[str, ...] = ()
+    """What says so, and where it stands: its quantity, unit, sign, reference, scale; or why it is none."""
 
 
 @result_class
@@ -290,6 +293,44 @@ def _columns(
                 sign=use.sign if use is not None else 1,
                 unread=None if channel else unread.get(column.title),
                 place=column.place if column.place >= 0 else None,
+                evidence=() if reading is None else _evidence(reading, i, use),
             )
         )
     return tuple(found)
+
+
+def _evidence(reading: Reading, i: int, use: Use | None) -> tuple[str, ...]:
+    """The strongest claim for each thing that is read of a column; of one that is not read, for what it is
+    instead.
+    """
+    choice = reading.known.chosen.get(i)
+    if i in reading.known.chosen and i not in reading.known.dismissed and not (choice and choice.assumed):
+        return ("you say what it is",)
+    wanted: list[tuple[str, str, object]] = []
+    if use is None:
+        roles = reading.roles(i)
+        if roles:
+            wanted.append(("role", "", max(roles, key=lambda role: roles[role])))
+    else:
+        wanted += [("channel", use.channel, use.channel), ("unit", use.unit, use.unit)]
+        if use.channel == "pressure":
+            wanted.append(("absolute", "absolute" if use.absolute else "gauge", use.absolute))
+        elif use.channel in ("force", "displacement", "contraction"):
+            facet = "sign_force" if use.channel == "force" else "sign_stroke"
+            wanted.append((facet, "sign reversed" if use.sign < 0 else "sign as it stands", use.sign))
+        wanted += [("scale", "scale", None), (f"zero:{use.channel}", "zero", None)]
+    lines = []
+    for facet, what, value in wanted:
+        found = [
+            e
+            for e in reading.evidence
+            if e.facet == facet
+            and e.target in (i, FILE)
+            and (value is None or e.value == value)
+            and e.rule != OWN_FORM
+        ]
+        if found:
+            best = max(found, key=lambda e: e.weight)
+            said = what or str(best.value)
+            lines.append(f"{said}: '{best.span.text[:80]}' ({best.span.where})")
+    return tuple(lines)

@@ -17,6 +17,7 @@ from mckibben.measurement.measurement import CHANNEL_UNITS, STROKES
 from mckibben.measurement.question import Question
 from mckibben.measurement.reading import physics
 from mckibben.measurement.reading.answers import column_option, ignore_option
+from mckibben.measurement.reading.chosen import words_of_levels
 from mckibben.measurement.reading.correction import Correction
 from mckibben.measurement.reading.decide import (
     FINAL,
@@ -1264,29 +1265,6 @@ def _beyond(channels: dict[str, Array], rest: float) -> str:
     return ""
 
 
-def _held_length(reading: Reading) -> Iterator[Question]:
-    """An isometric test without the length at which the muscle was held."""
-    channels = reading.rows.channels
-    if (
-        reading.is_isometric
-        and {"pressure", "force"} <= set(channels)
-        and not set(channels) & {*STROKES, "diameter", "command"}
-    ):
-        number = number_of_name(reading.name)
-        rest = reading.known.stated.get("nominal_length")
-        said = (
-            f"; '{number}' in the file's name is it where --rest-length is stated"
-            if number and (rest is None or rest.where.where == NAME)
-            else ""
-        )
-        yield Question(
-            "length",
-            "the file says that the test is isometric, but neither a column nor a text states the length at "
-            f"which the muscle was held{said}",
-            "write the length as a column, 'length_mm', or into the file's name, 'iso_L138mm'",
-        )
-
-
 def _counts_rows(reading: Reading) -> Iterator[Question]:
     """A counter beside many rows without time: a logger takes them evenly."""
     if "time" in reading.rows.channels or len(reading.rows.lines) < _BY_LOGGER:
@@ -1439,22 +1417,76 @@ def _twice(reading: Reading) -> Iterator[Question]:
         )
 
 
-def _several(reading: Reading) -> Iterator[Question]:
-    """A quantity that no column holds, and of which texts state several values."""
-    channels = reading.rows.channels
-    strokes = set(channels) & {*STROKES, "diameter", "command"}
-    for channel, claims in reading.known.several.items():
-        missing = (channel == "pressure" and "pressure" not in channels and "force" in channels) or (
-            channel in STROKES and not strokes and {"pressure", "force"} <= set(channels)
+_EXAMPLES = {"length": "280 mm", "contraction": "10 %", "displacement": "20 mm"}
+
+
+def _held(reading: Reading) -> Iterator[Question]:
+    """A quantity of a static test that no column holds and no single text states: the test held it."""
+    channels = set(reading.rows.channels)
+    strokes = channels & {*STROKES, "diameter", "command"}
+    several = reading.known.several
+    if "force" in channels and "pressure" not in channels and strokes:
+        if "pressure" in several or "time" not in channels:
+            yield from _held_pressure(reading)
+    elif (
+        {"pressure", "force"} <= channels
+        and not strokes
+        and (reading.is_isometric or set(several) & set(STROKES))
+    ):
+        yield from _held_length(reading)
+
+
+def _stated_by_texts(reading: Reading, channel: str) -> tuple[str, str]:
+    """What is said of a quantity of which texts state several values, and the first of these."""
+    claims = reading.known.several.get(channel, ())
+    shown = ", ".join(f"'{e.value.text}' ({e.span.where})" for e in claims[:6])
+    return (f", and the texts state several: {shown}", claims[0].value.text) if claims else ("", "")
+
+
+def _held_pressure(reading: Reading) -> Iterator[Question]:
+    said, first = _stated_by_texts(reading, "pressure")
+    levels = next(
+        (
+            (column, words)
+            for i, column in enumerate(reading.table.columns)
+            if (words := words_of_levels(column)) and any(reading.claims(i, "pressure"))
+        ),
+        None,
+    )
+    if levels is not None:
+        column, words = levels
+        example = ", ".join(f"{word} = {k} bar" for k, word in enumerate(words, 1))
+        yield Question(
+            "levels of pressure",
+            f"{reading.label(column)} names the pressure by words, {', '.join(words)}, and nothing says "
+            "which pressures they are",
+            option_of("pressure", column, example),
+            column.head,
+            None,
+            tuple(words),
         )
-        if missing:
-            shown = ", ".join(f"'{e.value.text}' ({e.span.where})" for e in claims[:6])
-            yield Question(
-                channel,
-                f"no column holds the {channel}, and the texts state several: {shown}; at which one was it "
-                f"measured",
-                f"write the {channel} as a column, '{channel}_{'bar' if channel == 'pressure' else 'mm'}'",
-            )
+        return
+    yield Question(
+        "held pressure",
+        f"no column holds the pressure{said or ', and no text states it'}; which one was it",
+        column_option("pressure", first or "3 bar"),
+    )
+
+
+def _held_length(reading: Reading) -> Iterator[Question]:
+    several = next((c for c in STROKES if c in reading.known.several), "length")
+    said, first = _stated_by_texts(reading, several)
+    number = number_of_name(reading.name)
+    rest = reading.known.stated.get("nominal_length")
+    if number and (rest is None or rest.where.where == NAME):
+        said += f"; '{number}' in the file's name is it where --rest-length is stated"
+    isometric = "the file says that the test is isometric, but " if reading.is_isometric else ""
+    yield Question(
+        f"held {several}",
+        f"{isometric}no column holds the {several} at which the muscle was held"
+        f"{said or ', and no text states it'}",
+        column_option(several, first or _EXAMPLES[several]),
+    )
 
 
 Policy = Callable[[Reading], Iterator[Question]]
@@ -1473,8 +1505,7 @@ ALWAYS: tuple[Policy, ...] = (
     _rest_length,
     _load,
     _twice,
-    _several,
-    _held_length,
+    _held,
     _counts_rows,
     _of_columns,
     _stated_zeros,

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from mckibben.measurement.measurement import STROKES
 from mckibben.measurement.reading.answers import ignore_option
 from mckibben.measurement.reading.correction import SAMPLE, SLACK, Correction
-from mckibben.measurement.reading.decide import Decision, roles_of, value_of
+from mckibben.measurement.reading.decide import SLOTS, Decision, roles_of, value_of
 from mckibben.measurement.reading.evidence import NAME
 from mckibben.measurement.reading.facts import GRAVITY, Held, Known
 from mckibben.measurement.reading.lexicon import word_set, words_of
@@ -304,6 +304,16 @@ def _possible(
 def _hold(rows: Rows, known: Known, correction: Correction, where: str) -> None:
     """What texts say was held, for the channels that no column holds."""
     columns = rows.channels
+    for channel, held in known.held.items():
+        if held.by_you:
+            alike = next((c for c in columns if SLOTS.get(c) == SLOTS[channel]), None)
+            if alike is not None:
+                raise InputError(
+                    f"{where}: '{held.text}' is said to be the {channel}, which a column holds, the {alike}",
+                    field="columns",
+                    hint="leave that column out as well, or do not say the value",
+                )
+            _take(rows, known, channel)
     stroke = bool(set(columns) & {*STROKES, "diameter"})
     if (
         "pressure" not in columns

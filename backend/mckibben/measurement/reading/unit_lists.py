@@ -59,8 +59,8 @@ _CARRIED = ["pressure", "force"]  # what is hardly ever written for something el
 
 
 def names_of_columns(said: Mapping[str, object]) -> Iterator[list[str]]:
-    """The lists of names beside a table: lists of texts, and texts that list them, ``"time, force, pressure"``,
-    of which more than half name a quantity.
+    """The lists of names beside a table: lists of texts, and texts that list them, ``"time, force"``, more
+    than half of which name a quantity.
     """
     for key, value in said.items():
         if names_units(key):

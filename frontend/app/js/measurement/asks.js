@@ -2,7 +2,7 @@
 // What a file leaves open: questions with their answers, columns that are not read, rows that cannot be.
 import { h, icon } from "../dom.js";
 import { capitalized, readable } from "../format.js";
-import { answersOf, withColumns } from "./choices.js";
+import { answersOf, heldIn, typedAbout, withColumns, withHeld } from "./choices.js";
 
 /** @typedef {import("./types.js").OpenQuestion} OpenQuestion */
 /** @typedef {import("./model.js").Model} Model */
@@ -40,7 +40,7 @@ export const questionList = (m) =>
         icon(q.stops ? "warn" : "info"),
         h("span", null, asSentence(q.text)),
       ),
-      q.stops || answers.length
+      typedAbout(q) ? typedAnswer(m, q) : q.stops || answers.length
         ? h(
           "div",
           { class: "answers" },
@@ -61,6 +61,59 @@ export const questionList = (m) =>
         : null,
     );
   });
+
+/** @param {string} label @param {string} name @param {string} placeholder @param {string} [value] */
+const typedField = (label, name, placeholder, value = "") =>
+  h(
+    "label",
+    { class: "typed" },
+    h("span", null, label),
+    h("input", {
+      type: "text", name, value, placeholder, required: true, maxlength: 40, autocomplete: "off", "data-key": `typed ${name}`,
+    }),
+  ); // deno-fmt-ignore
+
+/** Fields for what no column holds as numbers. @param {Model} m @param {OpenQuestion} q */
+function typedAnswer(m, q) {
+  const { column, choices } = q, [{ channel, column: example }] = q.answers;
+  const levels = q.about.startsWith("levels of ") && column !== null;
+  const said = (/** @type {HTMLFormElement} */ form, /** @type {string} */ name) =>
+    String(new FormData(form).get(name) ?? "").trim();
+  /** @param {SubmitEvent} e */
+  const submit = (e) => {
+    e.preventDefault();
+    const form = /** @type {HTMLFormElement} */ (e.target);
+    const scale = choices.map((word) => `${word} = ${said(form, word)}`).join(", ");
+    m.change((mapping) =>
+      levels
+        ? withColumns(mapping, { [column]: { channel: channel ?? "", scale } })
+        : withHeld(mapping, m.preview.value, channel ?? "", said(form, "held"))
+    );
+  };
+  return h(
+    "form",
+    { class: "answers typed-answer", onsubmit: submit },
+    ...levels
+      ? choices.map((word, i) => typedField(word, word, `${i + 1} bar`))
+      : [typedField(capitalized(channel ?? ""), "held", example)],
+    h("button", { type: "submit" }, "Use"),
+  );
+}
+
+/** What the user said was held, with the way back. @param {Model} m */
+export const heldList = (m) =>
+  heldIn(m.mapping.value, m.preview.value).map(({ text, channel }) =>
+    h(
+      "p",
+      { class: "held", "data-held": channel },
+      `${capitalized(channel)} was held at ${text}, as you say.`,
+      h("button", {
+        type: "button",
+        "data-key": `held ${channel}`,
+        onclick: () => m.change((mapping) => withHeld(mapping, m.preview.value, channel, "")),
+      }, "Take back"),
+    )
+  );
 
 /** @param {OpenQuestion} q */
 const ignoresColumn = (q) => q.choices.includes("ignore");

@@ -67,6 +67,28 @@ export const withAssumed = (asked, p, mapping) =>
     })),
   );
 
+/** What the user has to type: a value that the whole test held, or one for each word of a column.
+ * @param {OpenQuestion} q */
+export const typedAbout = (q) => q.about.startsWith("held ") || q.about.startsWith("levels of ");
+
+/** What was said to be held, by its text: "3 bar". @param {Mapping} mapping @param {Preview} p */
+export const heldIn = (mapping, p) =>
+  Object.entries(mapping.columns ?? {}).flatMap(([text, choice]) =>
+    choice && /^[-+]?\d/.test(text) && !p.columns.some((column) => column.header === text)
+      ? [{ text, channel: choice.channel }]
+      : []
+  );
+
+/** The mapping with what a channel was held at; "" takes it back.
+ * @param {Mapping} mapping @param {Preview} p @param {string} channel @param {string} text @returns {Mapping} */
+export function withHeld(mapping, p, channel, text) {
+  const before = heldIn(mapping, p).filter((one) => one.channel === channel).map((one) => one.text);
+  const columns = Object.fromEntries(
+    Object.entries(mapping.columns ?? {}).filter(([name]) => !before.includes(name)),
+  );
+  return { ...mapping, columns: text ? { ...columns, [text]: { channel } } : columns };
+}
+
 /** An answer to a question: its words, and what it says of the columns or the sheet.
  * @typedef {{label: string, proposed: boolean, ignores: boolean, apply: (mapping: Mapping) => Mapping}} Answer */
 
@@ -87,6 +109,7 @@ export function answersOf(q, p) {
       apply: (mapping) => withPlace(mapping, { sheet }),
     }));
   }
+  if (typedAbout(q)) return []; // their example is no answer
   if (q.about.startsWith("unit of") && column) {
     return q.choices.map((unit) => answer(unit, { [column.header]: { ...choiceOf(column), unit } }));
   }

@@ -54,8 +54,16 @@ export function unitSelect(m, column) {
   );
 }
 
-/** Who says the unit of a column; what is wrong with it. @param {Column} column */
+/** Who says the unit of a column and what is wrong with it; on hover all that says what the column is.
+ * @param {Column} column */
 export function stateOf(column) {
+  const state = stateWords(column);
+  if (column.evidence.length) state.title = column.evidence.join("\n");
+  return state;
+}
+
+/** @param {Column} column */
+function stateWords(column) {
   if (column.why) return h("span", { class: "state bad" }, column.why);
   if (!column.channel) return h("span", { class: "state" }, "not read");
   if (column.unit_origin === "proposed") {

@@ -5,7 +5,7 @@ import { apart, computed, effect } from "../reactive.js";
 import { units } from "../state.js";
 import { connection } from "../server/connection.js";
 import { openDialog } from "../ui/dialog.js";
-import { questionList, questionsOf, rowCounts, unreadList } from "./asks.js";
+import { heldList, questionList, questionsOf, rowCounts, unreadList } from "./asks.js";
 import { withPlace } from "./choices.js";
 import { countingRows } from "./columns.js";
 import { experimentFields, kindField, severalFiles } from "./experiment.js";
@@ -129,7 +129,7 @@ const tablePart = (m) =>
     () => keptNote(m),
     () => fileChoice(m),
     () => tableTabs(m),
-    h("div", { class: "asks", "aria-live": "polite" }, () => problemNote(m), () => questionList(m)),
+    h("div", { class: "asks", "aria-live": "polite" }, () => problemNote(m), () => heldList(m), () => questionList(m)),
     () => rawTable(m),
     () => rowCounts(m),
     h("div", { class: "countings" }, () => countingRows(m)),

@@ -7,7 +7,8 @@ import { untilAnswered } from "./patience.js";
 /** @typedef {S["MeasurementSummary"]} FileInfo */
 /** @typedef {S["PreviewResult"]} Preview */
 /** What a column is; `sign` -1: the file counts it the other way; `assumed`: its unit is what was proposed.
- * @typedef {{channel: string, unit?: string, absolute?: boolean, sign?: number, assumed?: boolean}} Choice */
+ * @typedef {{channel: string, unit?: string, absolute?: boolean, sign?: number, assumed?: boolean,
+ *   scale?: string}} Choice */
 /** What the user says beyond a file; a column that is null is not used.
  * @typedef {{columns?: Record<string, Choice | null>, sheet?: string, head?: number,
  *   kind?: string, conditions?: Record<string, string | null>, bad_rows?: "skip"}} Mapping */
