@@ -357,6 +357,21 @@ def test_ten_files_of_a_kind_are_one_question(case: Page) -> None:
     expect(case.locator(".file")).to_have_count(0)
 
 
+def test_notes_dropped_with_a_file_count_for_it(case: Page, page_guard: PageGuard) -> None:
+    page_guard.allow(REFUSED)  # notes are no table
+    notes = {
+        "name": "notes.md",
+        "mimeType": "text/plain",
+        "buffer": "Versuch 12\nRuhelänge 250 mm\n".encode(),
+    }
+    choose(case, bare("b.csv"), notes)
+    row = panel(case).locator("[data-field='experiment.rest_length']")
+    expect(row.locator("input")).to_have_value("250 mm")
+    expect(row.locator(".origin.from-file")).to_have_text("file: notes.md, line 2")
+    panel(case).get_by_role("button", name="Cancel").click()
+    expect(case.locator(".case-notices")).to_contain_text("notes.md: it holds no readings")
+
+
 def test_files_of_two_kinds_are_two_questions(case: Page) -> None:
     choose(case, plain("one.csv"), bare("other.csv"), plain("two.csv", rest="251 mm"))
     expect(case.get_by_role("dialog", name="How 2 files are read")).to_be_visible()

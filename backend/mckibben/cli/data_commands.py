@@ -167,7 +167,7 @@ def convert(
     from mckibben.measurement.preparation import prepared
 
     with progress("reading"):
-        measurement = read_file(file, reading.correction, standard_input([file]).get(file))
+        measurement = read_file(file, reading.correction, standard_input([file]))
         with at_option():
             measurement = prepared(measurement, reading.prepare)
         result = converted(measurement)

@@ -72,6 +72,15 @@ class StatedValue(NamedTuple):
     where: str
 
 
+class RigText(NamedTuple):
+    """A text of a file about a sensor: what it claims, of which column (empty = of the file), and where."""
+
+    facet: str
+    column: str
+    where: str
+    text: str
+
+
 class PreparedStep(NamedTuple):
     """A step that prepared a measurement: as it is written, what it did, and the rows before and after."""
 
@@ -116,6 +125,8 @@ class Measurement:
         shared_noise: channel -> standard deviation of noise that neighbouring rows share, because a filter or
             another time step spread it over them [SI]; their differences do not show it.
         cut_off: channel -> frequency up to which these steps let it pass [Hz].
+        heads: names of all columns of its file.
+        rig: what the file says about signs, references and scales of its sensors, for others of the same rig.
     """
 
     name: str
@@ -143,6 +154,8 @@ class Measurement:
     source_rows: NDArray[np.intp] | None = None
     shared_noise: Mapping[str, float] = field(default_factory=dict)
     cut_off: Mapping[str, float] = field(default_factory=dict)
+    heads: tuple[str, ...] = ()
+    rig: tuple[RigText, ...] = ()
 
     @cached_property
     def usable(self) -> NDArray[np.bool_]:

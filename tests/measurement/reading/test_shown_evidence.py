@@ -18,7 +18,7 @@ def test_each_thing_that_is_read_of_a_column_names_its_words_and_their_place() -
     assert any(line.startswith("set value: 'Soll [bar]' (line 3") for line in aside.evidence)
     assert [line.split("'")[0] for line in pressure.evidence] == ["pressure: ", "bar: ", "absolute: "]
     assert pressure.evidence[2].endswith("'# pressure is absolute' (line 2)")
-    assert stroke.evidence[2] == "sign as it stands: 'Weg positiv = Muskel verkürzt sich' (line 1)"
+    assert stroke.evidence[2] == "sign as it stands: '# Weg positiv = Muskel verkürzt sich' (line 1)"
     assert [line.split("'")[0] for line in force.evidence] == ["force: ", "N: "]
 
 

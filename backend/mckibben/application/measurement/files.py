@@ -4,17 +4,25 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 from mckibben.application.measurement.experiment import QuestionMeasurement
+from mckibben.application.measurement.together import TestFile, read_together
 from mckibben.documents.experiment import ExperimentInput, stated_experiment
 from mckibben.documents.studio import Studio
 from mckibben.measurement.experiment import FIELDS, ExperimentValue
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.points import POINT_PRESETS, Points, find_preset, is_preset, points_of
 from mckibben.measurement.preparation import prepared_points, steps_of
-from mckibben.measurement.reading import Correction, read_measurement, spoken_correction
+from mckibben.measurement.reading import (
+    Correction,
+    column_names,
+    notes_of,
+    read_measurement,
+    spoken_correction,
+)
 from mckibben.physics.errors import InputError, did_you_mean
 
 #: How values are named that stand in no file: as options of the command line, or as arguments of Python.
@@ -55,20 +63,39 @@ def measurements_of(
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
-    found = []
     entries = [(name, entry) for name in files for entry in _entries(name)]
     names = [Path(entry.name).name for _, entry in entries]
+    ways: list[Correction] = []
     for place, (name, entry) in enumerate(entries):
         others = (*names[:place], *names[place + 1 :])
-        reading = replace(correction or Correction(), beside=others, muscle_length=muscle_length)
-        own = dict(said or {})
-        if entry.words:
-            reading = _read_as(entry.words, name, reading)
-            own |= _said_in(entry.words, name)
-        points = _read(entry, studio, reading, contents or {})
+        way = replace(correction or Correction(), beside=others, muscle_length=muscle_length)
+        ways.append(_read_as(entry.words, name, way) if entry.words else way)
+    presets = {place: _preset(entry, studio, contents or {}) for place, (_, entry) in enumerate(entries)}
+    read = read_together({
+        place: _test_file(entry.name, ways[place], contents or {})
+        for place, (_, entry) in enumerate(entries)
+        if presets[place] is None
+    })  # fmt: skip
+    found = []
+    for place, (name, entry) in enumerate(entries):
+        points = presets[place]
+        if points is not None and _says_columns(ways[place]):
+            raise InputError(
+                f"{entry.name}: a preset states how it is read",
+                hint="leave --column, --sheet and the like out",
+            )
+        if points is None:
+            if place not in read:
+                continue  # notes, which the others were read with
+            points = Points(read[place])
+        own = dict(said or {}) | (_said_in(entry.words, name) if entry.words else {})
         points = _prepared(points, entry.words.get(_PREPARE), prepare, name)
         found.append(QuestionMeasurement(points, own, validation))
     return found
+
+
+def _says_columns(correction: Correction) -> bool:
+    return bool(correction.columns or correction.sheet or correction.head)
 
 
 def _prepared(points: Points, own: object, shared: Sequence[str], source: str) -> Points:
@@ -186,6 +213,7 @@ def _read_as(entry: Mapping[str, Any], source: str, correction: Correction) -> C
         sheet=spoken.sheet or correction.sheet,
         head=spoken.head or correction.head,
         strict=correction.strict,
+        notes=correction.notes,
         beside=correction.beside,
         muscle_length=correction.muscle_length,
     )
@@ -249,22 +277,14 @@ def option_of(name: str) -> str:
     return f"--experiment {name}" if option == "--experiment" else option
 
 
-def _read(entry: _Entry, studio: Studio, correction: Correction, contents: Mapping[str, bytes]) -> Points:
-    """A file, the file of a preset with points, or a preset of the catalogue when there is no such file."""
+def _preset(entry: _Entry, studio: Studio, contents: Mapping[str, bytes]) -> Points | None:
+    """The points of a preset file, or of one of the catalogue when there is no such file; None = a table."""
     name = entry.name
     if name in contents:
-        return Points(read_file(name, correction, contents[name]))
-    if entry.preset is not None:
-        preset = _points_in(entry.preset, name, studio)
-    else:
-        preset = None if _exists(name) else find_preset(name, studio.library)
-    if preset is None:
-        return Points(read_file(name, correction))
-    if correction.columns or correction.sheet or correction.head:
-        raise InputError(
-            f"{name}: a preset states how it is read", hint="leave --column, --sheet and the like out"
-        )
-    return preset
+        return None
+    if entry.preset is not None and (preset := _points_in(entry.preset, name, studio)) is not None:
+        return preset
+    return None if _exists(name) else find_preset(name, studio.library)
 
 
 def _points_in(document: dict[str, Any], name: str, studio: Studio) -> Points | None:
@@ -297,23 +317,44 @@ def _exists(name: str) -> bool:
         return False
 
 
-def read_file(name: str, correction: Correction, content: bytes | None = None) -> Measurement:
-    """The measurement in a file, or in the content that standard input gave.
+def read_file(name: str, correction: Correction, contents: Mapping[str, bytes]) -> Measurement:
+    """The measurement in a single file, or in what standard input gave.
 
     Raises:
         InputError: names the file, the row or field, what is wrong and what would be right.
     """
+    return _test_file(name, correction, contents).read(correction)
+
+
+def _test_file(name: str, correction: Correction, contents: Mapping[str, bytes]) -> TestFile:
+    """A file on disk, or what standard input gave."""
+    shown = STANDARD_INPUT if name in contents else Path(name).name
+    seldom = cache(lambda: _content(name))
+    content = (
+        (lambda: _within(contents[name], shown))
+        if name in contents
+        else (lambda: _content(name))
+        if _exists(name) and Path(name).is_file()
+        else seldom  # a pipe gives its content once
+    )
+    return TestFile(
+        shown,
+        correction,
+        lambda how: read_measurement(content(), shown, how),
+        lambda: notes_of(content(), shown),
+        lambda: column_names(content(), shown, correction),
+    )
+
+
+def _content(name: str) -> bytes:
     path = Path(name)
     try:
-        if content is not None:
-            return read_measurement(_within(content, STANDARD_INPUT), STANDARD_INPUT, correction)
         if not path.exists():
             raise InputError(f"{name}: there is no such file", hint=_near_file(path))
         if path.is_dir():
             raise InputError(f"{name}: is a folder", hint=f"name a file in it, e.g. {path / '*.csv'}")
         with path.open("rb") as stream:
-            content = stream.read(LARGEST_FILE + 1)  # pipes and devices do not tell their size
-        return read_measurement(_within(content, name), path.name, correction)
+            return _within(stream.read(LARGEST_FILE + 1), name)  # pipes and devices do not tell their size
     except (OSError, ValueError) as error:
         if isinstance(error, InputError):
             raise

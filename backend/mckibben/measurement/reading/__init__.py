@@ -8,14 +8,15 @@ from __future__ import annotations
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.reading.answers import refusal
 from mckibben.measurement.reading.assemble import measurement_of, reading_of
-from mckibben.measurement.reading.correction import Correction, read_correction, spoken_correction
+from mckibben.measurement.reading.correction import Correction, Note, read_correction, spoken_correction
 from mckibben.measurement.reading.preview import Preview, preview_here
 from mckibben.measurement.reading.process import bounded
 from mckibben.measurement.reading.questions import questions_of
+from mckibben.measurement.reading.rig import heads_in, notes_in
 
 __all__ = [
-    "Correction", "Preview", "load_readers", "preview", "preview_here", "read_correction", "read_here",
-    "read_measurement", "spoken_correction",
+    "Correction", "Note", "Preview", "column_names", "load_readers", "notes_of", "preview", "preview_here",
+    "read_correction", "read_here", "read_measurement", "spoken_correction",
 ]  # fmt: skip
 
 _ANY_FILE = b"# kind: static\npressure_bar;length_mm;force_N\n1;300;10\n1;290;5\n1;280;1\n"
@@ -46,6 +47,24 @@ def preview(data: bytes, name: str, correction: Correction | None = None) -> Pre
             file takes too much time or memory.
     """
     return bounded(lambda: preview_here(data, name, correction), name, load_readers, size=len(data))
+
+
+def notes_of(data: bytes, name: str) -> tuple[Note, ...]:
+    """The texts of a file without readings, which say something of the files beside it; () = it is none.
+
+    Raises:
+        InputError: the file cannot be taken apart, or takes too much time or memory.
+    """
+    return bounded(lambda: notes_in(data, name), name, load_readers, size=len(data))
+
+
+def column_names(data: bytes, name: str, correction: Correction) -> tuple[str, ...]:
+    """The names of the columns of a file; () = it holds no table.
+
+    Raises:
+        InputError: the file takes too much time or memory.
+    """
+    return bounded(lambda: heads_in(data, name, correction), name, load_readers, size=len(data))
 
 
 def load_readers() -> None:

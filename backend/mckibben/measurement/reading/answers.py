@@ -38,7 +38,7 @@ def refusal(name: str, questions: Sequence[Question], *, strict: bool = False) -
         return None
     first = open_ones[0]
     asked = "; ".join(f"{question.text}: {question.option}" for question in open_ones)
-    field = first.about if first.column is None else f"column {first.column}"
+    field = first.about.removeprefix("held ") if first.column is None else f"column {first.column}"
     if first.column is not None and field not in asked.replace("'", ""):
         field = first.column
     return InputError(

@@ -31,7 +31,7 @@ from mckibben.measurement.reading.facts import Known, known_of
 from mckibben.measurement.reading.heads import head_claims
 from mckibben.measurement.reading.layout import table_of
 from mckibben.measurement.reading.lexicon import words_of
-from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Table
+from mckibben.measurement.reading.model import FILE, Array, Column, Evidence, Span, Table
 from mckibben.measurement.reading.numbers import TEXT, kind_of
 from mckibben.measurement.reading.questions import (
     MOTION,
@@ -42,6 +42,7 @@ from mckibben.measurement.reading.questions import (
     scale_question,
     though_at_the_valve,
 )
+from mckibben.measurement.reading.rig import heads_of, rig_texts
 from mckibben.measurement.reading.rows import rows_of
 from mckibben.measurement.reading.units import RAW, dimension_of
 from mckibben.measurement.reading.zeros import stated_zeros
@@ -70,6 +71,7 @@ def looked_at(data: bytes, name: str, correction: Correction) -> tuple[Table, tu
     """The table of a file, the claims about it, and what is known beside its columns."""
     sheets = sheets_of(data, name)
     table = table_of(sheets, name, wanted=correction.sheet, head=correction.head)
+    table = replace(table, texts=(*table.texts, *(Span(*note) for note in correction.notes)))
     table = without_stated_marks(with_derived(with_levels(table, correction.columns)))
     evidence = tuple(evidence_of(table, name))
     known = known_of(table, evidence, name, correction)
@@ -229,6 +231,8 @@ def measurement_of(reading: Reading, questions: list[Question], id: str) -> Meas
         stated=stated_of(reading, conditions),
         in_words=_in_words(reading),
         questions=tuple(questions),
+        heads=heads_of(table),
+        rig=rig_texts(table, reading.evidence),
     )
 
 

@@ -29,8 +29,9 @@ def with_levels(table: Table, columns: Mapping[str, Choice | None]) -> Table:
     made = list(table.columns)
     for name, choice in columns.items():
         levels = None if choice is None or choice.scale is None else levels_of(choice.scale)
-        for i in places(name, table)[:1] if levels is not None else ():
-            made[i] = _valued(table, made[i], levels.values)
+        if levels is not None:
+            for i in places(name, table)[:1]:
+                made[i] = _valued(table, made[i], levels.values)
     return replace(table, columns=tuple(made))
 
 

@@ -34,7 +34,7 @@ SAME_CHANNEL = {"load": "force", "mass": "force", "weight": "force"}
 MAX_LENGTH = 20_000  # characters of the JSON
 _PARTS = (
     "columns", "kind", "conditions", "bad_rows", "sheet", "head", "column", "ignore", "rest_length", "load",
-    "supply", "strict", "accuracy", "experiment",
+    "supply", "strict", "accuracy", "experiment", "notes",
 )  # fmt: skip
 _CHOICE_KEYS = ("channel", "unit", "absolute", "sign", "scale", "assumed")
 _COLUMN = re.compile(r"\s*([a-z_]+)\s*=\s*([+-]?)\s*(.*?)\s*")
@@ -63,6 +63,13 @@ class Choice:
     assumed: bool = False
 
 
+class Note(NamedTuple):
+    """A text that another file of the same test holds, and where it stands."""
+
+    where: str
+    text: str
+
+
 @dataclass(frozen=True, slots=True)
 class Correction:
     """What the user says about a file.
@@ -75,6 +82,7 @@ class Correction:
         sheet: the sheet (or group, or struct) to read, None = the one with the table.
         head: 1-based row of the column names, None = looked for.
         strict: what would be proposed or assumed is refused as well.
+        notes: what other files of the same test say, read as texts of this one.
         beside: names of the other files of the same test; as the file's own, no part of what identifies it.
         muscle_length: rest length [m] of the muscle that is stated beside the file; it only says what a
             number in the file's name can be.
@@ -87,6 +95,7 @@ class Correction:
     sheet: str | None = None
     head: int | None = None
     strict: bool = False
+    notes: tuple[Note, ...] = ()
     beside: tuple[str, ...] = ()
     muscle_length: float | None = None
 
@@ -111,6 +120,7 @@ class Correction:
             "sheet": self.sheet,
             "head": self.head,
             "strict": self.strict or None,
+            "notes": [list(note) for note in self.notes],
         }
         said = {name: part for name, part in parts.items() if part}
         return json.dumps(said, sort_keys=True, separators=(",", ":"), ensure_ascii=False)
@@ -174,6 +184,7 @@ def read_correction(text: str) -> Correction:
         kind=kind,
         conditions={**conditions, **spoken.conditions},
         skip_bad_rows=bad_rows == "skip",
+        notes=_notes(given.get("notes")),
     )
 
 
@@ -310,6 +321,21 @@ def _texts(value: Any, key: str) -> list[str]:
     if not isinstance(value, list) or not all(isinstance(text, str) for text in value):
         raise _refused(key, "is not a list of texts", 'e.g. ["force=-Kraft [kN]"]')
     return value
+
+
+def _notes(value: Any) -> tuple[Note, ...]:
+    if value is None:
+        return ()
+    if not isinstance(value, list) or not all(
+        isinstance(note, list) and len(note) == 2 and all(isinstance(text, str) for text in note)
+        for note in value
+    ):
+        raise _refused(
+            ".notes",
+            "is not a list of places with their texts",
+            'e.g. [["notes.txt, line 3", "force in kp"]]',
+        )
+    return tuple(Note(*note) for note in value)
 
 
 def _quantity(value: Any, key: str) -> str | float | None:

@@ -59,6 +59,7 @@ _LONGEST_WORDS = 32  # characters of a cell of a row that groups columns
 _QUANTITY = re.compile(r"\s*[-+]?[0-9.,]+\s*\S{0,12}\s*")
 _NOTES = 0.5  # of the rows of a table, that notes beside it fill
 _LABELS = 3  # rows of labels, from which a column of them is one
+NO_TABLE = "file"  # field of the error about a file without numbers and without heads
 _HINT = "e.g. a header 'pressure_bar,length_mm,force_N'"
 
 
@@ -172,7 +173,7 @@ def _no_table(sheets: Sequence[Sheet], name: str) -> InputError:
             why = f"{name}, {row_there}: there are no rows of numbers below the header '{heads}'{shown}"
             return InputError(why, field=row_there, hint="it needs one row of numbers per reading")
     why = f"{name}: no table: no rows of numbers with at least two columns"
-    return InputError(why, field="file", hint=_HINT)
+    return InputError(why, field=NO_TABLE, hint=_HINT)
 
 
 def _with_units_of_values(sheet: Sheet) -> Sheet:
@@ -1119,6 +1120,11 @@ def _texts(sheets: Sequence[Sheet], used: set[tuple[int, int]]) -> list[Span]:
             if (id(sheet), i) not in used and (text := sentence(row)):
                 found.append(Span(sheet.place(i), text))
     return found
+
+
+def all_texts(sheets: Sequence[Sheet]) -> list[Span]:
+    """All that sheets without a table hold, as texts."""
+    return [text for sheet in sheets for text in sheet.texts] + _texts(sheets, set())
 
 
 def _shown(sheet: Sheet, head: int | None) -> tuple[tuple[int, tuple[str, ...]], ...]:

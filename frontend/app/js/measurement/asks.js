@@ -69,7 +69,14 @@ const typedField = (label, name, placeholder, value = "") =>
     { class: "typed" },
     h("span", null, label),
     h("input", {
-      type: "text", name, value, placeholder, required: true, maxlength: 40, autocomplete: "off", "data-key": `typed ${name}`,
+      type: "text",
+      name,
+      value,
+      placeholder,
+      required: true,
+      maxlength: 40,
+      autocomplete: "off",
+      "data-key": `typed ${name}`,
     }),
   ); // deno-fmt-ignore
 

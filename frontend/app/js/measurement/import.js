@@ -28,32 +28,58 @@ export async function importFiles(list, o) {
     if (refused) o.complain(file.name, refused);
     return !refused;
   });
+  /** @type {[string, string][]} */
+  const notes = [];
   const looked = await eachOf(good, async (file) => {
     o.reading(file.name);
-    return await look(file, {}, o);
+    return await look(file, {}, o, good.length > 1 ? notes : null);
   });
+  const read = looked.filter((seen) => seen !== null);
+  const all = notes.length && read.length
+    ? await eachOf(read, ({ file }) => look(file, { notes }, o))
+    : looked;
   o.reading("");
   /** @type {Map<string, Seen[]>} */
   const kinds = new Map();
-  for (const seen of looked) {
+  for (const seen of all) {
     if (!seen) continue;
     const signature = signatureOf(seen.preview);
     kinds.set(signature, [...kinds.get(signature) ?? [], seen]);
   }
   /** @type {Imported[]} */
   const results = [];
-  for (const [signature, seen] of kinds) results.push(...await askAbout(seen, signature, o));
+  const begun = notes.length ? { notes } : {};
+  for (const [signature, seen] of kinds) results.push(...await askAbout(seen, signature, begun, o));
   // In the order in which they came.
   return results.sort((a, b) => good.indexOf(a.file) - good.indexOf(b.file));
 }
 
-/** @param {File} file @param {Mapping} mapping @param {Options} o @returns {Promise<Seen | null>} */
-async function look(file, mapping, o) {
+const MOST_OF_NOTES = 20_000, LINES = 40, LONGEST = 200;
+
+/** The lines of a text beside the readings, each with its place; none = it is no short text.
+ * @param {File} file @returns {Promise<[string, string][]>} */
+async function linesOf(file) {
+  if (file.size > MOST_OF_NOTES || !/\.(txt|md|log|csv|tsv)$/i.test(file.name)) return [];
+  return (await file.text()).split(/\r?\n/)
+    .map((line, i) => /** @type {[string, string]} */ ([`${file.name}, line ${i + 1}`, line.trim()]))
+    .filter(([, line]) => line && line.length <= LONGEST && !line.includes("\0"))
+    .slice(0, LINES);
+}
+
+/** @param {File} file @param {Mapping} mapping @param {Options} o
+ * @param {[string, string][] | null} [notes] takes the lines of a file that holds no table
+ * @returns {Promise<Seen | null>} */
+async function look(file, mapping, o, notes = null) {
   try {
     return { file, preview: await previewOf(file, mapping) };
   } catch (error) {
     if (!(error instanceof ApiError)) throw error;
-    o.complain(file.name, error.words);
+    const lines = notes && error.field === "file" ? await linesOf(file) : [];
+    notes?.push(...lines);
+    o.complain(
+      file.name,
+      lines.length ? "it holds no readings; its lines count for the files beside it." : error.words,
+    );
     return null;
   }
 }
@@ -76,20 +102,21 @@ async function assuming(asked, seen, previews, mapping) {
   }
 }
 
-/** @param {Seen[]} seen files of one kind @param {string} signature @param {Options} o
+/** @param {Seen[]} seen files of one kind @param {string} signature
+ * @param {Mapping} begun what counts for all files that were opened together @param {Options} o
  * @returns {Promise<Imported[]>} */
-async function askAbout(seen, signature, o) {
+async function askAbout(seen, signature, begun, o) {
   const kept = recall(signature);
   let previews = seen.map((one) => one.preview), used = kept;
   if (kept && Object.keys(kept.mapping).length) {
     try {
-      previews = await eachOf(seen, ({ file }) => previewOf(file, kept.mapping));
+      previews = await eachOf(seen, ({ file }) => previewOf(file, { ...kept.mapping, ...begun }));
     } catch (error) {
       if (!(error instanceof ApiError)) throw error;
       used = null; // the mapping does not fit this file after all
     }
   }
-  const mapping = used?.mapping ?? {};
+  const mapping = { ...used?.mapping, ...begun };
   if (used && previews.every((p) => isSettled(p, o.asks))) {
     return seen.map(({ file }) => ({ file, mapping, experiment: {}, kept: used }));
   }
@@ -113,7 +140,7 @@ async function askAbout(seen, signature, o) {
 /** @param {Imported[]} answer @param {string} signature */
 function keepAnswers(answer, signature) {
   const [{ file, mapping, experiment }] = answer;
-  const { conditions: _, ...columns } = mapping;
+  const { conditions: _, notes: _notes, ...columns } = mapping;
   remember({ signature, name: file.name, mapping: columns, said: experiment });
   return answer;
 }

@@ -129,9 +129,14 @@ const tablePart = (m) =>
     () => keptNote(m),
     () => fileChoice(m),
     () => tableTabs(m),
-    h("div", { class: "asks", "aria-live": "polite" }, () => problemNote(m), () => heldList(m), () => questionList(m)),
-    () => rawTable(m),
-    () => rowCounts(m),
+    h("div", { class: "asks", "aria-live": "polite" }, () =>
+      problemNote(m), () =>
+      heldList(m), () =>
+      questionList(m)),
+    () =>
+      rawTable(m),
+    () =>
+      rowCounts(m),
     h("div", { class: "countings" }, () => countingRows(m)),
     h("div", { class: "unread-part" }, () => unreadList(m)),
     () => remarks(m),

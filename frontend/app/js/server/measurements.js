@@ -11,7 +11,8 @@ import { untilAnswered } from "./patience.js";
  *   scale?: string}} Choice */
 /** What the user says beyond a file; a column that is null is not used.
  * @typedef {{columns?: Record<string, Choice | null>, sheet?: string, head?: number,
- *   kind?: string, conditions?: Record<string, string | null>, bad_rows?: "skip"}} Mapping */
+ *   kind?: string, conditions?: Record<string, string | null>, bad_rows?: "skip",
+ *   notes?: [string, string][]}} Mapping */
 
 const MOST_BYTES = 64e6;
 
