@@ -25,6 +25,7 @@ from mckibben.measurement.reading.limits import MAX_TEXT
 from mckibben.measurement.reading.model import BLOCK, FILE, Column, Evidence, Span, Table
 from mckibben.measurement.reading.positions import of_positions
 from mckibben.measurement.reading.scales import Scale, scales_in
+from mckibben.measurement.reading.subjects import Piece, pieces_of
 from mckibben.measurement.reading.units import (
     BRIDGE,
     RAW,
@@ -88,6 +89,7 @@ _OTHER_GAUGES = re.compile(
     r"positive[ -]displacement"
 )
 _BEHIND_UPTO = re.compile(r"[,;.:(](?!\d)|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s")
+_OF_THE_NEXT = re.compile(r"\s?\([^()]{0,60}")
 _SCALED = re.compile(
     r"(?i)[0-9]\s?(?:%|m?V|m?A|counts?|digits?)\s?(?:=|≙|->|→)|(?:=|≙|->|→)\s?[0-9.]{1,8}\s?(?:V|mA|counts?)"
 )
@@ -314,7 +316,10 @@ def _contexts(text: str) -> list[_Context]:
         before = pieces[worded[-1]] if mine else ""
         upto = found[k + 1].begin if k + 1 < len(found) else len(text)
         begin = quantity.end
-        behind, *more = _BEHIND_UPTO.split(text[begin : min(upto, begin + 60)].lstrip(" ("))
+        next_to_it = text[begin : min(upto, begin + 60)]
+        if _OF_THE_NEXT.fullmatch(next_to_it) and upto < len(text):
+            next_to_it = ""  # "clamped at 114 mm (free length 120 mm)"
+        behind, *more = _BEHIND_UPTO.split(next_to_it.lstrip(" ("))
         whole = upto == len(text) or len(more) > 1  # no clause of the next quantity
         contexts.append(
             _Context(
@@ -343,7 +348,8 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         "bad_rows",
     ):
         return [noted]
-    scales = _of_scales(span, table)
+    pieces = pieces_of(text, table)
+    scales = [e for piece in pieces for e in _scales_of(piece, span, table)]
     if noted is not None and not (scales and noted.facet == "note"):
         found += [noted, *_bare_rest_length(noted)]
     if noted is not None and noted.facet == "condition:pressure":
@@ -353,7 +359,10 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         plain = re.split(r"[,;]\s", str(noted.value))[0]
         codes = (e.value for e in of_code(span) if e.facet == "condition:muscle")
         found[-1] = noted._replace(value=plain if ":" in plain else next(codes, plain))  # "DMSP-20:800mm"
-    found += _of_clauses(span, table)
+    for piece in pieces:
+        said = _of_clauses(Span(span.where, piece.text), table, piece.column)
+        found += [e._replace(span=span) for e in said]
+        found += _of_subject(piece, span, table)
     claims = (_of_quantity(context, target, span) for context in _contexts(text))
     found += [claim for claim in claims if claim is not None]
     for rule in rules("text"):
@@ -449,13 +458,37 @@ NO_UNIT = "no unit"
 _MUSCLES = {"m": (0.02, 5.0), "mm": (20.0, 5000.0)}  # lengths of muscles
 
 
-def _of_clauses(span: Span, table: Table) -> list[Evidence]:
-    """Signs and references that the clauses of a text say."""
+def _scales_of(piece: Piece, span: Span, table: Table) -> list[Evidence]:
+    """The calibrations in a part of a text: of the column that it is about, or of the one they fit."""
+    unit = None if piece.column is None else _unit_of(table.columns[piece.column])
+    raw = piece.column if unit is None or unit.dimension in RAW else None
+    return [e._replace(span=span) for e in _of_scales(Span(span.where, piece.text), table, raw)]
+
+
+def _of_subject(piece: Piece, span: Span, table: Table) -> list[Evidence]:
+    """What a part of a text calls the column that it is about, where its head names nothing."""
+    if piece.column is None:
+        return []
+    column = table.columns[piece.column]
+    if any(c.facet == "channel" for c in head_claims(column.head[:200], column.unit)):
+        return []
+    words = re.split(r"[,;(]|\.\s|\d", piece.text)[0]
+    return [
+        _from_claim(piece.column, claim, span, 0.9)
+        for claim in head_claims(words[:200])
+        if claim.rule != "letter"
+    ]
+
+
+def _of_clauses(span: Span, table: Table, subject: int | None = None) -> list[Evidence]:
+    """Signs and references that the clauses of a text say; ``subject``: the column that it is about."""
     found: list[Evidence] = []
     text = _OTHER_GAUGES.sub(" ", span.text[:MAX_TEXT])
     text = _SIGN_BEHIND.sub(lambda m: " plus" if m["sign"] else " minus", text)
     text = _SIGN_BEFORE.sub(lambda m: " plus " if m["sign"] == "+" else " minus ", text)
-    owner = _column_named(text, table)
+    owner = subject if subject is not None else _column_named(text, table)
+    unit = None if subject is None else _unit_of(table.columns[subject])
+    about = () if unit is None or unit.dimension not in ("pressure", "force") else (unit.dimension,)
     plain = re.sub(r"\([^()]{0,60}\)", " ", text)  # "tension (pull) is negative"
     clauses = dict.fromkeys(" ".join(c.split()) for c in (*_CLAUSES.split(text), *_CLAUSES.split(plain)))
     pieces = [(rules("clause"), clause) for clause in clauses]
@@ -463,6 +496,7 @@ def _of_clauses(span: Span, table: Table) -> list[Evidence]:
         words = words_of(clause)
         if not words or len(words) > 40:
             continue
+        words = (*words, *about)
         for rule in those:
             if all(word_set(name).among(words) for name in rule.needs) and not any(
                 word_set(n).among(words) for n in rule.without
@@ -716,11 +750,11 @@ def _of_zero(span: Span) -> list[Evidence]:
     return [Evidence(FILE, "zero:displacement", value, rule.weight, span, rule.id)]
 
 
-def _of_scales(span: Span, table: Table) -> list[Evidence]:
-    """Calibrations of raw columns."""
+def _of_scales(span: Span, table: Table, subject: int | None) -> list[Evidence]:
+    """Calibrations of raw columns; ``subject``: the one that the text is about."""
     found = []
     for scale, around in scales_in(span.text[:MAX_TEXT]):
-        i = _scaled_column(scale, around, table)
+        i = _scaled_column(scale, around, table) if subject is None else subject
         if i is not None:
             found.append(Evidence(i, "scale", scale, scale.weight, span, scale.rule))
             channels = (

@@ -67,12 +67,15 @@ def scales_in(text: str) -> tuple[tuple[Scale, str], ...]:
     if slopes:
         zeros = [m for m in _POINT.finditer(text) if number_of(m["y"]) == 0.0 and number_of(m["x"]) != 0.0]
         offsets = list(_OFFSET.finditer(text))
-        at_rest = _AT_REST.search(text)
+        at_zero = _zero_reading(text, taken)
         for scale, match in slopes:
             near = [o for o in offsets if len(slopes) == 1 or 0 <= o.start() - match.end() < _NEAR]
             scale = _shifted(scale, match, zeros, near)
-            if at_rest is not None and scale.unit in ("mm", "cm", "m", "in"):
-                scale = scale._replace(offset=number_of(at_rest[1]))
+            is_length = scale.unit in _LENGTHS
+            if at_zero is not None and (
+                (is_length and at_zero.at_rest) or (len(slopes) == 1 and not scale.offset)
+            ):
+                scale = _from_zero(scale, at_zero)
             found.append((scale, f"{_before(text, match.start())} {match[0]}"))
     return tuple(found)
 
@@ -103,6 +106,49 @@ def _shifted(
     return scale._replace(offset=number_of(offsets[0]["number"])) if offsets else scale
 
 
+class _ZeroReading(NamedTuple):
+    """What a sensor shows without load, or at the rest length."""
+
+    number: float
+    raw: str
+    at_rest: bool
+
+
+_LENGTHS = ("mm", "cm", "m", "in")
+_RAW_READING = re.compile(
+    r"(?i)(?<![\w.,])(?P<number>[-+−]?\d{1,7}(?:[.,]\d{1,6})?)\s?(?P<raw>m?V|m?A|counts?|digits?|%)(?![\w/])"
+)
+
+
+def _zero_reading(text: str, taken: bytearray) -> _ZeroReading | None:
+    """The only reading of a text, beside its calibrations, whose clause says that nothing pulls: "reads
+    -0.035 V unloaded", "4 mA at the rest length".
+    """
+    found = []
+    for match in _RAW_READING.finditer(text):
+        if any(taken[match.start() : match.end()]):
+            continue
+        begin = max(text.rfind(sign, 0, match.start()) for sign in (", ", "; ", ". ", "("))
+        ends = [i for sign in (", ", "; ", ". ", ")") if (i := text.find(sign, match.end())) >= 0]
+        words = words_of(text[begin + 1 : min(ends, default=len(text))])
+        rests = word_set("at_rest").among(words)
+        free = word_set("without").among(words) and word_set("load").among(words)
+        if rests or free or word_set("zero_offset").among(words):
+            found.append(_ZeroReading(number_of(match["number"]), match["raw"], rests))
+    return found[0] if len(found) == 1 else None
+
+
+def _from_zero(scale: Scale, reading: _ZeroReading) -> Scale:
+    """The scale that is 0 at a reading; one in millivolts of a signal in volts is converted."""
+    own, raw = unit_of(reading.raw), unit_of(scale.raw) if scale.raw else None
+    factor = 1.0
+    if own is not None and raw is not None and own.name != raw.name:
+        if {own.name, raw.name} != {"mV", "V"}:
+            return scale
+        factor = 1e-3 if own.name == "mV" else 1e3
+    return scale._replace(offset=factor * reading.number)
+
+
 _NEAR = 4  # characters behind a slope, in which its shift begins
 #: The reading that is taken off: "(U - 1 V)".
 _SHIFTED = re.compile(
@@ -117,11 +163,6 @@ _ADDED = re.compile(
 _OFFSET = re.compile(
     r"(?i)(?<![^\W\d_])(?:zero|offset|null(?:punkt|wert)?|bias|d[ée]calage|nulpunt)\s?(?:=|:|of|bei|at|de)?\s?"
     r"(?P<number>[-+]?\d{1,7}(?:[.,]\d{1,6})?)\s?(?:m?V|mA|counts?|digits?)(?![\w/])"
-)
-#: The reading at the rest length: "4 mA at the rest length", "0 V bei Ruhelänge".
-_AT_REST = re.compile(
-    r"(?i)(?<![\w.,])(\d{1,7}(?:[.,]\d{1,6})?)\s?(?:counts?|m?V|m?A|%)\s?(?:=|at|bei|à|a|for|when|in)\s?(?:the\s|der\s|la\s)?"
-    r"(?:rest|L_?0|ruhe|unloaded|relaxed|initial|natural|longueur au repos|riposo|reposo|repouso)"
 )
 _STATE = re.compile(
     r"(?P<before>[^\W\d_]+)?\s?(?P<link>[=:@(]|\b(?:at|bei|à|a|bij|vid|ved)\b)?\s?(?<![\d.,])(?P<number>-?\d{1,4}(?:[.,]\d{1,4})?)\s?(?P<raw>mV|V|mA|A|%|)(?!\w|[.,]\d)\)?"
