@@ -144,6 +144,7 @@ def uses_of(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts) ->
     worded = {c for c in named if measures in FITTING.get(c, ())}
     roles = roles_of(own)
     scale = next((e.value for e in own if e.facet == "scale"), None)
+    si = any(e.facet == "si" for e in evidence)
     options: list[Option] = []
     for channel in SLOTS:
         if channels and channel not in channels:
@@ -156,7 +157,7 @@ def uses_of(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts) ->
         words = words if channels else _NO_WORDS
         aside = _aside(channel, roles, scaled=scale is not None, worded=channels.get(channel, 0.0) >= 2.0)
         named = bool(measures) and channel in worded and aside <= 0.0
-        for unit, cost, scaling in _units(i, channel, table, own, scale):
+        for unit, cost, scaling in _units(i, channel, table, own, scale, si=si):
             for option in _signed(i, channel, unit, words - aside + cost, scaling, own, evidence):
                 options.append(option._replace(named=named))
     return sorted(options, key=lambda option: -option.score)
@@ -185,7 +186,7 @@ def _aside(channel: str, roles: Mapping[str, float], *, scaled: bool, worded: bo
 
 
 def _units(
-    i: int, channel: str, table: Table, own: Sequence[Evidence], scale: Scale | None
+    i: int, channel: str, table: Table, own: Sequence[Evidence], scale: Scale | None, *, si: bool
 ) -> list[tuple[str, float, Scale | None]]:
     """(unit, its cost, scale) that a column may have as a channel."""
     column = table.columns[i]
@@ -206,6 +207,8 @@ def _units(
         else:
             return [(LEAST[channel], _UNFIT, None)] if dimension in RAW else []
     finite = column.values[np.isfinite(column.values)]
+    if si and channel in CHANNEL_UNITS:
+        return [(CHANNEL_UNITS[channel], 0.0, None)]
     found = physics.proposal(channel, finite) if len(finite) >= physics.ENOUGH else None
     if found is not None and channel not in ("command", "temperature"):
         units = dict.fromkeys((found.unit, *found.choices))
@@ -290,7 +293,7 @@ def _chosen(i: int, table: Table, evidence: Sequence[Evidence], facts: Facts, ch
     if choice.unit is not None and scale is None:
         units: list[tuple[str, float, Scale | None]] = [(choice.unit, 0.0, None)]
     else:
-        units = _units(i, choice.channel, table, own, scale)
+        units = _units(i, choice.channel, table, own, scale, si=any(e.facet == "si" for e in evidence))
     options = [
         o
         for unit, cost, scaling in units
@@ -377,7 +380,14 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
     taken = {o.column for o in winner if o is not None}
     for slot in ("time", "command", "diameter", "temperature", "velocity"):
         best = next(
-            (o for o in slots[slot] if o.column not in taken and o.score > 0.0 and _is_share(slot, o, table)),
+            (
+                o
+                for o in slots[slot]
+                if o.column not in taken
+                and o.score > 0.0
+                and _is_share(slot, o, table)
+                and _is_said(o, evidence, facts)
+            ),
             None,
         )
         if best is not None:
@@ -403,6 +413,22 @@ def decide(table: Table, evidence: Sequence[Evidence], facts: Facts) -> Decision
         tuple(scorer.joint(*winner)),
         against,
         score,
+    )
+
+
+_ASIDE_SLOTS = ("velocity", "diameter")
+
+
+def _is_said(option: Option, evidence: Sequence[Evidence], facts: Facts) -> bool:
+    """Whether more than a letter without a unit says that a column is something that nothing has to be read
+    from.
+    """
+    if option.use.channel not in _ASIDE_SLOTS or option.column in facts.chosen:
+        return True
+    own = [e for e in evidence if e.target == option.column]
+    return any(
+        e.facet == "unit" or (e.facet == "channel" and e.value == option.use.channel and e.rule != "letter")
+        for e in own
     )
 
 

@@ -89,6 +89,7 @@ _OTHER_GAUGES = re.compile(
     r"positive[ -]displacement"
 )
 _BEHIND_UPTO = re.compile(r"[,;.:(](?!\d)|\s(?:and|with|und|mit|et|avec|con|com|og|och)\s")
+_LEADS = re.compile(r"(?::|\.{2,}|_{2,}|…)\s*$")  # to a value: "Relaxed length, no pressure ...... 12 in"
 _OF_THE_NEXT = re.compile(r"\s?\([^()]{0,60}")
 _SCALED = re.compile(
     r"(?i)[0-9]\s?(?:%|m?V|m?A|counts?|digits?)\s?(?:=|≙|->|→)|(?:=|≙|->|→)\s?[0-9.]{1,8}\s?(?:V|mA|counts?)"
@@ -325,7 +326,7 @@ def _contexts(text: str) -> list[_Context]:
             _Context(
                 quantity,
                 words_of(before),
-                words_of(label) if before.rstrip().endswith(":") else (),
+                words_of(label) if _LEADS.search(before) else (),
                 words_of(behind),
                 words_of(more[0]) if more and whole else (),
                 _AT_PRESSURE.match(text, quantity.end) is not None,
@@ -341,6 +342,9 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
     found: list[Evidence] = []
     text = span.text[:MAX_TEXT]
     noted = _of_note(span, named=table.format in ("json", "mat", "hdf5") and target == FILE)
+    key, _, rest = text.partition(":")
+    if noted is not None and rest and _is_head(key.strip("#%/!; "), table) and not rest.strip()[:1].isdigit():
+        noted = None  # what stands behind the name of a column describes it
     if noted is not None and noted.facet.partition(":")[2] in (
         *CONDITION_UNITS,
         "kind",
@@ -369,6 +373,8 @@ def _of_text(span: Span, target: int, table: Table) -> list[Evidence]:
         for facet, value in rule.claims.items():
             if facet == "kind" and pattern_of(rule).search(folded(text)):
                 found.append(Evidence(FILE, "kind", value, rule.weight, span, rule.id))
+            elif facet == "si" and pattern_of(rule).search(text):
+                found.append(Evidence(FILE, "si", True, rule.weight, span, rule.id))
             elif facet == "unread" and (match := pattern_of(rule).search(text)):
                 found.append(
                     Evidence(FILE, facet, f"'{match[0]}' ({span.where}) is {value}", 1.0, span, rule.id)
@@ -415,6 +421,10 @@ def unit_of_air(value: str) -> str | None:
     """
     number = number_of(value)
     return next((unit for unit, (low, high) in _SHOWN_BY_BAROMETERS.items() if low <= number < high), None)
+
+
+def _is_head(name: str, table: Table) -> bool:
+    return any(column.head.strip().casefold() == name.casefold() for column in table.columns)
 
 
 def _of_note(span: Span, *, named: bool = False) -> Evidence | None:

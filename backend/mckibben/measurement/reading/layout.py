@@ -96,7 +96,9 @@ def table_of(
     if named:
         sheets = [_with_units_of_values(s) for s in sheets]
         return _of_named(named, sheets, name)
-    grids = [without_notes(without_statistics(cornered(transposed(s)))) for s in sheets]
+    grids = [
+        without_notes(without_statistics(cornered(without_words_of_slack(transposed(s))))) for s in sheets
+    ]
     grids = [
         s.whole() if s.whole is not None and s is not old else s for s, old in zip(grids, sheets, strict=True)
     ]
@@ -235,6 +237,7 @@ def _joined(alike: list[Run], best: Run, runs: list[Run], sheets: Sequence[Sheet
     parts = _with_results(parts, [run for run in runs if not any(run is one for one in alike)])
     texts = [t for s in sheets for t in s.texts] + _texts(sheets, used)
     texts += {n.text: n for s in sheets for n in s.notes if n.text in common}.values()
+    texts += {span.text: span for part in parts for span in part.same}.values()
     if best.sheet.name and not several:
         texts.append(Span(f"name of sheet '{best.sheet.name}'", best.sheet.name))
     others = [
@@ -436,6 +439,46 @@ def without_statistics(sheet: Sheet) -> Sheet:
                 lines = tuple(sheet.line(j) for j in range(len(sheet.rows)) if j != i)
                 return without_statistics(replace(sheet, rows=rows, lines=lines))
     return sheet
+
+
+_OFTEN = 3  # times that a word stands where numbers stand
+
+
+def without_words_of_slack(sheet: Sheet) -> Sheet:
+    """A sheet whose one word that stands again and again in columns of numbers, instead of them, is a mark
+    for no reading: "slack".
+    """
+    counts: Counter[str] = Counter()
+    places: dict[str, set[int]] = {}
+    numeric: Counter[int] = Counter()
+    for row in sheet.rows[:_MOST_OF_SLACK]:
+        kinds = [kind_of(cell) for cell in row[:MAX_COLUMNS]]
+        numeric.update(j for j, kind in enumerate(kinds) if kind == NUMBER)
+        if NUMBER in kinds[:2]:
+            for j, kind in enumerate(kinds[1:], 1):
+                if kind == TEXT:
+                    word = str(row[j]).strip()
+                    counts[word] += 1
+                    places.setdefault(word, set()).add(j)
+    often = [
+        word
+        for word, count in counts.items()
+        if count >= _OFTEN and len(places[word]) > 1 and all(numeric[j] > 0 for j in places[word])
+    ]
+    if len(often) != 1:
+        return sheet
+    (word,) = often
+    rows: list[list[Cell]] = [
+        ["-" if j and isinstance(cell, str) and cell.strip() == word else cell for j, cell in enumerate(row)]
+        if any(kind_of(cell) == NUMBER for cell in row[:2])
+        else list(row)
+        for row in sheet.rows
+    ]
+    said = f"'{word[:40]}' in {counts[word]} cells of numbers is read as no reading"
+    return replace(sheet, rows=rows, messages=(*sheet.messages, said))
+
+
+_MOST_OF_SLACK = 2000  # rows that are looked at
 
 
 def without_notes(sheet: Sheet) -> Sheet:

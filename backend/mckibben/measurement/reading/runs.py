@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 from mckibben.measurement.reading.model import Sheet, Span
-from mckibben.measurement.reading.numbers import MARK, NUMBER, kind_of
+from mckibben.measurement.reading.numbers import MARK, NUMBER, TEXT, kind_of
 
 
 @dataclass
@@ -36,12 +36,14 @@ class Run:
 
 
 def is_axis(sheet: Sheet, i: int) -> bool:
-    """Whether a row of numbers behind a text is the upper axis of a map: the text names it, full rows are
-    below.
+    """Whether a row of numbers behind a text is the upper axis of a map: the text, or one above it, names the
+    axis down, full rows are below.
     """
     row = sheet.rows[i]
     numbers = [j for j, cell in enumerate(row) if kind_of(cell) == NUMBER]
-    if len(numbers) < 3 or 0 in numbers or not str(row[0]).strip():
+    above = sheet.rows[i - 1] if i else []
+    named = str(row[0]).strip() or sum(kind_of(cell) == TEXT for cell in above[:2]) == 2
+    if len(numbers) < 3 or 0 in numbers or not named:
         return False
     full = 0
     for below in sheet.rows[i + 1 : i + 4]:

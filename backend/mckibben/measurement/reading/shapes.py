@@ -43,13 +43,16 @@ TRAILING = re.compile(r"\s{0,3}[\\/|]\s{0,3}")
 
 
 class Part(NamedTuple):
-    """A block of a table: its columns, what stands over it, the number of each row, and what was done."""
+    """A block of a table: its columns, what stands over it, the number of each row, what was done, and what a
+    column says in all rows.
+    """
 
     columns: tuple[Column, ...]
     title: tuple[Span, ...]
     lines: NDArray[np.int64]
     bad: Mapping[int, str] = MappingProxyType({})
     messages: tuple[str, ...] = ()
+    same: tuple[Span, ...] = ()
 
 
 def column_of(
@@ -151,10 +154,15 @@ def parts_of(run: Run, title: list[Span]) -> list[Part]:
     for way in (_two_ways, _side_by_side, _wide):
         if parts := way(run, columns, title, lines):
             return parts
+    same = tuple(
+        Span(c.where, f"{c.head}: {c.words[0]}")
+        for c in columns.values()
+        if c.words and len(set(c.words)) == 1 and len(c.words) > 1 and quantities(c.words[0])
+    )
     wide = _tall(list(columns.values()), lines)
     if wide is not None:
         said = ("the table has one value per line: each signal is read as a column",)
-        return [Part(tuple(wide[0]), tuple(title), wide[1], messages=said)]
+        return [Part(tuple(wide[0]), tuple(title), wide[1], messages=said, same=same)]
     whole, messages = _joined_times(list(columns.values()))
     made = [_carried(c) for c in whole]
     messages += [
@@ -165,7 +173,7 @@ def parts_of(run: Run, title: list[Span]) -> list[Part]:
     beside = [
         Span(c.where, c.words[0]) for c in made if c.words and c.words[0].strip() and not any(c.words[1:])
     ]
-    return [Part(tuple(made), (*title, *beside), lines, _ragged(run), tuple(messages))]
+    return [Part(tuple(made), (*title, *beside), lines, _ragged(run), tuple(messages), same)]
 
 
 class NeedsCellsError(Exception):
@@ -658,8 +666,13 @@ def _axes(run: Run) -> tuple[str, str]:
     across = next((str(c) for c in above[1:] if kind_of(c) == TEXT and _names_axis(str(c))), "")
     if not across:
         return "", corner.strip()
+    named = [part.strip() for part in _OVER_WHICH.split(across) if _channels([part])]
+    across = named[-1] if len(named) > 1 else across  # "force [N] at a contraction of [%]"
     first = "" if _channels([corner]) else str(above[0])
     return f"{first} {corner}".strip(), across
+
+
+_OVER_WHICH = re.compile(r"\b(?:at|bei|à|a|al|alla|over|über|sur|su|vs\.?|versus|bij|vid|ved|przy|při)\b")
 
 
 def _names_axis(text: str) -> bool:
@@ -671,7 +684,7 @@ _FAR_ABOVE = 12  # rows above a map in which its values may be named
 
 def _named_best(texts: Sequence[str], axes: Collection[str] = ()) -> str:
     """The part of some texts that names a channel best, one that no axis is; "" = none does."""
-    cut = r"\s\((?=[^()]{9})|\b(?:of|von|over|vs\.?|über|for|für)\b|[:;]|\s[–—-]\s|,\s"
+    cut = rf"\s\((?=[^()]{{9}})|\b(?:of|von|for|für)\b|[:;]|\s[–—-]\s|,\s|{_OVER_WHICH.pattern}"
     parts = [part.strip() for text in texts for part in re.split(cut, text)]
     parts = [part for part in parts if not _is_statistic(part)]
     named = [p for p in parts if {c.value for c in head_claims(p[:200]) if c.facet == "channel"} - {*axes}]
@@ -695,7 +708,13 @@ def _tall(columns: list[Column], lines: NDArray[np.int64]) -> tuple[list[Column]
     words = np.array([word.strip() for word in names.words or ()])
     signals = [word for word in dict.fromkeys(words.tolist()) if word]
     units = next((c for c in columns if c.words is not None and c is not names and _are_units(c.words)), None)
-    keys = [c for c in numbers if c is not value and len(np.unique(c.values)) < len(c.values)]
+    keys = [
+        c
+        for c in numbers
+        if c is not value
+        and len(np.unique(c.values)) < len(c.values)
+        and any(np.ptp(c.values[words == signal]) > 0.0 for signal in signals)  # no number of the signal
+    ]
     counts = [int(np.sum(words == s)) for s in signals]
     if keys:
         labels = np.column_stack([np.nan_to_num(c.values, nan=-1e300) for c in keys])

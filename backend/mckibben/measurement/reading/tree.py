@@ -4,6 +4,7 @@ are texts.
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -94,7 +95,8 @@ def _of_list(
     depth: int,
 ) -> None:
     """Records, named channels, or runs one after another."""
-    usual = [item for item in node if item.keys() == node[len(node) // 2].keys()]
+    ((keys_of_most, _),) = Counter(frozenset(item) for item in node).most_common(1)
+    usual = [item for item in node if item.keys() == keys_of_most]
     if len(usual) > 2 and len(usual) > len(node) / 2 and _is_record(_flattened(usual[0])[0]):
         others = [item for item in node if item.keys() != usual[0].keys()]
         if others:
@@ -168,7 +170,9 @@ def _quantity(value: Any) -> tuple[float, str] | None:
     """The number and the unit of a mapping that holds one of each; None = it does not."""
     if not isinstance(value, dict) or len(value) > 4:
         return None
-    units = [v for k, v in value.items() if isinstance(v, str) and _says_unit(str(k))]
+    texts = {str(k): v for k, v in value.items() if isinstance(v, str)}
+    units = [v for k, v in texts.items() if _says_unit(k)]
+    units = units or [v for v in texts.values() if len(value) == _FEWEST and unit_of(v) is not None]
     numbers = [v for v in value.values() if isinstance(v, (int, float)) and not isinstance(v, bool)]
     return (float(numbers[0]), units[0]) if numbers and units and units[0] else None
 
