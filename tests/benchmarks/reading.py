@@ -33,7 +33,7 @@ from typing import Any
 
 from mckibben.measurement.measurement import Measurement
 from mckibben.measurement.question import Question
-from mckibben.measurement.reading import Correction, preview_here, read_here
+from mckibben.measurement.reading import Correction, decide, preview_here, questions, read_here
 from mckibben.physics.errors import InputError
 from tests.benchmarks.formats import AS_PRINTED, _examined
 
@@ -186,6 +186,30 @@ def _failing() -> Iterator[Case]:
             yield Case("failing", path.name, path.read_bytes())
 
 
+#: Weights of the decision; the rules have theirs in `rules.toml`.
+WEIGHTS = ("MARGIN", "GAUGE", "_PULL", "_SHORTER", "_NO_WORDS", "_RANK", "_UNFIT", "_MASS", "_UNREAD")
+
+
+def sensitivity(groups: Sequence[str], only: str) -> None:
+    """Print how the verdicts change with each weight at half and at double its value."""
+    chosen = [case for case in cases(groups, only) if case.entry is not None]
+
+    def verdicts() -> Counter[str]:
+        return Counter(of_corpus(case, answer(case))[0] for case in chosen)
+
+    say(f"{'as it is':16}{dict(verdicts())}")
+    for name in WEIGHTS:
+        value = getattr(decide, name)
+        for factor in (0.5, 2.0):
+            for module in (decide, questions):
+                if hasattr(module, name):
+                    setattr(module, name, factor * value)
+            say(f"{name:10}{factor * value:6.2f}{dict(verdicts())}")
+        for module in (decide, questions):
+            if hasattr(module, name):
+                setattr(module, name, value)
+
+
 def say(text: str) -> None:
     """Print a line at once."""
     sys.stdout.write(text + "\n")
@@ -200,7 +224,15 @@ def main() -> None:
     parser.add_argument("--list", default=",".join(VERDICTS[1:]), help="verdicts whose files are listed")
     parser.add_argument("--trace", action="store_true", help="print the traces of crashes")
     parser.add_argument("--save", help="folder into which the listed files are written")
+    parser.add_argument(
+        "--sensitivity",
+        action="store_true",
+        help="the counts with each weight of the decision halved and doubled",
+    )
     given = parser.parse_args()
+    if given.sensitivity:
+        sensitivity(given.group.split(","), given.only)
+        return
     counts: Counter[tuple[str, str]] = Counter()
     seconds: Counter[str] = Counter()
     for case in cases(given.group.split(","), given.only):
