@@ -25,7 +25,7 @@ import sys
 import time
 import traceback
 import zipfile
-from collections import Counter
+from collections import Counter, defaultdict
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -234,7 +234,7 @@ def main() -> None:
         sensitivity(given.group.split(","), given.only)
         return
     counts: Counter[tuple[str, str]] = Counter()
-    seconds: Counter[str] = Counter()
+    seconds: defaultdict[str, float] = defaultdict(float)
     for case in cases(given.group.split(","), given.only):
         found = answer(case)
         verdict, why = of_failing(case, found) if case.entry is None else of_corpus(case, found)
