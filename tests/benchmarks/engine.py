@@ -41,7 +41,7 @@ from mckibben.resources import presets_folder
 from mckibben.simulation.drive.transient import simulate
 from mckibben.simulation.integrate.engine import Solution, compiled_drive, integrate
 from mckibben.simulation.integrate.lane_buffers import lane_kernels
-from tests.benchmarks.lift import DOCUMENT, ROWS, WITH_SPOOL, Lift, Positions, by_pieces
+from tests.benchmarks.lift import DOCUMENT, ROWS, SETS, STICKING, WITH_SPOOL, Lift, Positions, by_pieces
 from tests.benchmarks.translated import translated
 from tests.simulation.event_radau import Piece
 from tests.simulation.lsoda import integrated
@@ -247,6 +247,9 @@ def main() -> int:
     lift = Lift(studio)
     say(f"reference lift: {lift.compiled.size} states with the clock, {ROWS} rows")
     tolerance = compare_engines(lift, Lift(studio, level=1))
+    sticking = Lift(studio, document=STICKING)
+    say(f"\nlift that sticks: {sum(len(run.pieces) for run in sticking.references)} pieces in {SETS} runs")
+    compare_engines(sticking, Lift(studio, level=1, document=STICKING))
     levels(studio, tolerance)
     throughput(studio, tolerance)
     costs(studio)

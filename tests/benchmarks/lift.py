@@ -47,6 +47,17 @@ WITH_SPOOL: dict[str, Any] = {
     "tube": {"inside_diameter": "4 mm", "length": "1 m"},
     "gas": {},
 }  # fmt: skip
+#: Dry friction alone: the load sticks where the force that moves it is less, and breaks away again.
+STICKING: dict[str, Any] = {
+    **DOCUMENT,
+    "effects": {
+        "effectiveness": {"factor": 0.98, "threshold": "0.1 bar"},
+        "linear_elasticity": {"stiffness": "400 N/m"},
+        "coulomb_friction": {"force": "50 N"},
+        "viscous_damping": {"coefficient": "60 N*s/m"},
+        "valve_delay": {"opening_time": "5 ms", "closing_time": "5 ms"},
+    },
+}  # fmt: skip
 Positions = Callable[[int, float], np.ndarray]
 # (state, piece, instants, parameter set) -> states at the instants
 Solver = Callable[[np.ndarray, Piece, np.ndarray, int], np.ndarray]
@@ -55,8 +66,8 @@ Solver = Callable[[np.ndarray, Piece, np.ndarray, int], np.ndarray]
 class Lift:
     """The reference lift, and variations of it by ± 20 %."""
 
-    def __init__(self, studio: Studio, *, level: int = 0) -> None:
-        self.drive = drive_of(read_document(DOCUMENT, "the lift"), studio).drive
+    def __init__(self, studio: Studio, *, level: int = 0, document: dict[str, Any] = DOCUMENT) -> None:
+        self.drive = drive_of(read_document(document, "the lift"), studio).drive
         self.compiled = compiled_drive(self.drive.structure, level)
         self.grid = np.linspace(0.0, self.drive.duration, ROWS)
         self.times, self.inputs, _ = segments_of(self.drive)
