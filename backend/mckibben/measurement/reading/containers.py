@@ -17,6 +17,7 @@ from typing import Any
 
 import numpy as np
 
+from mckibben.measurement.reading.compound import has_sound_chains
 from mckibben.measurement.reading.encodings import decoded
 from mckibben.measurement.reading.lexicon import word_set, words_of
 from mckibben.measurement.reading.limits import MAX_BYTES, MAX_CELLS, MAX_COLUMNS, MAX_SHEETS, SPLIT
@@ -73,6 +74,10 @@ def sheets_of(data: bytes, name: str, *, packed: bool = False) -> list[Sheet]:
     if data.startswith((b"PK\x03\x04", b"PK\x05\x06", b"PK")) or data.startswith(b"\x1f\x8b"):
         return _packed(data, name, packed=packed)
     if data.startswith(b"\xd0\xcf\x11\xe0"):
+        if not has_sound_chains(data):
+            raise _refusal(
+                name, "the workbook is damaged: its parts do not end", "save it again as .xlsx, or as CSV"
+            )
         return _workbook(data, name)
     if data.startswith(b"TDSm"):
         return _guarded(_tdms, data, name, "the TDMS file is damaged", "export it again, or save it as CSV")

@@ -149,6 +149,7 @@ def _take_limits(kept: int, seconds: int) -> None:
         if number > 2 and number != kept:
             with suppress(OSError):
                 os.close(number)
+    os.dup2(os.open(os.devnull, os.O_WRONLY), 2)  # what a library prints as it ends
     _lower(resource.RLIMIT_CORE, 0)
     _lower(resource.RLIMIT_CPU, seconds)
     limit_memory(_taken() + MOST_MEMORY)
