@@ -52,7 +52,7 @@ def test_a_preset_a_file_and_a_saved_model_are_written(run: Run) -> None:
         (("DMSP-20", "--as", "c"), ("-o",)),
         (("DMSP-20", "--as", "linear", "-o", "x.mat"), ("need a drive", "muscle alone")),
         (("paper-ramp", "--as", "linear", "-o", "x.mat"), ("paper-ramp", "the load does not move")),
-        (("propneu-20", "--as", "linear", "-o", "x.txt"), ("-o x.txt", "'.txt'", ".mat, .json")),
+        (("propneu-20", "--as", "linear", "-o", "x.txt"), ("-o x.txt", "'.txt'", ".mat or .json")),
     ],
 )
 def test_one_line_says_what_is_wrong(run: Run, arguments: tuple[str, ...], words: tuple[str, ...]) -> None:

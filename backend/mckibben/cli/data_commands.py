@@ -163,9 +163,10 @@ def convert(
     from mckibben.application.measurement.files import read_file
     from mckibben.application.text_file import write_text
     from mckibben.cli.model import at_option
-    from mckibben.cli.output import progress, remark, standard_input
+    from mckibben.cli.output import check_written, progress, remark, standard_input
     from mckibben.measurement.preparation import prepared
 
+    check_written(out, "--out", (".csv",))
     with progress("reading"):
         measurement = read_file(file, reading.correction, standard_input([file]).get(file))
         with at_option():

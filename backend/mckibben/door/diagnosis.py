@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Generic
 from mckibben.application.compare.question import ModelQuestion
 from mckibben.application.diagnose.doubts import DoubtfulEntry
 from mckibben.application.diagnose.result import DiagnosisResult
+from mckibben.application.text_file import HTML
 from mckibben.documents.studio import Studio
 from mckibben.door.frames import frame_of_rows
 from mckibben.door.result import ModelT, ResultOf
@@ -93,7 +94,7 @@ class Diagnosis(ResultOf[DiagnosisResult], DiagnosisResult, Generic[ModelT]):
 
     def _files(self, path: Path) -> str:
         """Also ``.html``: the report of ``mckibben diagnose --report``."""
-        if path.suffix.lower() in (".html", ".htm"):
+        if path.suffix.lower() in HTML:
             from mckibben.report.diagnosis.gather import ReportOptions, report_of
 
             return report_of(self._question, self._studio, ReportOptions(), self._result)
