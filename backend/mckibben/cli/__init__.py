@@ -11,7 +11,8 @@ import sys
 
 # In the order of the help.
 from mckibben.cli import (  # isort: skip
-    studio_commands, data_commands, drive_commands, listing_commands, project_commands,
+    studio_commands, data_commands, drive_commands, listing_commands, effect_commands,
+    project_commands,
 )  # fmt: skip
 from mckibben.cli.app import app, run
 
@@ -19,6 +20,7 @@ __all__ = [
     "app",
     "data_commands",
     "drive_commands",
+    "effect_commands",
     "listing_commands",
     "main",
     "project_commands",
