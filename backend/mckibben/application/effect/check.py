@@ -147,6 +147,7 @@ def write_template(name: str, folder: Path) -> Path:
     text = (examples_folder() / _TEMPLATE).read_text("utf-8").replace("Seal drag", title)
     path = folder / f"{name}.py"
     try:
+        folder.mkdir(parents=True, exist_ok=True)
         with path.open("x", encoding="utf-8", newline="\n") as file:
             file.write(text)
     except FileExistsError as error:
