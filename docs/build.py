@@ -21,6 +21,10 @@ from typing import Any
 DOCS = Path(__file__).resolve().parent
 ROOT = DOCS.parent
 STORIES = ("first_steps", "missing_effect", "sizing_a_lift", "own_parts")
+EXAMINATIONS = (
+    "diagnosis", "second_truth", "strangers", "held_out", "decided", "probabilities", "nulls", "entries",
+    "measured",
+)  # fmt: skip
 _AXES = {"1": (100.0, "%"), "Pa": (1e-5, "bar"), "m": (1e3, "mm"), "s": (1.0, "s"), "N": (1.0, "N")}
 
 
@@ -184,7 +188,7 @@ def python_page() -> str:
     from mckibben.door import drive, model
 
     parts = ["# Python\n\n`import mckibben as mk`. Every result prints as in a terminal, shows tables in a "
-             "notebook, and has `to_frame()`, `to_dict()`, `plot()`, `save()`; each key of `--json` is one of it. "
+             "notebook, and has `to_frame()`, `to_dict()`, `plot()`, `save()`; all keys of `--json`. "
              "With every field of every result: `/help/python` of a running server."]  # fmt: skip
     for name in sorted(mk.__all__):
         found = getattr(mk, name)
@@ -285,6 +289,18 @@ def on_files(files: Any, config: Any) -> Any:
             File.generated(config, "assets/plotly.min.js", content=plotly_javascript()[0].read_bytes())
         )
     return files
+
+
+def on_page_markdown(markdown: str, page: Any, config: Any, files: Any) -> str:
+    """MkDocs: the figures that examinations reached, from the head of each."""
+    if page.file.src_uri != "explanation/how-often-right.md":
+        return markdown
+    parts = [markdown, "## What was reached\n\nEach from the head of the examination that measures it."]
+    for name in EXAMINATIONS:
+        source = (ROOT / "tests" / "benchmarks" / f"{name}.py").read_text("utf-8")
+        text = (ast.get_docstring(ast.parse(source)) or "").replace("``", "`")
+        parts.append(f"### tests.benchmarks.{name}\n\n{text}")
+    return "\n\n".join(parts) + "\n"
 
 
 def on_config(config: Any) -> Any:

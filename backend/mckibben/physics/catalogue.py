@@ -59,7 +59,7 @@ class EffectCatalogue(Mapping[str, Effect]):
         try:
             _check_name(name, self._effects)
             effect = load()
-            if wrong := wrong_examples(effect):
+            if wrong := wrong_examples(effect=effect):
                 raise ValueError("; ".join(wrong))
             self._effects[name] = effect
         except KeyboardInterrupt:

@@ -13,7 +13,7 @@ from mckibben.physics.muscle import Muscle
 _ROUNDING = 1e-15
 
 
-def evaluated(effect: Effect, example: Example) -> float:
+def evaluated(*, effect: Effect, example: Example) -> float:
     """What the effect gives in the state of an example, SI."""
     if example.quantity.startswith("slot:"):
         _, slot, *index = example.quantity.split(":")
@@ -29,11 +29,11 @@ def evaluated(effect: Effect, example: Example) -> float:
     return float(got)
 
 
-def wrong_examples(effect: Effect) -> list[str]:
+def wrong_examples(*, effect: Effect) -> list[str]:
     """Which examples of an effect are not as they say, each in one sentence; none if all are."""
     found = []
     for number, example in enumerate(effect.examples, 1):
-        got = evaluated(effect, example)
+        got = evaluated(effect=effect, example=example)
         if not math.isclose(got, example.expected, rel_tol=example.tolerance, abs_tol=_ROUNDING):
             found.append(f"example {number}: {example.quantity} is {got:.9g}, not {example.expected:.9g}")
     return found

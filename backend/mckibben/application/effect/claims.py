@@ -25,6 +25,7 @@ from mckibben.application.effect.states import (
     SPEED,
     WARM,
     acts_on_muscle,
+    an_elastomer,
     closed_path,
     companions,
     compiled,
@@ -45,7 +46,7 @@ from mckibben.physics.units import si
 def check_off_is_ideal(effect: Effect) -> None:
     """At its off values the effect leaves every output as it is, to the last bit, whatever its states are."""
     claim(any(parameter.off is not None for parameter in effect.parameters))
-    for others in ((), (default_catalogue()["bladder_elasticity"],)):
+    for others in ((), (an_elastomer(),)):
         if effect in others:
             continue
         for sign in (-1.0, 0.0, 1.0):

@@ -132,7 +132,7 @@ def check_slots_agree(effect: Effect) -> None:
 
 def check_worked_examples(effect: Effect) -> None:
     """Its worked examples come out as they say."""
-    wrong = wrong_examples(effect)
+    wrong = wrong_examples(effect=effect)
     claim(not wrong, "; ".join(wrong))
 
 

@@ -35,10 +35,15 @@ MUSCLE_SLOTS = frozenset(  # what `Model.evaluate` asks for
 Values = dict[str, dict[str, float]]
 
 
+def an_elastomer() -> Effect:
+    """The first effect that is one."""
+    return next(effect for effect in default_catalogue().values() if "elastomer" in effect.slots)
+
+
 def companions(effect: Effect) -> tuple[Effect, ...]:
     """What has to be there for the effect to act on: an elastomer, when it only multiplies one."""
     only_factor = set(effect.slots) - {"rates"} == {"elastomer_factor"}
-    return (default_catalogue()["bladder_elasticity"],) if only_factor else ()
+    return (an_elastomer(),) if only_factor else ()
 
 
 def predict_force(effects: Sequence[Effect], values: Values, **state: object) -> np.ndarray:
