@@ -55,6 +55,19 @@ def test_every_command_runs_on_the_examples(run: Run) -> None:
                                       if card.tried_by.startswith("mckibben"))])  # fmt: skip
 
 
+def test_the_programs_of_the_pages_run(capsys: pytest.CaptureFixture[str]) -> None:
+    """Those that are whole: they import what they use."""
+    copy_examples([], Path())
+    blocks = [
+        block for text in PAGES.values() for block in re.findall(r"```python\n(.*?)```", text, re.DOTALL)
+    ]
+    whole = [block for block in blocks if "import mckibben as mk" in block]
+    assert len(whole) == 3
+    for block in whole:
+        exec(compile(block, "<page>", "exec"), {})
+    assert float(re.findall(r"rms ([\d.]+) mm", capsys.readouterr().out)[0]) < 0.5
+
+
 def test_every_example_is_listed_and_copied_whole(run: Run) -> None:
     cards = example_cards()
     assert {path.name for path in examples_folder().iterdir()} - {"index.json", "__pycache__"} == set(cards)

@@ -37,6 +37,7 @@ from mckibben.door.model import Model, model_of_document
 from mckibben.door.problem import reported
 from mckibben.door.rendering import notebook_cell, plain_text
 from mckibben.door.result import ResultOf
+from mckibben.door.stepper import Engine, Stepper, nonlinear_plant
 from mckibben.door.values import Quantity, number_of
 from mckibben.door.workspace import studio
 from mckibben.export.source import of_drive
@@ -255,6 +256,36 @@ class Drive(Exportable):
             else number_of(sliding_speed, "m/s", "sliding_speed"),
         )
         return LinearView.of(linear_view(question, Watch()), _name=self._title)
+
+    @reported
+    def stepper(self, dt: Quantity) -> Stepper:
+        """The drive at its start, to be carried on step by step under commands of your own.
+
+        Args:
+            dt: step, "5 ms"; the command is held during it.
+
+        Raises:
+            Problem: a step that is not positive, pulse-width modulation, no equilibrium to start from.
+        """
+        drive = drive_of(self._document, self._studio, measured=True).drive
+        return Stepper(Engine(drive, number_of(dt, "s", "dt")))
+
+    @reported
+    def to_control(self, at: str | None = None, *, dt: Quantity | None = None) -> Any:
+        """The drive as a plant of python-control, with named inputs, states and outputs.
+
+        Args:
+            at: operating point of the linear state space, as for `linearise`; dead times are left out.
+            dt: step; then it is the nonlinear drive in discrete time, a ``control.NonlinearIOSystem`` with
+                the inputs command and load_force and the outputs position, velocity and pressure.
+
+        Raises:
+            Problem: python-control is not installed, no equilibrium there, or dead times with ``dt``.
+        """
+        if dt is None:
+            return self.linearise(at, amplitudes=()).to_control()
+        drive = drive_of(self._document, self._studio, measured=True).drive
+        return nonlinear_plant(Engine(drive, number_of(dt, "s", "dt")))
 
     def _annotated(self) -> AnnotatedDrive:
         return drive_of(self._document, self._studio) if self._measured else self._checked

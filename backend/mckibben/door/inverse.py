@@ -6,7 +6,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from types import MappingProxyType
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from mckibben.application.curves.inverse import InverseFinding
 from mckibben.door.curves import Curves
@@ -41,7 +41,7 @@ class Inverse(ResultOf[InverseFinding], InverseFinding):
         """Force over contraction at the pressure of the answer, with the point where it is one."""
         known = {**self.details, self.question: self.value}
         pressure = known.get("stroke_pressure", known.get("pressure"))
-        figure = self._curves([] if pressure is None else [pressure]).plot()
+        figure: Any = self._curves([] if pressure is None else [pressure]).plot()
         contraction, force = known.get("contraction"), known.get("force")
         if contraction is not None and force is not None:
             figure.add_scatter(x=[100.0 * contraction], y=[force], mode="markers", name=self.question)

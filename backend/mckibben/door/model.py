@@ -333,7 +333,11 @@ class Model(Exportable):
         document = read_inverse(stated)
         start = self._stated.start(self._studio)
         found = answer(question_of_document(document, start), self._studio)
-        return Inverse.of(found, _name=self.name, _curves=lambda at: self.curves(at or None))
+
+        def at(pressures: list[float]) -> Curves:
+            return self.curves(pressures or None)
+
+        return Inverse.of(found, _name=self.name, _curves=at)
 
     def plot(self, pressure: str | Sequence[Quantity] | FloatArray | None = None) -> Figure:
         """Force over contraction at some pressures; a Plotly figure."""
