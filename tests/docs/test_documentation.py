@@ -62,7 +62,7 @@ def test_the_programs_of_the_pages_run(capsys: pytest.CaptureFixture[str]) -> No
         block for text in PAGES.values() for block in re.findall(r"```python\n(.*?)```", text, re.DOTALL)
     ]
     whole = [block for block in blocks if "import mckibben as mk" in block]
-    assert len(whole) == 3
+    assert len(whole) == 4
     for block in whole:
         exec(compile(block, "<page>", "exec"), {})
     assert float(re.findall(r"rms ([\d.]+) mm", capsys.readouterr().out)[0]) < 0.5

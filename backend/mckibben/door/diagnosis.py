@@ -4,7 +4,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Generic
 
@@ -13,7 +13,9 @@ from mckibben.application.diagnose.doubts import DoubtfulEntry
 from mckibben.application.diagnose.result import DiagnosisResult
 from mckibben.application.text_file import HTML
 from mckibben.documents.studio import Studio
+from mckibben.door.comparison import Comparison
 from mckibben.door.frames import frame_of_rows
+from mckibben.door.profile import Profile
 from mckibben.door.result import ModelT, ResultOf
 from mckibben.identification.diagnose.verdict import Status
 from mckibben.report.summary import Summary
@@ -31,6 +33,15 @@ class Diagnosis(ResultOf[DiagnosisResult], DiagnosisResult, Generic[ModelT]):
     """The best model: fitted muscle, effects and constants, of a transient with its drive."""
     _question: ModelQuestion
     _studio: Studio
+    _again: Callable[[], Comparison[ModelT]]
+
+    def profile(self, name: str, *, share: float = 0.95) -> Profile:
+        """Profile likelihood of a constant of the best model; see `Comparison.profile`.
+
+        Raises:
+            Problem: the constant was not fitted, with the nearest match.
+        """
+        return self._again().profile(name, share=share)
 
     @property
     def sentence(self) -> str:

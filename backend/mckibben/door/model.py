@@ -355,6 +355,7 @@ class Model(Exportable):
         drive: DocumentedDrive | None = None,
         validate: Data = (),
         strict: bool = False,
+        ties: Mapping[str, str] | None = None,
     ) -> Comparison[Model]:
         """The error of this model on measurements, with or without a fit.
 
@@ -367,6 +368,8 @@ class Model(Exportable):
             drive: a `mckibben.Drive`: valve, tube, supply and load of a transient measurement.
             validate: measurements to check the model on, which it is not fitted to; see ``validation``.
             strict: refuse instead of assuming what nobody states.
+            ties: fitted constants that always have the value of another one,
+                ``{"valve_delay.closing_time": "valve_delay.opening_time"}``.
 
         Raises:
             Problem: names the file or argument, what is wrong and what would be right.
@@ -375,7 +378,7 @@ class Model(Exportable):
             self._stated, self._studio, data, free=free, use=use, keep=keep,
             drive=None if drive is None else drive.parsed, strict=strict, refit=fit, validate=validate,
         )  # fmt: skip
-        compared = compared_whole(question, fit=fit)
+        compared = compared_whole(question, fit=fit, ties=ties)
         model = self
         if compared.comparison.fit is not None:
             saved = fitted_model(question, compared, self._studio)
@@ -413,7 +416,13 @@ class Model(Exportable):
         result = prepare(question, self._studio)(watch_of(progress))
         saved = saved_model(question, result, self._studio)
         model = Model.of(StatedModel.of_saved(saved, "the diagnosed model"), self._studio)
-        return Diagnosis[Model].of(result, model=model, _question=question, _studio=self._studio, _name=names)
+
+        def again() -> Comparison[Model]:
+            return model.compare(data, fit=True, use=use, keep=keep, drive=drive, strict=strict)
+
+        return Diagnosis[Model].of(
+            result, model=model, _question=question, _studio=self._studio, _name=names, _again=again
+        )
 
     @reported
     def save(self, path: str | PathLike[str]) -> None:
