@@ -3,11 +3,11 @@ FROM python:3.12-slim AS build
 WORKDIR /source
 COPY . .
 # The wheel holds the compiled integrators and the presets.
-RUN pip wheel --no-cache-dir --wheel-dir /wheels ".[postgres,cluster,parquet]"
+RUN pip wheel --no-cache-dir --wheel-dir /wheels ".[postgres,cluster,parquet,optimise,notebook]"
 
 FROM python:3.12-slim
 COPY --from=build /wheels /wheels
-RUN pip install --no-cache-dir --no-index --find-links /wheels "mckibben[postgres,cluster,parquet]" \
+RUN pip install --no-cache-dir --no-index --find-links /wheels "mckibben[postgres,cluster,parquet,optimise,notebook]" \
     && rm -r /wheels \
     && useradd --create-home studio
 USER studio

@@ -4,7 +4,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -12,6 +11,7 @@ from numpy.typing import ArrayLike
 
 from mckibben.door.problem import reported
 from mckibben.door.values import FloatArray, Quantity, number_of
+from mckibben.extras import of_extra
 from mckibben.physics.errors import InputError, did_you_mean
 from mckibben.simulation.drive.stepper import Stepper as Engine
 
@@ -53,10 +53,7 @@ def python_control() -> Any:
     Raises:
         InputError: it is not installed.
     """
-    try:
-        return import_module("control")
-    except ImportError as error:
-        raise InputError("python-control is not installed", hint="pip install 'mckibben[control]'") from error
+    return of_extra("control")
 
 
 class Stepper:

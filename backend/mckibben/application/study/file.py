@@ -118,10 +118,11 @@ def parquet_bytes(result: StudyResult, where: str = "") -> bytes:
         InputError: a library is missing.
     """
     _check_parquet(where)
-    import pandas as pd
+    import pyarrow
+    from pyarrow import parquet
 
     stream = io.BytesIO()
-    pd.DataFrame(result.table).to_parquet(stream, index=False)
+    parquet.write_table(pyarrow.table(dict(result.table)), stream)
     return stream.getvalue()
 
 
