@@ -261,7 +261,7 @@ def outcome(body: str, scope: dict[str, Any]) -> str:
             value = eval(compile(ast.Expression(last.value), "<story>", "eval"), scope)
     parts = [f"```text\n{said.getvalue().rstrip()}\n```"] if said.getvalue().strip() else []
     if hasattr(value, "to_plotly_json"):
-        parts.append(value.to_html(include_plotlyjs=False, full_html=False, config={"displayModeBar": False}))
+        parts.append(value._html(False))
     elif value is not None and hasattr(value, "_repr_html_"):
         parts.append(f"<div>{value._repr_html_()}</div>")
     return "\n\n".join(parts)

@@ -45,11 +45,12 @@ def blank(title: str, *, rows: int = 1) -> Figure:
         title: of the figure.
         rows: number of plots, one below the other, over the same x axis.
     """
-    from plotly.graph_objects import Figure
     from plotly.subplots import make_subplots
 
-    figure = (
-        Figure() if rows == 1 else make_subplots(rows=rows, cols=1, shared_xaxes=True, vertical_spacing=0.06)
+    from mckibben.door.shown import ShownFigure
+
+    figure = ShownFigure(
+        None if rows == 1 else make_subplots(rows=rows, cols=1, shared_xaxes=True, vertical_spacing=0.06)
     )
     figure.update_layout(
         template="none",
