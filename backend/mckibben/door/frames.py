@@ -7,17 +7,20 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from mckibben.door.problem import reported
 from mckibben.extras import of_extra
 
 if TYPE_CHECKING:
     import pandas as pd
 
 
+@reported
 def frame_of(columns: Mapping[str, Any]) -> pd.DataFrame:
     """A frame with these columns; scalars are repeated."""
     return of_extra("pandas").DataFrame({name: np.array(values) for name, values in columns.items()})
 
 
+@reported
 def frame_of_rows(names: Sequence[str], rows: Sequence[Sequence[Any]]) -> pd.DataFrame:
     """A frame of rows."""
     return of_extra("pandas").DataFrame(list(rows), columns=list(names))
