@@ -114,7 +114,7 @@ def test_an_effect_of_an_installed_package_is_found(tmp_path: Path, monkeypatch:
 
 @pytest.mark.examination("test_an_effect_of_an_installed_package_is_found")
 def test_the_package_to_copy_is_installed_by_pip_and_found(tmp_path: Path) -> None:
-    into = ["--no-deps", "--no-build-isolation", "--target", str(tmp_path), str(PACKAGE)]
+    into = ["--no-deps", "--target", str(tmp_path), str(PACKAGE)]
     pip = [sys.executable, "-m", "pip", "install", "-q", *into]
     subprocess.run(pip, check=True, capture_output=True, timeout=300)
     paths = os.pathsep.join([str(tmp_path), str(ROOT / "backend")])
