@@ -190,6 +190,7 @@ def _comparison(body: ComparisonRequest, studio: Studio, store: MeasurementStore
             fit=body.fit,
             within=body.within,
             explain=body.explain,
+            ties=body.ties,
             judge=body.judge,
         )
     )

@@ -228,9 +228,10 @@ def compare(
     within: Mapping[Over, Sequence[float]] | None = None,
     explain: bool = False,
     judge: bool = True,
+    ties: Mapping[str, str] | None = None,
 ) -> ComparisonResult:
     """Compare a model with measurements; see `compared_whole`."""
-    return compared_whole(question, fit=fit, within=within, explain=explain, judge=judge).result
+    return compared_whole(question, fit=fit, within=within, explain=explain, judge=judge, ties=ties).result
 
 
 def compared_whole(

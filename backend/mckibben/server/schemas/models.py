@@ -156,6 +156,11 @@ class ComparisonRequest(ModelRequest):
     judge: bool = Field(
         True, description="Also whether what is left is noise, in 'verdict'; takes longer than the rest."
     )
+    ties: dict[ParameterPath, ParameterPath] = Field(
+        default={},
+        max_length=64,
+        description="Fitted constant -> the fitted constant whose value it always has, as effect.parameter.",
+    )
 
 
 class DiagnosisRequest(ModelRequest):
