@@ -62,7 +62,13 @@ class Stepper:
     The command is held during a step: opening of the valve from -1 (vent) to 1 (fill), of a regulator its
     share from 0 to 1. The integrator is that of `Drive.run`, 40 microseconds a step of a usual drive.
 
-    >>> # for each sample: plant.set(controller(plant.position)); plant.step()
+    >>> import mckibben as mk
+    >>> plant = mk.Drive.preset("propneu-20-physical").stepper("5 ms")
+    >>> for _ in range(40):  # a controller that closes the valve at 100 mm
+    ...     plant.set(1.0 if plant.position < 0.1 else 0.0)
+    ...     plant.step()
+    >>> plant.position > 0.1
+    True
     """
 
     __slots__ = ("_engine", "_lever")
